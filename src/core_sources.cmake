@@ -175,8 +175,10 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/odometry_anchor.cpp
   slam/odometry_buffer.cpp
   slam/odometry_poses.cpp
+  slam/pose_covariance.cpp
   slam/pose_filter.cpp
   slam/pose_graph.cpp
+  slam/pose_graph_covariance.cpp
   slam/pose_motion.cpp
   slam/pose_scorer.cpp
   slam/scan_matcher.cpp

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "datmo_fusion/slam/grid_slam.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 

@@ -4,18 +4,14 @@
 #include <cmath>
 
 #include "datmo_fusion/common/square.h"
-#include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
 namespace {
 
-/// Of the position in the direction in which it is largest, and of the heading.
-Eigen::Vector2d variancesOf(const Eigen::Matrix3d& covariance) {
-  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
-  const double half = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return {mean + std::hypot(half, covariance(0, 1)), covariance(2, 2)};
-}
+/// Standard deviations (max_position_sigma) by which a pose that is known may still be corrected.
+constexpr double kCorrectionSigmas = 3.0;
 
 }  // namespace
 
@@ -33,19 +29,31 @@ void KeyframeOptions::visit(OptionVisitor& visitor) {
                   "a pose that stays uncertain for so long is in a new map; more than grid_slam's "
                   "recovery/give_up_after"},
                  new_map_after, {0.1, 3600.0});
+  visitor.number({"max_speed", "m/s",
+                  "a pose that is farther from the last one than this allows is in a new map: the "
+                  "SLAM started over"},
+                 max_speed, {0.1, 1000.0});
 }
 
 KeyframeSelector::KeyframeSelector(const Checked<KeyframeOptions>& options) : options_(*options) {}
 
 bool KeyframeSelector::isFarBelow(const Eigen::Matrix3d& known,
                                   const Eigen::Matrix3d& other) const {
-  const Eigen::Vector2d more = variancesOf(other - known);
-  return more[0] > square(options_.max_position_sigma) ||
-         more[1] > square(options_.max_heading_sigma);
+  const Eigen::Matrix3d more = other - known;
+  return maxPositionVariance(more) > square(options_.max_position_sigma) ||
+         more(2, 2) > square(options_.max_heading_sigma);
 }
 
-KeyframeSelector::Use KeyframeSelector::startAt(const PoseWithCovariance& base_in_map) {
+bool KeyframeSelector::isLeap(Stamp stamp, const Pose2& pose) const {
+  const double max_distance = options_.max_speed * secondsBetween(known_.stamp, stamp) +
+                              kCorrectionSigmas * options_.max_position_sigma;
+  return (pose.position() - known_.pose.position()).norm() > max_distance;
+}
+
+KeyframeSelector::Use KeyframeSelector::startAt(Stamp stamp,
+                                                const PoseWithCovariance& base_in_map) {
   last_ = base_in_map;
+  known_ = {stamp, base_in_map.pose};
   uncertain_since_.reset();
   return Use::kFirst;
 }
@@ -57,13 +65,18 @@ KeyframeSelector::Use KeyframeSelector::take(Stamp stamp, const PoseWithCovarian
             : Eigen::Matrix3d::Zero();
   if (isFarBelow(expected, base_in_map.covariance)) {
     uncertain_since_ = uncertain_since_.value_or(stamp);
-    return secondsBetween(*uncertain_since_, stamp) < options_.new_map_after ? Use::kNothing
-                                                                             : startAt(base_in_map);
+    return secondsBetween(*uncertain_since_, stamp) < options_.new_map_after
+               ? Use::kNothing
+               : startAt(stamp, base_in_map);
   }
-  if (!last_ || isFarBelow(base_in_map.covariance, expected)) {
-    return startAt(base_in_map);
+  // A long gap alone widens what is expected.
+  const bool is_found = last_ && isFarBelow(base_in_map.covariance, expected) &&
+                        isFarBelow(base_in_map.covariance, last_->covariance);
+  if (!last_ || is_found || isLeap(stamp, pose)) {
+    return startAt(stamp, base_in_map);
   }
   uncertain_since_.reset();
+  known_ = {stamp, pose};
   const Pose2 since = last_->pose.inverse() * pose;
   if (since.position().norm() < options_.distance && std::abs(since.heading()) < options_.turn) {
     return Use::kPose;

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "datmo_fusion/common/square.h"
-#include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
@@ -48,15 +48,18 @@ Eigen::Matrix3d growth(const Eigen::Matrix3d& before, const Eigen::Matrix3d& lat
 }
 
 double largestSigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
-  return std::sqrt(axes.eigenvalues()[1]);
+  return std::sqrt(maxPositionVariance(covariance));
 }
 
 }  // namespace
 
 LoopCloser::LoopCloser(const Checked<LoopCloserOptions>& options)
-    : options_(*options), matcher_(options->submaps), graph_(options->graph) {}
+    : options_(*options), matcher_(options->submaps), graph_(options->graph) {
+  if (options_.min_loop < options_.submap_length) {
+    throw OptionError("min_loop = " + toText(options_.min_loop) +
+                      ": expected at least submap_length, " + toText(options_.submap_length));
+  }
+}
 
 void LoopCloser::clear() {
   graph_.clear();
@@ -64,7 +67,6 @@ void LoopCloser::clear() {
   candidates_.clear();
   counts_ = {};
   searched_ = 0.0;
-  last_closed_ = 0;
   scans_ = 0;
   stride_ = 1;
 }
@@ -148,17 +150,8 @@ std::optional<std::size_t> LoopCloser::middleOfLast() const {
                       : std::nullopt;
 }
 
-Eigen::Matrix3d LoopCloser::driftBetween(std::size_t from, std::size_t to) const {
-  const std::vector<Pose2>& poses = graph_.poses();
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = from; i < to; ++i) {
-    const Eigen::Matrix3d motion = turned(graph_.motions()[i].covariance, poses[i].heading());
-    sum += carried(motion, poses[to].position() - poses[i + 1].position());
-  }
-  return sum;
-}
-
-std::optional<std::size_t> LoopCloser::oldNear(std::size_t node, double sigma) const {
+std::optional<std::size_t> LoopCloser::oldNear(std::size_t node,
+                                               const std::vector<Eigen::Matrix3d>& drift) const {
   const std::vector<Pose2>& poses = graph_.poses();
   std::optional<std::size_t> nearest;
   double min_cost = std::numeric_limits<double>::infinity();
@@ -169,7 +162,8 @@ std::optional<std::size_t> LoopCloser::oldNear(std::size_t node, double sigma) c
     const double distance = (poses[i].position() - poses[node].position()).norm();
     const double turn = std::abs(angleBetween(poses[i].heading(), poses[node].heading()));
     const double cost = distance + kDistancePerTurn * turn;
-    if (distance <= options_.max_distance + kDriftReach * sigma && cost < min_cost) {
+    if (cost < min_cost &&
+        distance <= options_.max_distance + kDriftReach * largestSigma(drift[i])) {
       nearest = i;
       min_cost = cost;
     }
@@ -194,24 +188,21 @@ bool LoopCloser::search() {
   if (!newer) {
     return false;
   }
-  const Eigen::Matrix3d since_last = driftBetween(std::min(last_closed_, *newer), *newer);
-  const auto old = oldNear(*newer, largestSigma(since_last));
+  const std::vector<Eigen::Matrix3d> drift = graph_.covariancesOf(*newer);
+  const auto old = oldNear(*newer, drift);
   if (!old) {
     return false;
   }
-  const std::size_t known = std::max(last_closed_, *old);
   const Pose2& old_pose = graph_.poses()[*old];
-  const Eigen::Matrix3d drift =
-      turned(driftBetween(std::min(known, *newer), *newer), -old_pose.heading());
-  const double sigma = largestSigma(drift);
+  const double sigma = largestSigma(drift[*old]);
   const double half = 0.5 * options_.submap_length;
   const double old_half = half + std::min(kDriftReach * sigma, kMaxHalf);
   const double at = nodes_[*old].distance;
   const double newest_old = nodes_[*newer].distance - options_.min_loop;
-  const SubmapMatcher::Result result =
-      matcher_.match(submap(at - old_half, std::min(at + old_half, newest_old), *old),
-                     submap(nodes_[*newer].distance - half, length(), *newer),
-                     {old_pose.inverse() * graph_.poses()[*newer], drift});
+  const SubmapMatcher::Result result = matcher_.match(
+      submap(at - old_half, std::min(at + old_half, newest_old), *old),
+      submap(nodes_[*newer].distance - half, length(), *newer),
+      {old_pose.inverse() * graph_.poses()[*newer], turned(drift[*old], -old_pose.heading())});
   switch (result.outcome) {
     case SubmapMatcher::Outcome::kFound:
       return judge({*old, *newer, result.newer_in_older.pose, result.newer_in_older.covariance},

@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "datmo_fusion/slam/loop_closer.h"
-#include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
@@ -17,8 +17,8 @@ constexpr double kMaxSquaredError = 16.3;
 /// A candidate is forgotten when nothing has confirmed it after this many submap lengths.
 constexpr double kCandidateLife = 5.0;
 
-/// Two candidates confirm each other from this share of a submap's length on.
-constexpr double kApart = 0.4;
+/// Two candidates confirm each other from so many submap lengths on: with no scan in common.
+constexpr double kApart = 1.0;
 
 }  // namespace
 
@@ -30,7 +30,9 @@ bool LoopCloser::agree(const Candidate& a, const Candidate& b) const {
   const Eigen::Vector3d error(b_global.x() - expected.x(), b_global.y() - expected.y(),
                               angleBetween(expected.heading(), b_global.heading()));
   const double correction = angleBetween(poses[a.to].heading(), a_global.heading());
-  const Eigen::Matrix3d covariance = turned(driftBetween(a.to, b.to), correction) +
+  const Eigen::Matrix3d covariance = turned(graph_.covarianceBetween(a.to, b.to), correction) +
+                                     carried(graph_.covarianceBetween(a.from, b.from),
+                                             b_global.position() - poses[b.from].position()) +
                                      carried(turned(a.covariance, poses[a.from].heading()),
                                              b_global.position() - a_global.position()) +
                                      turned(b.covariance, poses[b.from].heading());
@@ -75,10 +77,6 @@ bool LoopCloser::optimize() {
     graph_.optimize();
   }
   counts_.closed = graph_.loops().size();
-  last_closed_ = 0;
-  for (const PoseConstraint& loop : graph_.loops()) {
-    last_closed_ = std::max(last_closed_, loop.to);
-  }
   return true;
 }
 

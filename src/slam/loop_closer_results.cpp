@@ -90,10 +90,19 @@ OccupancyMap LoopCloser::map() const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Keyframe& keyframe = nodes_[i].keyframe;
     if (!keyframe.scan.empty()) {
-      addStanding(map, keyframe.scan.scan(keyframe.stamp), graph_.poses()[i]);
+      addStatic(map, keyframe.scan.scan(keyframe.stamp), graph_.poses()[i]);
     }
   }
   return map;
+}
+
+std::vector<ClosedLoop> LoopCloser::loops() const {
+  std::vector<ClosedLoop> loops;
+  for (const PoseConstraint& loop : graph_.loops()) {
+    loops.push_back(
+        {nodes_[loop.from].keyframe.stamp, nodes_[loop.to].keyframe.stamp, loop.motion});
+  }
+  return loops;
 }
 
 double LoopCloser::residual() const {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
@@ -54,30 +54,11 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });
 }
 
-double maxPositionVariance(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
-  return axes.eigenvalues()[1];
-}
-
 bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
                const MapRecoveryOptions& limits) {
   return maxPositionVariance(to) - maxPositionVariance(from) >
              std::pow(limits.from_position_sigma, 2) ||
          to(2, 2) - from(2, 2) > std::pow(limits.from_heading_sigma, 2);
-}
-
-Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
-  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
-  lever(0, 2) = -arm.y();
-  lever(1, 2) = arm.x();
-  return lever * covariance * lever.transpose();
-}
-
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Pose2(0.0, 0.0, angle).rotation();
-  return rotation * covariance * rotation.transpose();
 }
 
 MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,

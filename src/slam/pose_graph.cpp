@@ -61,6 +61,7 @@ void PoseGraph::clear() {
   poses_.clear();
   motions_.clear();
   loops_.clear();
+  optimized_loops_ = 0;
 }
 
 void PoseGraph::start(const Pose2& pose) {
@@ -87,6 +88,7 @@ std::size_t PoseGraph::removeLoops(double above) {
   });
   const auto removed = static_cast<std::size_t>(loops_.end() - kept);
   loops_.erase(kept, loops_.end());
+  optimized_loops_ = std::min(optimized_loops_, loops_.size());
   return removed;
 }
 
@@ -118,8 +120,10 @@ bool PoseGraph::optimize() {
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (!summary.IsSolutionUsable()) {
+    loops_.resize(optimized_loops_);
     return false;
   }
+  optimized_loops_ = loops_.size();
   std::transform(parameters.begin(), parameters.end(), poses_.begin(), toPose);
   return true;
 }

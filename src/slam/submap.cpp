@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-void addStanding(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map) {
+void addStatic(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map) {
   map.update(scan, std::vector<PointState>(scan.rays.size(), PointState::kStatic), base_in_map);
 }
 
@@ -21,7 +21,7 @@ OccupancyMap Submap::map(OccupancyMapOptions options, double reach) const {
   options.window.length = options.window.width = 2.0 * (radius() + reach);
   OccupancyMap map(options);
   for (const PlacedScan& placed : placed_) {
-    addStanding(map, placed.scan, placed.pose);
+    addStatic(map, placed.scan, placed.pose);
   }
   return map;
 }

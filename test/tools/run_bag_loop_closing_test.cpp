@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // run_bag --loop-closing.
 #include "run_bag_drive.h"
+#include <nlohmann/json.hpp>
 
 #include <nav_msgs/Path.h>
 
@@ -34,6 +35,14 @@ TEST_F(RunBagLoopClosing, TheWholeDriveComesOutAtItsEnd) {
   EXPECT_EQ(path->poses.size(), static_cast<std::size_t>(kScans));
   EXPECT_NEAR(path->poses.back().pose.position.x, kSpeed * kPeriod * (kScans - 1), 0.2);
   EXPECT_GE(count(arguments_.output, "/map/optimized"), 1U);
+}
+
+TEST_F(RunBagLoopClosing, TheReportNamesTheLoops) {
+  arguments_.report = path("report.json");
+  run();
+  const auto report = nlohmann::json::parse(bytes(arguments_.report));
+  EXPECT_TRUE(report.at("loops").at("closed").empty()) << "straight on there is none";
+  EXPECT_EQ(report.at("loops").at("refuted"), 0);
 }
 
 TEST_F(RunBagLoopClosing, SameBagGivesTheSameBytes) {

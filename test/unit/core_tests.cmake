@@ -145,6 +145,7 @@ datmo_fusion_add_core_test(slam
   slam/odometry_anchor_test.cpp
   slam/odometry_buffer_test.cpp
   slam/odometry_poses_test.cpp
+  slam/pose_covariance_test.cpp
   slam/pose_filter_test.cpp
   slam/pose_graph_test.cpp
   slam/pose_motion_test.cpp

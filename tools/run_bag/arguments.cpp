@@ -168,7 +168,8 @@ void addFiles(CommandLine& line, Arguments& arguments) {
                    "is laid over the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
   line.addFile("--times", arguments.times, "how long each stage took for a message", "FILE.json");
   line.addFile("--report", arguments.report,
-               "what was processed, dropped and silent, and when the pose was uncertain",
+               "what was processed, dropped and silent, when the pose was uncertain, and which\n"
+               "loops were closed",
                "FILE.json");
   line.addFile("--tum", arguments.text.tum,
                "the vehicle's poses as the TUM benchmark has them, base_link in map", "POSES.txt");

@@ -197,7 +197,8 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   }
   const RunTime time{lengthOf(view), took};
   if (!arguments.report.empty()) {
-    writeWholeFile(arguments.report, run.report().json(drive, time, toStamp(view.getEndTime())));
+    writeWholeFile(arguments.report,
+                   run.report().json(drive, time, toStamp(view.getEndTime()), graph));
   }
   if (!arguments.save_map.empty()) {
     saveMap(graph, arguments.save_map);

@@ -196,20 +196,41 @@ nlohmann::json RunReport::pose(Stamp end) const {
           {"widest_sigma_at_s", since(widest.stamp)}};
 }
 
-std::string RunReport::json(const DriveSummary& drive, const RunTime& time, Stamp end) const {
-  const nlohmann::json report = {{"format", kReportFormat},
-                                 {"start_s", start_.value_or(end).seconds()},
-                                 {"duration_s", time.data},
-                                 {"wall_s", time.wall},
-                                 {"processor_s", processorSeconds()},
-                                 {"scans", drive.scans()},
-                                 {"has_truth", has_truth_},
-                                 {"distance_m", drive.distance()},
-                                 {"tracks", drive.tracks()},
-                                 {"pose", pose(end)},
-                                 {"dropped", dropped()},
-                                 {"silences", silences(end)},
-                                 {"conditions", conditions(end)}};
+nlohmann::json RunReport::loops(const LoopClosingStage& closing) const {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ClosedLoop& loop : closing.loops()) {
+    list.push_back({{"from_s", since(loop.from)},
+                    {"to_s", since(loop.to)},
+                    {"x_m", loop.motion.x()},
+                    {"y_m", loop.motion.y()},
+                    {"heading_rad", loop.motion.heading()}});
+  }
+  const LoopCounts& counts = closing.counts();
+  return {{"closed", std::move(list)},
+          {"unconfirmed", counts.unconfirmed},
+          {"ambiguous", counts.ambiguous},
+          {"unlike", counts.unlike},
+          {"refuted", counts.refuted}};
+}
+
+std::string RunReport::json(const DriveSummary& drive, const RunTime& time, Stamp end,
+                            const GraphRunner& graph) const {
+  nlohmann::json report = {{"format", kReportFormat},
+                           {"start_s", start_.value_or(end).seconds()},
+                           {"duration_s", time.data},
+                           {"wall_s", time.wall},
+                           {"processor_s", processorSeconds()},
+                           {"scans", drive.scans()},
+                           {"has_truth", has_truth_},
+                           {"distance_m", drive.distance()},
+                           {"tracks", drive.tracks()},
+                           {"pose", pose(end)},
+                           {"dropped", dropped()},
+                           {"silences", silences(end)},
+                           {"conditions", conditions(end)}};
+  if (graph.has("loop_closing")) {
+    report["loops"] = loops(graph.stage<LoopClosingStage>("loop_closing"));
+  }
   return report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -15,6 +15,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
@@ -33,7 +34,8 @@ class RunReport {
   void add(const Publication& publication);
 
   /// As JSON. `end`: record time of the last message.
-  std::string json(const DriveSummary& drive, const RunTime& time, Stamp end) const;
+  std::string json(const DriveSummary& drive, const RunTime& time, Stamp end,
+                   const GraphRunner& graph) const;
 
  private:
   /// A stage that is not well, and why.
@@ -62,6 +64,7 @@ class RunReport {
   nlohmann::json dropped() const;
   nlohmann::json conditions(Stamp end) const;
   nlohmann::json pose(Stamp end) const;
+  nlohmann::json loops(const LoopClosingStage& closing) const;
 
   bool has_truth_ = false;
   std::optional<Stamp> start_;

@@ -16,14 +16,15 @@ struct GradualCorrectionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Leads one frame in another one to where it was found to be, so gradually that nothing jumps for
-/// who stands at the vehicle: a turn about a far origin would throw it sideways.
+/// Moves one frame in another one to where it was found to be, so gradually that nothing jumps at
+/// the vehicle: a turn about a distant origin alone would throw it sideways.
 class GradualCorrection {
  public:
   /// Throws OptionError.
   explicit GradualCorrection(const Checked<GradualCorrectionOptions>& options);
 
-  /// The pose of the inner frame in the outer one at this stamp, one step nearer to `target`.
+  /// The pose of the inner frame in the outer one at this stamp, one step nearer to `target`: of
+  /// the time since the last one, but no more than a second.
   /// `vehicle`: in the inner frame. At first they are the same.
   Pose2 advance(Stamp stamp, const Pose2& vehicle, const Pose2& target);
 

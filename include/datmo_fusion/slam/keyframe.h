@@ -43,6 +43,12 @@ class KeptScan {
   std::vector<std::uint16_t> free_beams_;
 };
 
+/// A pose of the vehicle at a time.
+struct StampedPose {
+  Stamp stamp;
+  Pose2 pose;
+};
+
 /// A scan of a drive from which submaps are made, and the pose that the live SLAM gave it.
 struct Keyframe {
   Stamp stamp;

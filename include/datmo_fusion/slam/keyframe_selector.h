@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/slam/keyframe.h"
 
 namespace datmo {
 
@@ -14,6 +14,7 @@ struct KeyframeOptions {
   double max_position_sigma = 0.5;          ///< m
   double max_heading_sigma = degrees(5.0);  ///< rad
   double new_map_after = 6.0;               ///< s
+  double max_speed = 60.0;                  ///< m/s
 
   void visit(OptionVisitor& visitor);
 };
@@ -21,10 +22,11 @@ struct KeyframeOptions {
 /// Which scans of a drive are kept, by the poses that the live SLAM gives them.
 ///
 /// Behind a gap the SLAM may be lost: then its pose is much less certain than at the keyframe
-/// before, and what it is worth shows later. When it is as certain again, the vehicle was found in
+/// before, and nothing is kept. When it is as certain again, the vehicle was found in
 /// the map, and the drive goes on. When it stays uncertain, the SLAM has begun a new map, whose
 /// frame nobody knows in that of the old one: the drive starts over. So it does when a pose that
-/// was uncertain from the start becomes certain: the vehicle was found in a prior map.
+/// was uncertain from the start becomes certain: the vehicle was found in a prior map. And so it
+/// does when the pose leaps farther than any vehicle drives: the SLAM itself has started over.
 class KeyframeSelector {
  public:
   enum class Use {
@@ -46,10 +48,13 @@ class KeyframeSelector {
  private:
   /// Whether a pose of covariance `known` says much more than one of covariance `other`.
   bool isFarBelow(const Eigen::Matrix3d& known, const Eigen::Matrix3d& other) const;
-  Use startAt(const PoseWithCovariance& base_in_map);
+  /// Whether no vehicle drives so far since the last pose that was known.
+  bool isLeap(Stamp stamp, const Pose2& pose) const;
+  Use startAt(Stamp stamp, const PoseWithCovariance& base_in_map);
 
   KeyframeOptions options_;
   std::optional<PoseWithCovariance> last_;  ///< keyframe
+  StampedPose known_;                       ///< the last pose that was, if there is a keyframe
   std::optional<Stamp> uncertain_since_;
 };
 

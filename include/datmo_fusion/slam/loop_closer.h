@@ -27,10 +27,11 @@ struct LoopCloserOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A pose of the vehicle at a time.
-struct StampedPose {
-  Stamp stamp;
-  Pose2 pose;
+/// A loop in terms of the drive.
+struct ClosedLoop {
+  Stamp from;
+  Stamp to;
+  Pose2 motion;  ///< the vehicle's pose at `to` in its frame at `from`
 };
 
 /// What became of the searches so far.
@@ -50,11 +51,13 @@ struct LoopCounts {
 ///
 /// Every `search_distance` the last `submap_length` of the drive is looked for in the part of it,
 /// driven `min_loop` before, that is nearest by the optimized poses: SubmapMatcher, within what may
-/// have drifted since the last loop. Where that is much, a loop counts only when a second one,
-/// found from another place, agrees with it: a wrong loop is worse than none. Not thread safe.
+/// have drifted between the two by all loops so far. Where that is much, a loop counts only when a
+/// second one, found from other scans, agrees with it: a wrong loop is worse than none. Not thread
+/// safe.
 class LoopCloser {
  public:
-  /// Throws OptionError.
+  /// Throws OptionError, also for a `min_loop` shorter than `submap_length`: a submap would be
+  /// compared with itself.
   explicit LoopCloser(const Checked<LoopCloserOptions>& options);
 
   /// The next keyframe of the drive; the first one if there is none yet. Returns whether a loop was
@@ -72,10 +75,15 @@ class LoopCloser {
   Pose2 mapInGlobal() const;
 
   /// The map of all kept scans, in `global`. Its cells have the size that the options say, or that
-  /// doubled as often as it takes to hold all in four million of them.
+  /// doubled as often as it takes to hold all in four million of them. Throws OptionError where
+  /// that makes cells larger than there are.
   OccupancyMap map() const;
 
   const LoopCounts& counts() const { return counts_; }
+
+  /// All that are in the graph.
+  std::vector<ClosedLoop> loops() const;
+
   const PoseGraph& graph() const { return graph_; }
 
   /// Root mean square of the loops' errors, in their standard deviations; 0 without any.
@@ -108,10 +116,10 @@ class LoopCloser {
 
   /// Index of the keyframe in the middle of the last submap_length; none if that is not driven yet.
   std::optional<std::size_t> middleOfLast() const;
-  /// The keyframe of long ago to be compared with this one.
-  std::optional<std::size_t> oldNear(std::size_t node, double sigma) const;
-  /// Covariance of what was driven between two nodes, at the later one, in `global`'s axes.
-  Eigen::Matrix3d driftBetween(std::size_t from, std::size_t to) const;
+  /// The keyframe of long ago to be compared with this one, whose covariance with each of the
+  /// others as the origin this is.
+  std::optional<std::size_t> oldNear(std::size_t node,
+                                     const std::vector<Eigen::Matrix3d>& drift) const;
   /// Those from `from` to `to` (m of the drive) that have scans, in the frame of one of them.
   Submap submap(double from, double to, std::size_t frame) const;
 
@@ -121,8 +129,7 @@ class LoopCloser {
   std::vector<Node> nodes_;
   std::vector<Candidate> candidates_;
   LoopCounts counts_;
-  double searched_ = 0.0;        ///< m of the drive
-  std::size_t last_closed_ = 0;  ///< newest node that a loop holds; 0: the first pose
+  double searched_ = 0.0;  ///< m of the drive
   std::size_t scans_ = 0;
   std::size_t stride_ = 1;  ///< one keyframe of so many keeps its scan
 };

@@ -39,20 +39,10 @@ struct MapRecoveryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Variance of a position (x, y, in a pose's covariance) in its least certain direction, m^2.
-double maxPositionVariance(const Eigen::Matrix3d& covariance);
-
 /// Whether a pose has become so much more uncertain from one covariance to the other, as in a gap,
 /// that it has to be searched for.
 bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
                const MapRecoveryOptions& limits);
-
-/// Covariance (x, y, heading) of a pose that is `arm` (m) away from one of this covariance, and
-/// rigidly connected with it.
-Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
-
-/// A covariance (x, y, heading) in axes from which its own are turned by this angle (rad).
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle);
 
 /// Relocalization in a map after a gap in which the vehicle may have gone anywhere within a wide
 /// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left

@@ -46,8 +46,9 @@ class PoseGraph {
   /// A loop between poses that there are; its covariance positive definite.
   void close(const PoseConstraint& loop) { loops_.push_back(loop); }
 
-  /// Moves the poses to where all constraints are met best. Returns whether the solver converged;
-  /// if not, the poses stay as they were.
+  /// Moves the poses to where all constraints are met best, as far as the iterations allow. Returns
+  /// whether the solver could do that; if not (a loop that is not finite), the poses stay as they
+  /// were, and the loops since the last time are taken out.
   bool optimize();
 
   const std::vector<Pose2>& poses() const { return poses_; }
@@ -55,6 +56,14 @@ class PoseGraph {
 
   /// Motions from each pose to the next one.
   const std::vector<PoseConstraint>& motions() const { return motions_; }
+
+  /// Covariance of a pose (x, y, heading in the axes of all poses) with each of the others as the
+  /// origin: along the path of motions and loops on which its position has the least variance
+  /// (Dijkstra's projection: Bosse et al. 2003). All constraints together say no less.
+  std::vector<Eigen::Matrix3d> covariancesOf(std::size_t pose) const;
+
+  /// The same with one other pose as the origin.
+  Eigen::Matrix3d covarianceBetween(std::size_t origin, std::size_t pose) const;
 
   /// Squared error of a constraint, in standard deviations.
   double squaredError(const PoseConstraint& constraint) const;
@@ -65,10 +74,14 @@ class PoseGraph {
   void clear();
 
  private:
+  /// covariancesOf(), until that with this origin is known.
+  std::vector<Eigen::Matrix3d> covariancesUntil(std::size_t origin, std::size_t pose) const;
+
   PoseGraphOptions options_;
   std::vector<Pose2> poses_;
   std::vector<PoseConstraint> motions_;
   std::vector<PoseConstraint> loops_;
+  std::size_t optimized_loops_ = 0;  ///< of these
 };
 
 }  // namespace datmo

@@ -12,7 +12,7 @@
 namespace datmo {
 
 /// Takes a scan in which nothing moves into a map.
-void addStanding(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map);
+void addStatic(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map);
 
 /// Part of a drive: a few of its scans, in the frame of one of them. A map is made of it when one
 /// is needed: the scans take a hundredth of its memory.

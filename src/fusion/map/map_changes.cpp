@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "datmo_fusion/grid/distance_field.h"
-#include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 

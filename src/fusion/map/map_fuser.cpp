@@ -8,6 +8,7 @@
 
 #include "datmo_fusion/fusion/grid/grid_fusion.h"
 #include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 

@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/stage/loop_closing_stage.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -16,6 +17,9 @@ namespace {
 
 /// Scans that wait for the thread at the most: a minute of them.
 constexpr std::size_t kMaxQueuedScans = 1000;
+
+/// Of these it is given so many at a time: what it finds counts, and it can end, that soon.
+constexpr std::size_t kMaxScansAtATime = 100;
 
 constexpr double kBytesPerMegabyte = 1e6;
 
@@ -71,7 +75,7 @@ void LoopClosingStage::beginDrive(Stamp stamp) {
 void LoopClosingStage::queue(LoopJob::Step step) {
   if (waiting_.size() < kMaxQueuedScans) {
     waiting_.push_back(std::move(step));
-  } else if (step.use == KeyframeSelector::Use::kKeyframe) {
+  } else {
     monitor_.dropped(InputError("superseded_scan",
                                 "a scan came while 1000 wait for the search for loops: expected a "
                                 "faster machine, or a longer search_distance"));
@@ -110,11 +114,20 @@ void LoopClosingStage::startIfIdle(Stamp now) {
   if (is_busy_ || (waiting_.empty() && !is_due)) {
     return;
   }
-  if (is_due) {
-    changed_.reset();
-  }
   is_busy_ = true;
-  worker_.start({std::exchange(waiting_, {}), is_due, drive_});
+  std::vector<LoopJob::Step> steps = takeWaiting();
+  if (is_due) {
+    changed_ = waiting_.empty() ? std::nullopt : std::make_optional(now);
+  }
+  worker_.start({std::move(steps), is_due, drive_});
+}
+
+std::vector<LoopJob::Step> LoopClosingStage::takeWaiting() {
+  const auto count = static_cast<std::ptrdiff_t>(std::min(waiting_.size(), kMaxScansAtATime));
+  std::vector<LoopJob::Step> first(std::make_move_iterator(waiting_.begin()),
+                                   std::make_move_iterator(waiting_.begin() + count));
+  waiting_.erase(waiting_.begin(), waiting_.begin() + count);
+  return first;
 }
 
 void LoopClosingStage::takeResults() {
@@ -126,7 +139,9 @@ void LoopClosingStage::takeResults() {
     if (result.drive == drive_) {
       map_in_global_ = result.map_in_global;
       show(result);
-      if (result.map) {
+      if (!result.trajectory.empty()) {
+        counts_ = result.counts;
+        loops_ = result.loops;
         map_ = result.map;
         due_ = driveOf(result);
       }
@@ -170,8 +185,12 @@ OptimizedDrive LoopClosingStage::driveOf(const LoopResult& result) const {
     pose.pose = toMessage(each.pose);
     path->poses.push_back(pose);
   }
-  return {path, boost::make_shared<nav_msgs::OccupancyGrid>(
-                    toMessage(*result.map, stamp, options_.global_frame))};
+  nav_msgs::OccupancyGridConstPtr map;
+  if (result.map) {
+    map = boost::make_shared<nav_msgs::OccupancyGrid>(
+        toMessage(*result.map, stamp, options_.global_frame));
+  }
+  return {path, map};
 }
 
 std::optional<OptimizedDrive> LoopClosingStage::next(Stamp now) {
@@ -189,7 +208,10 @@ double LoopClosingStage::maxWait() const {
 
 std::string LoopClosingStage::saveMap(const std::string& file) const {
   if (!map_) {
-    throw MapFileError(file + ": no optimized map yet, expected one within publish_period");
+    throw MapFileError(
+        file +
+        ": no optimized map, expected one within publish_period, of a drive that is not "
+        "too wide for one");
   }
   return savedMapText(file, *map_);
 }

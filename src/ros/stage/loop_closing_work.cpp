@@ -26,22 +26,37 @@ void take(LoopCloser& closer, const LoopJob::Step& step) {
   }
 }
 
+/// Calls it; what went wrong, or nothing. There may be no memory, in a thread that must not end by
+/// it.
+template <typename Call>
+std::string errorOf(const Call& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace
 
 LoopResult closeLoops(LoopCloser& closer, const LoopJob& job) {
   const Stopwatch watch;
   LoopResult result;
   result.drive = job.drive;
-  try {
+  result.error = errorOf([&] {
     for (const LoopJob::Step& step : job.steps) {
       take(closer, step);
     }
-    if (job.wants_results) {
+  });
+  if (!result.error.empty()) {
+    closer.clear();
+  } else if (job.wants_results) {
+    result.error = errorOf([&] {
       result.trajectory = closer.trajectory();
+      result.loops = closer.loops();
       result.map = std::make_shared<const OccupancyMap>(closer.map());
-    }
-  } catch (const std::exception& error) {  // no memory, in a thread that must not end by it
-    result.error = error.what();
+    });
   }
   result.map_in_global = closer.mapInGlobal();
   result.counts = closer.counts();

@@ -8,7 +8,7 @@
 #include "map_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/slam/map_recovery.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo::map_fuser_test {
 namespace {

@@ -143,6 +143,56 @@ TEST_F(LoopClosingStageTest, AThreadOfItsOwnDoesTheSame) {
   EXPECT_LT(endError(*optimized->trajectory), 0.3);
 }
 
+TEST_F(LoopClosingStageTest, WhatWaitsForTheThreadIsDoneInParts) {
+  LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
+  drive(stage);  // faster than the thread
+  std::optional<OptimizedDrive> last;
+  for (int i = 0; i < 20 && (!last || last->trajectory->poses.size() < truth_.size()); ++i) {
+    stage.waitUntilIdle();
+    now_ += stage.maxWait();
+    const auto optimized = result(stage);
+    last = optimized ? optimized : last;
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->trajectory->poses.size(), truth_.size());
+  EXPECT_LT(endError(*last->trajectory), 0.3);
+}
+
+TEST_F(LoopClosingStageTest, ADriveThatBeginsWhileTheThreadWorksKnowsNothingOfTheOldOne) {
+  LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
+  drive(stage);
+  const auto transforms = take(stage, message(Pose2(), Pose2(), -500.0));
+  ASSERT_TRUE(transforms);
+  EXPECT_EQ(correctionOf(*transforms).position().norm(), 0.0);
+  std::optional<OptimizedDrive> last;
+  now_ = -500.0;
+  for (int i = 0; i < 20 && !last; ++i) {
+    stage.waitUntilIdle();
+    now_ += stage.maxWait();
+    last = result(stage);
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->trajectory->poses.size(), 1U);
+  EXPECT_TRUE(stage.loops().empty());
+}
+
+TEST_F(LoopClosingStageTest, ADriveTooWideForAMapHasItsTrajectory) {
+  LoopCloser closer(yardOptions());
+  LoopJob job;
+  job.wants_results = true;
+  const Scan scan = Yard().scan(Pose2(), 0.0);
+  for (const double x : {0.0, 1e5}) {
+    const LabeledScan kept = labeled(scan, Pose2(x, x, 0.0));
+    job.steps.push_back(
+        {KeyframeSelector::Use::kKeyframe, {scan.stamp, kept.base_in_map, KeptScan(kept)}});
+  }
+  const LoopResult wide = closeLoops(closer, job);
+  EXPECT_NE(wide.error, "");
+  EXPECT_EQ(wide.trajectory.size(), 2U);
+  EXPECT_FALSE(wide.map);
+  EXPECT_EQ(wide.keyframes, 2U) << "nothing is forgotten";
+}
+
 TEST_F(LoopClosingStageTest, AClockThatJumpsBackBeginsANewTrajectory) {
   LoopClosingStage stage(stageOptions(), monitor_);
   drive(stage);

@@ -23,9 +23,21 @@ TEST(GradualCorrectionTest, TheVehicleIsMovedAndTurnedNoFasterThanAllowed) {
               0.1 * options.turn_rate + 1e-9);
     before = now;
   }
-  const Pose2 end = correction.advance(Stamp::fromSeconds(2000.0), vehicle, target);
+  Pose2 end;
+  for (int i = 1; i <= 150; ++i) {
+    end = correction.advance(Stamp::fromSeconds(1005.0 + i), vehicle, target);
+  }
   EXPECT_NEAR((end.position() - target.position()).norm(), 0.0, 1e-9);
   EXPECT_NEAR(end.heading(), target.heading(), 1e-9);
+}
+
+TEST(GradualCorrectionTest, BehindAGapNothingJumps) {
+  const GradualCorrectionOptions options;
+  GradualCorrection correction(options);
+  const Pose2 target(50.0, 0.0, 0.0);
+  correction.advance(Stamp::fromSeconds(1000.0), Pose2(), target);
+  const Pose2 after = correction.advance(Stamp::fromSeconds(1060.0), Pose2(), target);
+  EXPECT_NEAR(after.x(), options.speed, 1e-9) << "as in a second";
 }
 
 TEST(GradualCorrectionTest, AClockThatStandsOrJumpsBackMovesNothing) {

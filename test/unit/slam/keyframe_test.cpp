@@ -75,6 +75,19 @@ TEST_F(KeyframeSelectorTest, ANewMapBeginsANewDrive) {
   EXPECT_EQ(take(9.2, 41.2, 5.0), Use::kKeyframe) << "no less certain than its start";
 }
 
+TEST_F(KeyframeSelectorTest, ALeapOfThePoseBeginsANewDrive) {
+  take(0.0, 0.0, 0.1);
+  EXPECT_EQ(take(1.0, 50.0, 0.1), Use::kKeyframe) << "as fast as a vehicle may be";
+  EXPECT_EQ(take(1.1, 0.0, 0.1), Use::kFirst) << "the SLAM has started over at its origin";
+  EXPECT_EQ(take(1.2, 1.2, 0.1), Use::kKeyframe);
+}
+
+TEST_F(KeyframeSelectorTest, AfterALongGapTheDriveGoesOn) {
+  take(0.0, 0.0, 0.1);
+  take(1.0, 1.5, 0.1);
+  EXPECT_EQ(take(11.0, 200.0, 0.1), Use::kKeyframe);
+}
+
 TEST_F(KeyframeSelectorTest, WhoIsFoundInAPriorMapBeginsANewDrive) {
   EXPECT_EQ(take(0.0, 0.0, 30.0), Use::kNothing);
   EXPECT_EQ(take(7.0, 5.0, 30.0), Use::kFirst);

@@ -10,6 +10,8 @@
 namespace datmo::loop_closer_test {
 namespace {
 
+constexpr double kStart = 1000.0;  // s, of the yard's stamps
+
 Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
 
 /// Two endless walls 10 m apart with a pillar before one of them every 7 m.
@@ -115,6 +117,54 @@ TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
                             : street(base, seconds);
   };
   EXPECT_EQ(returnTo(other, 210.0, 3.0).closed, 0U);
+}
+
+TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
+  // Two places 100 m apart, each visited twice. The way between them is known to 4 m, but for the
+  // last time; on the first visit the second place is taken to be 5 m to the left.
+  const auto places = [](const Pose2& base, double seconds) {
+    return base.x() < 70.0 ? Yard().scan(Pose2(-5.0, 0.0, 0.0) * base, seconds)
+                           : Yard().scan(Pose2(134.0, 2.0, kPi) * base, seconds);
+  };
+  struct Visit {
+    double x;       ///< m
+    double left;    ///< m, of the live pose
+    double sigmas;  ///< variances of the way up to here, in those of one way
+  };
+  LoopCloser closer(yardOptions());
+  double seconds = 0.0;
+  for (const Visit& visit : {Visit{0.0, 0.0, 0.0}, Visit{100.0, 5.0, 1.0}, Visit{0.0, 0.0, 2.0},
+                             Visit{100.0, 0.0, 2.0}}) {
+    for (int i = 0; i <= 40; ++i, seconds += 1.0) {
+      Keyframe next = keyframe(places, Pose2(visit.x + i, 0.0, 0.0),
+                               Pose2(visit.x + i, visit.left, 0.0), seconds);
+      next.base_in_map.covariance = visit.sigmas * Eigen::Vector3d(16.0, 16.0, 1e-4).asDiagonal();
+      closer.add(std::move(next));
+    }
+  }
+  constexpr std::size_t kMiddleOfSecondVisit = 41 + 20;
+  EXPECT_NEAR(closer.graph().poses()[kMiddleOfSecondVisit].y(), 0.0, 1.0);
+  EXPECT_EQ(closer.counts().refuted, 0U);
+}
+
+TEST(LoopCloserTest, ALoopIsNoShorterThanASubmap) {
+  LoopCloserOptions options = yardOptions();
+  options.min_loop = 9.0;
+  EXPECT_THROW(LoopCloser{options}, OptionError);
+}
+
+TEST(LoopCloserTest, LoopsHaveTheirTimes) {
+  LoopCloser closer(yardOptions());
+  const Drive lapped = drive(closer, yard, roundTheYard(2));
+  ASSERT_EQ(closer.loops().size(), closer.counts().closed);
+  for (const ClosedLoop& loop : closer.loops()) {
+    const auto at = [&lapped](Stamp stamp) {
+      return lapped.truth.at(std::lround(stamp.seconds() - kStart));
+    };
+    const Pose2 error = (at(loop.from).inverse() * at(loop.to)).inverse() * loop.motion;
+    EXPECT_LT(error.position().norm(), 0.3);
+    EXPECT_LT(std::abs(error.heading()), degrees(1.5));
+  }
 }
 
 TEST(LoopCloserTest, MemoryIsBounded) {

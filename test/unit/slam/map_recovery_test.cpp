@@ -9,16 +9,6 @@
 namespace datmo::map_recovery_test {
 namespace {
 
-TEST(MapRecoveryTest, AHeadingErrorMovesWhatIsFarAway) {
-  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
-  const Eigen::Matrix3d far = carried(covariance, {10.0, 0.0});
-  EXPECT_NEAR(far(0, 0), 0.01, 1e-12);
-  EXPECT_NEAR(far(1, 1), 0.04 + 100.0 * 0.25, 1e-12);
-  EXPECT_NEAR(far(1, 2), 10.0 * 0.25, 1e-12);
-  EXPECT_NEAR(far(2, 2), 0.25, 1e-12);
-  EXPECT_TRUE(carried(far, {-10.0, 0.0}).isApprox(covariance));
-}
-
 /// A drive with a gap of scans and odometry, in which the vehicle goes at `speed_in_gap`.
 struct Drive {
   double gap = 2.0;           ///< s

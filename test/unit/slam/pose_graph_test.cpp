@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/pose_graph.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo::pose_graph_test {
 namespace {
@@ -84,6 +88,55 @@ TEST(PoseGraphTest, AFalseLoopDoesNotTearTheGraphApart) {
   EXPECT_EQ(poses.removeLoops(16.0), 1U);
   ASSERT_EQ(poses.loops().size(), 1U);
   EXPECT_EQ(poses.loops().front().to, 10U) << "the true one stays";
+}
+
+TEST(PoseGraphTest, ALoopThatIsNotFiniteIsTakenOut) {
+  PoseGraph poses = graph();
+  poses.start(Pose2());
+  poses.extend(Pose2(1.0, 0.0, 0.0), covariance(1.0, 1.0));
+  poses.close({0, 1, Pose2(1.5, 0.0, 0.0), covariance(1.0, 1.0)});
+  ASSERT_TRUE(poses.optimize());
+  poses.close({0, 1, Pose2(std::nan(""), 0.0, 0.0), covariance(1.0, 1.0)});
+  EXPECT_FALSE(poses.optimize());
+  EXPECT_EQ(poses.loops().size(), 1U);
+  EXPECT_NEAR(poses.poses()[1].x(), 1.25, 1e-3);
+  EXPECT_TRUE(poses.optimize());
+}
+
+/// 100 m straight on, 10 m from one pose to the next.
+PoseGraph straightOn() {
+  PoseGraph poses = graph();
+  poses.start(Pose2(0.0, 0.0, 0.5));
+  for (int i = 0; i < 10; ++i) {
+    poses.extend(Pose2(10.0, 0.0, 0.0), covariance(0.1, 0.01));
+  }
+  return poses;
+}
+
+TEST(PoseGraphTest, UncertaintyGrowsWithWhatWasDriven) {
+  const PoseGraph poses = straightOn();
+  // Each motion adds 0.1^2; its heading turns the remaining 90, 80 .. 0 m.
+  const double across = 10 * 0.01 + 0.0001 * 100.0 * (81 + 64 + 49 + 36 + 25 + 16 + 9 + 4 + 1);
+  const Eigen::Matrix3d end = turned(poses.covariancesOf(10)[0], -0.5);
+  EXPECT_NEAR(end(0, 0), 0.1, 1e-9);
+  EXPECT_NEAR(end(1, 1), across, 1e-9);
+  EXPECT_NEAR(end(2, 2), 10 * 0.0001, 1e-12);
+  EXPECT_TRUE(poses.covarianceBetween(0, 10).isApprox(poses.covariancesOf(10)[0]));
+  EXPECT_TRUE(poses.covarianceBetween(10, 10).isZero());
+  // From the other end the headings turn 10, 20 .. 100 m.
+  const Eigen::Matrix3d back = turned(poses.covarianceBetween(10, 0), -0.5);
+  EXPECT_NEAR(back(1, 1), across + 0.0001 * 100.0 * 100, 1e-9);
+}
+
+TEST(PoseGraphTest, ALoopMakesCertainWhatItConnectsAndNothingElse) {
+  PoseGraph poses = straightOn();
+  poses.close({0, 10, Pose2(100.0, 0.0, 0.0), covariance(0.1, 0.001)});
+  EXPECT_LT(maxPositionVariance(poses.covarianceBetween(0, 10)), 0.03);
+  EXPECT_GT(maxPositionVariance(poses.covarianceBetween(5, 10)), 0.3)
+      << "the middle is as far from both ends as before";
+  const std::vector<Eigen::Matrix3d> of_9 = poses.covariancesOf(9);
+  EXPECT_LT(maxPositionVariance(of_9[1]), maxPositionVariance(straightOn().covarianceBetween(1, 9)))
+      << "round by the loop";
 }
 
 TEST(PoseGraphTest, NothingToOptimizeIsNoFault) {

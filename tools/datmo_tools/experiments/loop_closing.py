@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far off the pose is at the end of a closed course, with and without loops closed: command line
-and runs."""
+"""How far off the pose is at the end of a drive, with and without loops closed, and how many of the
+loops are false: command line and runs."""
 
 import json
 import math
@@ -15,18 +15,23 @@ from datmo_tools import command_line, programs, transforms
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.pose_path import read_path
-from datmo_tools.text_table import aligned
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Drives a scene that leads round a closed course more than once through simulator and run_bag, with
-several seeds, and prints how far off the live pose and the optimized trajectory are at the end and
-at the most, both laid on the true drive at its first pose; and the processor's time of a scan."""
+Drives a scene through simulator and run_bag, with several seeds, and prints how far off the live pose
+and the optimized trajectory are at the end and at the most, both laid on the true drive at its first
+pose; how many loops were closed, and how many of these are false; and the time of a scan."""
 
-FORMAT = 1  # of the JSON file
+FORMAT = 2  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
 TRAJECTORY = "/trajectory/optimized"
 PATHS = {"live pose": "/pose", "with loops closed": TRAJECTORY}
+
+# A loop that is farther off is false: more than a match within one cell of the map explains.
+FALSE_M = 0.5
+FALSE_DEG = 2.0
 
 
 def main(arguments=None):
@@ -55,34 +60,73 @@ def errors(path, truth):
     }
 
 
+def loop_errors(loops, start, truth):
+    """Errors of loops (list of dict, as run_bag's report has them) against a PosePath: list of (m, deg).
+
+    start: stamp (ns) that the loops' times count from.
+    """
+    found = []
+    for loop in loops:
+        begin, end = (truth.at(start + round(loop[key] * NANOSECONDS)) for key in ("from_s", "to_s"))
+        motion = np.array([loop["x_m"], loop["y_m"], loop["heading_rad"]])
+        apart = transforms.relative(transforms.relative(begin, end), motion)
+        found.append((float(math.hypot(apart[0], apart[1])), abs(math.degrees(apart[2]))))
+    return found
+
+
+def loop_figures(loops, start, truth):
+    """What became of loops (dict, as run_bag's report has it), with those that are false: dict."""
+    off = loop_errors(loops["closed"], start, truth)
+    return {
+        **loops,
+        "closed": len(off),
+        "false": sum(position > FALSE_M or turn > FALSE_DEG for position, turn in off),
+        "max_m": max((position for position, _ in off), default=None),
+        "max_deg": max((turn for _, turn in off), default=None),
+    }
+
+
 def table(results):
     """The results (list of dict, one a seed) as text."""
-    rows = [["seed", "", "off at the end, m", "% of the way", "deg", "at the most, m"]]
+    rows = [["seed", "", "off at the end, m", "% of the distance", "deg", "at the most, m",
+             "loops", "false", "at the most off, m", "deg"]]  # fmt: skip
     for result in results:
         for name in PATHS:
             scored = result[name]
             figures = scored["end_m"], 100.0 * scored["end_share"], scored["end_deg"]
+            loops = result["loops"] if name == "with loops closed" else None
             rows.append([str(result["seed"]), name, *(f"{figure:.3f}" for figure in figures),
-                         f"{scored['max_m']:.2f}"])  # fmt: skip
+                         f"{scored['max_m']:.2f}", *_loop_cells(loops)])  # fmt: skip
     times = {stage: np.mean([result["time"][stage]["mean_s"] for result in results])
              for stage in ("grid_slam", "loop_closing")}  # fmt: skip
     notes = [f"{stage}: {1e3 * mean:.2f} ms a scan" for stage, mean in times.items()]
     return "\n".join([aligned(rows), *notes])
 
 
+def _loop_cells(loops):
+    if loops is None:
+        return [""] * 4
+    return [str(loops["closed"]), str(loops["false"]),
+            rounded(loops["max_m"], 2), rounded(loops["max_deg"], 2)]  # fmt: skip
+
+
 def _drive(values, seed):
     """Result (dict) of one seed. Raises StepFailed."""
     with tempfile.TemporaryDirectory(prefix="loop_closing_") as name:
         folder = Path(name)
-        recorded, computed, times = (folder / file for file in ("in.bag", "out.bag", "times.json"))
+        recorded, computed = folder / "in.bag", folder / "out.bag"
+        times, report = folder / "times.json", folder / "report.json"
         drive = simulated_run.SimulatedDrive(values.scene, (f"seed={seed}",))
         simulated_run.record(drive, values.programs, recorded)
         programs.call(values.programs / "run_bag", recorded, computed, "--config", values.config,
                       "--loop-closing", "--until", "loop_closing", "--times", times,
-                      "--quiet")  # fmt: skip
+                      "--report", report, "--quiet")  # fmt: skip
         truth = read_path(recorded, "/ground_truth/pose")
         scored = {kind: errors(read_path(computed, topic), truth) for kind, topic in PATHS.items()}
-        return {"seed": seed, **scored, "time": json.loads(times.read_text(encoding="utf-8"))}
+        found = json.loads(report.read_text(encoding="utf-8"))
+        loops = loop_figures(found["loops"], round(found["start_s"] * NANOSECONDS), truth)
+        time = json.loads(times.read_text(encoding="utf-8"))
+        return {"seed": seed, **scored, "loops": loops, "time": time}
 
 
 def _run(values):
@@ -104,7 +148,8 @@ def _run(values):
 def _parser():
     parser = command_line.new_parser("loop_closing", DESCRIPTION)
     add = parser.add_argument
-    add("scene", type=Path, metavar="SCENE.yaml", help="round a closed course")
+    add("scene", type=Path, metavar="SCENE.yaml",
+        help="of the simulator: round a closed course, or one without loops")  # fmt: skip
     add("--programs", type=Path, required=True, metavar="FOLDER", help="of simulate and run_bag")
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
     add("--seeds", type=int, default=3, metavar="N", help="from 1 on (default %(default)s)")

@@ -40,7 +40,7 @@ struct LoopClosingStageOptions {
 /// The optimized drive, in the global frame.
 struct OptimizedDrive {
   nav_msgs::PathConstPtr trajectory;
-  nav_msgs::OccupancyGridConstPtr map;
+  nav_msgs::OccupancyGridConstPtr map;  ///< null if it is too wide for one
 };
 
 /// LoopCloser between messages. The same stage serves the nodelet, where loops are searched and
@@ -75,6 +75,10 @@ class LoopClosingStage : public Stage {
   /// Throws MapFileError, also if there is none yet.
   std::string saveMap(const std::string& file) const;
 
+  /// What became of the searches for loops in the drive that was put out last, and its loops.
+  const LoopCounts& counts() const { return counts_; }
+  const std::vector<ClosedLoop>& loops() const { return loops_; }
+
   /// Blocks until the thread has nothing to do: for tests.
   void waitUntilIdle() { worker_.waitUntilIdle(); }
 
@@ -90,6 +94,7 @@ class LoopClosingStage : public Stage {
   void takeResults();
   void show(const LoopResult& result);
   tf2_msgs::TFMessageConstPtr transformAt(Stamp stamp, const Pose2& base_in_map);
+  std::vector<LoopJob::Step> takeWaiting();
   OptimizedDrive driveOf(const LoopResult& result) const;
 
   LoopClosingStageOptions options_;
@@ -105,6 +110,8 @@ class LoopClosingStage : public Stage {
   Stamp last_;                    ///< scan
   std::optional<Stamp> changed_;  ///< ROS time since when the drive put out last is old
   std::optional<OptimizedDrive> due_;
+  LoopCounts counts_;
+  std::vector<ClosedLoop> loops_;
   std::shared_ptr<const OccupancyMap> map_;
   std::unique_ptr<LoopCloser> closer_;
   NewestWorker<LoopJob, LoopResult> worker_;  ///< last: its thread uses the closer

@@ -20,7 +20,7 @@ struct LoopJob {
   };
 
   std::vector<Step> steps;
-  bool wants_results = false;  ///< the trajectory and the map
+  bool wants_results = false;  ///< trajectory, loops and map
   std::uint64_t drive = 0;     ///< to which they belong
 };
 
@@ -34,12 +34,14 @@ struct LoopResult {
   double residual = 0.0;                    ///< in standard deviations
   double seconds = 0.0;                     ///< that it took
   std::vector<StampedPose> trajectory;      ///< empty if it was not wanted
-  std::shared_ptr<const OccupancyMap> map;  ///< null if it was not wanted
+  std::vector<ClosedLoop> loops;            ///< the same
+  std::shared_ptr<const OccupancyMap> map;  ///< null if it was not wanted, or cannot be drawn
   std::uint64_t drive = 0;
   std::string error;  ///< what went wrong; empty: nothing
 };
 
-/// Throws nothing.
+/// Throws nothing. After an error in the middle of the steps the closer is empty: what is left of
+/// the drive begins anew.
 LoopResult closeLoops(LoopCloser& closer, const LoopJob& job);
 
 }  // namespace datmo
