@@ -162,8 +162,11 @@ std::optional<std::size_t> LoopCloser::oldNear(std::size_t node,
     const double distance = (poses[i].position() - poses[node].position()).norm();
     const double turn = std::abs(angleBetween(poses[i].heading(), poses[node].heading()));
     const double cost = distance + kDistancePerTurn * turn;
-    if (cost < min_cost &&
-        distance <= options_.max_distance + kDriftReach * largestSigma(drift[i])) {
+    if (cost >= min_cost) {
+      continue;
+    }
+    const double sigma = largestSigma(drift[i]);
+    if (sigma <= options_.max_sigma && distance <= options_.max_distance + kDriftReach * sigma) {
       nearest = i;
       min_cost = cost;
     }

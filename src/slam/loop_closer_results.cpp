@@ -42,6 +42,10 @@ void LoopCloserOptions::visit(OptionVisitor& visitor) {
                   "where more may have drifted (standard deviation), a loop needs a second one "
                   "that confirms it"},
                  trusted_sigma, {0.0, 1000.0});
+  visitor.number({"max_sigma", "m",
+                  "where more may have drifted no loop is looked for: some place like it is found "
+                  "in so wide an area"},
+                 max_sigma, {0.1, 1000.0});
   visitor.number({"position_drift", "m/m^0.5",
                   "of the live SLAM along the drive, beside what it claims (standard deviation)"},
                  position_drift, {0.0001, 10.0});

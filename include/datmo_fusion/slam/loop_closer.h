@@ -18,6 +18,7 @@ struct LoopCloserOptions {
   double min_loop = 60.0;               ///< m
   double max_distance = 8.0;            ///< m
   double trusted_sigma = 1.0;           ///< m
+  double max_sigma = 20.0;              ///< m
   double position_drift = 0.05;         ///< m per square root of m
   double heading_drift = degrees(0.2);  ///< rad per square root of m
   int max_scans = 20000;

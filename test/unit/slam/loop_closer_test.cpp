@@ -111,6 +111,14 @@ TEST(LoopCloserTest, WhatIsUniqueIsFoundWithinTheSameUncertainty) {
   EXPECT_GT(returnTo(unlike_street, 0.0, 10.0).closed, 0U);
 }
 
+TEST(LoopCloserTest, InTooWideAnAreaNothingIsLookedFor) {
+  const auto unlike_street = [](const Pose2& base, double seconds) {
+    return Yard().scan(base * Pose2(-5.0, 0.0, 0.0), seconds);
+  };
+  const LoopCounts counts = returnTo(unlike_street, 0.0, 25.0);
+  EXPECT_EQ(counts.closed + counts.ambiguous + counts.unlike, 0U);
+}
+
 TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
   const auto other = [](const Pose2& base, double seconds) {
     return base.x() < 100.0 ? Yard().scan(base * Pose2(-5.0, 0.0, 0.0), seconds)
