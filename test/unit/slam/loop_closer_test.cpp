@@ -129,7 +129,7 @@ TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
 
 TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
   // Two places 100 m apart, each visited twice. The way between them is known to 4 m, but for the
-  // last time; on the first visit the second place is taken to be 5 m to the left.
+  // last time; on the first visit the second place is taken to be 8 m to the left.
   const auto places = [](const Pose2& base, double seconds) {
     return base.x() < 70.0 ? Yard().scan(Pose2(-5.0, 0.0, 0.0) * base, seconds)
                            : Yard().scan(Pose2(134.0, 2.0, kPi) * base, seconds);
@@ -141,7 +141,7 @@ TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
   };
   LoopCloser closer(yardOptions());
   double seconds = 0.0;
-  for (const Visit& visit : {Visit{0.0, 0.0, 0.0}, Visit{100.0, 5.0, 1.0}, Visit{0.0, 0.0, 2.0},
+  for (const Visit& visit : {Visit{0.0, 0.0, 0.0}, Visit{100.0, 8.0, 1.0}, Visit{0.0, 0.0, 2.0},
                              Visit{100.0, 0.0, 2.0}}) {
     for (int i = 0; i <= 40; ++i, seconds += 1.0) {
       Keyframe next = keyframe(places, Pose2(visit.x + i, 0.0, 0.0),
@@ -151,7 +151,7 @@ TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
     }
   }
   constexpr std::size_t kMiddleOfSecondVisit = 41 + 20;
-  EXPECT_NEAR(closer.graph().poses()[kMiddleOfSecondVisit].y(), 0.0, 1.0);
+  EXPECT_NEAR(closer.graph().poses()[kMiddleOfSecondVisit].y(), 0.0, 1.4);
   EXPECT_EQ(closer.counts().refuted, 0U);
 }
 
