@@ -28,7 +28,7 @@ class FollowedTarget {
   void step() {
     filter_.predict(step_);
     benchmark::DoNotOptimize(filter_.estimate());
-    filter_.update(seen(), options_.min_probability);
+    filter_.update(seen(), options_.outlier_probability);
   }
 
   PositionMeasurement seen() {

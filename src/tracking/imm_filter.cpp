@@ -67,10 +67,10 @@ double stopShare(const StateEstimate& estimate, const ImmStep& step) {
 void ImmOptions::visit(OptionVisitor& visitor) {
   ClassMotionOptions::visit(visitor);
   visitor.group("transitions", [&] { transitions.visit(visitor); });
-  visitor.number({"min_probability", "1",
-                  "no mode becomes less likely, so that it can come back; standing does, of what "
-                  "is too fast to stand"},
-                 min_probability, {1e-9, 0.1});
+  visitor.number({"outlier_probability", "1",
+                  "that a measurement is of another part of the object or of another thing, and "
+                  "says nothing of how the object moves"},
+                 outlier_probability, {0.0, 0.5});
 }
 
 ImmStep immStep(const ImmOptions& options, double seconds, ObjectClass object_class) {
@@ -151,32 +151,33 @@ ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const Measurement& measured)
 
 /// `learn`: it is the first measurement since the prediction, which the transitions learn from.
 template <typename Measurement>
-double ImmFilter::updateModes(const Measurement& measured, double min_probability, bool learn) {
+double ImmFilter::updateModes(const Measurement& measured, double outlier_probability, bool learn) {
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
-  const ModeVector weights = probabilities_.cwiseProduct(likelihoods.relative);
-  const double total = weights.sum();
+  const double total = probabilities_.dot(likelihoods.relative);
+  // An outlier is as likely in each mode: taken to be as likely as what is none is on average, so
+  // that the measurement alone does not tell which it is.
+  const ModeVector contaminated = (1.0 - outlier_probability) * likelihoods.relative +
+                                  ModeVector::Constant(outlier_probability * total);
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-    double& probability = probabilities_[static_cast<int>(mode)];
-    if (probability > 0.0) {
+    if (probabilities_[static_cast<int>(mode)] > 0.0) {
       modes_[mode] = datmo::update(modes_[mode], measured);
-      const double min = mode == kStanding ? stop_share_ * min_probability : min_probability;
-      probability = std::max(weights[static_cast<int>(mode)] / total, min);
     }
   }
+  probabilities_ = probabilities_.cwiseProduct(contaminated);
   probabilities_ /= probabilities_.sum();
   if (transitions_ && learn) {
-    transitions_->update(probabilities_before_, likelihoods.relative, stop_share_);
+    transitions_->update(probabilities_before_, contaminated, stop_share_);
   }
   combine();
   return likelihoods.log_scale + std::log(total);
 }
 
-double ImmFilter::update(const PositionMeasurement& measured, double min_probability) {
-  return updateModes(measured, min_probability, true);
+double ImmFilter::update(const PositionMeasurement& measured, double outlier_probability) {
+  return updateModes(measured, outlier_probability, true);
 }
 
-double ImmFilter::update(const MeasuredVelocity& measured, double min_probability) {
-  return updateModes(measured, min_probability, false);
+double ImmFilter::update(const MeasuredVelocity& measured, double outlier_probability) {
+  return updateModes(measured, outlier_probability, false);
 }
 
 double ImmFilter::logOverModes(const ModeLikelihoods& likelihoods) const {

@@ -89,7 +89,7 @@ void Target::update(const Observation& observation, std::size_t index, double de
   const double likelihood = filter_.logLikelihood(measured);
   existence_.detect(likelihood, detection_probability, observation.log_density, object.log_odds,
                     options.existence);
-  filter_.update(measured, options.filter.min_probability);
+  filter_.update(measured, options.filter.outlier_probability);
   if (object.velocity) {
     takeVelocity(*object.velocity, options);
   }
@@ -185,7 +185,7 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
   }
   // No product: what misleads a detector in one image does so in the next.
   wrong_velocity_ = std::min(wrong_velocity_, wrong);
-  filter_.update(measured, options.filter.min_probability);
+  filter_.update(measured, options.filter.outlier_probability);
 }
 
 /// Between standing and a velocity that is likelier of what moves it stays as it was. Which of both

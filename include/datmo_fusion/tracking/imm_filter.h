@@ -15,7 +15,7 @@ namespace datmo {
 
 struct ImmOptions : ClassMotionOptions {
   TransitionOptions transitions;
-  double min_probability = 1e-3;
+  double outlier_probability = 0.05;
 
   void visit(OptionVisitor& visitor);
 };
@@ -61,11 +61,13 @@ class ImmFilter {
   void predict(const ImmStep& step);
 
   /// Each mode is updated with the measurement, in the fixed frame, and weighted by how well it had
-  /// predicted it; none that was possible falls below `min_probability`, so that it can come back.
-  /// Returns the logLikelihood of the measurement, as it was before.
-  double update(const PositionMeasurement& measured, double min_probability);
+  /// predicted it. With `outlier_probability`, 0 to 1, it says nothing of the mode (Huber 1964, a
+  /// contaminated density): no single measurement, however far from what a mode predicted, makes
+  /// that mode less likely than by this factor. Returns the logLikelihood of the measurement, as it
+  /// was before.
+  double update(const PositionMeasurement& measured, double outlier_probability);
 
-  double update(const MeasuredVelocity& measured, double min_probability);
+  double update(const MeasuredVelocity& measured, double outlier_probability);
 
   /// Logarithm of the density of a measurement over all modes, of 1/m^2 or 1/(m/s)^2.
   double logLikelihood(const PositionMeasurement& measured) const;
@@ -92,7 +94,7 @@ class ImmFilter {
   template <typename Measurement>
   ModeLikelihoods likelihoodsOf(const Measurement& measured) const;
   template <typename Measurement>
-  double updateModes(const Measurement& measured, double min_probability, bool learn);
+  double updateModes(const Measurement& measured, double outlier_probability, bool learn);
   double logOverModes(const ModeLikelihoods& likelihoods) const;
   void combine();
 

@@ -29,7 +29,7 @@ inline ImmFilter follow(const std::function<Point2(double)>& path, double second
     filter.predict(step);
     const Point2 seen = path(time) + Point2(noise(engine), noise(engine));
     filter.update(PositionMeasurement{seen, Eigen::Matrix2d::Identity() * kSigma * kSigma},
-                  options.min_probability);
+                  options.outlier_probability);
   }
   return filter;
 }

@@ -116,11 +116,28 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   filter.predict(withStopFromAnySpeed());
   const PositionMeasurement far{Point2(1e4, -1e4), Eigen::Matrix2d::Identity() * 1e-4};
   EXPECT_TRUE(std::isfinite(filter.logLikelihood(far)));
-  filter.update(far, options.min_probability);
+  const ModeVector before = filter.modeProbabilities();
+  filter.update(far, options.outlier_probability);
   EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
-  EXPECT_GE(filter.modeProbabilities().minCoeff(), 0.9 * options.min_probability);
+  const ModeVector kept = filter.modeProbabilities().cwiseQuotient(before);
+  EXPECT_GE(kept.minCoeff(), 0.999 * options.outlier_probability);
   EXPECT_TRUE(filter.estimate().mean.allFinite());
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
+}
+
+TEST(ImmFilter, OneMeasurementDoesNotTellThatItMovesTwoDo) {
+  const ImmOptions options;
+  ImmFilter filter = follow([](double) { return Point2(20.0, 5.0); }, 3.0);
+  ASSERT_GT(filter.modeProbabilities()[kStanding], 0.9);
+  std::vector<double> standing;
+  for (const double jump : {2.0, 3.0}) {  // of what is seen of it, m, or 10 m/s
+    filter.predict(immStep(options, kPeriod));
+    filter.update(PositionMeasurement{Point2(20.0 + jump, 5.0), Eigen::Matrix2d::Identity() * 0.01},
+                  options.outlier_probability);
+    standing.push_back(filter.modeProbabilities()[kStanding]);
+  }
+  EXPECT_GT(standing[0], 0.9 * options.outlier_probability * 0.9);
+  EXPECT_LT(standing[1], 0.01);
 }
 
 TEST(ImmFilter, UpdateReturnsTheLogLikelihood) {
@@ -129,7 +146,7 @@ TEST(ImmFilter, UpdateReturnsTheLogLikelihood) {
   filter.predict(immStep(options, kPeriod));
   const PositionMeasurement seen{Point2(10.1, 0.2), Eigen::Matrix2d::Identity() * 0.04};
   const double expected = filter.logLikelihood(seen);
-  EXPECT_NEAR(filter.update(seen, options.min_probability), expected, 1e-12);
+  EXPECT_NEAR(filter.update(seen, options.outlier_probability), expected, 1e-12);
 }
 
 TEST(ImmFilter, AShiftMovesThePositionAndNothingElse) {
@@ -221,9 +238,9 @@ TEST(ImmFilter, AMeasuredVelocityTellsAWalkerFromWhatStands) {
     ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
     const MeasuredVelocity measured{{speed, 0.0}, 0.04 * Eigen::Matrix2d::Identity()};
     const double expected = filter.logLikelihood(measured);
-    EXPECT_EQ(filter.update(measured, options.min_probability), expected);
+    EXPECT_EQ(filter.update(measured, options.outlier_probability), expected);
     filter.predict(immStep(options, kPeriod));
-    filter.update(measured, options.min_probability);
+    filter.update(measured, options.outlier_probability);
     EXPECT_NEAR(filter.estimate().mean[2], speed, 0.2);
     EXPECT_EQ(filter.modeProbabilities()[kStanding] > 0.5, speed == 0.0);
   }
@@ -235,7 +252,7 @@ TEST(ImmFilter, WhatIsFastDoesNotStandInTheNextScan) {
   const Eigen::Vector2d variance(13.7, 0.09);
   const MeasuredVelocity of_another{{1.7, 0.0}, variance.asDiagonal()};
   filter.predict(immStep(ImmOptions(), kPeriod));
-  filter.update(of_another, ImmOptions().min_probability);
+  filter.update(of_another, ImmOptions().outlier_probability);
   EXPECT_LT(filter.modeProbabilities()[kStanding], 0.1);
   EXPECT_GT(filter.estimate().mean[2], 6.0);
 }

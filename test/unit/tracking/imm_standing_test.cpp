@@ -84,7 +84,7 @@ TEST(Standing, SwitchedOffItHasNoProbability) {
     filter.predict(immStep(options, kPeriod));
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
     filter.update(PositionMeasurement{Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01},
-                  options.min_probability);
+                  options.outlier_probability);
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
     EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
   }
