@@ -62,6 +62,15 @@ double stopShare(const StateEstimate& estimate, const ImmStep& step) {
          std::exp(-0.5 * velocity.dot(covariance.inverse() * velocity));
 }
 
+/// By the mode that is left; what stands goes on standing at any speed.
+ModeVector stopShares(const std::array<StateEstimate, kMotionModes>& modes, const ImmStep& step) {
+  ModeVector shares;
+  std::transform(modes.begin(), modes.end(), shares.begin(),
+                 [&](const StateEstimate& mode) { return stopShare(mode, step); });
+  shares[static_cast<int>(kStanding)] = 1.0;
+  return shares;
+}
+
 }  // namespace
 
 void ImmOptions::visit(OptionVisitor& visitor) {
@@ -106,15 +115,11 @@ void ImmFilter::predict(const ImmStep& step) {
   const ModeMatrix& transition =
       transitions_ ? transitions_->predict(step.seconds) : step.transition;
   const ModeMoments moments = momentsAbout(combined_.mean, modes_, probabilities_);
-  stop_share_ = stopShare(combined_, step);
+  stop_shares_ = stopShares(modes_, step);
   ModeMatrix joint = probabilities_.asDiagonal() * transition;
-  for (int from = 0; from < kMotionModes; ++from) {
-    if (from != static_cast<int>(kStanding)) {
-      const double too_fast = (1.0 - stop_share_) * joint(from, kStanding);
-      joint(from, kStanding) -= too_fast;
-      joint(from, from) += too_fast;
-    }
-  }
+  const ModeVector too_fast = joint.col(kStanding).cwiseProduct(ModeVector::Ones() - stop_shares_);
+  joint.col(kStanding) -= too_fast;
+  joint.diagonal() += too_fast;
   probabilities_before_ = probabilities_;
   probabilities_ = joint.colwise().sum().transpose();
   for (std::size_t to = 0; to < modes_.size(); ++to) {
@@ -166,7 +171,7 @@ double ImmFilter::updateModes(const Measurement& measured, double outlier_probab
   probabilities_ = probabilities_.cwiseProduct(contaminated);
   probabilities_ /= probabilities_.sum();
   if (transitions_ && learn) {
-    transitions_->update(probabilities_before_, contaminated, stop_share_);
+    transitions_->update(probabilities_before_, contaminated, stop_shares_);
   }
   combine();
   return likelihoods.log_scale + std::log(total);

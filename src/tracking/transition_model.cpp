@@ -170,19 +170,16 @@ const ModeMatrix& TransitionModel::predict(double seconds) {
 }
 
 void TransitionModel::update(const ModeVector& before, const ModeVector& likelihoods,
-                             double stop_share) {
+                             const ModeVector& stop_shares) {
   if (seconds_ <= 0.0) {
     return;
   }
   constexpr int kStanding = static_cast<int>(MotionMode::kStanding);
+  const ModeVector stops = before.cwiseProduct(matrix_.col(kStanding));
   ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
-  for (int from = 0; from < kMotionModes; ++from) {
-    if (from != kStanding) {
-      joint(from, kStanding) =
-          before[from] * matrix_(from, kStanding) *
-          (stop_share * likelihoods[kStanding] + (1.0 - stop_share) * likelihoods[from]);
-    }
-  }
+  joint.col(kStanding) =
+      stops.cwiseProduct(likelihoods[kStanding] * stop_shares +
+                         likelihoods.cwiseProduct(ModeVector::Ones() - stop_shares));
   const double evidence = joint.sum();
   if (!(evidence > 0.0)) {
     return;  // less than a double resolves

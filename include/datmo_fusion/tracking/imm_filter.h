@@ -101,7 +101,8 @@ class ImmFilter {
   std::array<StateEstimate, kMotionModes> modes_;
   ModeVector probabilities_;
   ModeVector probabilities_before_;  ///< before the last prediction
-  double stop_share_ = 1.0;          ///< 0 to 1, of the jumps into standing that its speed allows
+  /// 0 to 1, of the jumps from each mode into standing: what the mode's speed allows.
+  ModeVector stop_shares_ = ModeVector::Ones();
   StateEstimate combined_;
   std::optional<TransitionModel> transitions_;
 };

@@ -83,9 +83,11 @@ class TransitionModel {
 
   /// Learns from what was seen at the end of the step that was predicted last. `before`: mode
   /// probabilities at its start; `likelihoods`: of the measurement given each mode, 0 or more and
-  /// not all 0, in any unit. `stop_share`, 0 to 1: of the jumps into the standing mode that were
-  /// possible by the object's speed; in the others it stayed in its mode.
-  void update(const ModeVector& before, const ModeVector& likelihoods, double stop_share = 1.0);
+  /// not all 0, in any unit. `stop_shares`, 0 to 1, by the mode before, 1 for standing: of the
+  /// jumps into the standing mode, those possible by the object's speed; in the others it kept its
+  /// mode.
+  void update(const ModeVector& before, const ModeVector& likelihoods,
+              const ModeVector& stop_shares = ModeVector::Ones());
 
   /// Exchanges the prior, as when the class becomes known; what was learned stays.
   void setPrior(const JumpCounts& prior);
