@@ -41,6 +41,16 @@ double sureSpeed(const StateEstimate& estimate) {
   return std::max(0.0, speed - std::sqrt(std::max(0.0, variance)));
 }
 
+/// Logarithm of how much likelier a velocity is for what moves than for what stands.
+double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
+                        double false_motion, const TargetOptions& options) {
+  // Few are faster than a class's usual speed: two standard deviations.
+  const std::vector<double> speed_stds{0.5 * options.class_by_speed.pedestrian_speed,
+                                       0.5 * options.class_by_speed.cyclist_speed,
+                                       options.birth_speed_std};
+  return velocityLogRatio(velocity, covariance, speed_stds, false_motion);
+}
+
 }  // namespace
 
 void TargetOptions::visit(OptionVisitor& visitor) {
@@ -127,33 +137,29 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
   BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
   if (beams.log_ratio_to_grazing) {
-    // The end of a beam has no velocity that can be measured: that which was is of something else.
-    *beams.log_ratio_to_grazing -= std::log(wrong_velocity_);
+    // The end of a beam moves along a wall that stands, and what was measured is the wall.
+    *beams.log_ratio_to_grazing -= std::log(standing_velocity_ratio_);
   }
   const double false_motion =
       beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
   const double log_ratio = motion_log_odds_ +
                            classLogRatio(class_.probabilities(), options.motion_by_class) +
-                           motionLogRatio(beams, velocityEvidence(false_motion, options),
+                           motionLogRatio(beams, trackedVelocityEvidence(false_motion, options),
                                           options.motion_likelihood.grazing_share);
   return datmo::motionProbability(log_ratio, existence_.logOdds(options.existence),
                                   options.motion_likelihood);
 }
 
-/// That it seems to move if it stands.
+/// That it seems to move if it stands: what is seen of it slides, and a measured velocity, as far
+/// as it tells at all, is of something else. No product: one wrong match of points can cause both.
 double Target::falseMotion(const TargetOptions& options) const {
-  return wrong_velocity_ < 1.0 ? wrong_velocity_ : options.motion_likelihood.apparent_motion;
+  return std::min(options.motion_likelihood.apparent_motion, standing_velocity_ratio_);
 }
 
-/// Logarithm of how much likelier its velocity is if it moves than if it stands.
-double Target::velocityEvidence(double false_motion, const TargetOptions& options) const {
+double Target::trackedVelocityEvidence(double false_motion, const TargetOptions& options) const {
   const StateEstimate& estimate = filter_.estimate();
-  // Few are faster than a class's usual speed: two standard deviations.
-  const std::vector<double> speed_stds{0.5 * options.class_by_speed.pedestrian_speed,
-                                       0.5 * options.class_by_speed.cyclist_speed,
-                                       options.birth_speed_std};
-  return velocityLogRatio(estimate.mean.segment<2>(2), estimate.covariance.block<2, 2>(2, 2),
-                          speed_stds, false_motion);
+  return velocityEvidence(estimate.mean.segment<2>(2), estimate.covariance.block<2, 2>(2, 2),
+                          false_motion, options);
 }
 
 double Target::sameClassProbability(const Object& object) const {
@@ -184,7 +190,9 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
     return;
   }
   // No product: what misleads a detector in one image does so in the next.
-  wrong_velocity_ = std::min(wrong_velocity_, wrong);
+  standing_velocity_ratio_ =
+      std::min(standing_velocity_ratio_,
+               std::exp(-velocityEvidence(measured.velocity, measured.covariance, wrong, options)));
   filter_.update(measured, options.filter.outlier_probability);
 }
 
@@ -194,7 +202,7 @@ void Target::judgeMotion(const TargetOptions& options) {
   const double standing = filter_.modeProbabilities()[static_cast<int>(MotionMode::kStanding)];
   if (standing > kEven || filter_.estimate().mean.segment<2>(2).norm() < options.stop_speed) {
     moving_ = false;
-  } else if (velocityEvidence(falseMotion(options), options) > 0.0) {
+  } else if (trackedVelocityEvidence(falseMotion(options), options) > 0.0) {
     moving_ = true;
   }
 }

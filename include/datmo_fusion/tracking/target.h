@@ -121,7 +121,7 @@ class Target {
   void takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
   void judgeMotion(const TargetOptions& options);
   double falseMotion(const TargetOptions& options) const;
-  double velocityEvidence(double false_motion, const TargetOptions& options) const;
+  double trackedVelocityEvidence(double false_motion, const TargetOptions& options) const;
 
   TrackedBox box_;
   ImmFilter filter_;
@@ -132,7 +132,8 @@ class Target {
   std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
-  double wrong_velocity_ = 1.0;  ///< 1, probability that the surest velocity it took is not its own
+  /// 0 to 1, how likely the velocity that tells most is if it stands, over how likely if it moves.
+  double standing_velocity_ratio_ = 1.0;
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;

@@ -47,6 +47,22 @@ TEST(MeasuredVelocity, AWalkerIsATrackWithinHalfASecond) {
   EXPECT_TRUE(!without || *without > *measured);
 }
 
+TEST(MeasuredVelocity, OneThatTellsNothingIsAsNone) {
+  constexpr double kCycling = 4.0;    // m/s
+  constexpr double kUnknown = 100.0;  // m/s
+  TrackingScene with;
+  TrackingScene without;
+  for (int i = 0; without.tracks().tracks.empty() && i < 50; ++i) {
+    const Eigen::Vector2d velocity(kCycling, 0.0);
+    Object vague = seenAt(with, 15.0 + kPeriod * kCycling * i, velocity);
+    vague.velocity->covariance = Eigen::Matrix2d::Identity() * kUnknown * kUnknown;
+    Object none = seenAt(without, 15.0 + kPeriod * kCycling * i, velocity);
+    none.velocity.reset();
+    EXPECT_EQ(with.scan({vague}).tracks.size(), without.scan({none}).tracks.size()) << i;
+  }
+  EXPECT_FALSE(without.tracks().tracks.empty());
+}
+
 TEST(MeasuredVelocity, WhatStandsIsNoTrack) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }
 
 TEST(MeasuredVelocity, TheTrackHasItFromItsFirstScanOn) {
