@@ -219,6 +219,15 @@ std::optional<MeasuredVelocity> combinedVelocity(const std::optional<MeasuredVel
                           std::max(a->wrong_probability, b->wrong_probability)};
 }
 
+/// Of a camera's scattered points those are none that a beam ended at, nor is a single echo among
+/// them a surface.
+const std::vector<Point2>& surestPoints(const Object& a, const Object& b) {
+  if (a.points.empty() || b.points.empty()) {
+    return a.points.empty() ? b.points : a.points;
+  }
+  return a.position_covariance.trace() <= b.position_covariance.trace() ? a.points : b.points;
+}
+
 /// What the road says of one position is said once, however many sensors see something there.
 double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
 
@@ -241,8 +250,7 @@ Object combined(const Object& a, const Object& b) {
   std::sort(result.sensors.begin(), result.sensors.end());
   result.sensors.erase(std::unique(result.sensors.begin(), result.sensors.end()),
                        result.sensors.end());
-  result.points = a.points;
-  result.points.insert(result.points.end(), b.points.begin(), b.points.end());
+  result.points = surestPoints(a, b);
   return result;
 }
 

@@ -278,12 +278,21 @@ TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
   a.motion_log_odds = -3.0;
   const Object fused = combined(a, b);
   EXPECT_EQ(fused.sensors, (std::vector<std::string>{"lidar", "stereo"}));
-  EXPECT_EQ(fused.points.size(), 3U);
   EXPECT_EQ(fused.height, 1.5);
   EXPECT_EQ(fused.moving_fraction, 0.8);
   EXPECT_DOUBLE_EQ(fused.log_odds, 0.3);
   EXPECT_DOUBLE_EQ(fused.motion_log_odds, -3.0) << "one of them alone knows the road";
   EXPECT_EQ(combined(fused, a).sensors, fused.sensors);
+}
+
+TEST(ObjectCombinationTest, PointsAreThoseOfWhoeverKnowsThePositionBest) {
+  Object camera = pointObject(10.0, 0.0, 0.5, "stereo");
+  Object scanner = pointObject(10.0, 0.0, 0.1, "lidar");
+  camera.points = {{9.0, 0.1}, {11.0, 0.0}};
+  EXPECT_EQ(combined(camera, scanner).points, camera.points) << "the scanner gave none";
+  scanner.points = {{10.0, 0.0}};
+  EXPECT_EQ(combined(camera, scanner).points, scanner.points);
+  EXPECT_EQ(combined(scanner, camera).points, scanner.points);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace datmo {
 /// (`delay`) is weighted as its position is: right for all constant velocities.
 ///
 /// Class by Bayes; moving if one says so, else static if one says so. The logarithms of the odds
-/// add up, as for independent detectors. Symmetric but for the order of points. Both must be valid
-/// (isValid).
+/// add up, as for independent detectors. The points are those of the one whose position is surer,
+/// as they are asked where exactly it was seen. Both must be valid (isValid).
 Object combined(const Object& a, const Object& b);
 
 }  // namespace datmo
