@@ -91,6 +91,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/object/position_covariance.cpp
   fusion/sync/relative_motion.cpp
   fusion/sync/source_matcher.cpp
+  fusion/track/class_memory.cpp
   fusion/track/cross_covariance.cpp
   fusion/track/fused_state.cpp
   fusion/track/fused_targets.cpp

@@ -177,6 +177,7 @@ datmo_fusion_add_core_test(fusion
   fusion/earth_frame_test.cpp
   fusion/fused_existence_test.cpp
   fusion/fused_state_test.cpp
+  fusion/class_memory_test.cpp
   fusion/fused_targets_test.cpp
   fusion/grid_fuser_test.cpp
   fusion/grid_fusion_test.cpp

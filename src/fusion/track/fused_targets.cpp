@@ -42,6 +42,15 @@ std::optional<std::uint32_t> FusedTarget::member(const std::string& source) cons
   return found == track.sources.end() ? std::nullopt : std::make_optional(found->id);
 }
 
+void FusedTarget::takeClasses(const std::map<Member, ClassProbabilities>& said) {
+  std::map<Member, ClassProbabilities> own;
+  for (const auto& [member, stamp] : since) {
+    own[member] = said.at(member);
+  }
+  classes.update(own, said);
+  track.class_probabilities = classes.belief();
+}
+
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
   // One that was lost may be known by a track that has gone over to another.
   std::multimap<FusedTarget::Member, std::size_t> owners_of;

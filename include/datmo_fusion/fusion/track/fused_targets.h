@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "datmo_fusion/fusion/track/class_memory.h"
 #include "datmo_fusion/fusion/track/track_fuser_options.h"
 #include "datmo_fusion/tracking/track.h"
 
@@ -16,11 +17,12 @@ namespace datmo {
 
 /// An object that one source or more have a track of.
 struct FusedTarget {
-  using Member = std::pair<std::string, std::uint32_t>;  ///< a source, and the id of its track
+  using Member = ClassMemory::Member;
 
   std::uint32_t id = 0;
   Track track;                    ///< fused, at the present; `sources`: those it was last fused of
   std::map<Member, Stamp> since;  ///< when it got each of these tracks
+  ClassMemory classes;            ///< what these and those before them said of its class
   Stamp born;                     ///< when the first object of any of its tracks was seen
   bool present = true;            ///< a source has a track of it now
   double lost = 0.0;              ///< s, since one had
@@ -33,6 +35,9 @@ struct FusedTarget {
 
   /// Id of this source's track of it; none if it has none.
   std::optional<std::uint32_t> member(const std::string& source) const;
+
+  /// Takes in what all tracks of the present say of the class of what they are of.
+  void takeClasses(const std::map<Member, ClassProbabilities>& said);
 };
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of
