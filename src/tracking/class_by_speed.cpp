@@ -2,32 +2,66 @@
 #include "datmo_fusion/tracking/class_by_speed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
-void ClassBySpeedOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"pedestrian_speed", "m/s",
-                  "few people are faster on foot: 1.4 m/s is the mean of those who walk, 2.5 m/s "
-                  "is a jog"},
-                 pedestrian_speed, {0.1, 20.0});
-  visitor.number({"cyclist_speed", "m/s", "few cyclists are faster"}, cyclist_speed, {0.1, 50.0});
-  visitor.number({"spread", "m/s", "by which the faster ones are, as a standard deviation"}, spread,
-                 {0.01, 20.0});
+namespace {
+
+/// Up to a term that is the same for all.
+double logDensity(const ClassSpeed& class_speed, double speed, double speed_std) {
+  const double variance = square(class_speed.std) + square(speed_std);
+  return -0.5 * (square(speed - class_speed.mean) / variance + std::log(variance));
 }
 
-ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed,
-                                  const ClassBySpeedOptions& options) {
-  ClassProbabilities result = said;
-  const auto pass = [&](ObjectClass slower, ObjectClass faster, double usual) {
-    const double beyond = std::max(0.0, speed - usual) / options.spread;
-    double& of_slower = result[static_cast<std::size_t>(slower)];
-    const double passed = of_slower * (1.0 - std::exp(-0.5 * beyond * beyond));
-    of_slower -= passed;
-    result[static_cast<std::size_t>(faster)] += passed;
+}  // namespace
+
+void ClassBySpeedOptions::visit(OptionVisitor& visitor) {
+  const auto visitSpeed = [&](const std::string& name, const std::string& source,
+                              ClassSpeed& speed) {
+    visitor.group(name, [&] {
+      visitor.number({"mean", "m/s", source}, speed.mean, {0.1, 50.0});
+      visitor.number({"std", "m/s", "standard deviation of the speed"}, speed.std, {0.01, 50.0});
+    });
   };
-  pass(ObjectClass::kPedestrian, ObjectClass::kCyclist, options.pedestrian_speed);
-  pass(ObjectClass::kCyclist, ObjectClass::kVehicle, options.cyclist_speed);
+  visitSpeed("pedestrian", "1.34 m/s with 0.26 walking (Weidmann 1993); some run", pedestrian);
+  visitSpeed("cyclist", "15 to 17 km/h on average (Schleinitz et al. 2017)", cyclist);
+  visitSpeed("vehicle", "in cities, from a junction to 50 km/h", vehicle);
+}
+
+ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed, double speed_std,
+                                  const ClassBySpeedOptions& options) {
+  using OfClass = std::pair<ObjectClass, double>;
+  std::array<OfClass, 3> users = {
+      {{ObjectClass::kPedestrian, logDensity(options.pedestrian, speed, speed_std)},
+       {ObjectClass::kCyclist, logDensity(options.cyclist, speed, speed_std)},
+       {ObjectClass::kVehicle, logDensity(options.vehicle, speed, speed_std)}}};
+  const double best =
+      std::max_element(users.begin(), users.end(), [](const OfClass& a, const OfClass& b) {
+        return a.second < b.second;
+      })->second;
+  double mean = 0.0;
+  for (auto& [object_class, likelihood] : users) {
+    likelihood = std::exp(likelihood - best);
+    mean += likelihood / static_cast<double>(users.size());
+  }
+  ClassProbabilities result = said;
+  for (const auto& [object_class, likelihood] : users) {
+    result[static_cast<std::size_t>(object_class)] *= likelihood / mean;
+  }
+  const double total = std::accumulate(result.begin(), result.end(), 0.0);
+  if (total <= 0.0) {  // surely of a class that is never so fast
+    return said;
+  }
+  for (double& probability : result) {
+    probability /= total;
+  }
   return result;
 }
 

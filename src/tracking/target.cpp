@@ -29,25 +29,21 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
 /// That something is as likely as not.
 constexpr double kEven = 0.5;
 
-/// m/s, but for one standard deviation.
-double sureSpeed(const StateEstimate& estimate) {
+/// What is moving, by what was said of it and its speed.
+ClassProbabilities weighed(const ClassProbabilities& said, const StateEstimate& estimate,
+                           const ClassBySpeedOptions& options) {
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
-  const double speed = velocity.norm();
-  if (speed <= 0.0) {
-    return 0.0;
-  }
-  const Eigen::Vector2d along = velocity / speed;
+  const Eigen::Vector2d along = velocity.normalized();
   const double variance = along.dot(estimate.covariance.block<2, 2>(2, 2) * along);
-  return std::max(0.0, speed - std::sqrt(std::max(0.0, variance)));
+  return weighedBySpeed(said, velocity.norm(), std::sqrt(std::max(0.0, variance)), options);
 }
 
 /// Logarithm of how much likelier a velocity is for what moves than for what stands.
 double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         double false_motion, const TargetOptions& options) {
-  // Few are faster than a class's usual speed: two standard deviations.
-  const std::vector<double> speed_stds{0.5 * options.class_by_speed.pedestrian_speed,
-                                       0.5 * options.class_by_speed.cyclist_speed,
-                                       options.birth_speed_std};
+  const std::vector<double> speed_stds{options.class_by_speed.pedestrian.componentStd(),
+                                       options.class_by_speed.cyclist.componentStd(),
+                                       options.class_by_speed.vehicle.componentStd()};
   return velocityLogRatio(velocity, covariance, speed_stds, false_motion);
 }
 
@@ -225,8 +221,8 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities =
-      weighedBySpeed(class_.probabilities(), moving_ ? sureSpeed(filter_.estimate()) : 0.0,
-                     options.class_by_speed);
+      moving_ ? weighed(class_.probabilities(), filter_.estimate(), options.class_by_speed)
+              : class_.probabilities();
   track.age = age_;
   track.since_update = since_update_;
   track.hits = hits_;

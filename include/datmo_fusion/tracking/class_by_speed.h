@@ -6,20 +6,30 @@
 
 namespace datmo {
 
+/// The speeds of road users of one class, while they move: normally distributed.
+struct ClassSpeed {
+  double mean;  ///< m/s
+  double std;   ///< m/s
+
+  /// m/s, standard deviation of each component of a velocity of unknown direction: what is as fast
+  /// as two standard deviations of it is as fast as two of the speed.
+  double componentStd() const { return 0.5 * mean + std; }
+};
+
 struct ClassBySpeedOptions {
-  double pedestrian_speed = 2.5;  ///< m/s
-  double cyclist_speed = 10.0;    ///< m/s
-  double spread = 1.0;            ///< m/s
+  ClassSpeed pedestrian{1.4, 0.6};
+  ClassSpeed cyclist{4.8, 1.5};
+  ClassSpeed vehicle{8.0, 5.0};
 
   void visit(OptionVisitor& visitor);
 };
 
-/// What a moving object is, by the sensors' classes and by its speed: seen from behind, a cyclist
-/// is as wide and as high as somebody who walks. What looks like a person and is too fast to walk
-/// rides, and what is too fast to ride has a motor.
+/// What a moving object is, by the sensors' classes and by its speed (Bayes): seen from behind, a
+/// cyclist is as wide and as high as somebody who walks, and of a car far away two beams tell
+/// nothing. The speed of anything else carries no information.
 ///
-/// `speed`: m/s, at least 0, that it surely has. The result sums to 1 if `said` does.
-ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed,
+/// `speed`: m/s, at least 0, with its standard deviation (m/s). The result sums to 1.
+ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed, double speed_std,
                                   const ClassBySpeedOptions& options);
 
 }  // namespace datmo
