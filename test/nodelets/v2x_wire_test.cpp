@@ -15,6 +15,7 @@
 #include "datmo_fusion/risk/host_motion.h"
 #include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::v2x_wire_test {
 namespace {
