@@ -2,6 +2,7 @@
 #include "datmo_fusion/fusion/track/class_memory.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace datmo {
 
@@ -39,9 +40,12 @@ ClassProbabilities ClassMemory::belief() const {
       surest->second = belief;
     }
   }
-  ClassProbabilities joint = ClassBelief().probabilities();
-  for (const auto& [source, belief] : by_source) {
-    joint = jointBelief(joint, belief);
+  if (by_source.empty()) {
+    return ClassBelief().probabilities();
+  }
+  ClassProbabilities joint = by_source.begin()->second;
+  for (auto source = std::next(by_source.begin()); source != by_source.end(); ++source) {
+    joint = jointBelief(joint, source->second);
   }
   return joint;
 }
