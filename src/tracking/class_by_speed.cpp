@@ -32,7 +32,7 @@ void ClassBySpeedOptions::visit(OptionVisitor& visitor) {
   };
   visitSpeed("pedestrian", "1.34 m/s with 0.26 walking (Weidmann 1993); some run", pedestrian);
   visitSpeed("cyclist", "15 to 17 km/h on average (Schleinitz et al. 2017)", cyclist);
-  visitSpeed("vehicle", "in cities, from a junction to 50 km/h", vehicle);
+  visitSpeed("vehicle", "in cities: from turning and queues to 50 km/h", vehicle);
 }
 
 ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed, double speed_std,

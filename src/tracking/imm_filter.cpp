@@ -159,10 +159,13 @@ template <typename Measurement>
 double ImmFilter::updateModes(const Measurement& measured, double outlier_probability, bool learn) {
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
   const double total = probabilities_.dot(likelihoods.relative);
-  // An outlier is as likely in each mode: taken to be as likely as what is none is on average, so
-  // that the measurement alone does not tell which it is.
-  const ModeVector contaminated = (1.0 - outlier_probability) * likelihoods.relative +
-                                  ModeVector::Constant(outlier_probability * total);
+  // An outlier is as likely in each mode, and as likely as the measurement is on average: so the
+  // probabilities become those by Bayes, and with the outliers' probability stay as they were.
+  ModeVector contaminated = ModeVector::Ones();
+  if (total > 0.0) {
+    contaminated = (1.0 - outlier_probability) * likelihoods.relative +
+                   ModeVector::Constant(outlier_probability * total);
+  }
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
     if (probabilities_[static_cast<int>(mode)] > 0.0) {
       modes_[mode] = datmo::update(modes_[mode], measured);

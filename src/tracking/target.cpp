@@ -33,8 +33,10 @@ constexpr double kEven = 0.5;
 ClassProbabilities weighed(const ClassProbabilities& said, const StateEstimate& estimate,
                            const ClassBySpeedOptions& options) {
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
   const Eigen::Vector2d along = velocity.normalized();
-  const double variance = along.dot(estimate.covariance.block<2, 2>(2, 2) * along);
+  const double variance =
+      velocity.isZero() ? 0.5 * covariance.trace() : along.dot(covariance * along);
   return weighedBySpeed(said, velocity.norm(), std::sqrt(std::max(0.0, variance)), options);
 }
 
@@ -43,7 +45,7 @@ double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
                         double false_motion, const TargetOptions& options) {
   const std::vector<double> speed_stds{options.class_by_speed.pedestrian.componentStd(),
                                        options.class_by_speed.cyclist.componentStd(),
-                                       options.class_by_speed.vehicle.componentStd()};
+                                       options.birth_speed_std};
   return velocityLogRatio(velocity, covariance, speed_stds, false_motion);
 }
 

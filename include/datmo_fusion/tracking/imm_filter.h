@@ -61,10 +61,9 @@ class ImmFilter {
   void predict(const ImmStep& step);
 
   /// Each mode is updated with the measurement, in the fixed frame, and weighted by how well it had
-  /// predicted it. With `outlier_probability`, 0 to 1, it says nothing of the mode (Huber 1964, a
-  /// contaminated density): no single measurement, however far from what a mode predicted, makes
-  /// that mode less likely than by this factor. Returns the logLikelihood of the measurement, as it
-  /// was before.
+  /// predicted it. With `outlier_probability`, 0 to 1, it says nothing of the mode: no single
+  /// measurement, however far from what a mode predicted, makes that mode less likely than by this
+  /// factor. Returns the logLikelihood of the measurement, as it was before.
   double update(const PositionMeasurement& measured, double outlier_probability);
 
   double update(const MeasuredVelocity& measured, double outlier_probability);

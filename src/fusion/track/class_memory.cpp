@@ -2,50 +2,50 @@
 #include "datmo_fusion/fusion/track/class_memory.h"
 
 #include <algorithm>
-#include <iterator>
+#include <vector>
 
 namespace datmo {
 
 namespace {
 
-bool tellsMore(const ClassProbabilities& a, const ClassProbabilities& b) {
-  return *std::max_element(a.begin(), a.end()) > *std::max_element(b.begin(), b.end());
+/// Above chance, of the likeliest class: less is nothing but the doubt of ClassBelief.
+constexpr double kTelling = 0.05;
+
+bool tellsAnything(const ClassProbabilities& belief) {
+  const double chance = 1.0 / static_cast<double>(belief.size());
+  return *std::max_element(belief.begin(), belief.end()) > chance + kTelling;
 }
 
 }  // namespace
 
-void ClassMemory::update(const std::map<Member, ClassProbabilities>& own,
-                         const std::map<Member, ClassProbabilities>& all) {
-  std::map<std::string, std::pair<Member, ClassProbabilities>> ended;
-  for (const auto& [member, belief] : said_) {
-    if (all.count(member) > 0) {
-      continue;  // it is the object's own, or went over to another
-    }
-    const auto [surest, added] = ended.try_emplace(member.first, member, belief);
-    if (!added && tellsMore(belief, surest->second.second)) {
-      surest->second = {member, belief};
+void ClassMemory::update(const Beliefs& own, const Beliefs& all) {
+  for (const auto& [member, belief] : present_) {
+    if (all.count(member) == 0 && tellsAnything(belief)) {
+      ended_[member.first] = belief;
     }
   }
-  said_ = own;
-  for (const auto& [source, one] : ended) {
-    said_.insert(one);
+  for (const auto& [member, belief] : own) {
+    if (tellsAnything(belief)) {
+      ended_.erase(member.first);
+    }
   }
+  present_ = own;
 }
 
 ClassProbabilities ClassMemory::belief() const {
-  std::map<std::string, ClassProbabilities> by_source;
-  for (const auto& [member, belief] : said_) {
-    const auto [surest, added] = by_source.try_emplace(member.first, belief);
-    if (!added && tellsMore(belief, surest->second)) {
-      surest->second = belief;
-    }
+  std::vector<ClassProbabilities> beliefs;
+  for (const auto& [member, belief] : present_) {
+    beliefs.push_back(belief);
   }
-  if (by_source.empty()) {
+  for (const auto& [source, belief] : ended_) {
+    beliefs.push_back(belief);
+  }
+  if (beliefs.empty()) {
     return ClassBelief().probabilities();
   }
-  ClassProbabilities joint = by_source.begin()->second;
-  for (auto source = std::next(by_source.begin()); source != by_source.end(); ++source) {
-    joint = jointBelief(joint, source->second);
+  ClassProbabilities joint = beliefs.front();
+  for (std::size_t i = 1; i < beliefs.size(); ++i) {
+    joint = jointBelief(joint, beliefs[i]);
   }
   return joint;
 }

@@ -42,12 +42,13 @@ std::optional<std::uint32_t> FusedTarget::member(const std::string& source) cons
   return found == track.sources.end() ? std::nullopt : std::make_optional(found->id);
 }
 
-void FusedTarget::takeClasses(const std::map<Member, ClassProbabilities>& said) {
-  std::map<Member, ClassProbabilities> own;
-  for (const auto& [member, stamp] : since) {
-    own[member] = said.at(member);
+void FusedTarget::updateClass(const ClassMemory::Beliefs& beliefs) {
+  ClassMemory::Beliefs own;
+  for (const SourceTrack& one : present ? track.sources : std::vector<SourceTrack>()) {
+    const Member member(one.source, one.id);
+    own[member] = beliefs.at(member);
   }
-  classes.update(own, said);
+  classes.update(own, beliefs);
   track.class_probabilities = classes.belief();
 }
 

@@ -213,15 +213,15 @@ void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) 
 }
 
 void TrackFuser::judgeAll(Stamp stamp, const std::vector<PresentTracks>& present) {
-  std::map<FusedTarget::Member, ClassProbabilities> classes;
+  ClassMemory::Beliefs beliefs;
   for (const PresentTracks& list : present) {
     for (const Track& track : list.tracks) {
-      classes[{names_[list.source], track.id}] = track.class_probabilities;
+      beliefs[{names_[list.source], track.id}] = track.class_probabilities;
     }
   }
   for (FusedTarget& target : targets_.all()) {
+    target.updateClass(beliefs);
     if (target.present) {
-      target.takeClasses(classes);
       judge(target, stamp, present);
     }
     target.wanted = target.present && isWanted(target);

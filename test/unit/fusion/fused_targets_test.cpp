@@ -38,6 +38,29 @@ TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
   }
 }
 
+TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
+  TrackFuser fuser{TrackFuserOptions()};
+  ClassBelief person;
+  person.update(ObjectClass::kPedestrian, 0.9);
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    const double x = 10.0 + 1.5 * t;
+    std::vector<Track> by_stereo;
+    if (i < 15) {
+      by_stereo = {carTrack(x, 0.0, 1.5, 0.0, "stereo", 9)};
+      by_stereo[0].class_probabilities = person.probabilities();
+    }
+    Track by_lidar = carTrack(x, 0.0, 1.5, 0.0, "lidar", 5);
+    by_lidar.class_probabilities = ClassBelief().probabilities();
+    const auto result = fuser.fuse(at(t), {lidar(t, {by_lidar}), stereo(t, by_stereo)});
+    if (i > 10) {
+      ASSERT_EQ(result.list.tracks.size(), 1U) << t;
+      const ClassProbabilities& belief = result.list.tracks[0].class_probabilities;
+      EXPECT_GT(belief[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.5) << t;
+    }
+  }
+}
+
 TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
   // Of the camera alone, and so not of the thesis's list, however sure.
   TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));

@@ -32,6 +32,14 @@ TEST(ClassBySpeed, WhatIsTooFastToRideDrives) {
   EXPECT_GT(of(ObjectClass::kVehicle, result), 0.8);
 }
 
+TEST(ClassBySpeed, ACarThatIsSurelyOneStaysACarWhenItCreeps) {
+  const ClassProbabilities said{0.01, 0.01, 0.01, 0.96, 0.01};
+  for (const double speed : {0.5, 1.4, 5.0}) {
+    const ClassProbabilities result = weighedBySpeed(said, speed, 0.3, ClassBySpeedOptions());
+    EXPECT_GT(of(ObjectClass::kVehicle, result), 0.7) << speed;
+  }
+}
+
 TEST(ClassBySpeed, IsAsComputedByHand) {
   ClassBySpeedOptions options;
   options.pedestrian = {1.0, 0.3};

@@ -125,12 +125,12 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
 }
 
-TEST(ImmFilter, OneMeasurementDoesNotTellThatItMovesTwoDo) {
+TEST(ImmFilter, OneMeasurementLeavesStandingItsShareOfOutliersTwoDoNot) {
   const ImmOptions options;
   ImmFilter filter = follow([](double) { return Point2(20.0, 5.0); }, 3.0);
   ASSERT_GT(filter.modeProbabilities()[kStanding], 0.9);
   std::vector<double> standing;
-  for (const double jump : {2.0, 3.0}) {  // of what is seen of it, m, or 10 m/s
+  for (const double jump : {2.0, 3.0}) {  // of what is seen of it, m
     filter.predict(immStep(options, kPeriod));
     filter.update(PositionMeasurement{Point2(20.0 + jump, 5.0), Eigen::Matrix2d::Identity() * 0.01},
                   options.outlier_probability);

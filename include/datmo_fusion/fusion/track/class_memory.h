@@ -10,25 +10,27 @@
 
 namespace datmo {
 
-/// What all sources have said of the class of one object, by the tracks that they had of it.
+/// What all sources believe of the class of one object, by the tracks that they have of it.
 ///
 /// An object stays what it is when it leaves the view of the sensor that told its class, so the
-/// belief of a track that ended counts on. That of one that went over to another object does not.
+/// belief of a track that ended counts on, until its source has another one that tells something.
+/// That of a track that went over to another object does not.
 class ClassMemory {
  public:
   using Member = std::pair<std::string, std::uint32_t>;  ///< a source, and the id of its track
+  using Beliefs = std::map<Member, ClassProbabilities>;
 
-  /// Takes in what the tracks of the present say: `own` are those of the object, `all` those of
-  /// any.
-  void update(const std::map<Member, ClassProbabilities>& own,
-              const std::map<Member, ClassProbabilities>& all);
+  /// The beliefs of the present: `own` of the tracks of the object, none while it is lost; `all` of
+  /// those of any.
+  void update(const Beliefs& own, const Beliefs& all);
 
-  /// Of all sources together, as independent; of the tracks of one source, which err alike, the
-  /// surest counts. Equal probabilities before anything was said.
+  /// Of all sources together, as if they were independent. Equal probabilities before anything was
+  /// said.
   ClassProbabilities belief() const;
 
  private:
-  std::map<Member, ClassProbabilities> said_;
+  Beliefs present_;
+  std::map<std::string, ClassProbabilities> ended_;  ///< by source; of the last one
 };
 
 }  // namespace datmo

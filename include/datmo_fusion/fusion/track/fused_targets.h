@@ -22,7 +22,7 @@ struct FusedTarget {
   std::uint32_t id = 0;
   Track track;                    ///< fused, at the present; `sources`: those it was last fused of
   std::map<Member, Stamp> since;  ///< when it got each of these tracks
-  ClassMemory classes;            ///< what these and those before them said of its class
+  ClassMemory classes;            ///< what these and those before them believed of its class
   Stamp born;                     ///< when the first object of any of its tracks was seen
   bool present = true;            ///< a source has a track of it now
   double lost = 0.0;              ///< s, since one had
@@ -36,8 +36,8 @@ struct FusedTarget {
   /// Id of this source's track of it; none if it has none.
   std::optional<std::uint32_t> member(const std::string& source) const;
 
-  /// Takes in what all tracks of the present say of the class of what they are of.
-  void takeClasses(const std::map<Member, ClassProbabilities>& said);
+  /// Its class, by what all tracks of the present believe of what they are of.
+  void updateClass(const ClassMemory::Beliefs& beliefs);
 };
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of
