@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -14,10 +15,45 @@ namespace datmo {
 
 namespace {
 
+/// No speed makes a class impossible, relative to the likeliest of the three.
+constexpr double kMinLikelihood = 1e-9;
+
 /// Up to a term that is the same for all.
-double logDensity(const ClassSpeed& class_speed, double speed, double speed_std) {
-  const double variance = square(class_speed.std) + square(speed_std);
-  return -0.5 * (square(speed - class_speed.mean) / variance + std::log(variance));
+double logDensity(const ClassSpeed& class_speed, const MeasuredSpeed& speed) {
+  const double variance = square(class_speed.std) + square(speed.std);
+  return -0.5 * (square(speed.value - class_speed.mean) / variance + std::log(variance));
+}
+
+/// Of each class, relative to the mean of the three road users.
+ClassProbabilities likelihoods(const MeasuredSpeed& speed, const ClassBySpeedOptions& options) {
+  using OfClass = std::pair<ObjectClass, double>;
+  const std::array<OfClass, 3> users = {
+      {{ObjectClass::kPedestrian, logDensity(options.pedestrian, speed)},
+       {ObjectClass::kCyclist, logDensity(options.cyclist, speed)},
+       {ObjectClass::kVehicle, logDensity(options.vehicle, speed)}}};
+  const double best =
+      std::max_element(users.begin(), users.end(), [](const OfClass& a, const OfClass& b) {
+        return a.second < b.second;
+      })->second;
+  ClassProbabilities result{};
+  double mean = 0.0;
+  for (const auto& [object_class, log_density] : users) {
+    const double likelihood = std::max(kMinLikelihood, std::exp(log_density - best));
+    result[static_cast<std::size_t>(object_class)] = likelihood;
+    mean += likelihood / static_cast<double>(users.size());
+  }
+  for (double& likelihood : result) {
+    likelihood = likelihood > 0.0 ? likelihood / mean : 1.0;
+  }
+  return result;
+}
+
+ClassProbabilities normalized(ClassProbabilities relative) {
+  const double total = std::accumulate(relative.begin(), relative.end(), 0.0);
+  for (double& probability : relative) {
+    probability /= total;
+  }
+  return relative;
 }
 
 }  // namespace
@@ -35,34 +71,27 @@ void ClassBySpeedOptions::visit(OptionVisitor& visitor) {
   visitSpeed("vehicle", "in cities: from turning and queues to 50 km/h", vehicle);
 }
 
-ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed, double speed_std,
-                                  const ClassBySpeedOptions& options) {
-  using OfClass = std::pair<ObjectClass, double>;
-  std::array<OfClass, 3> users = {
-      {{ObjectClass::kPedestrian, logDensity(options.pedestrian, speed, speed_std)},
-       {ObjectClass::kCyclist, logDensity(options.cyclist, speed, speed_std)},
-       {ObjectClass::kVehicle, logDensity(options.vehicle, speed, speed_std)}}};
-  const double best =
-      std::max_element(users.begin(), users.end(), [](const OfClass& a, const OfClass& b) {
-        return a.second < b.second;
-      })->second;
-  double mean = 0.0;
-  for (auto& [object_class, likelihood] : users) {
-    likelihood = std::exp(likelihood - best);
-    mean += likelihood / static_cast<double>(users.size());
-  }
-  ClassProbabilities result = said;
-  for (const auto& [object_class, likelihood] : users) {
-    result[static_cast<std::size_t>(object_class)] *= likelihood / mean;
-  }
-  const double total = std::accumulate(result.begin(), result.end(), 0.0);
-  if (total <= 0.0) {  // surely of a class that is never so fast
-    return said;
-  }
-  for (double& probability : result) {
-    probability /= total;
-  }
-  return result;
+MeasuredSpeed speedOf(const StateEstimate& estimate) {
+  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
+  const Eigen::Vector2d along = velocity.normalized();
+  const double variance =
+      velocity.isZero() ? 0.5 * covariance.trace() : along.dot(covariance * along);
+  return {velocity.norm(), std::sqrt(std::max(0.0, variance))};
+}
+
+ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed& speed,
+                             const ClassBySpeedOptions& options) {
+  ClassProbabilities result = likelihoods(speed, options);
+  std::transform(said.begin(), said.end(), result.begin(), result.begin(), std::multiplies<>());
+  return normalized(result);
+}
+
+ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
+                                const ClassBySpeedOptions& options) {
+  ClassProbabilities result = likelihoods(speed, options);
+  std::transform(weighed.begin(), weighed.end(), result.begin(), result.begin(), std::divides<>());
+  return normalized(result);
 }
 
 }  // namespace datmo

@@ -29,17 +29,6 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
 /// That something is as likely as not.
 constexpr double kEven = 0.5;
 
-/// What is moving, by what was said of it and its speed.
-ClassProbabilities weighed(const ClassProbabilities& said, const StateEstimate& estimate,
-                           const ClassBySpeedOptions& options) {
-  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
-  const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
-  const Eigen::Vector2d along = velocity.normalized();
-  const double variance =
-      velocity.isZero() ? 0.5 * covariance.trace() : along.dot(covariance * along);
-  return weighedBySpeed(said, velocity.norm(), std::sqrt(std::max(0.0, variance)), options);
-}
-
 /// Logarithm of how much likelier a velocity is for what moves than for what stands.
 double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         double false_motion, const TargetOptions& options) {
@@ -223,8 +212,9 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities =
-      moving_ ? weighed(class_.probabilities(), filter_.estimate(), options.class_by_speed)
-              : class_.probabilities();
+      moving_
+          ? withSpeed(class_.probabilities(), speedOf(filter_.estimate()), options.class_by_speed)
+          : class_.probabilities();
   track.age = age_;
   track.since_update = since_update_;
   track.hits = hits_;

@@ -3,6 +3,7 @@
 
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
 
@@ -24,12 +25,25 @@ struct ClassBySpeedOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// How fast an object is.
+struct MeasuredSpeed {
+  double value = 0.0;  ///< m/s, at least 0
+  double std = 0.0;    ///< m/s, at least 0
+};
+
+/// Of a filter's estimate.
+MeasuredSpeed speedOf(const StateEstimate& estimate);
+
 /// What a moving object is, by the sensors' classes and by its speed (Bayes): seen from behind, a
 /// cyclist is as wide and as high as somebody who walks, and of a car far away two beams tell
 /// nothing. The speed of anything else is as likely as it is on average of the three.
 ///
-/// `speed`: m/s, at least 0, with its standard deviation (m/s). The result sums to 1.
-ClassProbabilities weighedBySpeed(const ClassProbabilities& said, double speed, double speed_std,
-                                  const ClassBySpeedOptions& options);
+/// The result sums to 1.
+ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed& speed,
+                             const ClassBySpeedOptions& options);
+
+/// What was said before its speed was taken in: the inverse of withSpeed.
+ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
+                                const ClassBySpeedOptions& options);
 
 }  // namespace datmo

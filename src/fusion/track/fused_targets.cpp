@@ -42,7 +42,8 @@ std::optional<std::uint32_t> FusedTarget::member(const std::string& source) cons
   return found == track.sources.end() ? std::nullopt : std::make_optional(found->id);
 }
 
-void FusedTarget::updateClass(const ClassMemory::Beliefs& beliefs) {
+void FusedTarget::updateClass(const ClassMemory::Beliefs& beliefs,
+                              const ClassBySpeedOptions& options) {
   ClassMemory::Beliefs own;
   for (const SourceTrack& one : present ? track.sources : std::vector<SourceTrack>()) {
     const Member member(one.source, one.id);
@@ -50,6 +51,10 @@ void FusedTarget::updateClass(const ClassMemory::Beliefs& beliefs) {
   }
   classes.update(own, beliefs);
   track.class_probabilities = classes.belief();
+  if (track.moving) {
+    track.class_probabilities =
+        withSpeed(track.class_probabilities, speedOf({track.state, track.covariance}), options);
+  }
 }
 
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {

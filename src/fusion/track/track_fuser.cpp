@@ -49,6 +49,14 @@ std::optional<double> rangeFrom(const std::vector<ViewFan>& fans, const Track& t
   return nearest;
 }
 
+/// What a source's track says of the class, with or without what its speed does.
+ClassProbabilities saidOf(const Track& track, const TrackSourceOptions& source,
+                          decltype(withSpeed)* weigh, const ClassBySpeedOptions& options) {
+  return source.class_by_speed && track.moving
+             ? weigh(track.class_probabilities, speedOf({track.state, track.covariance}), options)
+             : track.class_probabilities;
+}
+
 /// The likeliest ones, by rising id.
 void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
   if (tracks.size() <= max) {
@@ -133,6 +141,8 @@ std::vector<PresentTracks> TrackFuser::ingest(Stamp stamp, const std::vector<Sou
     keepLikeliest(own.tracks, static_cast<std::size_t>(options_.max_tracks));
     counts.refused += valid - own.tracks.size();
     for (Track& track : own.tracks) {
+      track.class_probabilities =
+          saidOf(track, options_.sources.at(source.source), withoutSpeed, options_.class_by_speed);
       track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
                         options_.prediction);
       track.sources = {{source.source, track.id}};
@@ -220,7 +230,7 @@ void TrackFuser::judgeAll(Stamp stamp, const std::vector<PresentTracks>& present
     }
   }
   for (FusedTarget& target : targets_.all()) {
-    target.updateClass(beliefs);
+    target.updateClass(beliefs, options_.class_by_speed);
     if (target.present) {
       judge(target, stamp, present);
     }
@@ -253,12 +263,14 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     const double looked = target.looked[source].value_or(0.0);
     // Who has a track far away has one as much against chance as close by: both get rarer.
     const double range = track != nullptr ? 0.0 : target.ranges[source].value_or(0.0);
-    reports.push_back({track != nullptr,
-                       track != nullptr ? std::min(track->existence_probability,
-                                                   own.true_share.of(track->class_probabilities))
-                                        : 0.0,
-                       looked, own.detection.probability(target.track.class_probabilities, range),
-                       by_two ? own.false_agreement_probability : kSurelyAgrees});
+    reports.push_back(
+        {track != nullptr,
+         track != nullptr
+             ? std::min(track->existence_probability,
+                        own.true_share.of(saidOf(*track, own, withSpeed, options_.class_by_speed)))
+             : 0.0,
+         looked, own.detection.probability(target.track.class_probabilities, range),
+         by_two ? own.false_agreement_probability : kSurelyAgrees});
     seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
   }
   target.track.existence_probability = fusedExistence(reports);

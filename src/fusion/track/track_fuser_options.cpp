@@ -76,11 +76,15 @@ void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.number({"false_agreement_probability", "1",
                   "that it has one, by chance, that agrees with a false track of another source"},
                  false_agreement_probability, {0.001, 1.0});
+  visitor.toggle({"class_by_speed", "",
+                  "whether the classes of its tracks take their speed in, as `tracker` does by "
+                  "options that are as those here: it is one evidence for all sources"},
+                 class_by_speed);
 }
 
 TrackFuserOptions::TrackFuserOptions() {
-  sources["lidar"];
-  sources["stereo"];
+  sources["lidar"].class_by_speed = true;
+  sources["stereo"].class_by_speed = true;
 }
 
 void TrackFuserOptions::visit(OptionVisitor& visitor) {
@@ -118,6 +122,7 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                  memory, {0.0, 60.0});
   visitor.number({"history_time", "s", "how much of its path is published with a track"},
                  history_time, {0.0, 60.0});
+  visitor.group("class_by_speed", [&] { class_by_speed.visit(visitor); });
   visitor.group("prediction", [&] { prediction.visit(visitor); });
   visitor.group("association", [&] { association.visit(visitor); });
   visitor.group("combination", [&] { combination.visit(visitor); });

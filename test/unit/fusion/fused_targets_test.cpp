@@ -38,8 +38,37 @@ TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
   }
 }
 
-TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
+TEST(FusedTargetsTest, WhatTheSpeedSaysOfTheClassCountsOnce) {
   TrackFuser fuser{TrackFuserOptions()};
+  const auto moving = [](double x, const std::string& source) {
+    Track track = carTrack(x, 0.0, 7.0, 0.0, source, 5);
+    track.class_probabilities =
+        withSpeed(ClassBelief().probabilities(), speedOf({track.state, track.covariance}), {});
+    return track;
+  };
+  ClassProbabilities fused{};
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    const double x = 10.0 + 7.0 * t;
+    const auto result =
+        fuser.fuse(at(t), {lidar(t, {moving(x, "lidar")}), stereo(t, {moving(x, "stereo")})});
+    if (i == 20) {
+      ASSERT_EQ(result.list.tracks.size(), 1U);
+      ASSERT_EQ(result.list.tracks[0].sources.size(), 2U);
+      fused = result.list.tracks[0].class_probabilities;
+    }
+  }
+  const ClassProbabilities alone = moving(0.0, "lidar").class_probabilities;
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    EXPECT_NEAR(fused[i], alone[i], 0.03) << i;
+  }
+}
+
+TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
+  TrackFuserOptions options;
+  options.sources["lidar"].class_by_speed = false;
+  options.sources["stereo"].class_by_speed = false;
+  TrackFuser fuser{options};
   ClassBelief person;
   person.update(ObjectClass::kPedestrian, 0.9);
   for (int i = 0; i <= 20; ++i) {

@@ -16,26 +16,26 @@ double of(ObjectClass object_class, const ClassProbabilities& probabilities) {
 }
 
 TEST(ClassBySpeed, WhoWalksIsAPedestrian) {
-  const ClassProbabilities result = weighedBySpeed(kPerson, 1.4, 0.2, ClassBySpeedOptions());
+  const ClassProbabilities result = withSpeed(kPerson, {1.4, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kPedestrian, result), 0.9);
   EXPECT_NEAR(std::accumulate(result.begin(), result.end(), 0.0), 1.0, 1e-12);
 }
 
 TEST(ClassBySpeed, WhoIsTooFastToWalkRides) {
-  const ClassProbabilities result = weighedBySpeed(kPerson, 5.0, 0.2, ClassBySpeedOptions());
+  const ClassProbabilities result = withSpeed(kPerson, {5.0, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kCyclist, result), 0.9);
 }
 
 TEST(ClassBySpeed, WhatIsTooFastToRideDrives) {
   const ClassProbabilities said{0.02, 0.10, 0.60, 0.26, 0.02};
-  const ClassProbabilities result = weighedBySpeed(said, 10.0, 0.2, ClassBySpeedOptions());
+  const ClassProbabilities result = withSpeed(said, {10.0, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kVehicle, result), 0.8);
 }
 
 TEST(ClassBySpeed, ACarThatIsSurelyOneStaysACarWhenItCreeps) {
   const ClassProbabilities said{0.01, 0.01, 0.01, 0.96, 0.01};
   for (const double speed : {0.5, 1.4, 5.0}) {
-    const ClassProbabilities result = weighedBySpeed(said, speed, 0.3, ClassBySpeedOptions());
+    const ClassProbabilities result = withSpeed(said, {speed, 0.3}, ClassBySpeedOptions());
     EXPECT_GT(of(ObjectClass::kVehicle, result), 0.7) << speed;
   }
 }
@@ -47,21 +47,21 @@ TEST(ClassBySpeed, IsAsComputedByHand) {
   options.vehicle = {4.0, 0.3};
   // With 0.4 of deviation 0.5 in all: the pedestrian is 3 m/s off, 6 standard deviations.
   const double pedestrian = std::exp(-18.0);
-  const ClassProbabilities result = weighedBySpeed({0.0, 0.5, 0.25, 0.25, 0.0}, 4.0, 0.4, options);
-  EXPECT_NEAR(of(ObjectClass::kPedestrian, result), pedestrian / (1.0 + pedestrian), 1e-12);
+  const ClassProbabilities result = withSpeed({0.0, 0.5, 0.25, 0.25, 0.0}, {4.0, 0.4}, options);
+  EXPECT_NEAR(of(ObjectClass::kPedestrian, result), pedestrian / (1.0 + pedestrian), 1e-9);
   EXPECT_NEAR(of(ObjectClass::kCyclist, result), 0.5, 1e-6);
 }
 
 TEST(ClassBySpeed, OtherThingsStayWhatTheyAre) {
   const ClassProbabilities said{0.4, 0.0, 0.0, 0.0, 0.6};
-  const ClassProbabilities result = weighedBySpeed(said, 30.0, 1.0, ClassBySpeedOptions());
+  const ClassProbabilities result = withSpeed(said, {30.0, 1.0}, ClassBySpeedOptions());
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     EXPECT_NEAR(result[i], said[i], 1e-12);
   }
 }
 
 TEST(ClassBySpeed, AnUnknownSpeedTellsNothing) {
-  const ClassProbabilities result = weighedBySpeed(kPerson, 1.0, 1e3, ClassBySpeedOptions());
+  const ClassProbabilities result = withSpeed(kPerson, {1.0, 1e3}, ClassBySpeedOptions());
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     EXPECT_NEAR(result[i], kPerson[i], 1e-3);
   }
@@ -70,9 +70,32 @@ TEST(ClassBySpeed, AnUnknownSpeedTellsNothing) {
 TEST(ClassBySpeed, NoSpeedLeavesAnythingUndefined) {
   const ClassProbabilities surely{0.0, 1.0, 0.0, 0.0, 0.0};
   for (const ClassProbabilities& said : {kPerson, surely}) {
-    const ClassProbabilities result = weighedBySpeed(said, 1e3, 0.0, ClassBySpeedOptions());
+    const ClassProbabilities result = withSpeed(said, {1e3, 0.0}, ClassBySpeedOptions());
     EXPECT_NEAR(std::accumulate(result.begin(), result.end(), 0.0), 1.0, 1e-12);
   }
+}
+
+TEST(ClassBySpeed, WhatTheSpeedSaidCanBeTakenOutAgain) {
+  for (const double speed : {0.0, 1.4, 5.0, 12.0, 60.0}) {
+    const MeasuredSpeed measured{speed, 0.3};
+    const ClassProbabilities weighed = withSpeed(kPerson, measured, ClassBySpeedOptions());
+    const ClassProbabilities result = withoutSpeed(weighed, measured, ClassBySpeedOptions());
+    for (std::size_t i = 0; i < kObjectClasses; ++i) {
+      EXPECT_NEAR(result[i], kPerson[i], 1e-6) << speed;
+    }
+  }
+}
+
+TEST(ClassBySpeed, TheSpeedIsAsUncertainAsTheVelocityAlongItself) {
+  StateEstimate estimate;
+  estimate.mean.setZero();
+  estimate.covariance.setZero();
+  estimate.covariance(2, 2) = 4.0;
+  estimate.covariance(3, 3) = 1.0;
+  EXPECT_DOUBLE_EQ(speedOf(estimate).std, std::sqrt(2.5)) << "of any direction";
+  estimate.mean[2] = 3.0;
+  EXPECT_DOUBLE_EQ(speedOf(estimate).value, 3.0);
+  EXPECT_DOUBLE_EQ(speedOf(estimate).std, 2.0);
 }
 
 TEST(ClassBySpeed, OptionsAreChecked) {

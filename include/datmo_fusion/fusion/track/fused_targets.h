@@ -36,8 +36,9 @@ struct FusedTarget {
   /// Id of this source's track of it; none if it has none.
   std::optional<std::uint32_t> member(const std::string& source) const;
 
-  /// Its class, by what all tracks of the present believe of what they are of.
-  void updateClass(const ClassMemory::Beliefs& beliefs);
+  /// Its class, by what all tracks of the present believe of what they are of, without their
+  /// speed, and by its own.
+  void updateClass(const ClassMemory::Beliefs& beliefs, const ClassBySpeedOptions& options);
 };
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of

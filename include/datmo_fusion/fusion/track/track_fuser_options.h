@@ -10,6 +10,7 @@
 #include "datmo_fusion/fusion/track/track_association.h"
 #include "datmo_fusion/fusion/track/track_combination.h"
 #include "datmo_fusion/fusion/track/track_prediction.h"
+#include "datmo_fusion/tracking/class_by_speed.h"
 #include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
@@ -61,6 +62,7 @@ struct TrackSourceOptions {
   TrackDetectionOptions detection;
   TrueShareOptions true_share;
   double false_agreement_probability = 0.1;  ///< 1
+  bool class_by_speed = false;
 
   void visit(OptionVisitor& visitor);
 };
@@ -77,6 +79,7 @@ struct TrackFuserOptions {
   double published_existence = 0.85;  ///< 1
   double memory = 1.5;                ///< s
   double history_time = 3.0;          ///< s
+  ClassBySpeedOptions class_by_speed;
   TrackPredictionOptions prediction;
   TrackAssociationOptions association;
   TrackCombinationOptions combination;
