@@ -58,7 +58,7 @@ void MapFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_wait", "s", "a pose waits for the grids at most"}, max_wait, {0.0, 1.0});
   visitor.text({"prior_map", "",
                 "absolute path of the map that grid_slam starts in (its prior_map/file): one more "
-                "source, and what changes are told against; empty: none"},
+                "source, and what changes are relative to; empty: none"},
                prior_map, {});
   fuser.visit(visitor);
 }

@@ -146,7 +146,7 @@ TEST_F(MapFuserTest, AfterAGapThatIsNeverResolvedTheMapsGoOn) {
   for (const double x : {10.0, 12.0, 14.0, 11.0}) {
     fuser_.moveTo(uncertainSince(x));
   }
-  EXPECT_EQ(fuser_.mapsBegun(), 0) << "the heading of the map is uncertain, not the way in it";
+  EXPECT_EQ(fuser_.mapsBegun(), 0) << "the heading of the map is uncertain, not the position in it";
 }
 
 TEST_F(MapFuserTest, APoseThatJumpsBeginsTheMapsAnew) {

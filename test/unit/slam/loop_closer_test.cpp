@@ -128,7 +128,7 @@ TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
 }
 
 TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
-  // Two places 100 m apart, each visited twice. The way between them is known to 4 m, but for the
+  // Two places 100 m apart, each visited twice. The path between them is known to 4 m, but for the
   // last time; on the first visit the second place is taken to be 8 m to the left.
   const auto places = [](const Pose2& base, double seconds) {
     return base.x() < 70.0 ? Yard().scan(Pose2(-5.0, 0.0, 0.0) * base, seconds)
@@ -137,7 +137,7 @@ TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
   struct Visit {
     double x;       ///< m
     double left;    ///< m, of the live pose
-    double sigmas;  ///< variances of the way up to here, in those of one way
+    double sigmas;  ///< variances of the path up to here, in those of one path
   };
   LoopCloser closer(yardOptions());
   double seconds = 0.0;

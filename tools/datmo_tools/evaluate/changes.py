@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import base_grids
 from datmo_tools.evaluate.map_scores import boxes_from
+from datmo_tools.evaluate.maps import share
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.truth import TRUE_POSE, read_true_objects
 from datmo_tools.pose_path import planar, read_path
@@ -127,8 +128,8 @@ def sections(result):
     rows = [["", "cells", "right", "things passed", "reported", "wrong"]]
     for kind in ("vanished", "new"):
         one = result[kind]
-        share = one["cells_right"] / one["cells"] if one["cells"] else None
-        rows.append([kind, str(one["cells"]), rounded(share, 3), str(one["things"]),
+        right = share(one, "cells_right", "cells")
+        rows.append([kind, str(one["cells"]), rounded(right, 3), str(one["things"]),
                      str(one["things_reported"]), rounded(one["wrong_cells"], 1)])  # fmt: skip
     return [Section(rows=rows, lines=[f"{result['maps']} maps"])]
 

@@ -12,7 +12,7 @@ namespace datmo {
 
 /// What all sources believe of the class of one object, by the tracks that they have of it.
 ///
-/// An object stays what it is when it leaves the view of the sensor that told its class, so the
+/// An object stays what it is when it leaves the view of the sensor that classified it, so the
 /// belief of a track that ended counts on, until its source has another one that tells something.
 /// That of a track that went over to another object does not.
 class ClassMemory {
