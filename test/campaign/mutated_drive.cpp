@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "all_levels.h"
 #include "message_mutation.h"
 #include "stereo_pair_sample.h"
 #include <boost/make_shared.hpp>
@@ -33,10 +34,6 @@ constexpr const char* kImages = "images";
 /// Graphs, so that each input of each stage is one of them: by name.
 const std::array<std::pair<const char*, GraphSwitches>, 5>& graphs() {
   static const auto made = [] {
-    GraphSwitches levels;
-    levels.low_level_fusion = levels.road_border = levels.static_points = true;
-    levels.stereo_objects = levels.object_fusion = levels.stereo_tracker = true;
-    levels.track_fusion = levels.risk = true;
     GraphSwitches cloud;
     cloud.scan_from_cloud = cloud.cloud_objects = true;
     GraphSwitches alone;
@@ -44,7 +41,7 @@ const std::array<std::pair<const char*, GraphSwitches>, 5>& graphs() {
     GraphSwitches images;
     images.stereo = StereoPoints::kRectifiedImages;
     images.stereo_objects = images.mono = true;
-    return std::array<std::pair<const char*, GraphSwitches>, 5>{{{"all levels", levels},
+    return std::array<std::pair<const char*, GraphSwitches>, 5>{{{"all levels", allLevels()},
                                                                  {"a 3D lidar", cloud},
                                                                  {"a twist", alone},
                                                                  {"an Imu and wheels", alone},

@@ -23,14 +23,13 @@ constexpr float kMaxRange = 60.0F;  // m
 constexpr double kHeightOfThings = 2.0;  // m
 constexpr double kScannerHeight = 0.5;   // m
 
-// The camera, and that only every few pixels have a point.
+// The camera.
 constexpr double kCameraAhead = 1.8;    // m
 constexpr double kCameraHeight = 1.2;   // m
 constexpr double kFocalLength = 400.0;  // px
 constexpr double kBaseline = 0.3;       // m
 constexpr int kColumns = 512;
 constexpr int kRows = 384;
-constexpr int kPixelStep = 3;
 
 Stamp stampAt(double seconds) { return Stamp::fromSeconds(World::kStart + seconds); }
 
@@ -69,11 +68,12 @@ sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double secon
   return message;
 }
 
-std::vector<Box2> standingThings() {
+/// A wall on each side about `middle` (m, along x), and pillars from one x to another.
+std::vector<Box2> standingThings(double middle, double from, double to) {
   std::vector<Box2> boxes;
   for (const double side : {-1.0, 1.0}) {
-    boxes.push_back({{50.0, side * (kHalfWidth + 1.0), 0.0}, 300.0, 2.0});
-    for (double x = -60.0; x < 160.0; x += kPillarSpacing) {
+    boxes.push_back({{middle, side * (kHalfWidth + 1.0), 0.0}, 300.0, 2.0});
+    for (double x = from; x < to; x += kPillarSpacing) {
       boxes.push_back({{x + side, side * (kHalfWidth - 0.5), 0.0}, 1.0, 1.0});
     }
   }
@@ -85,12 +85,20 @@ std::vector<Box2> standingThings() {
 Pose2 World::baseInMap(double seconds) const { return {kSpeed * seconds, 0.0, 0.0}; }
 
 Box2 World::otherCar(double seconds) const {
-  const double y = kHalfWidth - 4.0 - kDriftSpeed * seconds;
-  return {{15.0 + kSpeed * seconds, y, std::atan2(-kDriftSpeed, kSpeed)}, 4.0, 1.8};
+  constexpr double kLeftmost = kHalfWidth - 4.0;  // m
+  const double phase = kDriftSpeed / kLeftmost * seconds;
+  const bool is_endless = length_ == Length::kEndless;
+  const double y = is_endless ? kLeftmost * std::cos(phase) : kLeftmost - kDriftSpeed * seconds;
+  const double drift = is_endless ? -kDriftSpeed * std::sin(phase) : -kDriftSpeed;
+  return {{15.0 + kSpeed * seconds, y, std::atan2(drift, kSpeed)}, 4.0, 1.8};
 }
 
 std::vector<Box2> World::thingsAt(double seconds) const {
-  std::vector<Box2> boxes = standingThings();
+  const double x = kPillarSpacing * std::floor(kSpeed * seconds / kPillarSpacing);
+  constexpr double kAround = 11.0 * kPillarSpacing;  // more than is seen
+  std::vector<Box2> boxes = length_ == Length::kEndless
+                                ? standingThings(x, x - kAround, x + kAround + kPillarSpacing)
+                                : standingThings(50.0, -60.0, 160.0);
   boxes.push_back(otherCar(seconds));
   return boxes;
 }
@@ -163,15 +171,15 @@ sensor_msgs::CameraInfo World::rightCameraInfo() {
   return info;
 }
 
-sensor_msgs::PointCloud2 World::cloud(double seconds) const {
+sensor_msgs::PointCloud2 World::cloud(double seconds, int pixel_step) const {
   const std::vector<Box2> boxes = thingsAt(seconds);
   const Pose2 camera = baseInMap(seconds) * Pose2(kCameraAhead, 0.0, 0.0);
   std::vector<float> numbers;
-  for (int column = 0; column < kColumns; column += kPixelStep) {
+  for (int column = 0; column < kColumns; column += pixel_step) {
     const double right = (column - 0.5 * (kColumns - 1)) / kFocalLength;
     const double bearing = -std::atan(right);
     const double thing = rangeAlong(camera, bearing, boxes) * std::cos(bearing);
-    for (int row = 0; row < kRows; row += kPixelStep) {
+    for (int row = 0; row < kRows; row += pixel_step) {
       const double down = (row - 0.5 * (kRows - 1)) / kFocalLength;
       const double road = down > 0.0 ? kCameraHeight / down : 1e9;
       const double depth = std::min(road, thing);

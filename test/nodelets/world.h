@@ -22,6 +22,12 @@ class World {
   /// Stamp of the start, s.
   static constexpr double kStart = 1000.0;
 
+  /// Short: the street ends after 160 m, the other car leaves it to the right. Endless: the street
+  /// goes on, and the other car swings from side to side.
+  enum class Length { kShort, kEndless };
+
+  explicit World(Length length = Length::kShort) : length_(length) {}
+
   Pose2 baseInMap(double seconds) const;
   Box2 otherCar(double seconds) const;
 
@@ -30,14 +36,19 @@ class World {
   geometry_msgs::TransformStamped baseInOdom(double seconds) const;
   geometry_msgs::TransformStamped scannerInBase() const;
 
+  /// That only every few pixels of the camera have a point.
+  static constexpr int kPixelStep = 3;
+
   /// What a stereo camera sees of it: the road, and all that stands on it, 2 m high.
-  sensor_msgs::PointCloud2 cloud(double seconds) const;
+  sensor_msgs::PointCloud2 cloud(double seconds, int pixel_step = kPixelStep) const;
   static sensor_msgs::CameraInfo rightCameraInfo();
   geometry_msgs::TransformStamped cameraInBase() const;
 
  private:
   std::vector<Box2> thingsAt(double seconds) const;
   double rangeAlong(const Pose2& scanner, double bearing, const std::vector<Box2>& boxes) const;
+
+  Length length_;
 };
 
 }  // namespace datmo

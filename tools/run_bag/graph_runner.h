@@ -76,6 +76,9 @@ class GraphRunner {
   }
 
   const StageTimes& times() const { return times_; }
+
+  /// The same, and begins anew: they grow with the drive.
+  StageTimes takeTimes() { return std::exchange(times_, {}); }
   std::vector<const StageMonitor*> monitors() const;
 
   /// Those of them that drop a message when it comes, if at all; a tracker does it when it has

@@ -4,6 +4,7 @@
 import json
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from tqdm import tqdm
@@ -13,23 +14,44 @@ from datmo_tools.bag_file import whole_bag
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
-from datmo_tools.experiments.line_faults import INPUTS, KEPT, Message, faults, faulty
+from datmo_tools.experiments.campaign_page import RECOVERED, TRACK_FIGURES, page
+from datmo_tools.experiments.kept_ids import gap_effect, kept_ids
+from datmo_tools.experiments.line_faults import INPUTS, KEPT, STEREO_INPUTS, Fault, Message, faults, faulty
 from datmo_tools.pose_path import read_path
 from datmo_tools.programs import StepFailed
 from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.text_table import NO_VALUE
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Plays a drive with truth through the stack with one fault of a sensor after the other, and writes what
-each of them did to poses and tracks, beside what mutated messages did to the stages, as a page and
-as JSON."""
+Plays drives with truth through the stack with one fault of a sensor after the other, and writes what
+each of them did to poses and tracks, beside what mutated messages, hours of a drive, load and outages
+did to the stages, as a page and as JSON."""
 
 PROGRAMS = ("run_bag", "score_run")
-TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
 TRUTH = "/ground_truth/pose"
-# A pose is right again when its error is that of the clean drive again, by this much (m).
-RECOVERED = 0.3
+# The drive with a stereo camera: how scanner and camera are fused while the scanner is silent, and when
+# (s since its start) it becomes so.
+LEVELS = ("low", "object", "recommended")
+SILENT_FROM = (5.0, 7.0, 9.0, 11.0, 13.0)
+SILENT = 3.0  # s
+
+
+class Played(NamedTuple):
+    """A drive that is played through the stack."""
+
+    name: str
+    messages: list  # of Message
+    options: tuple  # words for run_bag
+
+
+class Run(NamedTuple):
+    """What came of it."""
+
+    fault: Fault
+    begin: float  # s
+    drive: Path  # bag, with the fault
+    computed: Path  # bag
+    folder: Path
 
 
 def main(arguments=None):
@@ -38,10 +60,12 @@ def main(arguments=None):
     return command_line.run("campaign", lambda: _campaign(values), "report")
 
 
-def pose_errors(computed, recorded):
-    """Stamps (s, n) of the poses in a bag (Path), and how far each is off (m, n), from the first on."""
+def pose_errors(computed, recorded, until=np.inf):
+    """Stamps (s, n) of the poses in a bag (Path) before `until` (s), and how far each is off (m, n), from
+    the first of them on."""
     truth, path = read_path(recorded, TRUTH), read_path(computed, "/pose")
-    stamps = [stamp for stamp in path.stamps if truth.stamps[0] <= stamp <= truth.stamps[-1]]
+    stamps = [stamp for stamp in path.stamps
+              if truth.stamps[0] <= stamp <= min(truth.stamps[-1], until * NANOSECONDS)]  # fmt: skip
     start = stamps[0]
     errors = []
     for stamp in stamps:
@@ -69,57 +93,102 @@ def effect(stamps, errors, clean, begin, end):
 
 
 def _campaign(values):
-    for file in (values.drive, values.config):
+    drives = [path for path in (values.drive, values.stereo) if path is not None]
+    for file in (*drives, values.config):
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a bag and a yaml file")
     programs.check(values.programs, PROGRAMS)
-    messages = _messages(values.drive)
-    begin = messages[0].recorded + values.begin
-    runs, clean = [], None
-    for fault in tqdm(_chosen(values.faults), "faults"):
-        run, path = _run(values, messages, fault, begin, clean)
-        clean = clean or path
-        runs.append(run)
-    mutated = json.loads(values.mutated.read_text(encoding="utf-8")) if values.mutated else None
-    report = {"drive": values.drive.name, "begin_s": values.begin, "runs": runs, "mutated": mutated}
+    played = Played(values.drive.name, _messages(values.drive, INPUTS), ())
+    report = {"begin_s": values.begin, "drives": [_all_faults(values, played, None)], "silent": []}
+    if values.stereo is not None:
+        messages = _messages(values.stereo, {**INPUTS, **STEREO_INPUTS})
+        both = Played(values.stereo.name, messages, ("--fusion", "recommended"))
+        report["drives"].append(_all_faults(values, both, STEREO_INPUTS))
+        report["silent"] = _silent_scanner(values, both)
+    for part in ("mutated", "soak", "load", "outages"):
+        file = getattr(values, part)
+        report[part] = json.loads(file.read_text(encoding="utf-8")) if file else None
     write_whole(values.page.parent, {values.page.name: page(report)})
     if values.out is not None:
+        report["load"] = None  # its samples have a file of their own
         write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
 
 
-def _chosen(parts):
+def _all_faults(values, played, inputs):
+    """Results (dict) of a drive, of all faults of its inputs (all, None: and of all at once)."""
+    begin = played.messages[0].recorded + values.begin
+    runs, clean = [], None
+    for fault in tqdm(_chosen(values.faults, faults(inputs)), played.name):
+        run, path = _run(values, played, fault, begin, clean)
+        clean = clean or path
+        runs.append(run)
+    return {"drive": played.name, "options": played.options, "runs": runs, "of": len(faults(inputs)) - 1}
+
+
+def _chosen(parts, every):
     """The faults whose name has one of the parts in it; the first one, which is none, in any case."""
-    every = faults()
     return [fault for fault in every
             if fault is every[0] or not parts or any(part in fault.name for part in parts)]  # fmt: skip
 
 
-def _messages(drive):
-    topics = [*KEPT, *(topic for topics in INPUTS.values() for topic in topics)]
+def _messages(drive, inputs):
+    topics = [*KEPT, *(topic for topics in inputs.values() for topic in topics)]
     with opened(drive) as bag:
         return [Message(topic, content, stamp.to_sec())
                 for topic, content, stamp in bag.read_messages(topics)]  # fmt: skip
 
 
-def _run(values, messages, fault, begin, clean):
+def _play(values, played, fault, begin, folder):
+    """The Run of a drive with a fault, in a folder (Path). Raises StepFailed."""
+    run = Run(fault, begin, folder / "drive.bag", folder / "result.bag", folder)
+    with whole_bag(run.drive, "campaign") as out:
+        for message in faulty(played.messages, fault, begin):
+            write = out.write_latched if message.topic == "/tf_static" else out.write
+            write(message.topic, round(message.recorded * NANOSECONDS), message.content)
+    programs.call(values.programs / "run_bag", run.drive, run.computed, "--config", values.config,
+                  "--with-truth", "--quiet", *played.options)  # fmt: skip
+    return run
+
+
+def _run(values, played, fault, begin, clean):
     """Result (dict) of one fault, and its stamps and errors."""
     with tempfile.TemporaryDirectory(prefix="campaign_") as name:
-        folder = Path(name)
-        drive = folder / "drive.bag"
-        with whole_bag(drive, "campaign") as out:
-            for message in faulty(messages, fault, begin):
-                write = out.write_latched if message.topic == "/tf_static" else out.write
-                write(message.topic, round(message.recorded * NANOSECONDS), message.content)
-        computed = folder / "result.bag"
         try:
-            programs.call(values.programs / "run_bag", drive, computed, "--config", values.config,
-                          "--with-truth", "--quiet")  # fmt: skip
+            run = _play(values, played, fault, begin, Path(name))
         except StepFailed as error:
-            return {"fault": fault.name, "error": str(error)}, None
-        path = pose_errors(computed, drive)
-        tracks = _tracks(computed, values.programs, folder)
+            return {"fault": fault.name, "error": str(error).rpartition("/")[2]}, None
+        path = _path(run)
+        tracks = _tracks(run.computed, values.programs, run.folder)
     poses = effect(*path, clean or path, begin, begin + fault.seconds)
     return {"fault": fault.name, "error": None, "pose": poses, "tracks": tracks}, path
+
+
+def _path(run):
+    """Stamps and errors as of pose_errors, by the clock before a jump; where it goes back, of the new map."""
+    jump = run.fault.jump
+    stamps, errors = pose_errors(run.computed, run.drive, run.begin + 0.5 * jump if jump < 0.0 else np.inf)
+    after = stamps < run.begin if jump < 0.0 else stamps > run.begin + 0.5 * jump
+    return (stamps - jump * after if jump else stamps), errors
+
+
+def _silent_scanner(values, played):
+    """Results (list of dict) of a scanner that is silent for a while, at each level and time."""
+    silent = next(each for each in faults(STEREO_INPUTS) if each.name == f"scan silent for {SILENT:g} s")
+    none = faults(STEREO_INPUTS)[0]
+    results = []
+    for level in tqdm(LEVELS, "silent scanner"):
+        drive = played._replace(options=("--fusion", level))
+        with tempfile.TemporaryDirectory(prefix="campaign_") as name:
+            clean = _path(_play(values, drive, none, played.messages[0].recorded, Path(name)))
+        for since in SILENT_FROM:
+            begin = played.messages[0].recorded + since
+            with tempfile.TemporaryDirectory(prefix="campaign_") as name:
+                run = _play(values, drive, silent, begin, Path(name))
+                way = read_path(run.drive, TRUTH).length_between(begin * NANOSECONDS, (begin + SILENT) * NANOSECONDS)
+                pose = gap_effect(*_path(run), clean, (begin, begin + SILENT), way)
+                ids = kept_ids(run.computed, run.drive, begin, begin + SILENT)
+            results.append({"level": level, "from_s": since, **pose, **ids})
+    return results
 
 
 def _tracks(computed, folder_of_programs, folder):
@@ -131,73 +200,17 @@ def _tracks(computed, folder_of_programs, folder):
     return {key: score["clear_mot"][key] for key in TRACK_FIGURES}
 
 
-def page(report):
-    """The report as Markdown."""
-    lines = [
-        "# Reliability",
-        "",
-        "Written by `scripts/campaign`.",
-        "",
-        "## Faults on line",
-        "",
-        f"The drive `{report['drive']}` through `run_bag` with one fault from {report['begin_s']:g} s on. Error: of the",
-        "position since the first pose. Recovered: seconds after the fault's end until the position is as right as",
-        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end (a clock that jumps back makes a",
-        "new map, whose origin is elsewhere). Tracks whose time went back have no score. "
-        f"{len(report['runs']) - 1} of the campaign's {len(faults()) - 1} faults.",
-        "",
-        "| fault | poses | largest error [m] | at the end [m] | recovered [s] | MOTA | misses | false positives | id switches |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    lines += [_row(run) for run in report["runs"]]
-    return "\n".join(lines + _mutated_lines(report["mutated"])) + "\n"
-
-
-def _row(run):
-    if run["error"] is not None:
-        return f"| {run['fault']} | {run['error']} | | | | | | | |"
-    pose, tracks = run["pose"], run["tracks"]
-    recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
-    cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
-             f"{pose['final_error_m']:.2f}", recovered, _cell(tracks["mota"]),
-             *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
-    return f"| {' | '.join(cells)} |"
-
-
-def _cell(value):
-    if value is None:
-        return NO_VALUE
-    return f"{value:.3f}" if isinstance(value, float) else str(value)
-
-
-def _mutated_lines(mutated):
-    if mutated is None:
-        return []
-    refused = sorted(mutated["refused"].items(), key=lambda item: (-item[1], item[0]))
-    return [
-        "",
-        "## Mutated messages",
-        "",
-        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages as they should be and",
-        f"{mutated['mutated']} with one to three fields spoiled (NaN, infinity, bounds of the type, other lengths, names and",
-        "stamps), at the doors of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
-        "with 3 s without mutations, in which tracks have to come again.",
-        "",
-        f"- found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
-        f"- slowest message with all that follows from it: {mutated['slowest_s']:.2f} s ({mutated['slowest_on']})",
-        f"- peak of memory: {mutated['peak_memory_mib']:.0f} MiB",
-        "- refused or warned of, by reason: "
-        + ", ".join(f"{reason} {count}" for reason, count in refused),
-    ]
-
-
 def _parser():
     parser = command_line.new_parser("campaign", DESCRIPTION)
     add = parser.add_argument
     add("drive", type=Path, metavar="DRIVE.bag", help="with /ground_truth/pose and objects")
+    add("--stereo", type=Path, metavar="DRIVE.bag", help="another one, with a stereo camera's points")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
     add("--programs", required=True, type=Path, metavar="DIR", help="of run_bag and score_run")
     add("--mutated", type=Path, metavar="FILE.json", help="what mutate_messages wrote")
+    add("--soak", type=Path, metavar="FILE.json", help="what soak_stack wrote")
+    add("--load", type=Path, metavar="FILE.json", help="what load.test wrote")
+    add("--outages", type=Path, metavar="FILE.json", help="what outage.test wrote")
     add("--page", required=True, type=command_line.output_file, metavar="FILE.md", help="the report")
     add("--out", type=command_line.output_file, metavar="FILE.json", help="all runs")
     add("--faults", nargs="+", default=[], metavar="PART", help="those with this in their name (default all)")

@@ -10,8 +10,12 @@ import genpy
 SCANS = ("/scan", "/echoes")
 ODOMETRY = ("/odometry",)
 TRANSFORMS = ("/tf",)
+STEREO = ("/stereo/points2", "/stereo/point_velocities")
 INPUTS = {"scan": SCANS, "odometry": ODOMETRY, "tf": TRANSFORMS}
-KEPT = ("/tf_static", "/ground_truth/pose", "/ground_truth/objects")
+STEREO_INPUTS = {"scan": SCANS, "stereo": STEREO}
+MOUNTS = "/tf_static"
+KEPT = (MOUNTS, "/ground_truth/pose", "/ground_truth/objects", "/stereo/left/camera_info", "/stereo/right/camera_info")
+JUMP = 100.0  # s, more than the drive is long
 
 
 class Fault(NamedTuple):
@@ -21,6 +25,8 @@ class Fault(NamedTuple):
     seconds: float
     # (Message, s since the fault began) -> list of Message that are recorded in its place.
     apply: Callable
+    jump: float = 0.0  # s, by which all stamps are later from its beginning on
+    whole: bool = False  # `apply` has all messages, from the drive's start to its end
 
 
 class Message(NamedTuple):
@@ -31,17 +37,26 @@ class Message(NamedTuple):
     recorded: float  # s
 
 
-def faults():
-    """All of them, by the input that they are of."""
+def faults(inputs=None):
+    """All of them, by the input that they are of; with all inputs (default) also those of all at once."""
     listed = [Fault("none", 0.0, lambda message, _: [message])]
-    for name, topics in INPUTS.items():
+    for name, topics in (inputs or INPUTS).items():
         listed += [
             Fault(f"{name} {fault.name}", fault.seconds, functools.partial(_on, topics, fault.apply))
             for fault in _of_one_input()
         ]
+    if inputs is not None:
+        return listed
     wrong = functools.partial(_on, ODOMETRY, once(_twist(yaw_rate=3.0)))
     fast = functools.partial(_on, ODOMETRY, once(_twist(speed=100.0)))
-    return [*listed, Fault("odometry 3 rad/s once", 0.0, wrong), Fault("odometry 100 m/s once", 0.0, fast)]
+    return [
+        *listed,
+        Fault("odometry 3 rad/s once", 0.0, wrong),
+        Fault("odometry 100 m/s once", 0.0, fast),
+        Fault("mounts missing in all of the drive", 0.0, _without(MOUNTS), whole=True),
+        Fault(f"all clocks back by {JUMP:g} s (a looped bag)", 0.0, _jumped(-JUMP), -JUMP, True),
+        Fault(f"all clocks ahead by {JUMP:g} s", 0.0, _jumped(JUMP), JUMP, True),
+    ]
 
 
 def faulty(messages, fault, begin):
@@ -49,7 +64,7 @@ def faulty(messages, fault, begin):
     result = []
     for message in messages:
         since = message.recorded - begin
-        hit = message.topic not in KEPT and 0.0 <= since <= max(fault.seconds, 1.0)
+        hit = fault.whole or (message.topic not in KEPT and 0.0 <= since <= max(fault.seconds, 1.0))
         result += fault.apply(message, since) if hit else [message]
     return sorted(result, key=lambda message: message.recorded)
 
@@ -101,6 +116,18 @@ def _restamped(message, offset):
     for part in _stamped(content):
         part.header.stamp += genpy.Duration.from_sec(offset)
     return message._replace(content=content)
+
+
+def _without(topic):
+    return lambda message, since: [] if message.topic == topic else [message]
+
+
+def _jumped(seconds):
+    """From the fault's beginning on, of all that is measured, the truth included."""
+    def apply(message, since):
+        return [message if since < 0.0 or message.topic == MOUNTS else _restamped(message, seconds)]
+
+    return apply
 
 
 def _late(seconds):

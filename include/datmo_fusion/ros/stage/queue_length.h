@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include <geometry_msgs/TwistStamped.h>
@@ -10,7 +11,11 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/convert/messages.h"
 
 namespace datmo {
 
@@ -32,6 +37,21 @@ constexpr std::uint32_t queueLength() {
   } else {
     return 20;
   }
+}
+
+/// s of ROS time for which a message of a type may wait in the queue of a stage: longer than a
+/// machine that keeps up ever lets one wait, and short enough that tracks are of now where it does
+/// not. Without a bound for motion, all of which adds up, and for what is not replaced by the next.
+template <typename Message>
+constexpr double maxWaitInQueue() {
+  constexpr auto is_any_of = [](auto... same) { return (same || ...); };
+  const bool is_replaced = is_any_of(
+      std::is_same_v<Message, sensor_msgs::LaserScan>,
+      std::is_same_v<Message, sensor_msgs::MultiEchoLaserScan>,
+      std::is_same_v<Message, sensor_msgs::PointCloud2>,
+      std::is_same_v<Message, sensor_msgs::Image>, std::is_same_v<Message, LabeledScanMessage>,
+      std::is_same_v<Message, ObjectArray>, std::is_same_v<Message, TrackArray>);
+  return is_replaced ? 0.5 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace datmo

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "datmo_fusion/common/live_options.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/arrival_check.h"
 #include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/queue_length.h"
 #include "datmo_fusion/ros/stage/stage_health.h"
@@ -119,8 +121,11 @@ class StagePorts {
   StagePublisher<Message> out(const std::string& topic, bool latched = false) {
     const auto advertise = [topic, latched](ros::NodeHandle& node) -> StageOutput::Publish {
       const std::uint32_t queue = latched ? 1 : queueLength<Message>();
-      return [publisher = node.advertise<Message>(topic, queue, latched)](const AnyMessage& any) {
-        publisher.publish(boost::const_pointer_cast<Message>(typed<Message>(any)));
+      return [publisher = node.advertise<Message>(topic, queue, latched),
+              sequence = std::make_shared<std::uint32_t>(0)](const AnyMessage& any) {
+        const auto message = boost::const_pointer_cast<Message>(typed<Message>(any));
+        setSequence(*message, ++*sequence);
+        publisher.publish(message);
       };
     };
     const auto content = [](const AnyMessage& any) { return contentOf(*typed<Message>(any)); };
@@ -168,12 +173,19 @@ class StagePorts {
                             Take<Message> take) {
     const auto subscribe = [topic, booked_as](ros::NodeHandle& node, StageMonitor& monitor,
                                               const StageInput::Take& take_any) {
-      const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-          [booked_as, &monitor, take_any](const boost::shared_ptr<const Message>& message) {
-            take_any(receive(booked_as, message, monitor), toStamp(ros::Time::now()));
-          };
-      return node.subscribe<Message>(topic, queueLength<Message>(), callback, ros::VoidConstPtr(),
-                                     ros::TransportHints().tcpNoDelay());
+      using Event = const ros::MessageEvent<const Message>&;
+      const auto check = std::make_shared<ArrivalCheck>(topic, maxWaitInQueue<Message>(), monitor);
+      const boost::function<void(Event)> callback = [booked_as, &monitor, take_any,
+                                                     check](Event event) {
+        const auto message = receive(booked_as, event.getConstMessage(), monitor);
+        if (check->passes(arrivedOf(event), ros::Time::now())) {
+          take_any(message, toStamp(ros::Time::now()));
+        }
+      };
+      ros::SubscribeOptions options;
+      options.initByFullCallbackType<Event>(topic, queueLength<Message>(), callback);
+      options.transport_hints = ros::TransportHints().tcpNoDelay();
+      return node.subscribe(options);
     };
     return {topic,
             ros::message_traits::datatype<Message>(),

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/arrival_check.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <utility>
+
+#include "datmo_fusion/ros/stage/input_error.h"
+
+namespace datmo {
+
+namespace {
+
+/// A gap of more is another count (a bag that begins at another place), no loss.
+constexpr std::uint32_t kMaxGap = 1000;
+
+/// Publishers that are remembered: those with a new name at each start are many.
+constexpr std::size_t kMaxPublishers = 20;
+
+std::string waitedFor(double seconds, double max_wait) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "a message that waited for %.2f s, expected at most %.2f s: they come faster than "
+                "they are served; goes on with newer ones",
+                seconds, max_wait);
+  return text;
+}
+
+}  // namespace
+
+bool ArrivalCheck::passes(const Arrived& message, const ros::Time& now) {
+  if (const std::uint32_t lost = lostBefore(message)) {
+    const InputError error("lost_message",
+                           std::to_string(lost) + " messages on " + topic_ + " from " +
+                               message.publisher +
+                               " did not come: a queue was full, as they come faster than they "
+                               "are served, or the network lost them");
+    for (std::uint32_t i = 0; i < lost; ++i) {
+      monitor_.dropped(error);
+    }
+  }
+  if (message.queued.isZero() || (now - message.queued).toSec() <= max_wait_) {
+    return true;
+  }
+  monitor_.dropped(InputError(
+      "stale_message", topic_ + ": " + waitedFor((now - message.queued).toSec(), max_wait_)));
+  return false;
+}
+
+std::uint32_t ArrivalCheck::lostBefore(const Arrived& message) {
+  if (last_.size() >= kMaxPublishers && last_.count(message.publisher) == 0) {
+    last_.clear();
+  }
+  const auto [entry, is_first] = last_.try_emplace(message.publisher, message.sequence);
+  const std::uint32_t last = std::exchange(entry->second, message.sequence);
+  const bool goes_on = !is_first && message.sequence > last && message.sequence - last <= kMaxGap;
+  return goes_on ? message.sequence - last - 1 : 0;
+}
+
+}  // namespace datmo

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Much for the nodelets, at the computer's pace: three times the sensors' rates, clouds of all
+// pixels and lists of 500 objects; then their process stands still for as long as fills each queue.
+// Whatever is not served is counted, memory is bounded, and all is as before when the load has
+// ended. How fast this computer is decides how much is dropped, and nothing here depends on it.
+//
+// Parameters: ~seconds of load, ~nominal_seconds before it, ~objects in a list, ~out: a JSON file
+// for what was measured.
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "paced_drive.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace datmo::load_test {
+namespace {
+
+const PacedRates kNominal{50.0, 12.5, 5.0, World::kPixelStep, 12.5, 5};
+const PacedRates kLoad{150.0, 37.5, 20.0, 1, 37.5, 500};
+constexpr double kStandstill = 2.0;  // s, in which more comes than any queue has room for
+
+constexpr double kAfter = 6.0;              // s, with the load gone
+constexpr double kMaxMemoryGrowth = 500.0;  // MiB: full queues of clouds and lists, several times
+
+/// A stage and the topics that it takes of those that are sent, as its diagnostics call them.
+struct Door {
+  std::string stage;
+  std::vector<std::string> topics;
+  std::vector<std::string> inputs;
+};
+
+const std::vector<Door> kDoors{
+    {"grid_slam", {"scan", "odometry"}, {"scan", "odometry"}},
+    {"stereo_grid", {"stereo/points2"}, {"points2"}},
+    {"stereo_tracker", {"objects/stereo"}, {"objects"}},
+};
+
+class LoadTest : public testing::Test {
+ protected:
+  double received(const Door& door) const {
+    double sum = 0.0;
+    for (const std::string& input : door.inputs) {
+      sum += drive_.diagnostic(door.stage, input + " received");
+    }
+    return sum;
+  }
+
+  double lost(const Door& door) const {
+    return drive_.diagnostic(door.stage, "dropped: lost_message");
+  }
+
+  /// prepareMotion has sent one before the drive began.
+  double sent(const Door& door) const {
+    double sum = door.stage == "grid_slam" ? 1.0 : 0.0;
+    for (const std::string& topic : door.topics) {
+      sum += static_cast<double>(drive_.sent(topic));
+    }
+    return sum;
+  }
+
+  /// Latencies (s) of what came between two times.
+  std::vector<double> latencies(double from, double to) const {
+    std::vector<double> found;
+    for (const PacedDrive::Received& list : drive_.received()) {
+      if (list.at >= from && list.at < to) {
+        found.push_back(list.latency);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  static double quantileOf(const std::vector<double>& sorted, double share) {
+    return sorted.empty()
+               ? -1.0
+               : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  }
+
+  static nlohmann::json summary(const std::vector<double>& sorted) {
+    return {{"lists", sorted.size()},
+            {"median_s", quantileOf(sorted, 0.5)},
+            {"percentile_99_s", quantileOf(sorted, 0.99)},
+            {"worst_s", quantileOf(sorted, 1.0)}};
+  }
+
+  /// s from the end of the load until tracks are as new as before it, to stay so.
+  double recovery(double end, double nominal) const {
+    double last = end;
+    for (const PacedDrive::Received& list : drive_.received()) {
+      if (list.at > end && list.latency > 2.0 * nominal) {
+        last = list.at;
+      }
+    }
+    return last - end;
+  }
+
+  double mostMemory(double from, double to) const {
+    double most = 0.0;
+    for (const PacedDrive::Memory& sample : drive_.memory()) {
+      if (sample.at >= from && sample.at < to) {
+        most = std::max(most, sample.resident);
+      }
+    }
+    return most;
+  }
+
+  nlohmann::json doors() const {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Door& door : kDoors) {
+      list.push_back({{"stage", door.stage},
+                      {"sent", sent(door)},
+                      {"received", received(door)},
+                      {"lost", lost(door)},
+                      {"stale", drive_.diagnostic(door.stage, "dropped: stale_message")},
+                      {"dropped", drive_.diagnostic(door.stage, "dropped")},
+                      {"processed", drive_.diagnostic(door.stage, "processed")}});
+    }
+    return list;
+  }
+
+  /// The whole drive, so that a soak can be made of it.
+  nlohmann::json samples() const {
+    nlohmann::json lists = nlohmann::json::array();
+    for (const PacedDrive::Received& list : drive_.received()) {
+      lists.push_back({list.at, list.latency});
+    }
+    nlohmann::json memory = nlohmann::json::array();
+    for (const PacedDrive::Memory& sample : drive_.memory()) {
+      memory.push_back({sample.at, sample.resident});
+    }
+    return {{"tracks", lists}, {"memory_mib", memory}};
+  }
+
+  PacedDrive drive_;
+};
+
+TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
+  double load_seconds = 3.0;
+  double nominal_seconds = 3.0;
+  std::string out;
+  ros::param::get("~seconds", load_seconds);
+  ros::param::get("~nominal_seconds", nominal_seconds);
+  ros::param::get("~out", out);
+  PacedRates load = kLoad;
+  ros::param::get("~objects", load.objects);
+  ASSERT_TRUE(drive_.start({"stereo_grid", "grid_fusion", "tracker", "stereo_tracker",
+                            "track_fusion", "road_border", "risk"}));
+  ASSERT_TRUE(drive_.run(120.0, kNominal, [this] { return !drive_.received().empty(); }));
+
+  const double begin = drive_.now();
+  drive_.run(nominal_seconds, kNominal);
+  const double loaded = drive_.now();
+  drive_.run(load_seconds, load);
+  const double still = drive_.now();
+  const pid_t process = processOf("/perception");
+  ASSERT_GT(process, 0);
+  ASSERT_EQ(kill(process, SIGSTOP), 0);
+  drive_.run(kStandstill, load);
+  ASSERT_EQ(kill(process, SIGCONT), 0);
+  const double unloaded = drive_.now();
+  drive_.run(kAfter, kNominal);
+  const double end = drive_.now();
+  EXPECT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at > end; }))
+      << "no tracks any more";
+
+  // Nothing more is sent, so that the diagnostics catch up.
+  EXPECT_TRUE(drive_.run(120.0, {}, [this] {
+    return std::all_of(kDoors.begin(), kDoors.end(), [this](const Door& door) {
+      return received(door) + lost(door) == sent(door);
+    });
+  })) << doors().dump(1);
+
+  for (const Door& door : kDoors) {
+    EXPECT_GT(lost(door), 0.0) << door.stage << ": more came than fits into its queue";
+  }
+  const std::vector<double> before = latencies(begin, loaded);
+  ASSERT_FALSE(before.empty());
+  EXPECT_LT(mostMemory(loaded, end), mostMemory(0.0, loaded) + kMaxMemoryGrowth);
+  const nlohmann::json figures = {
+      {"nominal", summary(before)},
+      {"load", summary(latencies(loaded, still))},
+      {"after", summary(latencies(unloaded, end))},
+      {"load_s", still - loaded},
+      {"still_s", unloaded - still},
+      {"objects", load.objects},
+      {"recovered_s", recovery(unloaded, quantileOf(before, 0.99))},
+      {"memory_mib",
+       {mostMemory(0.0, loaded), mostMemory(loaded, end), drive_.memory().back().resident}},
+      {"nominal_from_to_s", {begin, loaded}},
+      {"doors", doors()}};
+  std::cout << figures.dump(1) << "\n";
+  if (!out.empty()) {
+    nlohmann::json all = figures;
+    all["samples"] = samples();
+    std::ofstream(out) << all.dump() << "\n";
+  }
+}
+
+}  // namespace
+}  // namespace datmo::load_test

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each nodelet is unloaded from the running process while a drive goes on, and then the process is
+// killed: all of them come back, and tracks with them. How long that takes is measured, not judged.
+//
+// Parameter: ~out: a JSON file for what was measured.
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "paced_drive.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <nodelet/NodeletList.h>
+#include <nodelet/NodeletUnload.h>
+
+namespace datmo::outage_test {
+namespace {
+
+const PacedRates kRates{50.0, 12.5, 5.0, World::kPixelStep, 0.0, 0};
+constexpr double kPatience =
+    120.0;                       // s, of what it takes on a machine that is busy many times over
+constexpr double kSettle = 3.0;  // s, until the next one
+
+const std::vector<std::string> kNodelets{
+    "grid_slam",      "moving_objects", "tracker",      "road_border",
+    "stereo_objects", "stereo_tracker", "track_fusion", "stereo_alignment",
+    "risk",           "markers",        "stack",        "motion"};
+
+class OutageTest : public testing::Test {
+ protected:
+  static bool isLoaded(const std::string& nodelet) {
+    nodelet::NodeletList list;
+    if (!ros::service::call("/perception/list", list)) {
+      return false;
+    }
+    const auto& known = list.response.nodelets;
+    return std::count(known.begin(), known.end(), "/" + nodelet) > 0;
+  }
+
+  static bool unload(const std::string& nodelet) {
+    nodelet::NodeletUnload call;
+    call.request.name = "/" + nodelet;
+    return ros::service::call("/perception/unload_nodelet", call) && call.response.success;
+  }
+
+  /// Tracks of a scan that was measured after a time (s).
+  bool hasTracksOf(double time) const {
+    const auto& lists = drive_.received();
+    return std::any_of(lists.rbegin(), lists.rend(), [&](const PacedDrive::Received& list) {
+      return list.at - list.latency > time;
+    });
+  }
+
+  std::uint32_t carId() const {
+    const auto& lists = drive_.received();
+    const auto found =
+        std::find_if(lists.rbegin(), lists.rend(), [](const auto& list) { return list.car != 0; });
+    return found == lists.rend() ? 0 : found->car;
+  }
+
+  /// How long tracks were away, and whether the other car is the same one in them.
+  nlohmann::json measured(const std::string& what, double time, std::uint32_t id) {
+    EXPECT_TRUE(drive_.run(kPatience, kRates, [&] { return hasTracksOf(time); })) << what;
+    const double took = drive_.now() - time;
+    drive_.run(kSettle, kRates);
+    nlohmann::json one = {{"what", what}, {"tracks_s", took}, {"id_kept", carId() == id}};
+    std::cout << one.dump() << std::endl;
+    return one;
+  }
+
+  PacedDrive drive_;
+};
+
+TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
+  std::string out;
+  ros::param::get("~out", out);
+  ASSERT_TRUE(drive_.start({"tracker", "stereo_tracker", "track_fusion"}));
+  ASSERT_TRUE(drive_.run(kPatience, kRates, [this] { return carId() != 0; }));
+  drive_.run(kSettle, kRates);
+  nlohmann::json outages = nlohmann::json::array();
+  outages.push_back(measured("nothing", drive_.now(), carId()));
+  outages.back()["loaded_s"] = 0.0;
+  for (const std::string& nodelet : kNodelets) {
+    const std::uint32_t id = carId();
+    const double time = drive_.now();
+    EXPECT_TRUE(unload(nodelet)) << nodelet;
+    EXPECT_TRUE(drive_.run(kPatience, kRates, [&] { return isLoaded(nodelet); })) << nodelet;
+    const double back = drive_.now() - time;
+    outages.push_back(measured(nodelet + " unloaded", time, id));
+    outages.back()["loaded_s"] = back;
+  }
+  const std::uint32_t id = carId();
+  const pid_t process = processOf("/perception");
+  ASSERT_GT(process, 0);
+  const double time = drive_.now();
+  ASSERT_EQ(kill(process, SIGKILL), 0);
+  outages.push_back(measured("the process killed", time, id));
+  EXPECT_TRUE(drive_.run(kPatience, kRates,
+                         [] { return std::all_of(kNodelets.begin(), kNodelets.end(), isLoaded); }));
+  outages.back()["loaded_s"] = drive_.now() - time;
+  if (!out.empty()) {
+    std::ofstream(out) << outages.dump(1) << "\n";
+  }
+}
+
+}  // namespace
+}  // namespace datmo::outage_test

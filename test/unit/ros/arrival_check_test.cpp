@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/arrival_check.h"
+
+#include <limits>
+#include <string>
+
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <sensor_msgs/LaserScan.h>
+
+#include "datmo_fusion/ros/stage/queue_length.h"
+
+namespace datmo::arrival_check_test {
+namespace {
+
+const ros::Time kNow(100.0);
+
+class ArrivalCheckTest : public testing::Test {
+ protected:
+  bool take(const std::string& publisher, std::uint32_t sequence, const ros::Time& queued = kNow) {
+    return check_.passes({publisher, sequence, queued}, kNow);
+  }
+
+  std::uint64_t dropped(const std::string& reason) const {
+    return samples::drops(monitor_, reason);
+  }
+
+  StageMonitor monitor_{"stage"};
+  ArrivalCheck check_{"scan", 0.5, monitor_};
+};
+
+TEST_F(ArrivalCheckTest, AGapInTheNumbersIsLostMessages) {
+  EXPECT_TRUE(take("/driver", 7)) << "what came before the first is not known";
+  EXPECT_TRUE(take("/driver", 8));
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+  EXPECT_TRUE(take("/driver", 12)) << "the message itself is served";
+  EXPECT_EQ(dropped("lost_message"), 3U);
+  EXPECT_NE(monitor_.lastDrop().find("3 messages on scan from /driver"), std::string::npos);
+}
+
+TEST_F(ArrivalCheckTest, EachPublisherCountsByItself) {
+  take("/driver", 7);
+  take("/other", 100);
+  take("/driver", 8);
+  take("/other", 101);
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(ArrivalCheckTest, APublisherThatStartsOverOrDoesNotCountHasLostNothing) {
+  for (const std::uint32_t sequence : {5000U, 1U, 2U, 0U, 0U, 9000U, 9000U}) {
+    EXPECT_TRUE(take("/driver", sequence));
+  }
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(ArrivalCheckTest, PublishersWithANewNameEachTimeAreForgotten) {
+  for (int i = 0; i < 100; ++i) {
+    take("/play_" + std::to_string(i), 1);
+  }
+  take("/play_99", 3);
+  EXPECT_EQ(dropped("lost_message"), 1U) << "the last one is still known";
+}
+
+TEST_F(ArrivalCheckTest, WhatHasWaitedForTooLongMakesWayForNewerOnes) {
+  EXPECT_TRUE(take("/driver", 1, kNow - ros::Duration(0.4)));
+  EXPECT_FALSE(take("/driver", 2, kNow - ros::Duration(0.6)));
+  EXPECT_EQ(dropped("stale_message"), 1U);
+  EXPECT_NE(monitor_.lastDrop().find("0.60 s"), std::string::npos);
+  EXPECT_TRUE(take("/driver", 3));
+  EXPECT_EQ(dropped("lost_message"), 0U) << "what is dropped here has come";
+}
+
+TEST_F(ArrivalCheckTest, AClockThatIsNotThereYetOrWasSetBackMakesNothingOld) {
+  EXPECT_TRUE(take("/driver", 1, ros::Time()));
+  EXPECT_TRUE(take("/driver", 2, kNow + ros::Duration(10.0)));
+}
+
+TEST(MaxWaitInQueue, MotionAddsUpAndMayWait) {
+  EXPECT_EQ(maxWaitInQueue<nav_msgs::Odometry>(), std::numeric_limits<double>::infinity());
+  EXPECT_LT(maxWaitInQueue<sensor_msgs::LaserScan>(), 1.0);
+}
+
+TEST(Sequence, OfTheHeaderIfThereIsOne) {
+  sensor_msgs::LaserScan scan;
+  setSequence(scan, 3);
+  EXPECT_EQ(sequenceOf(scan), 3U);
+  tf2_msgs::TFMessage transforms;
+  setSequence(transforms, 3);
+  EXPECT_EQ(sequenceOf(transforms), 0U);
+}
+
+}  // namespace
+}  // namespace datmo::arrival_check_test

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of the campaign: what was done to the stack, and what came."""
+
+from datmo_tools.experiments.soak import of_nodelets, of_stack
+from datmo_tools.text_table import NO_VALUE, percent, rounded
+
+TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
+# A pose is right again when its error is that of the clean drive again, by this much (m).
+RECOVERED = 0.3
+
+
+def page(report):
+    """The report (dict) as Markdown; parts that were not run are left out."""
+    parts = [["# Reliability", "", "Written by `scripts/campaign`."]]
+    parts += [_fault_lines(report, drive) for drive in report["drives"]]
+    for part, lines in (("silent", _silent_lines), ("outages", _outage_lines), ("load", _load_lines),
+                        ("soak", _soak_lines), ("mutated", _mutated_lines)):  # fmt: skip
+        if report[part]:
+            parts.append(lines(report[part]))
+    return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
+
+
+def _fault_lines(report, drive):
+    options = " ".join(("run_bag", *drive["options"]))
+    lines = [
+        f"## Faults on line: {drive['drive']}",
+        "",
+        f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
+        "position since the first pose. Recovered: seconds after the fault's end until the position is as right as",
+        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps back makes a new map:",
+        "errors are since its first pose, and tracks whose time went back have no score. "
+        f"{len(drive['runs']) - 1} of the campaign's {drive['of']} faults.",
+        "",
+        "| fault | poses | largest error [m] | at the end [m] | recovered [s] | MOTA | misses | false positives | id switches |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    return lines + [_row(run) for run in drive["runs"]]
+
+
+def _silent_lines(runs):
+    return [
+        "## One scanner silent for 3 s, with a stereo camera",
+        "",
+        "At five times of that drive, by level of fusion. Error: that the silence added, at the first pose after it and the most from",
+        "0.5 s later on, in m and of the way driven meanwhile. Ids: of what moves in the camera's view before, meanwhile and",
+        "after, how many have a track before and after, and how many of them under one id.",
+        "",
+        "| level | from [s] | poses, lists of tracks meanwhile | way [m] | error after [m] | 0.5 s later [m] | of the way | seen | tracked | ids kept |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+        *(_silent_row(run) for run in runs),
+    ]
+
+
+def _silent_row(run):
+    settled = run["settled_m"]
+    share = None if settled is None else settled / run["way_m"]
+    cells = [run["level"], f"{run['from_s']:g}", f"{run['poses_meanwhile']}, {run['lists_meanwhile']}", f"{run['way_m']:.1f}",
+             rounded(run["first_m"], 2), rounded(settled, 2), f"{percent(share)} %", *(str(run[key]) for key in ("seen", "tracked", "kept"))]  # fmt: skip
+    return f"| {' | '.join(cells)} |"
+
+
+def _outage_lines(outages):
+    return [
+        "## Nodelets unloaded, the process killed",
+        "",
+        "Live (`outage.test`, `fusion:=recommended risk:=true`), at the computer's pace, while a drive goes on: seconds until the nodelet is loaded",
+        "again by its `load_nodelet`, and until there are tracks of a scan that was measured after it; whether the other car",
+        "then has the id that it had.",
+        "",
+        "| what | loaded [s] | tracks [s] | id kept |",
+        "|---|---|---|---|",
+        *(f"| {each['what']} | {each['loaded_s']:.1f} | {each['tracks_s']:.1f} | {'yes' if each['id_kept'] else 'no'} |"
+          for each in outages),
+    ]  # fmt: skip
+
+
+def _load_lines(load):
+    rows = [(name, load[key]) for name, key in (("nominal", "nominal"), ("load", "load"), ("after it", "after"))]
+    before, most, after = load["memory_mib"]
+    return [
+        "## Load",
+        "",
+        f"Live (`load.test`, all on one computer, low level and track fusion, borders, risk): {load['load_s']:.0f} s of three times the",
+        "sensors' rates (scans at 37.5 Hz), clouds of 196,608 pixels at 20 Hz and lists of 500 objects at 37.5 Hz. Latency: from",
+        "the stamp of a scan to its tracks.",
+        "",
+        "| | lists of tracks | median [s] | 99 % [s] | most [s] |",
+        "|---|---|---|---|---|",
+        *(f"| {name} | {row['lists']} | {row['median_s']:.3f} | {row['percentile_99_s']:.3f} | {row['worst_s']:.3f} |"
+          for name, row in rows),
+        "",
+        f"- latency as before the load, within twice its 99 %, {load['recovered_s']:.2f} s after its end",
+        f"- memory of the process: {before:.0f} MiB before, {most:.0f} MiB at most, {after:.0f} MiB at the end",
+        "",
+        "Sent and what became of it; every message that is not served is counted by the stage:",
+        "",
+        "| stage | sent | received | lost in queues | too old | processed |",
+        "|---|---|---|---|---|---|",
+        *(f"| {door['stage']} | {' | '.join(f'{door[key]:.0f}' for key in ('sent', 'received', 'lost', 'stale', 'processed'))} |"
+          for door in load["doors"]),
+    ]  # fmt: skip
+
+
+def _soak_lines(soaked):
+    parts = ["## Soak", "", "Growth: of a straight line through samples, once windows and histories are full, +- its standard error."]
+    stack = of_stack(soaked["samples"])
+    lines = [
+        *parts,
+        "",
+        f"`soak_stack`: {stack['hours']:.1f} hours of a drive without end, all levels of fusion, as fast as it goes; {stack['dropped']}",
+        f"messages dropped; at least {stack['tracks_least']} tracks in each minute.",
+        "",
+        "| | median | growth an hour of data |",
+        "|---|---|---|",
+        *(_drift_row(name, stack[key]) for name, key in (
+            ("allocated memory [MiB]", "heap_mib"), ("memory of the process [MiB]", "resident_mib"),
+            ("a scan and all that follows, median [ms]", "median_ms"), ("the same, 99 % [ms]", "percentile_99_ms"))),
+    ]  # fmt: skip
+    return lines
+
+
+def live_lines(samples, seconds):
+    """Of the nodelets, before the load: `samples` as load.test writes them."""
+    live = of_nodelets(samples, seconds)
+    return [
+        f"The nodelets, live, {live['hours']:.2f} hours before the load:",
+        "",
+        "| | median | growth an hour |",
+        "|---|---|---|",
+        _drift_row("memory of the process [MiB]", live["resident_mib"]),
+        _drift_row("scan to tracks [ms]", live["latency_ms"]),
+    ]
+
+
+def _drift_row(name, drift):
+    return f"| {name} | {drift['median']:.2f} | {drift['per_hour']:+.3f} +- {drift['error']:.3f} |"
+
+
+def _row(run):
+    if run["error"] is not None:
+        return f"| {run['fault']} | {run['error']} | | | | | | | |"
+    pose, tracks = run["pose"], run["tracks"]
+    recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
+    cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
+             f"{pose['final_error_m']:.2f}", recovered, _cell(tracks["mota"]),
+             *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
+    return f"| {' | '.join(cells)} |"
+
+
+def _cell(value):
+    if value is None:
+        return NO_VALUE
+    return f"{value:.3f}" if isinstance(value, float) else str(value)
+
+
+def _mutated_lines(mutated):
+    refused = sorted(mutated["refused"].items(), key=lambda item: (-item[1], item[0]))
+    return [
+        "## Mutated messages",
+        "",
+        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages as they should be and",
+        f"{mutated['mutated']} with one to three fields spoiled (NaN, infinity, bounds of the type, other lengths, names and",
+        "stamps), at the doors of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
+        "with 3 s without mutations, in which tracks have to come again.",
+        "",
+        f"- found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
+        f"- slowest message with all that follows from it: {mutated['slowest_s']:.2f} s ({mutated['slowest_on']})",
+        f"- peak of memory: {mutated['peak_memory_mib']:.0f} MiB",
+        "- refused or warned of, by reason: "
+        + ", ".join(f"{reason} {count}" for reason, count in refused),
+    ]

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether what moves in a camera's view keeps the id of its track, while another sensor is away."""
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.pose_path import planar, read_messages, read_path
+
+TRUTH = "/ground_truth/pose"
+NEAR = 2.0  # m, from an object's center to that of its track: half a car's length
+BESIDE = 0.5  # s, before and after
+
+
+def kept_ids(computed, recorded, begin, end, sensor="stereo"):
+    """How many moving objects that a sensor sees all the time from `begin` to `end` (s) are tracked
+    before and after, and how many of them under one id (dict); also how many lists of tracks came
+    in between.
+
+    computed, recorded: bags (Path) with tracks and pose, and with the truth.
+    """
+    paths = read_path(computed, "/pose"), read_path(recorded, TRUTH)
+    lists = [message for message, _ in read_messages(computed, "/tracks")]
+    truth = [message for message, _ in read_messages(recorded, "/ground_truth/objects")]
+    stamps = np.array([message.header.stamp.to_sec() for message in truth])
+    within = [truth[i] for i in np.flatnonzero((stamps >= begin - BESIDE) & (stamps <= end + BESIDE))]
+    seen = set.intersection(*({each.id for each in message.objects if each.moving and sensor in each.visible_to}
+                              for message in within))  # fmt: skip
+    before = [message for message in lists if message.header.stamp.to_sec() < begin]
+    after = [message for message in lists if message.header.stamp.to_sec() >= end + BESIDE]
+    ids = [_ids_of(each, truth[int(np.argmin(np.abs(stamps - each.header.stamp.to_sec())))], seen, paths)
+           for each in (before[-1:] + after[:1])]  # fmt: skip
+    both = set(ids[0]) & set(ids[1]) if len(ids) == 2 else set()
+    return {
+        "seen": len(seen),
+        "tracked": len(both),
+        "kept": sum(ids[0][each] == ids[1][each] for each in both),
+        "lists_meanwhile": sum(begin <= message.header.stamp.to_sec() < end for message in lists),
+    }
+
+
+def _ids_of(tracks, truth, seen, paths):
+    """Track id by object id, of those objects that have a track near to them."""
+    own, true = (path.at(tracks.header.stamp.to_nsec()) for path in paths)
+    places = [(track.id, transforms.relative(own, planar(track.pose))[:2]) for track in tracks.tracks]
+    found = {}
+    for each in truth.objects:
+        if each.id in seen:
+            at = transforms.relative(true, planar(each.pose))[:2]
+            distance, track = min(((float(np.hypot(*np.subtract(place, at))), track) for track, place in places),
+                                  default=(np.inf, 0))  # fmt: skip
+            if distance < NEAR:
+                found[each.id] = track
+    return found
+
+
+def gap_effect(stamps, errors, clean, gap, way):
+    """What a gap did to the pose (dict): the error that it added at the first pose after it, and from
+    BESIDE later on the most; None: no pose.
+
+    stamps (s) and errors (m), and the clean drive's: as of pose_errors; gap: begin and end (s); way: m,
+    driven in it.
+    """
+    begin, end = gap
+    added = np.abs(errors - np.interp(stamps, *clean))
+    after, settled = added[stamps >= end], added[stamps >= end + BESIDE]
+    return {
+        "way_m": way,
+        "poses_meanwhile": int(((stamps >= begin) & (stamps < end)).sum()),
+        "first_m": float(after[0]) if len(after) else None,
+        "settled_m": float(settled.max()) if len(settled) else None,
+    }
