@@ -11,8 +11,10 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
+from datmo_tools.experiments import soak
 from datmo_tools.experiments.campaign import effect, page
-from datmo_tools.experiments.line_faults import Message, faults, faulty
+from datmo_tools.experiments.kept_ids import gap_effect
+from datmo_tools.experiments.line_faults import JUMP, STEREO_INPUTS, Message, faults, faulty
 
 BEGIN = 100.0  # s
 
@@ -89,6 +91,51 @@ class LineFaults(unittest.TestCase):
         self.assertEqual((turns.count(3.0), turns.count(0.0)), (1, 199))
 
 
+    def test_clocks_that_jump_jump_all_at_once_and_the_mounts_stay(self):
+        for jump, name in ((-JUMP, f"all clocks back by {JUMP:g} s (a looped bag)"), (JUMP, f"all clocks ahead by {JUMP:g} s")):
+            for topic in ("/scan", "/odometry"):
+                off = offsets(with_fault(name), topic)
+                np.testing.assert_allclose(off, np.where(np.arange(200) < 100, 0.0, jump), atol=1e-6)
+
+    def test_mounts_that_are_missing(self):
+        fault = next(each for each in faults() if each.name.startswith("mounts missing"))
+        mounts = Message("/tf_static", TFMessage(), 90.0)
+        self.assertEqual(faulty([mounts, *drive()], fault, BEGIN), drive())
+
+    def test_the_cameras_faults_are_those_of_its_clouds(self):
+        names = [fault.name for fault in faults(STEREO_INPUTS)]
+        self.assertIn("stereo frozen for 3 s", names)
+        self.assertFalse([name for name in names if name.startswith(("odometry", "all"))])
+        fault = next(each for each in faults(STEREO_INPUTS) if each.name == "stereo silent for 3 s")
+        clouds = [message._replace(topic="/stereo/points2") for message in of(drive(), "/scan")]
+        self.assertIn(len(faulty(clouds, fault, BEGIN)), (169, 170))
+
+
+class Gap(unittest.TestCase):
+    def test_what_it_added_after_it_and_half_a_second_later(self):
+        stamps = np.array([7.9, 11.0, 11.4, 11.6, 12.0])
+        clean = (np.arange(20.0), np.full(20, 0.1))
+        result = gap_effect(stamps, np.array([0.1, 0.9, 0.5, 0.2, 0.3]), clean, (8.0, 11.0), 20.0)
+        self.assertEqual((result["poses_meanwhile"], result["way_m"]), (0, 20.0))
+        self.assertAlmostEqual(result["first_m"], 0.8)
+        self.assertAlmostEqual(result["settled_m"], 0.2)
+
+
+class Soak(unittest.TestCase):
+    def test_growth_is_that_of_the_line_after_what_fills_at_first(self):
+        hours = np.arange(0.0, 4.0, 0.05)
+        memory = np.where(hours < 0.5, 200.0 * hours, 100.0 + 2.0 * (hours - 0.5))
+        drift = soak.drift(hours, memory)
+        self.assertAlmostEqual(drift["per_hour"], 2.0, places=6)
+        self.assertLess(drift["error"], 1e-6)
+
+    def test_noise_is_told_by_the_standard_error(self):
+        noise = np.random.default_rng(1).normal(0.0, 1.0, 200)
+        drift = soak.drift(np.linspace(0.0, 2.0, 200), 50.0 + noise)
+        self.assertLess(abs(drift["per_hour"]), 4.0 * drift["error"])
+        self.assertGreater(drift["error"], 0.05)
+
+
 class Effect(unittest.TestCase):
     """A drive of 20 s with a fault from 8 s to 11 s; without it the pose is 0.1 m off."""
 
@@ -116,8 +163,13 @@ class Effect(unittest.TestCase):
         self.assertFalse(result["recovered"])
         run = {"fault": "scan silent", "error": None, "pose": result,
                "tracks": {"mota": 0.5, "misses": 3, "false_positives": 0, "id_switches": 1}}  # fmt: skip
-        text = page({"drive": "a.bag", "begin_s": 8.0, "runs": [run], "mutated": None})
-        self.assertIn("| scan silent | 200 | 3.00 | 3.00 | never | 0.500 | 3 | 0 | 1 |", text)
+        result["largest_sigma_m"] = 0.25
+        drive = {"drive": "a.bag", "options": ("--fusion", "low"), "of": 3, "runs": [run]}
+        parts = dict.fromkeys(("silent", "mutated", "soak", "load", "outages"))
+        text = page({"begin_s": 8.0, "drives": [drive], **parts})
+        self.assertIn("| scan silent | 200 | 3.00 | 3.00 | 0.25 | never | 0.500 | 3 | 0 | 1 |", text)
+        self.assertIn("run_bag --fusion low", text)
+        self.assertNotIn("Soak", text)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.campaign_page import RECOVERED, TRACK_FIGURES, page
 from datmo_tools.experiments.kept_ids import gap_effect, kept_ids
 from datmo_tools.experiments.line_faults import INPUTS, KEPT, STEREO_INPUTS, Fault, Message, faults, faulty
-from datmo_tools.pose_path import read_path
+from datmo_tools.pose_path import read_messages, read_path
 from datmo_tools.programs import StepFailed
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
@@ -156,10 +156,11 @@ def _run(values, played, fault, begin, clean):
         try:
             run = _play(values, played, fault, begin, Path(name))
         except StepFailed as error:
-            return {"fault": fault.name, "error": str(error).rpartition("/")[2]}, None
+            return {"fault": fault.name, "error": str(error).replace(f"{name}/", "")}, None
         path = _path(run)
         tracks = _tracks(run.computed, values.programs, run.folder)
-    poses = effect(*path, clean or path, begin, begin + fault.seconds)
+        sigma = _largest_sigma(run)
+    poses = {**effect(*path, clean or path, begin, begin + fault.seconds), "largest_sigma_m": sigma}
     return {"fault": fault.name, "error": None, "pose": poses, "tracks": tracks}, path
 
 
@@ -169,6 +170,14 @@ def _path(run):
     stamps, errors = pose_errors(run.computed, run.drive, run.begin + 0.5 * jump if jump < 0.0 else np.inf)
     after = stamps < run.begin if jump < 0.0 else stamps > run.begin + 0.5 * jump
     return (stamps - jump * after if jump else stamps), errors
+
+
+def _largest_sigma(run):
+    """m, in the worst direction, of the poses after the fault began."""
+    covariances = [np.reshape(message.pose.covariance, (6, 6))[:2, :2]
+                   for message, _ in read_messages(run.computed, "/pose")
+                   if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0)]  # fmt: skip
+    return float(np.sqrt(max(np.linalg.eigvalsh(covariance)[1] for covariance in covariances)))
 
 
 def _silent_scanner(values, played):

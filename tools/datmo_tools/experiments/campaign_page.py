@@ -7,6 +7,8 @@ from datmo_tools.text_table import NO_VALUE, percent, rounded
 TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
 # A pose is right again when its error is that of the clean drive again, by this much (m).
 RECOVERED = 0.3
+# Less than so many hours of live nodelets say nothing on growth.
+SOAKED = 0.2
 
 
 def page(report):
@@ -26,13 +28,13 @@ def _fault_lines(report, drive):
         f"## Faults on line: {drive['drive']}",
         "",
         f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
-        "position since the first pose. Recovered: seconds after the fault's end until the position is as right as",
+        "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as right as",
         f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps back makes a new map:",
         "errors are since its first pose, and tracks whose time went back have no score. "
         f"{len(drive['runs']) - 1} of the campaign's {drive['of']} faults.",
         "",
-        "| fault | poses | largest error [m] | at the end [m] | recovered [s] | MOTA | misses | false positives | id switches |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| fault | poses | largest error [m] | at the end [m] | largest sigma [m] | recovered [s] | MOTA | misses | false positives | id switches |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     return lines + [_row(run) for run in drive["runs"]]
 
@@ -64,8 +66,8 @@ def _outage_lines(outages):
         "## Nodelets unloaded, the process killed",
         "",
         "Live (`outage.test`, `fusion:=recommended risk:=true`), at the computer's pace, while a drive goes on: seconds until the nodelet is loaded",
-        "again by its `load_nodelet`, and until there are tracks of a scan that was measured after it; whether the other car",
-        "then has the id that it had.",
+        "again by its `load_nodelet`, and until there are tracks of a scan that was measured after it; whether 3 s later the other",
+        "car has the id that it had. A process that is killed begins a new map.",
         "",
         "| what | loaded [s] | tracks [s] | id kept |",
         "|---|---|---|---|",
@@ -81,15 +83,15 @@ def _load_lines(load):
         "## Load",
         "",
         f"Live (`load.test`, all on one computer, low level and track fusion, borders, risk): {load['load_s']:.0f} s of three times the",
-        "sensors' rates (scans at 37.5 Hz), clouds of 196,608 pixels at 20 Hz and lists of 500 objects at 37.5 Hz. Latency: from",
-        "the stamp of a scan to its tracks.",
+        f"sensors' rates (scans at 37.5 Hz), clouds of 196,608 pixels at 20 Hz and lists of {load['objects']} objects at 37.5 Hz; then the",
+        f"process stands still (SIGSTOP) for {load['still_s']:.0f} s meanwhile. Latency: from the stamp of a scan to its tracks.",
         "",
         "| | lists of tracks | median [s] | 99 % [s] | most [s] |",
         "|---|---|---|---|---|",
         *(f"| {name} | {row['lists']} | {row['median_s']:.3f} | {row['percentile_99_s']:.3f} | {row['worst_s']:.3f} |"
           for name, row in rows),
         "",
-        f"- latency as before the load, within twice its 99 %, {load['recovered_s']:.2f} s after its end",
+        f"- latency is within twice the 99 % of before {load['recovered_s']:.2f} s after the end of both",
         f"- memory of the process: {before:.0f} MiB before, {most:.0f} MiB at most, {after:.0f} MiB at the end",
         "",
         "Sent and what became of it; every message that is not served is counted by the stage:",
@@ -98,17 +100,19 @@ def _load_lines(load):
         "|---|---|---|---|---|---|",
         *(f"| {door['stage']} | {' | '.join(f'{door[key]:.0f}' for key in ('sent', 'received', 'lost', 'stale', 'processed'))} |"
           for door in load["doors"]),
+        *_live_lines(load["samples"], load["nominal_from_to_s"][1]),
     ]  # fmt: skip
 
 
 def _soak_lines(soaked):
-    parts = ["## Soak", "", "Growth: of a straight line through samples, once windows and histories are full, +- its standard error."]
     stack = of_stack(soaked["samples"])
-    lines = [
-        *parts,
+    return [
+        "## Soak",
         "",
-        f"`soak_stack`: {stack['hours']:.1f} hours of a drive without end, all levels of fusion, as fast as it goes; {stack['dropped']}",
-        f"messages dropped; at least {stack['tracks_least']} tracks in each minute.",
+        f"`soak_stack`: {stack['hours']:.1f} hours of a drive without end, all levels of fusion, in one process as fast as it goes;",
+        f"{stack['dropped']} messages dropped, at least {stack['tracks_least']} tracks in the lists of each minute. Growth: of a straight line through",
+        "the minutes' samples, after the first half hour, in which the map fills (`map/max_tiles`), +- its standard error. Loop closing",
+        "is left out, which keeps the drive ([limits.md](limits.md)). Times are those of a computer that does other things, too.",
         "",
         "| | median | growth an hour of data |",
         "|---|---|---|",
@@ -116,14 +120,16 @@ def _soak_lines(soaked):
             ("allocated memory [MiB]", "heap_mib"), ("memory of the process [MiB]", "resident_mib"),
             ("a scan and all that follows, median [ms]", "median_ms"), ("the same, 99 % [ms]", "percentile_99_ms"))),
     ]  # fmt: skip
-    return lines
 
 
-def live_lines(samples, seconds):
+def _live_lines(samples, seconds):
     """Of the nodelets, before the load: `samples` as load.test writes them."""
+    if seconds / 3600.0 < SOAKED:
+        return []
     live = of_nodelets(samples, seconds)
     return [
-        f"The nodelets, live, {live['hours']:.2f} hours before the load:",
+        "",
+        f"Before it, {live['hours']:.2f} hours at the sensors' rates; growth: as of the soak below.",
         "",
         "| | median | growth an hour |",
         "|---|---|---|",
@@ -138,11 +144,12 @@ def _drift_row(name, drift):
 
 def _row(run):
     if run["error"] is not None:
-        return f"| {run['fault']} | {run['error']} | | | | | | | |"
+        said = run["error"].split("; ")[0].split(" (")[0]
+        return f"| {run['fault']} | none: {said} | | | | | | | | |"
     pose, tracks = run["pose"], run["tracks"]
     recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
     cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
-             f"{pose['final_error_m']:.2f}", recovered, _cell(tracks["mota"]),
+             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", recovered, _cell(tracks["mota"]),
              *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
     return f"| {' | '.join(cells)} |"
 
