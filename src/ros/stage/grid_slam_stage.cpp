@@ -136,6 +136,7 @@ void GridSlamStage::reset() {
   odometry_.reset();
   odometry_poses_.clear();
   frozen_.reset();
+  held_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;
   maps_begun_ = 0;
@@ -244,16 +245,8 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
                        "file)"));
     return {};
   }
+  held_.set(odom_in_map(base_in_map * base_in_odom->inverse()));
   return {odom_in_map(base_in_map * base_in_odom->inverse())};
-}
-
-nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
-  if (last_map_ && secondsBetween(*last_map_, stamp) < options_.map_period) {
-    return nullptr;
-  }
-  last_map_ = stamp;
-  return boost::make_shared<nav_msgs::OccupancyGrid>(
-      toMessage(slam_.map(), stamp, options_.frames.map));
 }
 
 void GridSlamStage::connect(StagePorts& ports) {
@@ -275,9 +268,11 @@ void GridSlamStage::connect(StagePorts& ports) {
     map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
-    ports.in<nav_msgs::Odometry>(
-        options_.motion.odometryTopic(),
-        [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
+    ports.in<nav_msgs::Odometry>(options_.motion.odometryTopic(),
+                                 [this, transforms](const auto& odometry, Stamp /*now*/) {
+                                   takeOdometry(*odometry);
+                                   transforms.publish(heldAt(toStamp(odometry->header.stamp)));
+                                 });
   }
   const auto take_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,

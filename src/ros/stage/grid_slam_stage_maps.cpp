@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GridSlamStage does with map files.
+// What GridSlamStage does with maps, their files, and their frame.
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/map_saving.h"
 
@@ -37,6 +37,25 @@ datmo_fusion::SaveMap::Response GridSlamStage::answer(
     }
     return saveMap(file);
   });
+}
+
+nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
+  if (last_map_ && secondsBetween(*last_map_, stamp) < options_.map_period) {
+    return nullptr;
+  }
+  last_map_ = stamp;
+  return boost::make_shared<nav_msgs::OccupancyGrid>(
+      toMessage(slam_.map(), stamp, options_.frames.map));
+}
+
+tf2_msgs::TFMessagePtr GridSlamStage::heldAt(Stamp stamp) const {
+  const auto held = odometry_poses_.at(stamp) ? held_.at(stamp) : std::nullopt;
+  if (!held) {
+    return nullptr;
+  }
+  const auto message = boost::make_shared<tf2_msgs::TFMessage>();
+  message->transforms = {*held};
+  return message;
 }
 
 }  // namespace datmo

@@ -11,7 +11,7 @@ from datmo_tools.pose_path import planar, read_messages, read_path
 TRUTH = "/ground_truth/pose"
 NEAR = 2.0  # m, from an object's center to that of its track: half a car's length
 BESIDE = 0.5  # s, before and after
-SEEN = 0.8  # share of the time: something else may hide it for a moment
+SEEN = 0.5  # share of the time: others hide it now and then
 
 
 def kept_ids(computed, recorded, begin, end, sensor="stereo"):

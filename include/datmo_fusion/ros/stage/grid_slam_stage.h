@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <datmo_fusion/SaveMap.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -22,6 +23,7 @@
 #include "datmo_fusion/ros/prior_map_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/frozen_sensor.h"
+#include "datmo_fusion/ros/stage/held_transform.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/odometry_wait.h"
 #include "datmo_fusion/ros/stage/stage.h"
@@ -127,6 +129,8 @@ class GridSlamStage : public Stage {
   GridSlamOutput outputOf(const SlamResult& result);
   /// By the odometry's poses.
   std::optional<Pose2> motionBetween(Stamp from, Stamp to) const;
+  /// map -> odom at the stamp of an odometry that was taken, while scans are silent; else null.
+  tf2_msgs::TFMessagePtr heldAt(Stamp stamp) const;
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
   GridSlamStageOptions options_;
@@ -140,6 +144,7 @@ class GridSlamStage : public Stage {
   OdometryWait odometry_wait_;
   FrozenSensor frozen_;
   WaitingScans scans_;
+  HeldTransform held_;
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
   int maps_begun_ = 0;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/held_transform.h"
+
+#include <algorithm>
+
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// Scans are silent when none comes for so many of their periods, and for so long (s): no scanner
+/// that works leaves out as many, and a camera of 10 Hz waits for three of its frames at most.
+constexpr double kSilentPeriods = 3.0;
+constexpr double kSilence = 0.3;
+
+/// s: the longest gap of scans of which it is measured what becomes of the pose (scripts/gaps).
+constexpr double kLongest = 5.0;
+
+}  // namespace
+
+void HeldTransform::set(const geometry_msgs::TransformStamped& transform) {
+  if (last_) {
+    const double step =
+        secondsBetween(toStamp(last_->header.stamp), toStamp(transform.header.stamp));
+    period_ = step > kLongest ? period_ : std::max(0.0, step);
+  }
+  last_ = transform;
+}
+
+std::optional<geometry_msgs::TransformStamped> HeldTransform::at(Stamp stamp) const {
+  if (!last_) {
+    return std::nullopt;
+  }
+  const double silence = secondsBetween(toStamp(last_->header.stamp), stamp);
+  if (silence < std::max(kSilence, kSilentPeriods * period_) || silence > kLongest) {
+    return std::nullopt;
+  }
+  geometry_msgs::TransformStamped held = *last_;
+  held.header.stamp = toTime(stamp);
+  return held;
+}
+
+}  // namespace datmo
