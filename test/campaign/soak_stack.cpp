@@ -16,7 +16,7 @@
 namespace {
 
 /// The share of the minutes in which windows, histories and the map fill.
-constexpr double kSettledShare = 0.4;
+constexpr double kSettledShare = 0.5;
 /// MiB, by which the heap may be more or less from minute to minute, as the scene changes.
 constexpr double kMaxChange = 1.0;
 /// MiB an hour.

@@ -38,6 +38,9 @@ bool ArrivalCheck::passes(const Arrived& message, const ros::Time& now) {
     for (std::uint32_t i = 0; i < lost; ++i) {
       monitor_.dropped(error);
     }
+    const std::string figure = "lost on " + topic_;
+    const auto before = monitor_.figures().find(figure);
+    monitor_.figure(figure, lost + (before == monitor_.figures().end() ? 0.0 : before->second));
   }
   if (message.queued.isZero() || (now - message.queued).toSec() <= max_wait_) {
     return true;

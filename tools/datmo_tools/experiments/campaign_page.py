@@ -7,6 +7,7 @@ from datmo_tools.text_table import NO_VALUE, percent, rounded
 TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
 # A pose is right again when its error is that of the clean drive again, by this much (m).
 RECOVERED = 0.3
+IDS = {True: "yes", False: "no", None: NO_VALUE}
 # Less than so many hours of live nodelets say nothing on growth.
 SOAKED = 0.2
 
@@ -71,7 +72,7 @@ def _outage_lines(outages):
         "",
         "| what | loaded [s] | tracks [s] | id kept |",
         "|---|---|---|---|",
-        *(f"| {each['what']} | {each['loaded_s']:.1f} | {each['tracks_s']:.1f} | {'yes' if each['id_kept'] else 'no'} |"
+        *(f"| {each['what']} | {each['loaded_s']:.1f} | {each['tracks_s']:.1f} | {IDS[each['id_kept']]} |"
           for each in outages),
     ]  # fmt: skip
 
@@ -118,7 +119,7 @@ def _soak_lines(soaked):
         "|---|---|---|",
         *(_drift_row(name, stack[key]) for name, key in (
             ("allocated memory [MiB]", "heap_mib"), ("memory of the process [MiB]", "resident_mib"),
-            ("a scan and all that follows, median [ms]", "median_ms"), ("the same, 99 % [ms]", "percentile_99_ms"))),
+            ("a scan and all that follows, median of a minute [ms]", "median_ms"))),
     ]  # fmt: skip
 
 

@@ -4,7 +4,7 @@
 import numpy as np
 
 # Windows, histories and caches fill meanwhile: of the samples, at most of the time.
-SETTLED_SHARE = 0.4
+SETTLED_SHARE = 0.5
 SETTLED_HOURS = 0.5  # the map, at 5 m/s: 2000 tiles
 
 

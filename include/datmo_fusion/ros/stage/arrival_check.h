@@ -9,6 +9,7 @@
 #include <ros/message_event.h>
 #include <ros/message_traits.h>
 #include <ros/time.h>
+#include <std_msgs/Header.h>
 
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 

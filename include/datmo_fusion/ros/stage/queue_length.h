@@ -51,7 +51,7 @@ constexpr double maxWaitInQueue() {
       std::is_same_v<Message, sensor_msgs::PointCloud2>,
       std::is_same_v<Message, sensor_msgs::Image>, std::is_same_v<Message, LabeledScanMessage>,
       std::is_same_v<Message, ObjectArray>, std::is_same_v<Message, TrackArray>);
-  return is_replaced ? 0.5 : std::numeric_limits<double>::infinity();
+  return is_replaced ? 1.0 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace datmo
