@@ -67,11 +67,13 @@ class PriorMap(unittest.TestCase):
     def test_table_counts(self):
         results = [self.scored(0.1), self.scored(0.1, found_at=12), self.scored(5.0),
                    self.scored(0.0, found_at=99)]  # fmt: skip
-        for one, share in zip(results, (0.9, 0.9, 0.9, 0.3)):
+        for one, share in zip(results, (1.0, 0.9, 0.8, 0.3)):
             one["known_share"] = share
         rows = [line.split() for line in table(results, within=10.0).splitlines()]
         self.assertEqual(rows[1][:5], ["all", "4", "1", "2", "1"])
-        self.assertEqual(rows[2][8:12], ["3", "1", "2", "1"])
+        self.assertEqual(rows[2][:3], ["90", "to", "100"])
+        counts = [" ".join(row[10:14]) for row in rows[2:]]
+        self.assertEqual(counts, ["2 1 2 0", "1 0 0 1", "0 0 0 0", "1 0 0 0"])
 
     def test_what_of_a_view_a_map_knows(self):
         (self.folder / "hall.pgm").write_bytes(b"P5\n10 5\n255\n" + bytes(10) + bytes([254] * 40))

@@ -24,7 +24,8 @@ DESCRIPTION = """\
 Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it anywhere,
 at regular times of the rest of the drive, without a word on where it is. Prints how often it was
 found in time, how often it took a wrong place for the right one, and how far off the pose then was;
-and the same of those starts alone at which the map knows most of what the vehicle sees in that time.
+and the same by how much the map knows of what the vehicle sees in that time, since a place that the
+first part of the drive did not see cannot be found: the starts in the map are what can be reached.
 Reference: the poses of one run over the whole drive, whose map is the same. The exit code is 1 where
 a wrong place was taken."""
 
@@ -36,8 +37,9 @@ LOCATED_SIGMA = 1.0
 # A place is wrong from here on.
 WRONG_POSITION = 0.5  # m
 WRONG_HEADING = 5.0  # degrees
-# A start is in the map when that knows this share of the end points, in the mean of the scans.
-IN_MAP = 0.8
+# Bounds of the table's groups of starts: shares of the end points that the map knows, in the mean
+# of the scans. In the first group a place can be found, in the last one hardly.
+KNOWN_SHARES = (1.0, 0.9, 0.8, 0.5, 0.0)
 
 
 def main(arguments=None):
@@ -85,13 +87,20 @@ def score(computed, reference, begin):
 
 def table(results, within):
     """The results (list of dict) as text. within: s, in which a vehicle is to be found."""
-    in_map = [one for one in results if one["known_share"] >= IN_MAP]
     rows = [["starts", "", f"found within {within:g} s", "found", "wrong place",
              "found after, s: median", "off at the end, m: median", "max", "deg: median",
              "max"]]  # fmt: skip
     rows.append(_row("all", results, within))
-    rows.append(_row(f"{100 * IN_MAP:g} % of the view in the map", in_map, within))
+    for upper, lower in zip(KNOWN_SHARES, KNOWN_SHARES[1:]):
+        group = [one for one in results if lower <= _known_share(one) < upper]
+        name = f"{100 * lower:g} to {100 * upper:g} % of the view in the map"
+        rows.append(_row(name, group, within))
     return aligned(rows)
+
+
+def _known_share(result):
+    """That of a start, below 1: a view that is all in the map is of the first group."""
+    return min(result["known_share"], np.nextafter(1.0, 0.0))
 
 
 def _row(name, results, within):
