@@ -21,6 +21,13 @@ set(DATMO_FUSION_CORE_SOURCES
   assignment/augmenting_path.cpp
   assignment/priced_assignment.cpp
   assignment/ranked_assignments.cpp
+  device/can_database.cpp
+  device/can_log.cpp
+  device/can_motion.cpp
+  device/can_options.cpp
+  device/can_signal.cpp
+  device/can_socket.cpp
+  device/can_vehicle.cpp
   device/capture_file.cpp
   device/clock_estimator.cpp
   device/cola.cpp
@@ -37,6 +44,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/ipv4_address.cpp
   device/nmea.cpp
   device/nmea_receiver.cpp
+  device/playback_clock.cpp
   device/scip.cpp
   device/serial_line.cpp
   device/sick_scanner.cpp

@@ -212,6 +212,10 @@ datmo_fusion_add_core_test(wire
 target_include_directories(unit_wire PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(device
+  device/can_log_test.cpp
+  device/can_motion_test.cpp
+  device/can_signal_test.cpp
+  device/can_vehicle_test.cpp
   device/capture_file_test.cpp
   device/capture_sample.cpp
   device/clock_estimator_test.cpp
