@@ -112,12 +112,15 @@ LanePlace placeOn(const ApproachLane& lane, const Point2& point) {
     const double length = step.norm();
     const Point2 outward = step / length;
     const Point2 from_start = point - lane.points[i];
-    const double along = std::min(from_start.dot(outward), length);
-    const double used = i == 0 ? along : std::max(along, 0.0);
+    const double along = from_start.dot(outward);
+    const bool is_last = i + 2 == lane.points.size();
+    const double inner = i == 0 ? along : std::max(along, 0.0);
+    const double used = is_last ? inner : std::min(inner, length);
     const double lateral = (from_start - used * outward).norm();
     if (lateral < nearest) {
       nearest = lateral;
-      best = {before + used, lateral, std::atan2(-outward.y(), -outward.x())};
+      best = {before + used, lateral, std::atan2(-outward.y(), -outward.x()),
+              std::max(used - length, 0.0)};
     }
     before += length;
   }

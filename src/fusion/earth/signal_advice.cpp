@@ -67,6 +67,7 @@ std::vector<Candidate> lanesOf(const ApproachingHost& host, const std::vector<Ap
     const double half = 0.5 * (lane.width > 0.0 ? lane.width : options.lane_width);
     const bool is_on = place.lateral <= half + options.bound * host.position_sigma &&
                        place.distance >= -options.bound * host.position_sigma &&
+                       place.outside <= options.bound * host.position_sigma &&
                        place.distance <= options.max_distance;
     if (is_on && std::abs(angleBetween(host.heading, place.heading)) <= options.max_heading) {
       found.push_back({&lane, place});

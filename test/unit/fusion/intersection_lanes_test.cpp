@@ -73,12 +73,14 @@ TEST(PlaceOnLane, DistancesAreAlongTheLane) {
   EXPECT_NEAR(place.distance, 25.0, 1e-9);
   EXPECT_NEAR(place.lateral, 2.0, 1e-9);
   EXPECT_NEAR(place.heading, -kQuarterTurn, 1e-9);
+  EXPECT_EQ(place.outside, 0.0);
   place = placeOn(lane, {-3.0, 0.5});
   EXPECT_NEAR(place.distance, -3.0, 1e-9);
   EXPECT_NEAR(place.lateral, 0.5, 1e-9);
   place = placeOn(lane, {10.0, 26.0});  // before it begins
-  EXPECT_NEAR(place.distance, 30.0, 1e-9);
-  EXPECT_NEAR(place.lateral, 6.0, 1e-9);
+  EXPECT_NEAR(place.distance, 36.0, 1e-9);
+  EXPECT_NEAR(place.lateral, 0.0, 1e-9);
+  EXPECT_NEAR(place.outside, 6.0, 1e-9);
 }
 
 }  // namespace

@@ -167,6 +167,8 @@ TEST_F(SignalAdviceTest, OffTheLanesThereIsNoAdvice) {
   host_.heading = 0.0;
   host_.front = {-100.0, -10.0};
   EXPECT_FALSE(advise());
+  host_.front = {-201.0, 0.0};  // before what is known of it
+  EXPECT_FALSE(advise());
   host_.front = {5.0, 0.0};  // past the line
   EXPECT_FALSE(advise());
   host_.front = {-100.0, 0.0};

@@ -33,9 +33,10 @@ struct LanePlace {
   double distance = 0.0;  ///< m along it to the stop line; negative: beyond it
   double lateral = 0.0;   ///< m from its middle
   double heading = 0.0;   ///< rad in the plane, of the lane there towards the intersection
+  double outside = 0.0;   ///< m beyond the end of what is known of the lane; 0: within it
 };
 
-/// The nearest point of a lane. Beyond the stop line it goes straight on.
+/// The nearest point of a lane. Beyond the stop line and its other end it goes straight on.
 LanePlace placeOn(const ApproachLane& lane, const Point2& point);
 
 }  // namespace datmo
