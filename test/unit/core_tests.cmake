@@ -206,6 +206,7 @@ datmo_fusion_add_core_test(wire
   fusion/intersection_lanes_test.cpp
   fusion/signal_advice_test.cpp
   fusion/signal_messages_test.cpp
+  fusion/signal_robustness_test.cpp
   fusion/signal_times_test.cpp
   fusion/station_encoding_test.cpp
   fusion/station_messages_test.cpp
