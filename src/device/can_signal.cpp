@@ -62,7 +62,7 @@ std::optional<double> CanSignal::value(const CanFrame& frame) const {
   if (!bits) {
     return std::nullopt;
   }
-  const bool is_negative = is_signed && (*bits >> (length - 1) & 1U) != 0;
+  const bool is_negative = is_signed && length > 0 && (*bits >> (length - 1) & 1U) != 0;
   const std::uint64_t above = length < kLongestSignal ? ~std::uint64_t{0} << length : 0;
   const auto number = is_negative ? static_cast<double>(static_cast<std::int64_t>(*bits | above))
                                   : static_cast<double>(*bits);
