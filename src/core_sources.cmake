@@ -21,6 +21,13 @@ set(DATMO_FUSION_CORE_SOURCES
   assignment/augmenting_path.cpp
   assignment/priced_assignment.cpp
   assignment/ranked_assignments.cpp
+  device/can_database.cpp
+  device/can_log.cpp
+  device/can_motion.cpp
+  device/can_options.cpp
+  device/can_signal.cpp
+  device/can_socket.cpp
+  device/can_vehicle.cpp
   device/capture_file.cpp
   device/clock_estimator.cpp
   device/cola.cpp
@@ -37,6 +44,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/ipv4_address.cpp
   device/nmea.cpp
   device/nmea_receiver.cpp
+  device/playback_clock.cpp
   device/scip.cpp
   device/serial_line.cpp
   device/sick_scanner.cpp
@@ -61,7 +69,10 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/stereo_surfaces.cpp
   detection/surface_groups.cpp
   fusion/earth/earth_frame_filter.cpp
+  fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
+  fusion/earth/signal_advice.cpp
+  fusion/earth/signal_times.cpp
   fusion/earth/station_tracks.cpp
   fusion/wire/cam.cpp
   fusion/wire/cam_decoding.cpp
@@ -69,8 +80,12 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/wire/cpm_decoding.cpp
   fusion/wire/cpm_skipped.cpp
   fusion/wire/decoded_state.cpp
+  fusion/wire/intersection_fields.cpp
   fusion/wire/its_fields.cpp
   fusion/wire/its_units.cpp
+  fusion/wire/map_nodes.cpp
+  fusion/wire/mapem.cpp
+  fusion/wire/spatem.cpp
   fusion/wire/station_encoding.cpp
   fusion/wire/station_messages.cpp
   fusion/wire/uper.cpp

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 #include <utility>
 
 #include <pcap/pcap.h>
@@ -99,7 +98,11 @@ std::optional<std::string_view> datagramOf(std::string_view frame, int link, int
 }
 
 CaptureFile::CaptureFile(std::string file, int port, const std::atomic<bool>& stop)
-    : file_(std::move(file)), port_(port), stop_(stop), capture_(openCapture(file_), &pcap_close) {
+    : file_(std::move(file)),
+      port_(port),
+      stop_(stop),
+      capture_(openCapture(file_), &pcap_close),
+      pace_(stop) {
   const int link = pcap_datalink(capture_.get());
   if (link != DLT_RAW && headerOf(link) == nullptr) {
     const char* const name = pcap_datalink_val_to_name(link);
@@ -125,26 +128,13 @@ std::string_view CaptureFile::next() {
     }
     const std::string_view frame(reinterpret_cast<const char*>(bytes), header->caplen);
     if (const auto data = datagramOf(frame, pcap_datalink(capture_.get()), port_)) {
-      waitUntil(static_cast<double>(header->ts.tv_sec) +
-                static_cast<double>(header->ts.tv_usec) * kMicrosecond);
+      pace_.waitUntil(static_cast<double>(header->ts.tv_sec) +
+                      static_cast<double>(header->ts.tv_usec) * kMicrosecond);
       return *data;
     }
     if (stop_) {
       throw DeviceStopped();
     }
-  }
-}
-
-void CaptureFile::waitUntil(double recorded) {
-  constexpr std::chrono::milliseconds kSlice(50);  // so late it may be found out that it is to stop
-  start_ = start_.value_or(Start{recorded, Clock::now()});
-  const auto due = start_->played + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(recorded - start_->recorded));
-  while (!stop_ && Clock::now() < due) {
-    std::this_thread::sleep_until(std::min<Clock::time_point>(due, Clock::now() + kSlice));
-  }
-  if (stop_) {
-    throw DeviceStopped();
   }
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/device/device_setup.h"
 
+#include <limits>
 #include <memory>
 
+#include "datmo_fusion/device/can_log.h"
+#include "datmo_fusion/device/can_socket.h"
+#include "datmo_fusion/device/can_vehicle.h"
 #include "datmo_fusion/device/capture_file.h"
 #include "datmo_fusion/device/datagram_socket.h"
 #include "datmo_fusion/device/hokuyo_scanner.h"
@@ -52,6 +56,22 @@ DeviceMaker nmeaMaker(const DeviceSetup& setup) {
   };
 }
 
+DeviceMaker canMaker(const DeviceSetup& setup) {
+  return [bus = setup.address, recording = setup.recording, timeout = setup.timeout,
+          options = setup.can](const DeviceHost& host) {
+    const bool is_played = !recording.empty();
+    const CanOpener open = [=, &stop = host.stop]() -> std::unique_ptr<CanSource> {
+      if (is_played) {
+        return std::make_unique<CanLog>(recording, bus, stop);
+      }
+      return CanSocket::open(bus, timeout, stop);
+    };
+    return std::make_unique<CanVehicle>(
+        open, options, is_played ? recording : bus,
+        is_played ? std::numeric_limits<double>::infinity() : timeout, host);
+  };
+}
+
 }  // namespace
 
 void DeviceSetup::visit(OptionVisitor& visitor) {
@@ -60,22 +80,32 @@ void DeviceSetup::visit(OptionVisitor& visitor) {
                  Choices<DeviceKind>{{"hokuyo", DeviceKind::kHokuyo},
                                      {"sick_lms", DeviceKind::kSickLms},
                                      {"velodyne", DeviceKind::kVelodyne},
-                                     {"nmea", DeviceKind::kNmea}});
+                                     {"nmea", DeviceKind::kNmea},
+                                     {"can", DeviceKind::kCan}});
   visitor.text({"address", "",
                 "the device's name or address on the network; velodyne: empty for any that sends; "
-                "nmea: or the file of a serial port"},
+                "nmea: or the file of a serial port; can: the interface, can0"},
                address, {});
   visitor.integer(
       {"port", "1", "its port; 0: the one that its make has (10940, 2111, 2368, 10110)"}, port,
       {0.0, kPorts});
   visitor.number({"timeout", "s", "a device silent for so long is connected again"}, timeout,
                  {0.05, 60.0});
-  visitor.text({"recording", "",
-                "velodyne: a capture file (pcap) that is played in its place; empty: the network"},
-               recording, {});
+  visitor.text(
+      {"recording", "",
+       "velodyne: a capture file (pcap) that is played in its place; can: a log of candump -L, "
+       "of the frames of `address`, or all if that is empty; empty: the network, the bus"},
+      recording, {});
   runner.visit(visitor);
   visitor.group("velodyne", [&] { velodyne.visit(visitor); });
   visitor.group("nmea", [&] { nmea.visit(visitor); });
+  visitor.group("can", [&] { can.visit(visitor); });
+}
+
+void DeviceSetup::check() const {
+  if (kind == DeviceKind::kCan) {
+    CanMotion(can, [](const DeviceError& /*error*/) {});
+  }
 }
 
 DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup) {
@@ -86,6 +116,8 @@ DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup) {
       return velodyneMaker(*setup);
     case DeviceKind::kNmea:
       return nmeaMaker(*setup);
+    case DeviceKind::kCan:
+      return canMaker(*setup);
     case DeviceKind::kHokuyo:
       break;
   }

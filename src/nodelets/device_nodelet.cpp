@@ -66,6 +66,9 @@ class DeviceNodelet : public nodelet::Nodelet {
         output_ = node.advertise<sensor_msgs::NavSatFix>("gnss", kQueue);
         velocities_ = node.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
         break;
+      case DeviceKind::kCan:
+        output_ = node.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
+        break;
     }
   }
 

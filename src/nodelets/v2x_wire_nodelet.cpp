@@ -16,13 +16,15 @@
 #include "datmo_fusion/device/datagram_listener.h"
 #include "datmo_fusion/device/datagram_sender.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/signal_wire.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/station_wire.h"
 
 namespace datmo {
 
-/// CAM and CPM of other stations by UDP to `stations`, and `stations/own` to CAM and CPM. What the
-/// socket's own thread has is handed to the nodelet's callback queue, where the diagnostics live.
+/// CAM and CPM of other stations by UDP to `stations`, and `stations/own` to CAM and CPM; SPATEM
+/// and MAPEM with our own place among `stations/own` to `signal_advice`. What the socket's own
+/// thread has is handed to the nodelet's callback queue, where the diagnostics live.
 class V2xWireNodelet : public nodelet::Nodelet {
  private:
   static constexpr std::uint32_t kQueue = 20;  ///< lists, of ours and of others
@@ -45,14 +47,17 @@ class V2xWireNodelet : public nodelet::Nodelet {
     monitor_ = std::make_unique<StageMonitor>(getName());
     monitor_->condition(HealthLevel::kNothing, "does not listen yet");
     wire_ = std::make_unique<StationWire>(options_, *monitor_);
+    signals_ = std::make_unique<SignalWire>(options_.signals, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
     stations_ = node.advertise<StationTracksMessage>("stations", kQueue);
+    advice_ = node.advertise<SignalAdviceMessage>("signal_advice", kQueue);
     own_ = node.subscribe<StationTracksMessage>(
-        "stations/own", kQueue, [this](const auto& tracks) { send(*tracks); }, nullptr,
+        "stations/own", kQueue, [this](const auto& tracks) { serveOwn(*tracks); }, nullptr,
         ros::TransportHints().tcpNoDelay());
     reporter_ = std::make_unique<StageReporter>(
         node, getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
-        StageTopics{{own_.getTopic()}, {stations_.getTopic()}}, StreamOptions().silence_after);
+        StageTopics{{own_.getTopic()}, {stations_.getTopic(), advice_.getTopic()}},
+        StreamOptions().silence_after);
     bell_ = std::make_unique<CallbackBell>(node, [this] { serveAll(); });
     DatagramHandlers handlers;
     handlers.listening = [this] { put(Listening()); };
@@ -100,11 +105,22 @@ class V2xWireNodelet : public nodelet::Nodelet {
 
   void serve(const Datagram& datagram) {
     const Stopwatch watch;
+    if (SignalWire::takes(datagram.bytes)) {
+      signals_->received(datagram.bytes, datagram.stamp);
+      return;
+    }
     if (const StationTracksMessagePtr tracks = wire_->received(datagram.bytes, datagram.stamp)) {
       stations_.publish(tracks);
       monitor_->processed({toStamp(tracks->header.stamp), watch.seconds()});
       reporter_->publishTiming();
     }
+  }
+
+  void serveOwn(const StationTracksMessage& tracks) {
+    if (const SignalAdviceMessagePtr advice = signals_->advise(tracks)) {
+      advice_.publish(advice);
+    }
+    send(tracks);
   }
 
   void send(const StationTracksMessage& tracks) {
@@ -138,6 +154,8 @@ class V2xWireNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<StationWire> wire_;
+  std::unique_ptr<SignalWire> signals_;
+  ros::Publisher advice_;
   ros::Publisher stations_;
   ros::Subscriber own_;
   std::unique_ptr<DatagramSender> sender_;

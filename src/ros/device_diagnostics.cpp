@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/device_diagnostics.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -16,9 +17,10 @@ const char* inputOf(const DeviceData& data) {
 
 /// What a device sends, of which some may be missing; empty where that is not known.
 std::string partOf(const DeviceData& data) {
-  return std::holds_alternative<DeviceScan>(data)    ? "scans"
-         : std::holds_alternative<DeviceCloud>(data) ? "packets"
-                                                     : "";
+  return std::holds_alternative<DeviceScan>(data)     ? "scans"
+         : std::holds_alternative<DeviceCloud>(data)  ? "packets"
+         : std::holds_alternative<VehicleTwist>(data) ? "frames"
+                                                      : "";
 }
 
 }  // namespace
@@ -31,6 +33,8 @@ void DeviceDiagnostics::connected(const std::string& device, Stamp now) {
   monitor_.setTime(now);
   monitor_.figure("connections", static_cast<double>(++connections_));
   first_offset_.reset();
+  last_twist_.reset();
+  longest_gap_ = 0.0;
   monitor_.condition(HealthLevel::kGood, "connected with " + device);
 }
 
@@ -54,6 +58,9 @@ void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const Clo
     monitor_.figure("satellites", fix->satellites);
     monitor_.figure("standard deviation [m]", fix->sigma);
   }
+  if (const auto* const twist = std::get_if<VehicleTwist>(&measurement.data)) {
+    noteBus(*twist, measurement.stamp);
+  }
   noteClock(clock);
   monitor_.figure("measurements discarded", static_cast<double>(discarded));
   if (!std::holds_alternative<GroundVelocity>(measurement.data)) {
@@ -73,6 +80,15 @@ void DeviceDiagnostics::noteMissed(const DeviceMeasurement& measurement) {
                                                      "the network or the computer too busy?"));
   }
   monitor_.figure(part + " missed", static_cast<double>(missed_));
+}
+
+void DeviceDiagnostics::noteBus(const VehicleTwist& twist, Stamp stamp) {
+  if (last_twist_) {
+    longest_gap_ = std::max(longest_gap_, secondsBetween(*last_twist_, stamp));
+  }
+  last_twist_ = stamp;
+  monitor_.figure("longest gap since connected [s]", longest_gap_);
+  monitor_.figure("frames of other messages", static_cast<double>(twist.other_frames));
 }
 
 void DeviceDiagnostics::noteClock(const ClockState& clock) {

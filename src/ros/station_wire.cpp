@@ -46,8 +46,9 @@ LocalPlane planeOf(const StationTracksMessage& message) {
 
 void StationWireOptions::visit(OptionVisitor& visitor) {
   constexpr double kPorts = 65535.0;
-  visitor.integer({"port", "1", "UDP port of this computer to which CAM and CPM come"}, port,
-                  {1.0, kPorts});
+  visitor.integer(
+      {"port", "1", "UDP port of this computer to which CAM, CPM, SPATEM and MAPEM come"}, port,
+      {1.0, kPorts});
   visitor.text({"source", "", "name or address of who sends them; empty: anybody"}, source, {});
   visitor.text({"destination", "",
                 "name or address to which ours go, a broadcast address too; empty: to nobody"},
@@ -59,6 +60,7 @@ void StationWireOptions::visit(OptionVisitor& visitor) {
        "(EN 302 637-2: 0.1 s to 1 s; its rules by motion are not used)"},
       interval, {0.1, 1.0});
   messages.visit(visitor);
+  visitor.group("signals", [&] { signals.visit(visitor); });
 }
 
 StationWire::StationWire(const Checked<StationWireOptions>& options, StageMonitor& monitor)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Another station's CAM and CPM over the loopback to tracks/v2x, and ours to CAM and CPM.
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "datmo_fusion/risk/host_motion.h"
 #include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/signal_wire.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::v2x_wire_test {
@@ -31,6 +33,9 @@ class Stations : public Listener {
   Stations() {
     foreign_ = node_.subscribe<TrackArray>(
         "tracks/v2x", kQueue, [this](const TrackArrayConstPtr& list) { foreign = list; });
+    advice_ = node_.subscribe<SignalAdviceMessage>(
+        "signal_advice", kQueue,
+        [this](const SignalAdviceMessage::ConstPtr& message) { advice = message; });
     DatagramHandlers handlers;
     handlers.listening = [] {};
     handlers.received = [this](std::string_view bytes) { datagrams.put(std::string(bytes)); };
@@ -43,15 +48,16 @@ class Stations : public Listener {
            own_.getNumSubscribers() > 0 && poses_.getNumSubscribers() > 0;
   }
 
-  /// Where the map and the vehicle are, now.
-  void publishPlace() {
+  /// Where the map and the vehicle are, now. `x`: m, in the map.
+  void publishPlace(double x = 0.0) {
     const Stamp now = toStamp(ros::Time::now());
     EarthFrame frame{now, kPlane, {kMap, 1e-4 * Eigen::Matrix3d::Identity()}};
     frames_.publish(toMessage(frame, "map"));
     geometry_msgs::PoseWithCovarianceStamped pose;
     pose.header.stamp = toTime(now);
     pose.header.frame_id = "map";
-    pose.pose = toMessage(PoseWithCovariance{Pose2(), 1e-4 * Eigen::Matrix3d::Identity()});
+    pose.pose =
+        toMessage(PoseWithCovariance{Pose2(x, 0.0, 0.0), 1e-4 * Eigen::Matrix3d::Identity()});
     poses_.publish(pose);
   }
 
@@ -86,9 +92,12 @@ class Stations : public Listener {
     }
   }
 
+  void send(const std::string& bytes) const { sender_.send(bytes); }
+
   void sendRubbish() const { sender_.send("no message"); }
 
   TrackArrayConstPtr foreign;
+  SignalAdviceMessage::ConstPtr advice;
   samples::Mailbox<std::string> datagrams;
 
  private:
@@ -96,6 +105,7 @@ class Stations : public Listener {
 
   ros::NodeHandle node_;
   ros::Subscriber foreign_;
+  ros::Subscriber advice_;
   ros::Publisher frames_ = node_.advertise<EarthFrameMessage>("earth_frame", kQueue);
   ros::Publisher poses_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   ros::Publisher own_ = node_.advertise<TrackArray>("tracks/own", kQueue);
@@ -141,6 +151,66 @@ TEST(V2xWireTest, StationsHearEachOther) {
   EXPECT_LT((in_plane - kMap * Point2(HostVehicleOptions().middleAhead(), 0.0)).norm(), 0.05);
   EXPECT_TRUE(
       stations.waitFor([&] { return stations.diagnostic("v2x_wire", "datagrams sent") >= 2.0; }));
+}
+
+/// A lane along the map's x axis, whose stop line is at 200 m, with lights of group 3.
+std::string mapOfLane() {
+  const GeodeticPosition line = kPlane.toGeodetic(kMap * Point2(200.0, 0.0));
+  const Point2 step = kMap * Point2(-190.0, 0.0) - kMap.position();
+  MapIntersection intersection;
+  intersection.id.number = 42;
+  intersection.latitude = std::llround(1e7 * toDegrees(line.latitude));
+  intersection.longitude = std::llround(1e7 * toDegrees(line.longitude));
+  MapLane lane;
+  lane.direction = MapLane::kIngress;
+  lane.nodes = {{}, {false, std::llround(100.0 * step.x()), std::llround(100.0 * step.y())}};
+  lane.connections = {{1, std::nullopt, 3}};
+  intersection.lanes = {lane};
+  Mapem message;
+  message.intersections = {intersection};
+  return encode(message);
+}
+
+/// Green for a minute from now on.
+std::string greenLight() {
+  SpatTiming timing;
+  timing.min_end =
+      std::llround(10.0 * std::fmod(ros::Time::now().toSec() + 60.0, 3600.0)) % SpatTiming::kHour;
+  timing.max_end = timing.min_end;
+  SpatIntersection intersection;
+  intersection.id.number = 42;
+  intersection.movements = {{3, {{SignalState::kProtected, timing}}}};
+  Spatem message;
+  message.intersections = {intersection};
+  return encode(message);
+}
+
+TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
+  constexpr double kSpeed = 5.0;  // m/s
+  Stations stations;
+  ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
+  const ros::Time start = ros::Time::now();
+  const auto driven = [&](const ros::Time& time) { return kSpeed * (time - start).toSec(); };
+  stations.send(mapOfLane());
+  const ros::Duration period(0.05);
+  ros::Time next = start;
+  ASSERT_TRUE(stations.waitFor([&] {
+    if (ros::Time::now() >= next) {
+      next += period;
+      stations.publishPlace(driven(ros::Time::now()));
+      stations.publishOwn();
+      stations.send(greenLight());
+    }
+    return stations.advice && stations.advice->verdict == SignalAdviceMessage::PASSES;
+  })) << (stations.advice ? stations.advice->reason : "no advice");
+  const SignalAdviceMessage& advice = *stations.advice;
+  const HostVehicleOptions vehicle;
+  const double front = vehicle.length - vehicle.rear_overhang;
+  EXPECT_EQ(advice.intersection, 42);
+  EXPECT_NEAR(advice.distance, 200.0 - front - driven(advice.header.stamp), 1.0);
+  EXPECT_NEAR(advice.arrival, advice.distance / kSpeed, 0.2 * advice.arrival);
+  EXPECT_TRUE(stations.waitFor(
+      [&] { return stations.diagnostic("v2x_wire", "intersections with a map") == 1.0; }));
 }
 
 }  // namespace

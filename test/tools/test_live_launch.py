@@ -4,6 +4,7 @@
 there are not are refused."""
 
 import shlex
+import tempfile
 import unittest
 
 import roslaunch
@@ -85,6 +86,26 @@ class LiveLaunch(unittest.TestCase):
         self.assertEqual(dict(nodes["motion"].remap_args)["twist"], "/gnss/twist")
         self.assertEqual(dict(nodes["motion"].remap_args)["imu"], "/imu/data")
 
+    def test_a_vehicles_bus_gives_the_motion(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as signals:
+            signals.write("can: {speed: Brakes.Speed, yaw_rate: Yaw}\n")
+            signals.flush()
+            words = (f"can_signals:={signals.name}", "can_interface:=can1", "can_dbc:=/a b/car.dbc", "twist:=/car")
+            nodes, parameters = loaded("odometry:=can", *words)
+            self.assertEqual(parameters["/motion/source"], "twist")
+            self.assertEqual(nodes["vehicle_bus"].args, "load datmo_fusion/device perception")
+            self.assertEqual(dict(nodes["vehicle_bus"].remap_args)["twist"], "/car")
+            self.assertEqual(dict(nodes["motion"].remap_args)["twist"], "/car")
+            self.assertEqual(parameters["/vehicle_bus/kind"], "can")
+            self.assertEqual(parameters["/vehicle_bus/address"], "can1")
+            self.assertEqual(parameters["/vehicle_bus/can/speed"], "Brakes.Speed")
+            self.assertEqual(parameters["/vehicle_bus/can/dbc"], "/a b/car.dbc")
+            self.assertNotIn("/vehicle_bus/can/yaw_from", parameters)
+            _, parameters = loaded("odometry:=can_imu", "can_recording:=/drive.log", *words)
+            self.assertEqual(parameters["/motion/source"], "imu_and_twist")
+            self.assertEqual(parameters["/vehicle_bus/can/yaw_from"], "none")
+            self.assertEqual(parameters["/vehicle_bus/recording"], "/drive.log")
+
     def test_other_stations_are_heard_and_told(self):
         nodes, parameters = loaded("v2x_wire:=true", "track_fusion:=true", "v2x_port:=5000",
                                    "v2x_destination:=10.0.0.5", "stations:=/others")
@@ -99,7 +120,7 @@ class LiveLaunch(unittest.TestCase):
         self.assertNotIn("v2x", nodes)
 
     def test_devices_that_there_are_not_end_it(self):
-        for word in ("lidar:=ouster", "camera:=webcam", "odometry:=can"):
+        for word in ("lidar:=ouster", "camera:=webcam", "odometry:=magic"):
             with self.subTest(word):
                 with self.assertRaises(roslaunch.RLException):
                     loaded(word)
@@ -114,7 +135,7 @@ class MissingDevice(unittest.TestCase):
         self.assertIn("lidar:=ouster: no driver of ours, expected one of external, hokuyo, sick_lms, velodyne; ",
                       said)
         self.assertIn("ouster_ros", said)
-        self.assertIn("odometry:=magic: no driver of ours, expected one of external, gps_imu, none",
+        self.assertIn("odometry:=magic: no driver of ours, expected one of external, can, can_imu, gps_imu, none",
                       missing_device(["lidar:=external", "odometry:=magic"]))
 
 

@@ -203,6 +203,11 @@ datmo_fusion_add_core_test(fusion
 )
 
 datmo_fusion_add_core_test(wire
+  fusion/intersection_lanes_test.cpp
+  fusion/signal_advice_test.cpp
+  fusion/signal_messages_test.cpp
+  fusion/signal_robustness_test.cpp
+  fusion/signal_times_test.cpp
   fusion/station_encoding_test.cpp
   fusion/station_messages_test.cpp
   fusion/uper_test.cpp
@@ -212,6 +217,10 @@ datmo_fusion_add_core_test(wire
 target_include_directories(unit_wire PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(device
+  device/can_log_test.cpp
+  device/can_motion_test.cpp
+  device/can_signal_test.cpp
+  device/can_vehicle_test.cpp
   device/capture_file_test.cpp
   device/capture_sample.cpp
   device/clock_estimator_test.cpp

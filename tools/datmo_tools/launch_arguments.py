@@ -22,11 +22,10 @@ CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
 CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
 # Devices of live.launch: the kinds that there are, and what to do for others that people have.
-DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "camera": ("none", "external", "images"), "odometry": ("external", "gps_imu", "none")}
+DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
-    "can": "let a driver publish odometry and take odometry:=external",
 }
 TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
 

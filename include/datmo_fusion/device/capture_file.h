@@ -2,12 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "datmo_fusion/device/packet_source.h"
+#include "datmo_fusion/device/playback_clock.h"
 
 struct pcap;
 
@@ -27,22 +27,11 @@ class CaptureFile : public PacketSource {
   std::string_view next() override;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  /// What happens first of a recording, on both clocks.
-  struct Start {
-    double recorded;  ///< s
-    Clock::time_point played;
-  };
-
-  /// `recorded`: s, when a packet came.
-  void waitUntil(double recorded);
-
   std::string file_;
   int port_;
   const std::atomic<bool>& stop_;
   std::unique_ptr<pcap, void (*)(pcap*)> capture_;
-  std::optional<Start> start_;
+  PlaybackClock pace_;
 };
 
 /// The data of a frame of the network if it is a whole UDP datagram (IPv4) to the port; none

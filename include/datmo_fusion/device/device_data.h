@@ -63,13 +63,21 @@ struct GroundVelocity {
   double course = 0.0;  ///< rad, clockwise from north
 };
 
-using DeviceData = std::variant<DeviceScan, DeviceCloud, SatelliteFix, GroundVelocity>;
+/// How the vehicle moves, as its own bus says.
+struct VehicleTwist {
+  double speed = 0.0;              ///< m/s, ahead
+  double yaw_rate = 0.0;           ///< rad/s, positive to the left; NaN: not known
+  std::uint64_t other_frames = 0;  ///< of the bus, so far, without anything of it
+};
+
+using DeviceData =
+    std::variant<DeviceScan, DeviceCloud, SatelliteFix, GroundVelocity, VehicleTwist>;
 
 /// What a device has measured, on the computer's clock.
 struct DeviceMeasurement {
   Stamp stamp;  ///< of the first beam or firing
   DeviceData data;
-  std::uint64_t missed = 0;  ///< scans, or packets, between the last one and this
+  std::uint64_t missed = 0;  ///< scans, packets or frames between the last one and this
 };
 
 }  // namespace datmo

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/device/can_motion.h"
 #include "datmo_fusion/device/device_runner.h"
 #include "datmo_fusion/device/nmea_receiver.h"
 #include "datmo_fusion/device/velodyne_lidar.h"
@@ -11,7 +12,7 @@
 namespace datmo {
 
 /// The makes whose protocols are spoken here.
-enum class DeviceKind { kHokuyo, kSickLms, kVelodyne, kNmea };
+enum class DeviceKind { kHokuyo, kSickLms, kVelodyne, kNmea, kCan };
 
 /// Which device is where.
 struct DeviceSetup {
@@ -19,12 +20,16 @@ struct DeviceSetup {
   std::string address = "192.168.0.10";
   int port = 0;           ///< 0: the make's own
   double timeout = 1.0;   ///< s
-  std::string recording;  ///< of the packets of a lidar; empty: the network
+  std::string recording;  ///< of a lidar's packets, a bus's frames; empty: there is none
   DeviceRunnerOptions runner;
   VelodyneOptions velodyne;
   NmeaOptions nmea;
+  CanOptions can;
 
   void visit(OptionVisitor& visitor);
+
+  /// Throws OptionError for a CAN bus whose signals are missing or wrong.
+  void check() const;
 };
 
 DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup);

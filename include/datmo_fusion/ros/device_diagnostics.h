@@ -33,6 +33,7 @@ class DeviceDiagnostics {
 
  private:
   void noteMissed(const DeviceMeasurement& measurement);
+  void noteBus(const VehicleTwist& twist, Stamp stamp);
   void noteClock(const ClockState& clock);
 
   StageMonitor& monitor_;
@@ -40,6 +41,8 @@ class DeviceDiagnostics {
   std::uint64_t missed_ = 0;
   std::uint64_t clock_steps_ = 0;
   std::optional<double> first_offset_;  ///< s, of this connection
+  std::optional<Stamp> last_twist_;     ///< the same
+  double longest_gap_ = 0.0;            ///< s, the same, between two twists
 };
 
 }  // namespace datmo

@@ -15,6 +15,9 @@ struct DeviceOptions {
   DeviceSetup device;
 
   void visit(OptionVisitor& visitor);
+
+  /// Throws OptionError.
+  void check() const { device.check(); }
 };
 
 }  // namespace datmo

@@ -11,6 +11,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/fusion/wire/station_messages.h"
 #include "datmo_fusion/ros/convert/earth_conversion.h"
+#include "datmo_fusion/ros/signal_wire.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
@@ -23,6 +24,7 @@ struct StationWireOptions {
   int destination_port = 37001;
   double interval = 0.1;  ///< s
   StationMessageOptions messages;
+  SignalWireOptions signals;
 
   void visit(OptionVisitor& visitor);
 };

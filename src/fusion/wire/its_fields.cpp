@@ -13,18 +13,26 @@ constexpr std::int64_t kStationMax = 4294967295;
 
 }  // namespace
 
-void walk(Uper& uper, ItsHeader& header) {
+void walkFields(Uper& uper, ItsHeader& header) {
   uper.integer(header.version, 0, kItsByteMax);
   uper.integer(header.message, 0, kItsByteMax);
   uper.integer(header.station, 0, kStationMax);
-  if (header.message != ItsHeader::kCam && header.message != ItsHeader::kCpm) {
-    throw WireError("other_message", "a message of kind " + std::to_string(header.message) +
-                                         ": CAM (2) and CPM (14) are taken");
-  }
+}
+
+void checkVersion(const ItsHeader& header) {
   if (header.version != ItsHeader::kVersion) {
     throw WireError("other_version", "a message of protocol version " +
                                          std::to_string(header.version) + ": expected 2");
   }
+}
+
+void walk(Uper& uper, ItsHeader& header) {
+  walkFields(uper, header);
+  if (header.message != ItsHeader::kCam && header.message != ItsHeader::kCpm) {
+    throw WireError("other_message", "a message of kind " + std::to_string(header.message) +
+                                         ": CAM (2) and CPM (14) are taken");
+  }
+  checkVersion(header);
 }
 
 void walk(Uper& uper, ItsPosition& position) {

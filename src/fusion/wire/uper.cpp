@@ -72,6 +72,14 @@ void Uper::skipAddedChoice() {
   skipOpenType();
 }
 
+void Uper::skipLongBits() {
+  std::int64_t count = 0;
+  length(count);
+  for (std::int64_t i = 0; i < count; ++i) {
+    present(false);
+  }
+}
+
 std::int64_t Uper::extensibleSize(std::int64_t own, std::int64_t min, std::int64_t max) {
   std::int64_t size = own;
   if (extended()) {

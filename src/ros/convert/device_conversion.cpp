@@ -106,4 +106,13 @@ geometry_msgs::TwistStampedPtr toMessage(const GroundVelocity& velocity, Stamp s
   return message;
 }
 
+geometry_msgs::TwistStampedPtr toMessage(const VehicleTwist& twist, Stamp stamp,
+                                         const std::string& /*frame*/) {
+  auto message = boost::make_shared<geometry_msgs::TwistStamped>();
+  message->header.stamp = toTime(stamp);
+  message->twist.linear.x = twist.speed;
+  message->twist.angular.z = twist.yaw_rate;
+  return message;
+}
+
 }  // namespace datmo

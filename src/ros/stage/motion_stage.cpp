@@ -67,12 +67,12 @@ nav_msgs::OdometryPtr MotionStage::takeTwist(
 nav_msgs::OdometryPtr MotionStage::takeTwist(const std_msgs::Header& header,
                                              const geometry_msgs::Twist& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
-    const Twist2 twist = checked(
-        {inBase(header.frame_id, message.linear).x(), inBase(header.frame_id, message.angular).z()},
-        "twist");
+    const bool uses_imu = options_.motion.usesImu();  // and then that has the yaw rate
+    const double yaw_rate = uses_imu ? 0.0 : inBase(header.frame_id, message.angular).z();
+    const Twist2 twist = checked({inBase(header.frame_id, message.linear).x(), yaw_rate}, "twist");
     runner_.check("twist", header.stamp);
-    return options_.motion.usesImu() ? keepSpeed(toStamp(header.stamp), twist.forward_speed)
-                                     : odometryOf(header.stamp, twist);
+    return uses_imu ? keepSpeed(toStamp(header.stamp), twist.forward_speed)
+                    : odometryOf(header.stamp, twist);
   });
 }
 

@@ -53,5 +53,13 @@ TEST(DeviceConversionTest, APositionIsTakenAndNoneIsRefused) {
   EXPECT_THROW(positionOf(*none), InputError);
 }
 
+TEST(DeviceConversionTest, AVehiclesTwistIsInItsOwnFrame) {
+  const auto message = toMessage(VehicleTwist{-2.0, 0.1, 0}, kStamp, "laser");
+  EXPECT_EQ(toStamp(message->header.stamp), kStamp);
+  EXPECT_TRUE(message->header.frame_id.empty());
+  EXPECT_EQ(message->twist.linear.x, -2.0);
+  EXPECT_EQ(message->twist.angular.z, 0.1);
+}
+
 }  // namespace
 }  // namespace datmo::device_conversion_test

@@ -71,5 +71,25 @@ TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
   EXPECT_EQ(figure("standard deviation [m]"), 3.0);
 }
 
+TEST_F(DeviceDiagnosticsTest, OfABusTheRateAndTheGapsAreSaid) {
+  diagnostics_.connected("a bus", now_);
+  DeviceMeasurement twist;
+  twist.data = VehicleTwist{1.0, 0.0, 42};
+  for (int i = 0; i < 10; ++i) {
+    const double time = 0.02 * i + (i > 4 ? 0.3 : 0.0);
+    twist.stamp = now_ + time;
+    twist.missed = i == 5 ? 15 : 0;
+    diagnostics_.measured(twist, ClockState(), 0, now_ + time);
+  }
+  EXPECT_NEAR(figure("longest gap since connected [s]"), 0.32, 1e-6);
+  EXPECT_EQ(figure("frames of other messages"), 42.0);
+  EXPECT_EQ(figure("frames missed"), 15.0);
+  EXPECT_EQ(monitor_.warnings().at("missed_frames"), 1U);
+  EXPECT_GT(figure("rate [Hz]"), 10.0);
+  diagnostics_.connected("a bus", now_);
+  diagnostics_.measured(twist, ClockState(), 0, now_);
+  EXPECT_EQ(figure("longest gap since connected [s]"), 0.0);
+}
+
 }  // namespace
 }  // namespace datmo::device_diagnostics_test

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-// Fields that CAM and CPM have in common, by ETSI TS 102 894-2 (common data dictionary), in its
+// Fields that messages have in common, by ETSI TS 102 894-2 (common data dictionary), in its
 // units. Before anything is set they say that it is not available.
 
 /// OrdinalNumber1B, Identifier1B and their like.
@@ -17,6 +17,8 @@ inline constexpr std::int64_t kItsByteMax = 255;
 struct ItsHeader {
   static constexpr std::int64_t kVersion = 2;
   static constexpr std::int64_t kCam = 2;
+  static constexpr std::int64_t kSpatem = 4;
+  static constexpr std::int64_t kMapem = 5;
   static constexpr std::int64_t kCpm = 14;
 
   std::int64_t version = kVersion;
@@ -76,6 +78,12 @@ enum ItsStationType : std::int64_t {
   kItsAgricultural = 14,
   kItsRoadSide = 15
 };
+
+/// Whatever message it is of.
+void walkFields(Uper& uper, ItsHeader& header);
+
+/// Throws WireError (`other_version`).
+void checkVersion(const ItsHeader& header);
 
 /// Throws WireError (`other_version`, `other_message`) for a message that is neither CAM nor CPM of
 /// version 2.

@@ -9,9 +9,9 @@
 
 namespace datmo {
 
-/// The unaligned packed encoding rules of ASN.1 (ITU-T X.691, UPER), as far as CAM and CPM use
-/// them. One walk over the fields of a message, in the standard's order, serves both directions: a
-/// UperWriter makes bits of the fields, a UperReader sets the fields from bits.
+/// The unaligned packed encoding rules of ASN.1 (ITU-T X.691, UPER), as far as our messages
+/// use them. One walk over the fields of a message, in the standard's order, serves both
+/// directions: a UperWriter makes bits of the fields, a UperReader sets the fields from bits.
 ///
 /// What we do not know of a later version is passed over by a reader; a writer writes none of it.
 class Uper {
@@ -45,6 +45,9 @@ class Uper {
 
   /// Passes over a field; a writer's has the minimum.
   void skipInteger(std::int64_t min, std::int64_t max);
+
+  /// Passes over a BIT STRING beyond the root of its size (16.6).
+  void skipLongBits();
 
   /// The number of elements of SEQUENCE (SIZE(min..max, ...)) OF; `own`: a writer's, in the root.
   std::int64_t extensibleSize(std::int64_t own, std::int64_t min, std::int64_t max);

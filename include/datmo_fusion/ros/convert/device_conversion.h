@@ -28,4 +28,8 @@ sensor_msgs::NavSatFixPtr toMessage(const SatelliteFix& fix, Stamp stamp, const 
 geometry_msgs::TwistStampedPtr toMessage(const GroundVelocity& velocity, Stamp stamp,
                                          const std::string& frame);
 
+/// The frame is empty, the vehicle's.
+geometry_msgs::TwistStampedPtr toMessage(const VehicleTwist& twist, Stamp stamp,
+                                         const std::string& frame);
+
 }  // namespace datmo

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/device/can_signal.h"
+#include "datmo_fusion/device/device_data.h"
+#include "datmo_fusion/device/device_error.h"
+
+namespace datmo {
+
+/// What the yaw rate is taken from.
+enum class CanYaw { kSignal, kWheels, kSteering, kNone };
+
+/// Where a vehicle's CAN bus has its motion. A signal is its id and what a DBC file says of it,
+/// `0x1A0 8|16@1+ (0.01,0) [0|250] "km/h"`, or its name in the DBC file; empty: the bus has none.
+struct CanOptions {
+  std::string dbc;
+  std::string speed;
+  std::string front_left;
+  std::string front_right;
+  std::string rear_left;
+  std::string rear_right;
+  std::string yaw_rate;
+  std::string steering;
+  std::string direction;
+  std::string counter;
+  std::string yaw_counter;
+  CanYaw yaw_from = CanYaw::kSignal;
+  double reverse = 1.0;
+  double wheel_radius = 0.3;     ///< m
+  double track_width = 1.5;      ///< m
+  double wheelbase = 2.7;        ///< m
+  double steering_ratio = 15.0;  ///< 1
+  double max_age = 0.5;          ///< s
+  double delay = 0.0;            ///< s
+  int counter_values = 0;
+  int frozen_after = 3;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// The vehicle's motion from the frames of its CAN bus. Each frame with the speed (the last one of
+/// the wheels' where it comes from them) leads to one motion, with the newest values of the other
+/// signals.
+class CanMotion {
+ public:
+  /// Something is wrong with a frame, which the rest does without.
+  using Warn = std::function<void(const DeviceError& error)>;
+
+  /// Throws OptionError for signals that are missing, or not what they are to be.
+  CanMotion(const Checked<CanOptions>& options, Warn warn);
+
+  struct Motion {
+    VehicleTwist twist;
+    std::uint64_t missed = 0;  ///< frames by their counter, since the last one
+  };
+  /// A frame that was received at the stamp; an error frame is none of these. None unless it
+  /// completes a motion. Warns of `bad_frame` (too short), `bad_signal` (out of its limits),
+  /// `frozen_counter`, `stale_signal`.
+  std::optional<Motion> take(const CanFrame& frame, Stamp stamp);
+
+  /// For people: the id that sets the pace.
+  std::string paceText() const { return toText(pace_); }
+
+  /// Frames in which there is no signal of ours, so far.
+  std::uint64_t otherFrames() const { return other_frames_; }
+
+ private:
+  /// What a signal is for; wheels from the front left one on.
+  enum Role { kSpeed, kYawRate, kSteering, kDirection, kWheel, kRoles = kWheel + 4 };
+
+  struct Channel {
+    CanSignal signal;
+    double scale = 1.0;  ///< of a value of the signal, to m, s and rad
+    std::optional<double> value;
+    Stamp stamp;  ///< of the value
+  };
+
+  /// The rolling counter of a message.
+  struct Counter {
+    CanSignal signal;
+    std::optional<std::uint64_t> last;
+    int repeats = 0;
+    bool is_frozen = true;  ///< until it has moved
+  };
+
+  void add(Role role, const char* name, const std::string& text, const char* quantity);
+  void addCounter(const char* name, const std::string& text);
+  void check() const;
+  bool isCounting(const CanFrame& frame);
+  bool step(Counter& counter, std::uint64_t value);
+  void read(Role role, const CanFrame& frame, Stamp stamp);
+  /// The value if it is of the last `max_age`; otherwise none, which is said.
+  std::optional<double> newest(int role, Stamp stamp) const;
+  std::optional<double> speedAt(Stamp stamp) const;
+  std::optional<double> yawRateAt(Stamp stamp, double speed) const;
+
+  CanOptions options_;
+  Warn warn_;
+  std::array<std::optional<Channel>, kRoles> channels_;
+  std::vector<Counter> counters_;
+  CanId pace_;
+  std::uint64_t other_frames_ = 0;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace datmo

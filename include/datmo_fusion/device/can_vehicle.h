@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "datmo_fusion/device/can_frame.h"
+#include "datmo_fusion/device/can_motion.h"
+#include "datmo_fusion/device/device.h"
+
+namespace datmo {
+
+/// Throws DeviceError.
+using CanOpener = std::function<std::unique_ptr<CanSource>()>;
+
+/// A vehicle that says on its CAN bus how it moves (CanMotion). Stamps are the kernel's times of
+/// reception; a bus has no clock of its own.
+class CanVehicle : public Device {
+ public:
+  /// `name`: of the bus, for people. `timeout`: s without a motion, after which the bus is opened
+  /// anew; infinite for a recording. Throws OptionError.
+  CanVehicle(CanOpener open, const Checked<CanOptions>& options, std::string name, double timeout,
+             const DeviceHost& host);
+
+  /// Connected by the first motion.
+  std::string connect() override;
+  DeviceMeasurement next() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// The next one that is a frame. What is none is said; many in a row are no bus.
+  CanFrame nextFrame();
+  /// Throws DeviceError (`bus_off`); warns of other errors.
+  void takeError(std::uint32_t error) const;
+  DeviceMeasurement nextMotion();
+
+  CanOpener open_;
+  double delay_;  ///< s
+  std::string name_;
+  double timeout_;  ///< s
+  DeviceHost host_;
+  CanMotion motion_;
+  std::unique_ptr<CanSource> source_;
+  std::optional<DeviceMeasurement> pending_;  ///< the first one
+  Clock::time_point last_motion_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace datmo

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include <datmo_fusion/SignalAdvice.h>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/fusion/earth/signal_advice.h"
+#include "datmo_fusion/ros/convert/earth_conversion.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+
+namespace datmo {
+
+using SignalAdviceMessage = datmo_fusion::SignalAdvice;
+using SignalAdviceMessagePtr = datmo_fusion::SignalAdvicePtr;
+
+struct SignalWireOptions {
+  double max_ahead = 0.5;  ///< s
+  double map_age = 60.0;   ///< s
+  SignalAdviceOptions advice;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Traffic lights: SPATEM and MAPEM as they come, kept while they hold, to advice for the vehicle.
+/// Counts what cannot be used, by reason.
+class SignalWire {
+ public:
+  /// `monitor` must outlive it. Throws OptionError.
+  SignalWire(const Checked<SignalWireOptions>& options, StageMonitor& monitor);
+
+  /// Whether a datagram is a SPATEM or a MAPEM, by its header.
+  static bool takes(std::string_view bytes);
+
+  /// One of these. `now`: ROS time when it came; before that of the last one, all is forgotten.
+  void received(std::string_view bytes, Stamp now);
+
+  /// `own`: our tracks on the earth, of which that with id 0 is ourselves. Null if we are not among
+  /// them, or on no lane that leads into an intersection that we have heard of.
+  SignalAdviceMessagePtr advise(const StationTracksMessage& own);
+
+ private:
+  struct HeardMap {
+    Stamp stamp;
+    MapIntersection intersection;
+  };
+
+  void takeMaps(std::string_view bytes, Stamp now);
+  void takeSignals(std::string_view bytes, Stamp now);
+  /// Throws InputError (`old_signals`, `future_signals`, `repeated_signals`).
+  void keep(const Spatem& message, const SpatIntersection& intersection, Stamp now);
+  void forgetOld(Stamp now);
+
+  SignalWireOptions options_;
+  StageMonitor& monitor_;
+  std::map<IntersectionId, HeardMap> maps_;
+  std::map<IntersectionId, IntersectionSignals> signals_;
+  std::optional<Stamp> last_;
+};
+
+}  // namespace datmo

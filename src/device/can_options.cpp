@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/can_motion.h"
+
+namespace datmo {
+
+void CanOptions::visit(OptionVisitor& visitor) {
+  constexpr double kCounterValues = 65536.0;
+  visitor.text({"dbc", "", "file that describes the bus's messages; empty: there is none"}, dbc,
+               {});
+  visitor.text({"speed", "",
+                "signal of the vehicle's speed (m/s, km/h, mph): its name in the DBC file, or ID "
+                "START|LENGTH@ORDER SIGN (FACTOR,OFFSET) [MIN|MAX] UNIT, as in such a file; empty: "
+                "the mean of the wheels"},
+               speed, {});
+  const auto wheel = [&visitor](const char* name, const char* which, std::string& text) {
+    visitor.text({name, "",
+                  std::string("the same of the speed of the ") + which +
+                      " wheel (those units, or rad/s, rpm); empty: it is not known"},
+                 text, {});
+  };
+  wheel("front_left", "front left", front_left);
+  wheel("front_right", "front right", front_right);
+  wheel("rear_left", "rear left", rear_left);
+  wheel("rear_right", "rear right", rear_right);
+  visitor.text({"yaw_rate", "", "the same of the yaw rate (rad/s, deg/s), positive to the left"},
+               yaw_rate, {});
+  visitor.text({"steering", "", "the same of the steering wheel (rad, deg), positive to the left"},
+               steering, {});
+  visitor.text({"direction", "",
+                "the same of the gear or the direction of travel; empty: the speed has a sign, or "
+                "the vehicle does not reverse"},
+               direction, {});
+  visitor.text({"counter", "",
+                "the same of the counter in the speed's message: while it stands still, the "
+                "message is not used; empty: it has none"},
+               counter, {});
+  visitor.text({"yaw_counter", "", "the same in the yaw rate's or the steering's message"},
+               yaw_counter, {});
+  visitor.choice({"yaw_from", "",
+                  "source of the yaw rate: its signal; the difference of the rear wheels; the "
+                  "steering by the bicycle model; or none, where an Imu has it"},
+                 yaw_from,
+                 Choices<CanYaw>{{"signal", CanYaw::kSignal},
+                                 {"wheels", CanYaw::kWheels},
+                                 {"steering", CanYaw::kSteering},
+                                 {"none", CanYaw::kNone}});
+  visitor.number({"reverse", "1", "value of `direction` while the vehicle reverses"}, reverse, {});
+  visitor.number({"wheel_radius", "m", "of wheels whose speed is in rad/s or rpm"}, wheel_radius,
+                 {0.05, 2.0});
+  visitor.number({"track_width", "m", "between the rear wheels, for yaw_from: wheels"}, track_width,
+                 {0.2, 4.0});
+  visitor.number({"wheelbase", "m", "for yaw_from: steering"}, wheelbase, {0.2, 20.0});
+  visitor.number({"steering_ratio", "1",
+                  "turn of the steering wheel by that of the road wheels, 12 to 20 of cars; 1: the "
+                  "signal is the road wheels' angle"},
+                 steering_ratio, {0.1, 50.0});
+  visitor.number(
+      {"max_age", "s", "so old a signal of another message may be at the speed's, as motion/hold"},
+      max_age, {0.01, 10.0});
+  visitor.number({"delay", "s",
+                  "from the measurement to the message on the bus: half the filter of the control "
+                  "unit and its cycle (its data sheet)"},
+                 delay, {0.0, 1.0});
+  visitor.integer({"counter_values", "1",
+                   "values of the counters before they begin again; 0: all of their bits (AUTOSAR "
+                   "E2E profile 1: 15)"},
+                  counter_values, {0.0, kCounterValues});
+  visitor.integer({"frozen_after", "1", "messages with the same counter, after which it is frozen"},
+                  frozen_after, {1.0, 100.0});
+}
+
+}  // namespace datmo

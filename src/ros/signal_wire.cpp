@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/signal_wire.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/fusion/earth/signal_times.h"
+#include "datmo_fusion/fusion/wire/wire_error.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/input_error.h"
+
+namespace datmo {
+
+namespace {
+
+/// Intersections that are kept at most: those within reach of a modem, and more.
+constexpr std::size_t kMaxIntersections = 100;
+
+double orNan(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+SignalAdviceMessagePtr toMessage(const SignalAdvice& advice, const IntersectionId& id,
+                                 const std_msgs::Header& own) {
+  auto message = boost::make_shared<SignalAdviceMessage>();
+  message->header.stamp = own.stamp;
+  message->verdict = static_cast<std::uint8_t>(advice.verdict);
+  message->reason = advice.reason;
+  message->region = static_cast<std::uint16_t>(id.region.value_or(0));
+  message->intersection = static_cast<std::uint16_t>(id.number);
+  message->distance = advice.distance;
+  message->arrival = orNan(advice.arrival);
+  message->deceleration = advice.deceleration;
+  for (const MovementAdvice& one : advice.movements) {
+    datmo_fusion::SignalMovement movement;
+    movement.lane = static_cast<std::uint8_t>(one.lane);
+    movement.group = static_cast<std::uint8_t>(one.group);
+    movement.state = static_cast<std::uint8_t>(one.now);
+    movement.state_on_arrival = static_cast<std::uint8_t>(one.on_arrival);
+    movement.verdict = static_cast<std::uint8_t>(one.verdict);
+    movement.min_end = orNan(one.min_end);
+    movement.max_end = orNan(one.max_end);
+    movement.likely_end = orNan(one.likely_end);
+    message->movements.push_back(movement);
+  }
+  return message;
+}
+
+/// The vehicle in the plane that touches the earth at it; none if it does not know where it is.
+struct OwnPlace {
+  LocalPlane plane;
+  ApproachingHost host;
+};
+
+std::optional<OwnPlace> placeOf(const StationTracksMessage& message) {
+  const auto own = std::find_if(message.tracks.begin(), message.tracks.end(),
+                                [](const auto& track) { return track.id == 0; });
+  if (own == message.tracks.end()) {
+    return std::nullopt;
+  }
+  GeodeticPosition here;
+  here.latitude = degrees(own->latitude);
+  here.longitude = degrees(own->longitude);
+  if (!isValid(here)) {
+    return std::nullopt;
+  }
+  StationTracksMessage alone = message;
+  alone.tracks = {*own};
+  const LocalPlane plane(here);
+  const StationTrack track = fromMessage(alone, plane).tracks.front();
+  const Point2 ahead(std::cos(track.heading), std::sin(track.heading));
+  const Eigen::Matrix2d covariance = track.covariance.topLeftCorner<2, 2>();
+  ApproachingHost host;
+  host.stamp = toStamp(message.header.stamp);
+  host.front = track.position + 0.5 * track.length * ahead;
+  host.heading = track.heading;
+  host.speed = track.velocity.dot(ahead);
+  if (!host.front.allFinite() || !std::isfinite(host.speed) || !covariance.allFinite()) {
+    return std::nullopt;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance, Eigen::EigenvaluesOnly);
+  host.position_sigma = std::sqrt(std::max(axes.eigenvalues().maxCoeff(), 0.0));
+  return OwnPlace{plane, host};
+}
+
+}  // namespace
+
+void SignalWireOptions::visit(OptionVisitor& visitor) {
+  visitor.number(
+      {"max_ahead", "s", "traffic lights that are farther ahead of our clock are refused"},
+      max_ahead, {0.0, 10.0});
+  visitor.number({"map_age", "s",
+                  "so long the map of an intersection holds (ETSI TS 103 301: sent once a second)"},
+                 map_age, {1.0, 86400.0});
+  advice.visit(visitor);
+}
+
+SignalWire::SignalWire(const Checked<SignalWireOptions>& options, StageMonitor& monitor)
+    : options_(*options), monitor_(monitor) {}
+
+bool SignalWire::takes(std::string_view bytes) {
+  return bytes.size() > 1 && (bytes[1] == ItsHeader::kSpatem || bytes[1] == ItsHeader::kMapem);
+}
+
+void SignalWire::received(std::string_view bytes, Stamp now) {
+  const bool is_map = bytes.size() > 1 && bytes[1] == ItsHeader::kMapem;
+  monitor_.received(is_map ? "maps of intersections" : "traffic lights", now);
+  if (last_ && now < *last_) {
+    maps_.clear();
+    signals_.clear();
+  }
+  last_ = now;
+  try {
+    is_map ? takeMaps(bytes, now) : takeSignals(bytes, now);
+  } catch (const WireError& error) {
+    monitor_.dropped(InputError(error.reason(), error.what()));
+  }
+  forgetOld(now);
+  monitor_.figure("intersections with a map", static_cast<double>(maps_.size()));
+  monitor_.figure("intersections with traffic lights", static_cast<double>(signals_.size()));
+}
+
+void SignalWire::takeMaps(std::string_view bytes, Stamp now) {
+  for (const MapIntersection& intersection : decodeMapem(bytes).intersections) {
+    maps_[intersection.id] = {now, intersection};
+  }
+}
+
+void SignalWire::takeSignals(std::string_view bytes, Stamp now) {
+  const Spatem message = decodeSpatem(bytes);
+  for (const SpatIntersection& intersection : message.intersections) {
+    try {
+      keep(message, intersection, now);
+    } catch (const InputError& error) {
+      monitor_.dropped(error);
+    }
+  }
+}
+
+void SignalWire::keep(const Spatem& message, const SpatIntersection& intersection, Stamp now) {
+  const Stamp stamp = stampOf(message, intersection, now).value_or(now);
+  const double age = secondsBetween(stamp, now);
+  const std::string who = "traffic lights of intersection " + toText(intersection.id);
+  if (age > options_.advice.max_age) {
+    throw InputError("old_signals",
+                     who + ": " + std::to_string(age) + " s old, expected signals/max_age at most");
+  }
+  if (age < -options_.max_ahead) {
+    throw InputError("future_signals",
+                     who + ": " + std::to_string(-age) + " s ahead, expected clocks that agree");
+  }
+  const auto known = signals_.find(intersection.id);
+  if (known != signals_.end() && stamp <= known->second.stamp) {
+    throw InputError("repeated_signals", who + ": not newer than the last ones");
+  }
+  signals_[intersection.id] = {stamp, intersection};
+}
+
+void SignalWire::forgetOld(Stamp now) {
+  const auto forget = [now](auto& heard, double max_age) {
+    for (auto one = heard.begin(); one != heard.end();) {
+      const bool is_old = secondsBetween(one->second.stamp, now) > max_age;
+      one = is_old ? heard.erase(one) : std::next(one);
+    }
+    while (heard.size() > kMaxIntersections) {
+      heard.erase(std::min_element(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
+        return a.second.stamp < b.second.stamp;
+      }));
+    }
+  };
+  forget(maps_, options_.map_age);
+  forget(signals_, options_.map_age);
+}
+
+SignalAdviceMessagePtr SignalWire::advise(const StationTracksMessage& own) {
+  const std::optional<OwnPlace> place = placeOf(own);
+  if (!place) {
+    return nullptr;
+  }
+  std::optional<SignalAdvice> nearest;
+  IntersectionId id;
+  for (const auto& [number, map] : maps_) {
+    if (secondsBetween(map.stamp, place->host.stamp) > options_.map_age) {
+      continue;
+    }
+    try {
+      const auto found = signals_.find(number);
+      const std::optional<IntersectionSignals> signals =
+          found == signals_.end() ? std::nullopt
+                                  : std::optional<IntersectionSignals>(found->second);
+      const ApproachLanes approach = approachLanes(map.intersection, place->plane);
+      const std::optional<SignalAdvice> advice =
+          adviseSignals(place->host, approach.lanes, signals, options_.advice);
+      if (advice && (!nearest || advice->distance < nearest->distance)) {
+        nearest = advice;
+        id = number;
+      }
+    } catch (const WireError& error) {
+      monitor_.warned(InputError(error.reason(), error.what()));
+    }
+  }
+  return nearest ? toMessage(*nearest, id, own.header) : nullptr;
+}
+
+}  // namespace datmo

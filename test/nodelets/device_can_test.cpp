@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The running device nodelet with a log of a vehicle's CAN bus, and the odometry that comes of it.
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+#include "chain.h"
+#include "device/can_samples.h"
+#include <gtest/gtest.h>
+
+#include <nav_msgs/Odometry.h>
+
+namespace datmo::device_can_test {
+namespace {
+
+/// The odometry that comes of a vehicle's bus.
+class VehicleDoor : public Listener {
+ public:
+  VehicleDoor() {
+    odometry_ = node_.subscribe<nav_msgs::Odometry>(
+        "motion/odometry", kQueue,
+        [this](const nav_msgs::OdometryConstPtr& message) { odometry.push_back(message); });
+  }
+
+  bool isConnected() const { return odometry_.getNumPublishers() > 0; }
+
+  std::vector<nav_msgs::OdometryConstPtr> odometry;
+
+ private:
+  static constexpr std::uint32_t kQueue = 200;
+
+  ros::NodeHandle node_;
+  ros::Subscriber odometry_;
+};
+
+TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsSaid) {
+  const std::string recording = ros::param::param<std::string>("recording", "");
+  VehicleDoor door;
+  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  EXPECT_TRUE(
+      door.waitFor([&door] { return door.diagnostic("device", "dropped: bad_recording") >= 1.0; }));
+  constexpr int kFrames = 100;
+  constexpr double kPeriod = 0.02;  // s
+  std::string log;
+  for (int i = 0; i < kFrames; ++i) {  // 2 s of 5 m/s, 9 deg/s to the left
+    log += samples::canLogText(kPeriod * i, samples::canFrame(0x7DF, {1, 2}));
+    log += samples::canLogText(kPeriod * i, samples::yawFrame(9.0));
+    log += samples::canLogText(kPeriod * i, samples::speedFrame(5.0, static_cast<unsigned>(i)));
+  }
+  log += samples::canLogText(kPeriod * kFrames, samples::canFrame(samples::kSpeedId, {4}));
+  std::ofstream(recording + ".part") << log;
+  ASSERT_EQ(std::rename((recording + ".part").c_str(), recording.c_str()), 0);
+  ASSERT_TRUE(door.waitFor([&door] { return door.odometry.size() >= kFrames - 1; }));
+  EXPECT_EQ(door.odometry.size(), kFrames - 1U);  // the first counter moves nothing yet
+  const nav_msgs::Odometry& last = *door.odometry.back();
+  EXPECT_NEAR(last.twist.twist.linear.x, 5.0, 1e-9);
+  EXPECT_NEAR(last.twist.twist.angular.z, 0.15708, 1e-4);
+  // A chord of the circle, by the times at which the frames came.
+  const double seconds = (last.header.stamp - door.odometry.front()->header.stamp).toSec();
+  const double radius = 5.0 / 0.157080;
+  EXPECT_NEAR(std::hypot(last.pose.pose.position.x, last.pose.pose.position.y),
+              2.0 * radius * std::sin(0.5 * 0.157080 * seconds), 0.05);
+  EXPECT_TRUE(door.waitFor([&door] {
+    return door.diagnostic("device", "dropped: recording_end") == 1.0 &&
+           door.diagnostic("device", "warned: bad_frame") == 1.0;
+  }));
+  EXPECT_EQ(door.diagnostic("device", "frames of other messages"), kFrames);
+  EXPECT_EQ(door.diagnostic("device", "frames missed"), 0.0);
+  std::remove(recording.c_str());
+}
+
+}  // namespace
+}  // namespace datmo::device_can_test
