@@ -200,6 +200,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/existence_score.cpp
   tracking/hypothesis_cluster.cpp
   tracking/hypothesis_expansion.cpp
+  tracking/hypothesis_pruning.cpp
   tracking/imm_filter.cpp
   tracking/kalman_filter.cpp
   tracking/motion_by_class.cpp

@@ -2,7 +2,9 @@
 #include "datmo_fusion/tracking/hypothesis_expansion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -12,6 +14,8 @@
 
 #include "ranked_hypothesis.h"
 
+#include "datmo_fusion/tracking/hypothesis_pruning.h"
+
 namespace datmo {
 
 namespace {
@@ -20,21 +24,37 @@ namespace {
 /// hardly any of the many that are left finds room.
 constexpr std::size_t kMaxScans = 10;
 
-/// Room that the leaves of a tree get at once: seen, and not.
-constexpr std::size_t kUsualLeaves = 2;
+/// Of new targets.
+constexpr std::size_t kNoTree = std::numeric_limits<std::size_t>::max();
+
+/// A leaf of the next scan before its target is made: most of those that hypotheses ask for do not
+/// outlive the pruning, and a target is costly to update.
+struct PlannedLeaf {
+  int parent;               ///< leaf of the old tree that it continues; kAbsent: a new target
+  std::size_t observation;  ///< kUnseen: missed
+  std::array<std::uint64_t, kMaxScanHistory + 1> nodes;
+};
+
+struct PlannedTree {
+  std::size_t old_tree = kNoTree;  ///< that it continues
+  std::vector<PlannedLeaf> leaves;
+};
 
 /// The cluster of the next scan, as its hypotheses come in.
 class Builder {
  public:
-  Builder(const HypothesisCluster& cluster, const ExpansionContext& context,
-          std::uint64_t& next_node, std::size_t& room, AssociationCounts& counts)
+  Builder(HypothesisCluster& cluster, const ExpansionContext& context, std::uint64_t& next_node,
+          std::size_t& room, AssociationCounts& counts)
       : old_(cluster),
         context_(context),
         next_node_(next_node),
         room_(room),
         counts_(counts),
-        trees_(cluster.trees.size()),
-        made_(cluster.trees.size()) {}
+        trees_(cluster.trees.size()) {
+    for (std::size_t tree = 0; tree < trees_.size(); ++tree) {
+      trees_[tree].old_tree = tree;
+    }
+  }
 
   /// Adds the present assignment of a source, unless it needs more leaves than there may be.
   void add(const RankedHypothesis& source) {
@@ -62,31 +82,30 @@ class Builder {
   std::size_t size() const { return hypotheses_.size(); }
   double bestWeight() const { return hypotheses_.front().log_weight; }
 
+  /// Prunes, and makes the targets of what is left, out of the old ones: to be called last.
   HypothesisCluster finish() {
     for (GlobalHypothesis& hypothesis : hypotheses_) {
       hypothesis.leaf_of_tree.resize(trees_.size(), kAbsent);
     }
-    HypothesisCluster result{std::move(trees_), std::move(hypotheses_), old_.links};
+    canonicalize(trees_, hypotheses_);
+    if (hypotheses_.size() > 1) {
+      pruneHistory(trees_, hypotheses_, static_cast<std::size_t>(context_.options.scan_history));
+    }
+    HypothesisCluster result{{}, std::move(hypotheses_), std::move(old_.links)};
     linkSharers(result);
-    canonicalize(result);
+    for (const PlannedTree& plan : trees_) {
+      result.trees.push_back(grow(plan));
+    }
     return result;
   }
 
  private:
-  /// Which leaf of the old tree went on as what, to which leaf of the new one.
-  struct Made {
-    int parent;
-    std::size_t observation;
-    int leaf;
-  };
-
   int find(std::size_t tree, int parent, std::size_t observation) const {
-    for (const Made& made : made_[tree]) {
-      if (made.parent == parent && made.observation == observation) {
-        return made.leaf;
-      }
-    }
-    return kAbsent;
+    const std::vector<PlannedLeaf>& leaves = trees_[tree].leaves;
+    const auto found = std::find_if(leaves.begin(), leaves.end(), [&](const PlannedLeaf& leaf) {
+      return leaf.parent == parent && leaf.observation == observation;
+    });
+    return found == leaves.end() ? kAbsent : static_cast<int>(found - leaves.begin());
   }
 
   bool hasRoomFor(const GlobalHypothesis& parent,
@@ -107,27 +126,16 @@ class Builder {
     if (found != kAbsent) {
       return found;
     }
-    const Leaf& old = old_.trees[tree].leaves[static_cast<std::size_t>(parent)];
-    Leaf& leaf = append(tree, parent, observation, old.child(next_node_++));
-    const double seen = old.scores.detection_probability;
-    if (observation == kUnseen) {
-      leaf.target.miss(seen, context_.target);
-    } else {
-      leaf.target.update(context_.scan.observations[observation], observation, seen,
-                         context_.target);
-      noteUse(observation, leaf.target.number());
+    const TrackTree& old = old_.trees[tree];
+    PlannedLeaf leaf{parent, observation, {}};
+    const auto& nodes = old.leaves[static_cast<std::size_t>(parent)].nodes;
+    std::copy(nodes.begin(), nodes.end() - 1, leaf.nodes.begin() + 1);
+    leaf.nodes.front() = next_node_++;
+    if (observation != kUnseen) {
+      noteUse(observation, old.number());
     }
-    return made_[tree].back().leaf;
-  }
-
-  Leaf& append(std::size_t tree, int parent, std::size_t observation, Leaf&& leaf) {
-    const int index = static_cast<int>(trees_[tree].leaves.size());
-    if (index == 0) {
-      trees_[tree].leaves.reserve(kUsualLeaves);
-    }
-    trees_[tree].leaves.push_back(std::move(leaf));
-    made_[tree].push_back({parent, observation, index});
-    return trees_[tree].leaves.back();
+    trees_[tree].leaves.push_back(leaf);
+    return static_cast<int>(trees_[tree].leaves.size()) - 1;
   }
 
   void startTarget(std::size_t observation, GlobalHypothesis& child) {
@@ -145,18 +153,44 @@ class Builder {
     }
     --room_;
     tree_of_birth_[observation] = trees_.size();
-    trees_.emplace_back();
-    made_.emplace_back();
-    const Object& object = context_.scan.observations[observation].object;
-    Leaf leaf{Target(object, observation, context_.first_number + observation, context_.target,
-                     context_.scan.transitionsOf(object.object_class)),
-              {},
-              {},
-              {}};
+    PlannedLeaf leaf{kAbsent, observation, {}};
     leaf.nodes.front() = next_node_++;
-    noteUse(observation, leaf.target.number());
-    append(trees_.size() - 1, kAbsent, observation, std::move(leaf));
+    noteUse(observation, context_.first_number + observation);
+    trees_.push_back({kNoTree, {leaf}});
     child.leaf_of_tree.push_back(0);
+  }
+
+  TrackTree grow(const PlannedTree& plan) {
+    TrackTree tree;
+    tree.leaves.reserve(plan.leaves.size());
+    for (auto leaf = plan.leaves.begin(); leaf != plan.leaves.end(); ++leaf) {
+      if (leaf->parent == kAbsent) {
+        tree.leaves.push_back({newTarget(leaf->observation), leaf->nodes, {}, {}});
+        continue;
+      }
+      const bool last = std::none_of(leaf + 1, plan.leaves.end(), [&](const PlannedLeaf& other) {
+        return other.parent == leaf->parent;
+      });
+      Leaf& old = old_.trees[plan.old_tree].leaves[static_cast<std::size_t>(leaf->parent)];
+      tree.leaves.push_back({last ? std::move(old.target) : old.target, leaf->nodes, {}, {}});
+      continueTarget(tree.leaves.back().target, leaf->observation,
+                     old.scores.detection_probability);
+    }
+    return tree;
+  }
+
+  Target newTarget(std::size_t observation) const {
+    const Object& object = context_.scan.observations[observation].object;
+    return {object, observation, context_.first_number + observation, context_.target,
+            context_.scan.transitionsOf(object.object_class)};
+  }
+
+  void continueTarget(Target& target, std::size_t observation, double seen) const {
+    if (observation == kUnseen) {
+      target.miss(seen, context_.target);
+    } else {
+      target.update(context_.scan.observations[observation], observation, seen, context_.target);
+    }
   }
 
   void noteUse(std::size_t observation, std::uint64_t number) {
@@ -175,13 +209,12 @@ class Builder {
     }
   }
 
-  const HypothesisCluster& old_;
+  HypothesisCluster& old_;
   const ExpansionContext& context_;
   std::uint64_t& next_node_;
   std::size_t& room_;
   AssociationCounts& counts_;
-  std::vector<TrackTree> trees_;  ///< the old ones, then those that start now
-  std::vector<std::vector<Made>> made_;
+  std::vector<PlannedTree> trees_;  ///< the old ones, then those that start now
   std::vector<GlobalHypothesis> hypotheses_;
   std::map<std::size_t, std::size_t> tree_of_birth_;      ///< by observation
   std::set<std::size_t> refused_;                         ///< observations that found no room
@@ -239,7 +272,7 @@ void HypothesisOptions::visit(OptionVisitor& visitor) {
       max_joint_targets, {1, 1000});
 }
 
-HypothesisCluster expand(const HypothesisCluster& cluster,
+HypothesisCluster expand(HypothesisCluster cluster,
                          const std::vector<Interpretation>& interpretations,
                          const ExpansionContext& context, std::uint64_t& next_node,
                          std::size_t& room, AssociationCounts& counts) {

@@ -140,12 +140,10 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
   }
   const ExpansionContext context{scan,         target_options_, hypothesis_options_, scan_number_,
                                  next_number_, best_only,       options_.max_work};
-  HypothesisCluster whole = expand(cluster, interpretations, context, next_node_, room_, counts_);
-  const auto history = static_cast<std::size_t>(hypothesis_options_.scan_history);
-  if (whole.hypotheses.size() > 1) {
-    pruneHistory(whole, history);
-  }
+  HypothesisCluster whole =
+      expand(std::move(cluster), interpretations, context, next_node_, room_, counts_);
   const bool decided = whole.hypotheses.size() == 1;
+  const auto history = static_cast<std::uint64_t>(hypothesis_options_.scan_history);
   const std::uint64_t open = decided ? 0 : history;  // scans of which something is left to decide
   const std::uint64_t oldest = scan_number_ + 1 > open ? scan_number_ + 1 - open : 0;
   for (HypothesisCluster& part : split(std::move(whole), oldest)) {

@@ -35,11 +35,6 @@ HypothesisCluster singleTarget(TrackTree tree);
 /// Both clusters as one, with the `max` likeliest pairs of their hypotheses.
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max);
 
-/// Removes all hypotheses that differ from the best one in how they explain the scan `history`
-/// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMaxScanHistory; 0 leaves
-/// the best one alone.
-void pruneHistory(HypothesisCluster& cluster, std::size_t history);
-
 /// Removes leaves of which this is true, in all hypotheses.
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost);
 
