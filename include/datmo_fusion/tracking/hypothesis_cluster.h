@@ -22,6 +22,8 @@ struct HypothesisCluster {
   std::vector<TrackTree> trees;
   std::vector<GlobalHypothesis> hypotheses;  ///< the best first; at least one
   std::vector<TreeLink> links;
+  /// The objects of the present scan that any leaf may have been seen as, whole or in part, rising.
+  std::vector<std::size_t> objects;
 
   const GlobalHypothesis& best() const { return hypotheses.front(); }
 
