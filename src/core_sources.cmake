@@ -117,6 +117,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/track/track_correlations.cpp
   fusion/track/track_extents.cpp
   fusion/track/track_fuser.cpp
+  fusion/track/track_fuser_judgement.cpp
   fusion/track/track_fuser_options.cpp
   fusion/track/track_prediction.cpp
   fusion/track/windowed_evidence.cpp
@@ -215,6 +216,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/existence_score.cpp
   tracking/hypothesis_cluster.cpp
   tracking/hypothesis_expansion.cpp
+  tracking/hypothesis_pruning.cpp
   tracking/imm_filter.cpp
   tracking/kalman_filter.cpp
   tracking/motion_by_class.cpp
@@ -223,6 +225,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/nearest_neighbor.cpp
   tracking/object_check.cpp
   tracking/object_parts.cpp
+  tracking/planned_cluster.cpp
   tracking/ranked_hypothesis.cpp
   tracking/split_merge.cpp
   tracking/target.cpp

@@ -19,18 +19,22 @@ void CellHits::add(const Eigen::Vector2f& offset, float max) {
 void HitSums::add(const CellHits& cell, const Point2& shift, double maturity) {
   const double count = cell.count;
   const Point2 offset = cell.sum.cast<double>();
-  Eigen::Matrix2d own;
-  own << cell.squares[0], cell.squares[1], cell.squares[1], cell.squares[2];
+  const Point2 moved = offset + count * shift;
   hits_ += count;
   maturity_ += count * maturity;
-  sum_ += offset + count * shift;
-  squares_ += own + shift * offset.transpose() + offset * shift.transpose() +
-              count * shift * shift.transpose();
+  sum_ += moved;
+  squares_ +=
+      cell.squares.cast<double>() + Eigen::Vector3d(shift.x() * (offset.x() + moved.x()),
+                                                    shift.x() * offset.y() + shift.y() * moved.x(),
+                                                    shift.y() * (offset.y() + moved.y()));
 }
 
 HitDistribution HitSums::about(const Point2& reference) const {
   const Point2 mean = sum_ / hits_;
-  return {hits_, reference + mean, squares_ / hits_ - mean * mean.transpose(), maturity_ / hits_};
+  const Eigen::Vector3d squares = squares_ / hits_;
+  Eigen::Matrix2d covariance;
+  covariance << squares[0], squares[1], squares[1], squares[2];
+  return {hits_, reference + mean, covariance - mean * mean.transpose(), maturity_ / hits_};
 }
 
 }  // namespace datmo

@@ -260,9 +260,12 @@ void OccupancyMap::pass(CellIndex index, const Point2& from, const Point2& direc
 
 void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
   const Point2 from = base_in_map * ray.origin;
-  const Point2 along = base_in_map * ray.end - from;
-  const CellIndex end = window().cellAt(from + along);
-  forEachLine(window(), {from, along, ray.range, options_.beam_width}, [&](const Point2& to) {
+  const Point2 to_end = base_in_map * ray.end - from;
+  const CellIndex end = window().cellAt(from + to_end);
+  const double free_range =
+      ray.hit ? std::max(0.0, ray.range - options_.end_margin * options_.range_sigma) : ray.range;
+  const Point2 along = free_range / ray.range * to_end;
+  forEachLine(window(), {from, along, free_range, options_.beam_width}, [&](const Point2& to) {
     const CellIndex last = window().cellAt(to);
     const Point2 direction = (to - from).normalized();
     walkRay(window(), from, to, [&](CellIndex cell) {

@@ -29,8 +29,8 @@ PoseScorer::PoseScorer(const OccupancyMap& map, const std::vector<EndPoint>& poi
   y_.reserve(blocks * kBlock);
   for (std::size_t first = 0; first < kSpread; ++first) {
     for (std::size_t i = first; i < count_; i += kSpread) {
-      x_.push_back(points[i].position.x());
-      y_.push_back(points[i].position.y());
+      x_.push_back(points[i].position.x() / map.window().cell_size);
+      y_.push_back(points[i].position.y() / map.window().cell_size);
     }
   }
   for (const EndPoint& point : points) {
@@ -40,10 +40,14 @@ PoseScorer::PoseScorer(const OccupancyMap& map, const std::vector<EndPoint>& poi
   y_.resize(blocks * kBlock, 0.0);
 }
 
-/// As GridWindow::cellAt, in loops that compilers turn into vectors.
+Point2 PoseScorer::pointAt(std::size_t index) const {
+  return map_.window().cell_size * Point2(x_[index], y_[index]);
+}
+
+/// As GridWindow::cellAt, in loops that compilers turn into vectors, without a division.
 PoseScorer::Cells PoseScorer::cellsOfBlock(std::size_t begin, const Pose2& pose,
                                            const Eigen::Matrix2d& rotation) const {
-  const double cell_size = map_.window().cell_size;
+  const Point2 from = pose.position() / map_.window().cell_size;
   const double c = rotation(0, 0);
   const double s = rotation(1, 0);
   const double* x = &x_[begin];
@@ -52,10 +56,10 @@ PoseScorer::Cells PoseScorer::cellsOfBlock(std::size_t begin, const Pose2& pose,
   std::array<double, kBlock> along;
   Cells cells;
   for (std::size_t i = 0; i < kBlock; ++i) {
-    across[i] = (pose.x() + (c * x[i] - s * y[i])) / cell_size;
+    across[i] = from.x() + (c * x[i] - s * y[i]);
   }
   for (std::size_t i = 0; i < kBlock; ++i) {
-    along[i] = (pose.y() + (s * x[i] + c * y[i])) / cell_size;
+    along[i] = from.y() + (s * x[i] + c * y[i]);
   }
   for (std::size_t i = 0; i < kBlock; ++i) {
     const int whole = static_cast<int>(across[i]);
@@ -80,7 +84,7 @@ double PoseScorer::sumOfBlock(std::size_t begin, const Pose2& pose,
     }
   } else {
     for (std::size_t i = 0; i < count; ++i) {
-      const Point2 end = pose.position() + rotation * Point2(x_[begin + i], y_[begin + i]);
+      const Point2 end = pose.position() + rotation * pointAt(begin + i);
       sum += map_.occupancy(map_.window().cellAt(end));
     }
   }
@@ -125,7 +129,7 @@ std::vector<double> PoseScorer::boundsFrom(const Pose2& first, const Reach& reac
   const double max_cells = kSearchShare * static_cast<double>(poses);
   std::vector<double> bounds(x_.size() / kBlock + 1, 0.0);
   for (std::size_t i = count_; i-- > 0;) {
-    const Point2 point(x_[i], y_[i]);
+    const Point2 point = pointAt(i);
     const double aside = point.norm() * reach.turn + kRounding;
     const double x_reach = reach.x + aside;
     const double y_reach = reach.y + aside;

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/common/uniform.h"
 #include "datmo_fusion/slam/pose_scorer.h"
 
@@ -28,15 +29,19 @@ constexpr double kWallElongation = 2.0;
 /// hits' mean is only the middle of the `aperture` (m) that they were gathered from.
 Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_variance,
                               double aperture) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-  Point2 information = (axes.eigenvalues().array().max(0.0) + point_variance).inverse();
-  const double across = axes.eigenvalues()[0];
-  const double along = axes.eigenvalues()[1];
-  if (along > kUniformVariance * std::pow(kWallShare * aperture, 2) &&
-      along > kWallElongation * kWallElongation * across) {
-    information[1] = 0.0;
+  // Eigenvalues of a symmetric matrix of two rows; asked for each point, so not by a solver.
+  const double middle = 0.5 * spread.trace();
+  const double half_gap =
+      std::sqrt(square(0.5 * (spread(0, 0) - spread(1, 1))) + square(spread(0, 1)));
+  const double across = middle - half_gap;
+  const double along = middle + half_gap;
+  if (along > kUniformVariance * square(kWallShare * aperture) &&
+      along > square(kWallElongation) * across) {
+    // (along - spread) / (along - across) projects on the axis across the wall.
+    return (along * Eigen::Matrix2d::Identity() - spread) /
+           (2.0 * half_gap * (std::max(0.0, across) + point_variance));
   }
-  return axes.eigenvectors() * information.asDiagonal() * axes.eigenvectors().transpose();
+  return (spread + point_variance * Eigen::Matrix2d::Identity()).inverse();
 }
 
 /// The shift of a pose by a small x, y (map frame) and heading.
@@ -67,6 +72,20 @@ struct ScanMatcher::Normal {
   double max_maturity = 0.0;
   double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
   bool degenerate = false;
+
+  /// Adds an end point's information (1/m^2) and error (m), both in the map frame; `arm`: from the
+  /// pose to the point, m.
+  void add(const Eigen::Matrix2d& of_point, const Point2& arm, const Point2& error) {
+    const Point2 per_turn(-arm.y(), arm.x());  // m/rad
+    const Point2 turning = of_point * per_turn;
+    const Point2 pull = of_point * error;
+    information.topLeftCorner<2, 2>() += of_point;
+    information.topRightCorner<2, 1>() += turning;
+    information.bottomLeftCorner<1, 2>() += turning.transpose();
+    information(2, 2) += per_turn.dot(turning);
+    gradient.head<2>() += pull;
+    gradient[2] += per_turn.dot(pull);
+  }
 
   /// Leaves out directions of the position that are known worse than `limit` (m).
   void leaveOutWeak(double limit) {
@@ -166,10 +185,7 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
         surface->maturity < task.full_maturity ? surface->maturity / task.full_maturity : 1.0;
     const double weight = std::exp(-0.5 * distance) * std::max(options_.min_maturity, maturity);
     normal.max_maturity = std::max(normal.max_maturity, surface->maturity);
-    Eigen::Matrix<double, 2, 3> jacobian;
-    jacobian << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
-    normal.information += weight * jacobian.transpose() * information * jacobian;
-    normal.gradient += weight * jacobian.transpose() * information * error;
+    normal.add(weight * information, turned, error);
     ++normal.points;
   }
   normal.information *= options_.information_share;

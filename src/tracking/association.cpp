@@ -16,24 +16,33 @@ Box2 moved(const Pose2& frame, const Box2& box) {
   return {frame * box.center, box.length, box.width};
 }
 
-double detectionProbability(const Target& target, const AssociationScan& scan) {
-  const double sigma = std::sqrt(0.5 * target.positionCovariance().trace());
-  return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box()), sigma);
+/// Where a target is expected.
+struct Expected {
+  Box2 box;
+  double variance;  ///< m^2, of both coordinates together
+};
+
+double detectionProbability(const Expected& target, const AssociationScan& scan) {
+  const double sigma = std::sqrt(0.5 * target.variance);
+  return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box), sigma);
 }
+
+/// Square of the distance (m^2), and index.
+using NearObjects = std::vector<std::pair<double, std::size_t>>;
 
 /// The objects by themselves that may be within the gate, the nearest first: most pairs are so far
 /// apart that nothing more needs to be known of them.
-std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan& scan,
-                                     const AssociationOptions& options) {
-  const Box2 box = target.box();
+NearObjects nearObjects(const Expected& target, const AssociationScan& scan,
+                        const AssociationOptions& options) {
+  const Box2& box = target.box;
   const Point2& position = box.center.position();
-  const double sigma = std::sqrt(target.positionCovariance().trace());
+  const double sigma = std::sqrt(target.variance);
   const double reach =
       std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
   const auto end = scan.centers.end();
   auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
                                  [](const Point2& point, double min) { return point.x() < min; });
-  std::vector<std::pair<double, std::size_t>> near;
+  NearObjects near;
   for (; center != end && center->x() <= position.x() + reach; ++center) {
     const double distance2 = (*center - position).squaredNorm();
     if (distance2 <= reach * reach) {
@@ -41,12 +50,7 @@ std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan
     }
   }
   std::sort(near.begin(), near.end());
-  std::vector<std::size_t> result;
-  result.reserve(near.size());
-  for (const auto& entry : near) {
-    result.push_back(entry.second);
-  }
-  return result;
+  return near;
 }
 
 }  // namespace
@@ -74,12 +78,13 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
 
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
                       const AssociationOptions& options) {
+  const Expected expected{target.box(), target.positionCovariance().trace()};
   TargetScores scores;
-  scores.detection_probability = detectionProbability(target, scan);
+  scores.detection_probability = detectionProbability(expected, scan);
   const double seen = existence * scores.detection_probability;
   scores.missed = std::log1p(-seen);
   scores.seen = std::log(seen) - scores.missed;
-  for (const std::size_t object : nearObjects(target, scan, options)) {
+  for (const auto& [distance2, object] : nearObjects(expected, scan, options)) {
     if (scores.candidates.size() >= static_cast<std::size_t>(options.max_candidates)) {
       break;
     }

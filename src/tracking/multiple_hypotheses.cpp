@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// The objects that any leaf of the cluster may have been seen as, whole or in part, rising.
+/// See HypothesisCluster::objects.
 std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
   std::vector<std::size_t> result;
   for (const TrackTree& tree : cluster.trees) {
@@ -29,12 +29,8 @@ std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
 /// One target of which nothing is left to decide and that no object is near: so are most of those
 /// that false alarms have started.
 bool isUnseenSingle(const HypothesisCluster& cluster) {
-  if (cluster.trees.size() != 1 || cluster.hypotheses.size() != 1 ||
-      cluster.trees.front().leaves.size() != 1) {
-    return false;
-  }
-  const Leaf& leaf = cluster.trees.front().leaves.front();
-  return leaf.scores.candidates.empty() && leaf.related.empty();
+  return cluster.trees.size() == 1 && cluster.hypotheses.size() == 1 &&
+         cluster.trees.front().leaves.size() == 1 && cluster.objects.empty();
 }
 
 }  // namespace
@@ -72,7 +68,7 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
   std::vector<bool> claimed(scan.objects, false);
   std::vector<HypothesisCluster> next;
   for (HypothesisCluster& cluster : clusters_) {
-    for (const std::size_t object : candidateObjects(cluster)) {
+    for (const std::size_t object : cluster.objects) {
       claimed[object] = true;
     }
     expandCluster(std::move(cluster), scan, budget, next);
@@ -93,6 +89,7 @@ void MultipleHypotheses::score(const AssociationScan& scan) {
         leaf.related = relatedObjects(leaf.target, scan, split_merge_);
       }
     }
+    cluster.objects = candidateObjects(cluster);
   }
 }
 
@@ -102,7 +99,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   std::vector<std::size_t> claimer(objects, kNobody);
   DisjointSets groups(clusters_.size());
   for (std::size_t i = 0; i < clusters_.size(); ++i) {
-    for (const std::size_t object : candidateObjects(clusters_[i])) {
+    for (const std::size_t object : clusters_[i].objects) {
       if (claimer[object] == kNobody) {
         claimer[object] = i;
       } else {
@@ -116,6 +113,9 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
     HypothesisCluster cluster = std::move(clusters_[group.front()]);
     for (std::size_t i = 1; i < group.size(); ++i) {
       cluster = merge(std::move(cluster), std::move(clusters_[group[i]]), max);
+    }
+    if (group.size() > 1) {
+      cluster.objects = candidateObjects(cluster);  // leaves may be gone
     }
     result.push_back(std::move(cluster));
   }
@@ -134,18 +134,16 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
   }
   const bool best_only = late || cluster.trees.size() > static_cast<std::size_t>(
                                                             hypothesis_options_.max_joint_targets);
-  std::vector<Interpretation> interpretations{candidateObjects(cluster)};
+  std::vector<Interpretation> interpretations{cluster.objects};
   if (!best_only) {
     addSplitAndMerged(cluster, scan, options_, split_merge_, interpretations);
   }
   const ExpansionContext context{scan,         target_options_, hypothesis_options_, scan_number_,
                                  next_number_, best_only,       options_.max_work};
-  HypothesisCluster whole = expand(cluster, interpretations, context, next_node_, room_, counts_);
-  const auto history = static_cast<std::size_t>(hypothesis_options_.scan_history);
-  if (whole.hypotheses.size() > 1) {
-    pruneHistory(whole, history);
-  }
+  HypothesisCluster whole =
+      expand(std::move(cluster), interpretations, context, next_node_, room_, counts_);
   const bool decided = whole.hypotheses.size() == 1;
+  const auto history = static_cast<std::uint64_t>(hypothesis_options_.scan_history);
   const std::uint64_t open = decided ? 0 : history;  // scans of which something is left to decide
   const std::uint64_t oldest = scan_number_ + 1 > open ? scan_number_ + 1 - open : 0;
   for (HypothesisCluster& part : split(std::move(whole), oldest)) {

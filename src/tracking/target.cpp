@@ -83,10 +83,9 @@ void Target::update(const Observation& observation, std::size_t index, double de
                     const TargetOptions& options) {
   const Object& object = observation.object;
   const PositionMeasurement measured = measurementOf(object);
-  const double likelihood = filter_.logLikelihood(measured);
+  const double likelihood = filter_.update(measured, options.filter.outlier_probability);
   existence_.detect(likelihood, detection_probability, observation.log_density, object.log_odds,
                     options.existence);
-  filter_.update(measured, options.filter.outlier_probability);
   if (object.velocity) {
     takeVelocity(*object.velocity, options);
   }

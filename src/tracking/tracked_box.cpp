@@ -99,17 +99,10 @@ Eigen::Vector2d sharesOf(const SeenBox& seen, const BoxSize& size, const Eigen::
           measured(seen.axes[1], size.mean().y(), size.variance().y(), last.y()).share};
 }
 
-Eigen::Vector2d turned(double heading, const Eigen::Vector2d& vector) {
-  return Pose2(Point2::Zero(), heading).rotate(vector);
-}
+/// The axes of a box with this heading, as columns.
+Eigen::Matrix2d axesOf(double heading) { return Pose2(Point2::Zero(), heading).rotation(); }
 
-Eigen::Matrix2d inAxes(double heading, const Eigen::Matrix2d& covariance) {
-  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading).rotation();
-  return axes.transpose() * covariance * axes;
-}
-
-Eigen::Matrix2d alongAxes(double heading, const Eigen::Vector2d& variance) {
-  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading).rotation();
+Eigen::Matrix2d alongAxes(const Eigen::Matrix2d& axes, const Eigen::Vector2d& variance) {
   return axes * variance.asDiagonal() * axes.transpose();
 }
 
@@ -146,6 +139,8 @@ void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
 
 PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
   const SeenBox seen = seenFrom(heading_, object);
+  const Eigen::Matrix2d axes = axesOf(heading_);
+  const Eigen::Matrix2d seen_axes = axesOf(seen.heading);
   Eigen::Vector2d share;
   Eigen::Vector2d extent;
   Eigen::Vector2d variance;
@@ -159,9 +154,9 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
     extent[axis] = sides.extent;
     variance[axis] = along.variance + change * change * size_variance;
   }
-  return {object.box.center.position() - turned(seen.heading, share.cwiseProduct(extent)) +
-              turned(heading_, share.cwiseProduct(size_.mean())),
-          object.position_covariance + alongAxes(seen.heading, variance), object.delay};
+  return {object.box.center.position() - seen_axes * share.cwiseProduct(extent) +
+              axes * share.cwiseProduct(size_.mean()),
+          object.position_covariance + alongAxes(seen_axes, variance), object.delay};
 }
 
 Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
@@ -171,8 +166,9 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   size_.classify(object.object_class, object.class_probability);
   // Of a box that is turned by an angle, what seems its width is in part its length.
   const double slant_variance = std::min(object.heading_variance, kUnknownAxisVariance);
-  const Eigen::Vector2d position_variance =
-      inAxes(seen.heading, object.position_covariance).diagonal().cwiseMax(0.0);
+  const Eigen::Matrix2d axes = axesOf(seen.heading);
+  const Eigen::Matrix2d in_axes = axes.transpose() * object.position_covariance * axes;
+  const Eigen::Vector2d position_variance = in_axes.diagonal().cwiseMax(0.0);
   std::array<VisibleExtent, 2> visible = {seen.axes[0].visible(position_variance.x()),
                                           seen.axes[1].visible(position_variance.y())};
   visible[0].variance += slant_variance * size_.mean().y() * size_.mean().y();
@@ -221,10 +217,11 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
 }
 
 Eigen::Matrix2d TrackedBox::centerCovariance() const {
-  const Eigen::Vector2d lever = offset();
+  const Eigen::Matrix2d axes = axesOf(heading_);
+  const Eigen::Vector2d lever = axes * anchor_share_.cwiseProduct(size_.mean());
   const Eigen::Vector2d swing(-lever.y(), lever.x());
   const double turn_variance = std::min(heading_variance_, kUnknownAxisVariance);
-  return alongAxes(heading_, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
+  return alongAxes(axes, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
          turn_variance * swing * swing.transpose();
 }
 
@@ -240,7 +237,7 @@ double TrackedBox::headingVariance() const {
 
 /// From the sides that were seen to the center, m, fixed frame.
 Eigen::Vector2d TrackedBox::offset() const {
-  return turned(heading_, anchor_share_.cwiseProduct(size_.mean()));
+  return axesOf(heading_) * anchor_share_.cwiseProduct(size_.mean());
 }
 
 /// First motion is ahead, and so is fast motion; otherwise it may be reversing.

@@ -176,6 +176,7 @@ datmo_fusion_add_core_test(fusion
   fusion/cross_covariance_test.cpp
   fusion/earth_frame_test.cpp
   fusion/fused_existence_test.cpp
+  fusion/fused_id_test.cpp
   fusion/fused_state_test.cpp
   fusion/class_memory_test.cpp
   fusion/fused_targets_test.cpp

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/grid/cell_index.h"
@@ -48,8 +47,9 @@ struct GridWindow {
   int indexAt(double coordinate) const {
     constexpr double kFarthest = kMaxCell;
     // In this order NaN becomes the lower limit.
-    const double index = std::max(-kFarthest, std::floor(coordinate / cell_size));
-    return static_cast<int>(std::min(kFarthest, index));
+    const double index = std::min(kFarthest, std::max(-kFarthest, coordinate / cell_size));
+    const int whole = static_cast<int>(index);  // std::floor is a call on most processors
+    return whole - (index < static_cast<double>(whole) ? 1 : 0);
   }
 };
 

@@ -44,7 +44,7 @@ class HitSums {
   double hits_ = 0.0;
   double maturity_ = 0.0;
   Point2 sum_ = Point2::Zero();
-  Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();  ///< xx, xy, yy
 };
 
 }  // namespace datmo

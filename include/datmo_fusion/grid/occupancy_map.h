@@ -26,6 +26,8 @@ struct OccupancyMapOptions {
   double min_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
   double beam_width = 0.0;        ///< rad, in which a beam is free up to its end
   double surface_sigma = 0.2;     ///< m, 0: a beam frees each cell that it passes
+  double range_sigma = 0.0;       ///< m, of a beam's end; 0: not known
+  double end_margin = 3.0;        ///< in range_sigma, 0: a beam frees up to its end
   double moving_below = 0.3;      ///< occupancy that counts as seen free
   double static_after = 0.8;      ///< s, between first and last hit of a static cell
   int static_neighborhood = 1;    ///< cells around an end point that vouch for it

@@ -45,6 +45,9 @@ class PoseScorer {
   std::vector<double> boundsFrom(const Pose2& first, const Reach& reach, std::size_t poses) const;
   double maxAround(const Point2& end, double x_reach, double y_reach) const;
 
+  /// m
+  Point2 pointAt(std::size_t index) const;
+
   struct Cells {
     std::array<int, kBlock> columns;
     std::array<int, kBlock> rows;
@@ -59,7 +62,7 @@ class PoseScorer {
   std::size_t count_;
   double max_distance_;     ///< m, from the map's origin, of points that a cell's index can hold
   double max_range_ = 0.0;  ///< m
-  std::vector<double> x_;   ///< m; up to full blocks
+  std::vector<double> x_;   ///< of the points, in cells; up to full blocks
   std::vector<double> y_;
 };
 

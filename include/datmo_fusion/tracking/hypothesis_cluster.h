@@ -22,6 +22,8 @@ struct HypothesisCluster {
   std::vector<TrackTree> trees;
   std::vector<GlobalHypothesis> hypotheses;  ///< the best first; at least one
   std::vector<TreeLink> links;
+  /// The objects of the present scan that any leaf may have been seen as, whole or in part, rising.
+  std::vector<std::size_t> objects;
 
   const GlobalHypothesis& best() const { return hypotheses.front(); }
 
@@ -34,11 +36,6 @@ HypothesisCluster singleTarget(TrackTree tree);
 
 /// Both clusters as one, with the `max` likeliest pairs of their hypotheses.
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max);
-
-/// Removes all hypotheses that differ from the best one in how they explain the scan `history`
-/// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMaxScanHistory; 0 leaves
-/// the best one alone.
-void pruneHistory(HypothesisCluster& cluster, std::size_t history);
 
 /// Removes leaves of which this is true, in all hypotheses.
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost);

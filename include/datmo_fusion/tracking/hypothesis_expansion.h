@@ -37,11 +37,12 @@ struct ExpansionContext {
 
 /// The cluster after one more scan: of all continuations of its hypotheses, by each
 /// interpretation, the likeliest `max_hypotheses` (Murty's ranking of each hypothesis's
-/// assignments, taken from all of them best first: Cox and Hingorani 1996). Interpretations: at
-/// least one, the first with the objects by themselves. Leaves must have their scores.
+/// assignments, taken from all of them best first: Cox and Hingorani 1996), pruned by
+/// `scan_history` (pruneHistory). Interpretations: at least one, the first with the objects by
+/// themselves. Leaves must have their scores.
 ///
 /// `room`: new targets that may be started. Both it and the counts are brought up to date.
-HypothesisCluster expand(const HypothesisCluster& cluster,
+HypothesisCluster expand(HypothesisCluster cluster,
                          const std::vector<Interpretation>& interpretations,
                          const ExpansionContext& context, std::uint64_t& next_node,
                          std::size_t& room, AssociationCounts& counts);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,14 +23,6 @@ struct Leaf {
   std::array<std::uint64_t, kMaxScanHistory + 1> nodes{};
   TargetScores scores;               ///< against the present scan
   std::vector<std::size_t> related;  ///< of its objects: see relatedObjects()
-
-  /// The leaf below this one in the next scan.
-  Leaf child(std::uint64_t node) const {
-    Leaf next{target, {}, {}, {}};
-    std::copy(nodes.begin(), nodes.end() - 1, next.nodes.begin() + 1);
-    next.nodes.front() = node;
-    return next;
-  }
 };
 
 /// All observation sequences of one target; at least one.

@@ -49,6 +49,7 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
+      .key("map/range_sigma", "scanner/range_sigma")
       .key("matcher/point_sigma", "scanner/range_sigma")
       .group<OdometryNoiseOptions>("motion/", "motion/");
 }

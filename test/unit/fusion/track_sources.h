@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "fusion_tracks.h"
+
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/fusion/track/track_fuser.h"
 
@@ -41,6 +43,11 @@ inline SourceTracks lidar(double seconds, std::vector<Track> tracks) {
 }
 inline SourceTracks stereo(double seconds, std::vector<Track> tracks) {
   return heard("stereo", seconds, std::move(tracks), {allAround(40.0)});
+}
+
+/// Drives along y = 0 and is at x when it is 0 s.
+inline Track driving(double x, double seconds, const std::string& source, std::uint32_t id = 1) {
+  return carTrack(x + 5.0 * seconds, 0.0, 5.0, 0.0, source, id);
 }
 
 inline std::vector<std::uint32_t> idsOf(const TrackFusionResult& result) {

@@ -103,13 +103,13 @@ TEST(HypothesisCluster, PruningLeavesWhatAgreesWithTheBestSoManyScansAgo) {
   cluster.trees = {treeOf(1, {{5, 3, 1}, {6, 3, 1}, {7, 4, 1}})};
   cluster.hypotheses = {hypothesisOf(0.5, {0}), hypothesisOf(0.3, {2}), hypothesisOf(0.2, {1})};
   HypothesisCluster two_ago = cluster;
-  pruneHistory(two_ago, 2);
+  pruneHistory(two_ago.trees, two_ago.hypotheses, 2);
   EXPECT_EQ(two_ago.hypotheses.size(), 3U);
   HypothesisCluster one_ago = cluster;
-  pruneHistory(one_ago, 1);
+  pruneHistory(one_ago.trees, one_ago.hypotheses, 1);
   expectHypotheses(one_ago, {0.5 / 0.7, 0.2 / 0.7}, {{0}, {1}});
   EXPECT_EQ(one_ago.trees[0].leaves[1].nodes[0], 6U);
-  pruneHistory(cluster, 0);
+  pruneHistory(cluster.trees, cluster.hypotheses, 0);
   expectHypotheses(cluster, {1.0}, {{0}});
   EXPECT_EQ(cluster.trees[0].leaves[0].nodes[0], 5U);
 }
@@ -118,10 +118,10 @@ TEST(HypothesisCluster, ATargetThatDidNotExistThenIsNoDisagreement) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{5, 3}, {6, 3}}), treeOf(2, {{9, 0}})};
   cluster.hypotheses = {hypothesisOf(0.6, {0, kAbsent}), hypothesisOf(0.4, {1, 0})};
-  pruneHistory(cluster, 1);
+  pruneHistory(cluster.trees, cluster.hypotheses, 1);
   EXPECT_EQ(cluster.hypotheses.size(), 2U) << "it starts in the present scan";
   cluster.trees[1].leaves[0].nodes[1] = 8;
-  pruneHistory(cluster, 1);
+  pruneHistory(cluster.trees, cluster.hypotheses, 1);
   EXPECT_EQ(cluster.hypotheses.size(), 1U) << "it started one scan ago";
   EXPECT_EQ(numbersOf(cluster), std::vector<std::uint64_t>{1});
 }

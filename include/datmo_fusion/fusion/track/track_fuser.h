@@ -15,6 +15,7 @@
 #include "datmo_fusion/fusion/track/track_combination.h"
 #include "datmo_fusion/fusion/track/track_correlations.h"
 #include "datmo_fusion/fusion/track/track_fuser_options.h"
+#include "datmo_fusion/tracking/class_by_speed.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/track_paths.h"
 #include "datmo_fusion/visibility/visibility.h"
@@ -85,6 +86,11 @@ class TrackFuser {
  private:
   std::vector<PresentTracks> ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
                                     TrackFusionCounts& counts);
+
+  /// What a source's track says of the class, with (withSpeed) or without (withoutSpeed) what its
+  /// speed does.
+  ClassProbabilities classSaid(const Track& track, const TrackSourceOptions& source,
+                               decltype(withSpeed)* weigh) const;
   std::vector<Track> fused(const std::vector<TrackGroup>& groups,
                            const std::vector<PresentTracks>& present,
                            const std::vector<std::optional<Point2>>& sensors,

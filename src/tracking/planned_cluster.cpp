@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planned_cluster.h"
+
+#include <algorithm>
+
+#include "datmo_fusion/tracking/hypothesis_pruning.h"
+
+namespace datmo {
+
+PlannedCluster::PlannedCluster(HypothesisCluster& cluster, const ExpansionContext& context,
+                               std::uint64_t& next_node, std::size_t& room,
+                               AssociationCounts& counts)
+    : old_(cluster),
+      context_(context),
+      next_node_(next_node),
+      room_(room),
+      counts_(counts),
+      trees_(cluster.trees.size()) {
+  for (std::size_t tree = 0; tree < trees_.size(); ++tree) {
+    trees_[tree].old_tree = tree;
+  }
+}
+
+void PlannedCluster::add(const RankedHypothesis& source) {
+  const std::vector<std::size_t> measurement_index = source.observations();
+  if (!hasRoomFor(source.parent(), measurement_index)) {
+    ++counts_.cut_hypotheses;
+    return;
+  }
+  GlobalHypothesis child{source.weight(), {}};
+  for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
+    const int leaf = source.parent().leaf_of_tree[tree];
+    child.leaf_of_tree.push_back(leaf == kAbsent ? kAbsent
+                                                 : leafFor(tree, leaf, measurement_index[tree]));
+  }
+  child.leaf_of_tree.resize(trees_.size(), kAbsent);
+  for (const std::size_t observation : source.interpretation()) {
+    if (std::find(measurement_index.begin(), measurement_index.end(), observation) ==
+        measurement_index.end()) {
+      startTarget(observation, child);
+    }
+  }
+  hypotheses_.push_back(std::move(child));
+}
+
+HypothesisCluster PlannedCluster::finish() {
+  for (GlobalHypothesis& hypothesis : hypotheses_) {
+    hypothesis.leaf_of_tree.resize(trees_.size(), kAbsent);
+  }
+  canonicalize(trees_, hypotheses_);
+  if (hypotheses_.size() > 1) {
+    pruneHistory(trees_, hypotheses_, static_cast<std::size_t>(context_.options.scan_history));
+  }
+  HypothesisCluster result{{}, std::move(hypotheses_), std::move(old_.links), {}};
+  linkSharers(result);
+  for (const PlannedTree& plan : trees_) {
+    result.trees.push_back(grow(plan));
+  }
+  return result;
+}
+
+int PlannedCluster::find(std::size_t tree, int parent, std::size_t observation) const {
+  const std::vector<PlannedLeaf>& leaves = trees_[tree].leaves;
+  const auto found = std::find_if(leaves.begin(), leaves.end(), [&](const PlannedLeaf& leaf) {
+    return leaf.parent == parent && leaf.observation == observation;
+  });
+  return found == leaves.end() ? kAbsent : static_cast<int>(found - leaves.begin());
+}
+
+bool PlannedCluster::hasRoomFor(const GlobalHypothesis& parent,
+                                const std::vector<std::size_t>& measurement_index) const {
+  for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
+    const int leaf = parent.leaf_of_tree[tree];
+    const bool full =
+        trees_[tree].leaves.size() >= static_cast<std::size_t>(context_.options.max_leaves);
+    if (leaf != kAbsent && full && find(tree, leaf, measurement_index[tree]) == kAbsent) {
+      return false;
+    }
+  }
+  return true;
+}
+
+int PlannedCluster::leafFor(std::size_t tree, int parent, std::size_t observation) {
+  const int found = find(tree, parent, observation);
+  if (found != kAbsent) {
+    return found;
+  }
+  const TrackTree& old = old_.trees[tree];
+  PlannedLeaf leaf{parent, observation, {}};
+  const auto& nodes = old.leaves[static_cast<std::size_t>(parent)].nodes;
+  std::copy(nodes.begin(), nodes.end() - 1, leaf.nodes.begin() + 1);
+  leaf.nodes.front() = next_node_++;
+  if (observation != kUnseen) {
+    noteUse(observation, old.number());
+  }
+  trees_[tree].leaves.push_back(leaf);
+  return static_cast<int>(trees_[tree].leaves.size()) - 1;
+}
+
+void PlannedCluster::startTarget(std::size_t observation, GlobalHypothesis& child) {
+  if (!context_.scan.observations[observation].starts_target) {
+    return;
+  }
+  const auto known = tree_of_birth_.find(observation);
+  if (known != tree_of_birth_.end()) {
+    child.leaf_of_tree[known->second] = 0;
+    return;
+  }
+  if (room_ == 0) {
+    counts_.refused_births += refused_.insert(observation).second ? 1 : 0;
+    return;
+  }
+  --room_;
+  tree_of_birth_[observation] = trees_.size();
+  PlannedLeaf leaf{kAbsent, observation, {}};
+  leaf.nodes.front() = next_node_++;
+  noteUse(observation, context_.first_number + observation);
+  trees_.push_back({kNoTree, {leaf}});
+  child.leaf_of_tree.push_back(0);
+}
+
+TrackTree PlannedCluster::grow(const PlannedTree& plan) {
+  TrackTree tree;
+  tree.leaves.reserve(plan.leaves.size());
+  for (auto leaf = plan.leaves.begin(); leaf != plan.leaves.end(); ++leaf) {
+    if (leaf->parent == kAbsent) {
+      tree.leaves.push_back({newTarget(leaf->observation), leaf->nodes, {}, {}});
+      continue;
+    }
+    const bool last = std::none_of(leaf + 1, plan.leaves.end(), [&](const PlannedLeaf& other) {
+      return other.parent == leaf->parent;
+    });
+    Leaf& old = old_.trees[plan.old_tree].leaves[static_cast<std::size_t>(leaf->parent)];
+    tree.leaves.push_back({last ? std::move(old.target) : old.target, leaf->nodes, {}, {}});
+    continueTarget(tree.leaves.back().target, leaf->observation, old.scores.detection_probability);
+  }
+  return tree;
+}
+
+Target PlannedCluster::newTarget(std::size_t observation) const {
+  const Object& object = context_.scan.observations[observation].object;
+  return {object, observation, context_.first_number + observation, context_.target,
+          context_.scan.transitionsOf(object.object_class)};
+}
+
+void PlannedCluster::continueTarget(Target& target, std::size_t observation, double seen) const {
+  if (observation == kUnseen) {
+    target.miss(seen, context_.target);
+  } else {
+    target.update(context_.scan.observations[observation], observation, seen, context_.target);
+  }
+}
+
+void PlannedCluster::noteUse(std::size_t observation, std::uint64_t number) {
+  for (const std::size_t source : context_.scan.observations[observation].sources) {
+    uses_.push_back({source, number});
+  }
+}
+
+/// Targets that may have been seen as the same object depend on each other.
+void PlannedCluster::linkSharers(HypothesisCluster& cluster) {
+  std::sort(uses_.begin(), uses_.end());
+  uses_.erase(std::unique(uses_.begin(), uses_.end()), uses_.end());
+  auto first = uses_.begin();
+  for (auto use = uses_.begin(); use != uses_.end(); ++use) {
+    if (use->first != first->first) {
+      first = use;
+    } else if (use != first) {
+      cluster.links.push_back({context_.scan_number, first->second, use->second});
+    }
+  }
+}
+
+}  // namespace datmo

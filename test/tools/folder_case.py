@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A test in a folder of its own."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)

@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/figures: how figures are rendered, and that README.md and doc/results.md are what
+doc/results.json makes of them."""
+
+import contextlib
+import io
+import json
+import unittest
+from pathlib import Path
+
+from datmo_tools.errors import InputError
+from datmo_tools.figures import render, results_file, steps
+from datmo_tools.figures.main import check, main, write_pages
+from datmo_tools.text_table import spread_text
+from folder_case import InFolder
+
+ROOT = Path(__file__).resolve().parents[2]
+README = f"# A\n\n{render.BEGIN}\nold\n{render.END}\nrest\n"
+
+PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distance_m": 0.17,
+          "id_switches": 4, "ids": 12, "never_found": 0}  # fmt: skip
+
+
+def results(**figures):
+    """A file of figures with these steps."""
+    done = {name: {"shows": name, "command": "x", "seeds": None, "date": "2026-01-02",
+                   "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
+    return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",
+            "machine": {"processor": "P", "cores": 2}, "steps": done}  # fmt: skip
+
+
+class Pages(InFolder):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "README.md").write_text(README)
+
+    def pages(self, **figures):
+        return render.rendered(self.folder, results(**figures))
+
+    def test_table_stands_between_the_marks(self):
+        text = self.pages(people=PEOPLE)["README.md"]
+        self.assertIn("132 of 153 (86 %), 4 id switches", text)
+        self.assertTrue(text.startswith(f"# A\n\n{render.BEGIN}\n| what |"))
+        self.assertTrue(text.endswith(f"{render.END}\nrest\n"))
+        self.assertNotIn("old", text)
+
+    def test_what_was_not_measured_is_not_there(self):
+        pages = self.pages(people=PEOPLE)
+        self.assertIn("## People about a robot", pages["doc/results.md"])
+        self.assertNotIn("Indoors", pages["doc/results.md"])
+        self.assertIn("`0123abcd`", pages["doc/results.md"])
+
+    def test_loops_are_shown_where_they_were_measured(self):
+        scored = {"translation_m": {"mean": 0.5, "std": 0.1}, "rotation_deg": {"mean": 1, "std": 2}}
+        run = {"odometry": scored, "pose": scored, "relations": 9, "scans": 7, "median_time_ms": 0.5}
+        before = self.pages(slam={"intel": run})
+        self.assertIn("0.500 m, 1.00 deg |", before["README.md"])
+        self.assertNotIn("loops closed", before["README.md"] + before["doc/results.md"])
+        loops = {**scored, "translation_m": {"mean": 0.25, "std": 0.1}}
+        after = self.pages(slam={"intel": {**run, "loops_closed": loops, "relations_of_loops": 8}})
+        self.assertIn("1.00 deg; with loops closed 0.250 m |", after["README.md"])
+        self.assertIn("| | | 8 | `loop_closing`, at the end | 0.250 ± 0.100 |", after["doc/results.md"])
+        self.assertIn("with loops closed", after["doc/results.md"])
+
+    def test_rendered_twice_is_the_same(self):
+        write_pages(self.folder, results(people=PEOPLE))
+        first = (self.folder / "README.md").read_text()
+        write_pages(self.folder, results(people=PEOPLE))
+        self.assertEqual((self.folder / "README.md").read_text(), first)
+
+    def test_check_names_pages_that_are_stale(self):
+        made = results(people=dict(PEOPLE))
+        write_pages(self.folder, made)
+        (self.folder / render.FILE).write_text(results_file.as_text(made))
+        self.assertEqual(check(self.folder), 0)
+        made["steps"]["people"]["figures"]["found"] = 131
+        (self.folder / render.FILE).write_text(json.dumps(made))
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertEqual(check(self.folder), 1)
+        self.assertIn("doc/results.md: not what doc/results.json makes of it", said.getvalue())
+
+    def test_readme_without_marks_is_refused(self):
+        (self.folder / "README.md").write_text("# A\n")
+        with self.assertRaisesRegex(InputError, "expected the table there"):
+            self.pages(people=PEOPLE)
+
+    def test_figures_as_a_reader_sees_them(self):
+        self.assertEqual(spread_text([2, 1, 3]), "2 (1 to 3)")
+        self.assertEqual(spread_text([2.01, 2.0, 2.04], 1), "2.0")
+        self.assertEqual(render.percent_spread([0.5, 0.25, 0.75]), "50 (25 to 75)")
+        self.assertEqual(spread_text(None), "-")
+        self.assertEqual(render.percent(0.1234, 1), "12.3")
+        self.assertEqual(render.degrees(3.14159265), "180.0")
+
+    def test_lists_of_numbers_take_one_line(self):
+        text = results_file.as_text({"a": [1.5, -2, None], "b": [{"c": 1}]})
+        self.assertIn('"a": [1.5, -2, null]', text)
+        self.assertEqual(json.loads(text), {"a": [1.5, -2, None], "b": [{"c": 1}]})
+
+
+class CommandLine(unittest.TestCase):
+    def run_main(self, *words):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["--source", str(ROOT), *words])
+        return code, out.getvalue() + err.getvalue()
+
+    def test_steps_are_listed(self):
+        code, said = self.run_main("--list")
+        self.assertEqual(code, 0)
+        for step in steps.STEPS:
+            self.assertIn(step.name, said)
+
+    def test_unknown_step(self):
+        code, said = self.run_main("--only", "luck")
+        self.assertEqual(code, 1)
+        self.assertIn("luck: no such step, expected kitti_tracking, ", said)
+
+    @unittest.skipUnless((ROOT / render.FILE).is_file(), "scripts/figures has not been run here")
+    def test_the_repositorys_pages_are_what_its_figures_make_of_them(self):
+        code, said = self.run_main("--check")
+        self.assertEqual(code, 0, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
