@@ -6,6 +6,7 @@
 #include "small_map.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/random.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 
 namespace datmo::map_surface_test {
@@ -37,6 +38,52 @@ TEST(MapSurfaceTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
   const double log_odds = hit + std::exp(-0.5) * pass;
   EXPECT_NEAR(occupancyAfterABeam(0.05, {0.0, 5.45}, {9.0, 5.45}),
               1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
+}
+
+TEST(MapSurfaceTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
+  OccupancyMapOptions options = smallMap();
+  options.range_sigma = 0.5;
+  options.end_margin = 3.0;
+  OccupancyMap map(options);
+  updateWith(map, scanTo({{8.5, 0.5}}));
+  EXPECT_NEAR(map.occupancy({6, 0}), 0.4, 1e-6);
+  EXPECT_DOUBLE_EQ(map.occupancy({7, 0}), 0.5) << "1 m before the end";
+  EXPECT_NEAR(map.occupancy({8, 0}), 0.8, 1e-6);
+  // Nearer than that to the scanner it frees nothing at all.
+  updateWith(map, scanTo({{0.5, 1.2}}, 0.1));
+  EXPECT_DOUBLE_EQ(map.occupancy({0, 0}), 0.4F);
+}
+
+/// m, by how much the surface of a wall, hit by a beam at right angles with noise of one cell, is
+/// mapped too far away.
+double biasOfANoisyWall(double end_margin) {
+  constexpr double kNoise = 0.2;
+  constexpr double kWall = 8.1;
+  OccupancyMapOptions options = smallMap();
+  options.window.cell_size = kNoise;
+  options.range_sigma = kNoise;
+  options.end_margin = end_margin;
+  OccupancyMap map(options);
+  Random random(1);
+  for (int i = 0; i < 400; ++i) {
+    const Scan scan = scanTo({{kWall + random.normal(kNoise), 0.1}}, 0.06 * i);
+    map.update(scan, {map.judge(scan.rays.front().end)}, Pose2());
+  }
+  double sum = 0.0;
+  double hits = 0.0;
+  for (double x = 7.1; x < 9.2; x += kNoise) {
+    if (const auto surface = map.nearestHits({x, 0.1});
+        surface && map.occupancy(map.window().cellAt({x, 0.1})) > 0.5) {
+      sum += surface->hits * (surface->mean.x() - kWall);
+      hits += surface->hits;
+    }
+  }
+  return sum / hits;
+}
+
+TEST(MapSurfaceTest, NoiseDoesNotPushASurfaceAway) {
+  EXPECT_GT(biasOfANoisyWall(0.0), 0.1) << "only hits behind it stay";
+  EXPECT_LT(std::abs(biasOfANoisyWall(3.0)), 0.03);
 }
 
 TEST(MapSurfaceTest, TheOrderOfTheBeamsDoesNotMatter) {
