@@ -263,7 +263,10 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
   const Point2 to_end = base_in_map * ray.end - from;
   const CellIndex end = window().cellAt(from + to_end);
   const double free_range =
-      ray.hit ? std::max(0.0, ray.range - options_.end_margin * options_.range_sigma) : ray.range;
+      ray.hit ? ray.range - options_.end_margin * options_.range_sigma : ray.range;
+  if (!(free_range > 0.0)) {
+    return;
+  }
   const Point2 along = free_range / ray.range * to_end;
   forEachLine(window(), {from, along, free_range, options_.beam_width}, [&](const Point2& to) {
     const CellIndex last = window().cellAt(to);

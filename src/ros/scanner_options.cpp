@@ -7,7 +7,8 @@ void ScannerOptions::visit(OptionVisitor& visitor) {
   scan.visit(visitor);
   visitor.number({"range_sigma", "m",
                   "standard deviation of its range, as the match of scans and the boxes of objects "
-                  "take it; 0: not known: 0.1 for boxes, 0.2 for the match",
+                  "take it; before its end a beam frees nothing for three of it; 0: not known: 0.1 "
+                  "for boxes, 0.2 for the match, and free up to the end",
                   Tier::kPublic},
                  range_sigma, {0.0, 2.0});
   visitor.number({"beam_width", "rad",

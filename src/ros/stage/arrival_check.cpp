@@ -34,7 +34,7 @@ bool ArrivalCheck::passes(const Arrived& message, const ros::Time& now) {
                            std::to_string(lost) + " messages on " + topic_ + " from " +
                                message.publisher +
                                " did not come: a queue was full, as they come faster than they "
-                               "are served, or the network lost them");
+                               "are served, the network lost them, or a relay left them out");
     for (std::uint32_t i = 0; i < lost; ++i) {
       monitor_.dropped(error);
     }

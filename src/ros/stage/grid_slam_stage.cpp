@@ -69,16 +69,17 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
   readPriorMap();
 }
 
-void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
+std::optional<Stamp> GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
-    return;
+    return std::nullopt;
   }
-  runner_.serve("odometry", message, [&] {
+  return runner_.serve("odometry", message, [&]() -> std::optional<Stamp> {
     OdometrySample sample = odometry_.read(message);
     const Pose2 base_in_odom = fromMessage(message.pose.pose);
     sample.speed_measured = options_.motion.hasSpeed();
     slam_.addOdometry(sample);
     odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
+    return sample.stamp;
   });
 }
 
@@ -237,6 +238,7 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
   }
   const std::optional<Pose2> base_in_odom = odometry_poses_.at(stamp);
   if (!base_in_odom) {
+    held_.drop();
     monitor_.warned(
         InputError("silent_odometry",
                    "no odometry at the scan's stamp: goes on with constant velocity "
@@ -246,8 +248,10 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
                        "file)"));
     return {};
   }
-  held_.set(odom_in_map(base_in_map * base_in_odom->inverse()));
-  return {odom_in_map(base_in_map * base_in_odom->inverse())};
+  const geometry_msgs::TransformStamped transform =
+      odom_in_map(base_in_map * base_in_odom->inverse());
+  held_.set(transform);
+  return {transform};
 }
 
 void GridSlamStage::connect(StagePorts& ports) {
@@ -257,10 +261,11 @@ void GridSlamStage::connect(StagePorts& ports) {
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
   ports.service<datmo_fusion::SaveMap>("save_map",
                                        [this](const auto& request) { return answer(request); });
-  const auto publish = [=](const std::optional<GridSlamOutput>& output) {
+  const auto publish = [=](const std::optional<GridSlamOutput>& output, Stamp now) {
     if (!output) {
       return;
     }
+    held_.served(now);
     const auto message = boost::make_shared<tf2_msgs::TFMessage>();
     message->transforms = output->transforms;
     transforms.publish(message);
@@ -270,22 +275,23 @@ void GridSlamStage::connect(StagePorts& ports) {
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
     ports.in<nav_msgs::Odometry>(options_.motion.odometryTopic(),
-                                 [this, transforms](const auto& odometry, Stamp /*now*/) {
-                                   takeOdometry(*odometry);
-                                   transforms.publish(heldAt(toStamp(odometry->header.stamp)));
+                                 [this, transforms](const auto& odometry, Stamp now) {
+                                   if (const auto stamp = takeOdometry(*odometry)) {
+                                     transforms.publish(heldAt(*stamp, now));
+                                   }
                                  });
   }
   const auto take_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,
-                       [this, publish, scan] { publish(takeScan(*scan)); });
+                       [this, publish, scan, now] { publish(takeScan(*scan), now); });
     publishNext(now);
   };
   ports.in<sensor_msgs::LaserScan>("scan", take_scan);
   ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
   if (options_.fused_grid) {
-    ports.in<nav_msgs::OccupancyGrid>(
-        "grids/fused",
-        [this, publish](const auto& grid, Stamp /*now*/) { publish(takeGrid(*grid)); });
+    ports.in<nav_msgs::OccupancyGrid>("grids/fused", [this, publish](const auto& grid, Stamp now) {
+      publish(takeGrid(*grid), now);
+    });
   }
 }
 

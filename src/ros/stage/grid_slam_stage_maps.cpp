@@ -48,8 +48,8 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
       toMessage(slam_.map(), stamp, options_.frames.map));
 }
 
-tf2_msgs::TFMessagePtr GridSlamStage::heldAt(Stamp stamp) const {
-  const auto held = odometry_poses_.at(stamp) ? held_.at(stamp) : std::nullopt;
+tf2_msgs::TFMessagePtr GridSlamStage::heldAt(Stamp stamp, Stamp now) const {
+  const auto held = held_.at(stamp, now);
   if (!held) {
     return nullptr;
   }

@@ -19,20 +19,20 @@ constexpr double kLongest = 5.0;
 
 }  // namespace
 
-void HeldTransform::set(const geometry_msgs::TransformStamped& transform) {
-  if (last_) {
-    const double step =
-        secondsBetween(toStamp(last_->header.stamp), toStamp(transform.header.stamp));
-    period_ = step > kLongest ? period_ : std::max(0.0, step);
+void HeldTransform::served(Stamp now) {
+  if (served_) {
+    const double step = std::max(0.0, secondsBetween(*served_, now));
+    period_ = step_ > 0.0 ? std::min(step_, step) : step;  // a single gap is no period
+    step_ = step;
   }
-  last_ = transform;
+  served_ = now;
 }
 
-std::optional<geometry_msgs::TransformStamped> HeldTransform::at(Stamp stamp) const {
-  if (!last_) {
+std::optional<geometry_msgs::TransformStamped> HeldTransform::at(Stamp stamp, Stamp now) const {
+  if (!last_ || !served_) {
     return std::nullopt;
   }
-  const double silence = secondsBetween(toStamp(last_->header.stamp), stamp);
+  const double silence = secondsBetween(*served_, now);
   if (silence < std::max(kSilence, kSilentPeriods * period_) || silence > kLongest) {
     return std::nullopt;
   }

@@ -41,6 +41,12 @@ void LoopClosingStageOptions::visit(OptionVisitor& visitor) {
   loops.visit(visitor);
 }
 
+SharedKeys LoopClosingStageOptions::sharedKeys() {
+  return SharedKeys()
+      .key("map/range_sigma", "scanner/range_sigma")
+      .key("matcher/point_sigma", "scanner/range_sigma");
+}
+
 LoopClosingStage::LoopClosingStage(const Checked<LoopClosingStageOptions>& options,
                                    StageMonitor& monitor, const StepClock& clock)
     : options_(*options),

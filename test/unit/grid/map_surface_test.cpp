@@ -51,7 +51,7 @@ TEST(MapSurfaceTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   EXPECT_NEAR(map.occupancy({8, 0}), 0.8, 1e-6);
   // Nearer than that to the scanner it frees nothing at all.
   updateWith(map, scanTo({{0.5, 1.2}}, 0.1));
-  EXPECT_DOUBLE_EQ(map.occupancy({0, 0}), 0.4F);
+  EXPECT_NEAR(map.occupancy({0, 0}), 0.4, 1e-6);
 }
 
 /// m, by how much the surface of a wall, hit by a beam at right angles with noise of one cell, is
@@ -79,6 +79,17 @@ double biasOfANoisyWall(double end_margin) {
     }
   }
   return sum / hits;
+}
+
+TEST(MapSurfaceTest, ABeamOfNoLengthFreesNothing) {
+  for (const double range_sigma : {0.0, 0.5}) {
+    OccupancyMapOptions options = smallMap();
+    options.range_sigma = range_sigma;
+    OccupancyMap map(options);
+    updateWith(map, scanTo({{0.0, 0.0}}));
+    EXPECT_DOUBLE_EQ(map.occupancy({0, -1}), 0.5);
+    EXPECT_DOUBLE_EQ(map.occupancy({0, 1}), 0.5);
+  }
 }
 
 TEST(MapSurfaceTest, NoiseDoesNotPushASurfaceAway) {

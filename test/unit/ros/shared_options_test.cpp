@@ -11,6 +11,7 @@
 #include "datmo_fusion/ros/scanner_options.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -198,6 +199,7 @@ TEST(SharedOptions, DefaultsAreThoseOfTheStages) {
       {"vehicle", defaultsOf<VehicleOptions>()}};
   expectSharedDefaults<LidarGridStageOptions>(sections);
   expectSharedDefaults<GridSlamStageOptions>(sections);
+  expectSharedDefaults<LoopClosingStageOptions>(sections);
   expectSharedDefaults<MovingObjectsStageOptions>(sections);
   expectSharedDefaults<StereoGridStageOptions>(sections);
   expectSharedDefaults<StereoObjectsStageOptions>(sections);

@@ -10,7 +10,7 @@ SETTLED_HOURS = 0.5  # the map, at 5 m/s: 2000 tiles
 
 def drift(hours, values):
     """Growth an hour of samples by a straight line, after what fills at first (dict): `per_hour`,
-    its standard error, and the samples' median. hours, values: n >= 4, hours rising."""
+    its standard error, and the samples' median. hours, values: n >= 5, hours rising."""
     hours, values = np.asarray(hours, dtype=float), np.asarray(values, dtype=float)
     settled = hours >= hours[0] + min(SETTLED_HOURS, SETTLED_SHARE * (hours[-1] - hours[0]))
     x, y = hours[settled], values[settled]

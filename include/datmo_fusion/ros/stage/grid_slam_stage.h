@@ -84,7 +84,8 @@ class GridSlamStage : public Stage {
 
   /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone gives no
   /// speed; not read where the options name no source of motion.
-  void takeOdometry(const nav_msgs::Odometry& message);
+  /// Returns its stamp; none if it was dropped.
+  std::optional<Stamp> takeOdometry(const nav_msgs::Odometry& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
   /// the fused grid of its stamp.
@@ -129,8 +130,8 @@ class GridSlamStage : public Stage {
   GridSlamOutput outputOf(const SlamResult& result);
   /// By the odometry's poses.
   std::optional<Pose2> motionBetween(Stamp from, Stamp to) const;
-  /// map -> odom at the stamp of an odometry that was taken, while scans are silent; else null.
-  tf2_msgs::TFMessagePtr heldAt(Stamp stamp) const;
+  /// map -> odom at the stamp of an odometry that was taken now, while scans are silent; else null.
+  tf2_msgs::TFMessagePtr heldAt(Stamp stamp, Stamp now) const;
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
   GridSlamStageOptions options_;

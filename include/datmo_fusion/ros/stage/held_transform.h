@@ -10,20 +10,30 @@
 namespace datmo {
 
 /// map -> odom while no scan comes: the last one that a scan led to, under the stamps of the
-/// motion, so that what other sensors see has a place in the map by odometry alone.
+/// motion, so that what other sensors see has a position in the map by odometry alone.
 class HeldTransform {
  public:
-  void set(const geometry_msgs::TransformStamped& transform);
+  /// What a scan has led to.
+  void set(const geometry_msgs::TransformStamped& transform) { last_ = transform; }
 
-  /// At the stamp of a motion; none before the first, while scans come, and when they have been
-  /// silent for so long that odometry tells too little.
-  std::optional<geometry_msgs::TransformStamped> at(Stamp stamp) const;
+  /// A scan has led to a pose, at this time (ROS time, not its stamp): one that is late is not
+  /// silent.
+  void served(Stamp now);
+
+  /// The last one is no longer true, as when odometry begins anew.
+  void drop() { last_.reset(); }
+
+  /// At the stamp of a motion that came now; none before the first, while scans come, and when they
+  /// have been silent for so long that odometry tells too little.
+  std::optional<geometry_msgs::TransformStamped> at(Stamp stamp, Stamp now) const;
 
   void clear() { *this = {}; }
 
  private:
   std::optional<geometry_msgs::TransformStamped> last_;
-  double period_ = 0.0;  ///< s, from scan to scan
+  std::optional<Stamp> served_;
+  double step_ = 0.0;    ///< s, between the last two scans
+  double period_ = 0.0;  ///< s, from scan to scan: the shorter one of the last two steps
 };
 
 }  // namespace datmo

@@ -15,6 +15,7 @@
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/loop_closing_work.h"
 #include "datmo_fusion/ros/stage/newest_worker.h"
 #include "datmo_fusion/ros/stage/stage.h"
@@ -35,6 +36,7 @@ struct LoopClosingStageOptions {
   StreamOptions input;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// The optimized drive, in the global frame.
