@@ -7,6 +7,8 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/tracking/hypothesis_pruning.h"
+
 namespace datmo::hypothesis_cluster_test {
 namespace {
 
