@@ -72,6 +72,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/signal_advice.cpp
+  fusion/earth/signal_advice_options.cpp
   fusion/earth/signal_times.cpp
   fusion/earth/station_tracks.cpp
   fusion/wire/cam.cpp

@@ -83,11 +83,13 @@ std::optional<OwnPlace> placeOf(const StationTracksMessage& message) {
   host.front = track.position + 0.5 * track.length * ahead;
   host.heading = track.heading;
   host.speed = track.velocity.dot(ahead);
-  if (!host.front.allFinite() || !std::isfinite(host.speed) || !covariance.allFinite()) {
+  if (!host.front.allFinite() || !std::isfinite(host.speed) || !track.covariance.allFinite()) {
     return std::nullopt;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance, Eigen::EigenvaluesOnly);
   host.position_sigma = std::sqrt(std::max(axes.eigenvalues().maxCoeff(), 0.0));
+  const Eigen::Matrix2d velocity = track.covariance.bottomRightCorner<2, 2>();
+  host.speed_sigma = std::sqrt(std::max(ahead.dot(velocity * ahead), 0.0));
   return OwnPlace{plane, host};
 }
 
@@ -197,8 +199,17 @@ SignalAdviceMessagePtr SignalWire::advise(const StationTracksMessage& own) {
           found == signals_.end() ? std::nullopt
                                   : std::optional<IntersectionSignals>(found->second);
       const ApproachLanes approach = approachLanes(map.intersection, place->plane);
-      const std::optional<SignalAdvice> advice =
+      std::optional<SignalAdvice> advice =
           adviseSignals(place->host, approach.lanes, signals, options_.advice);
+      if (advice && approach.left_out > 0) {  // it may be on one of those
+        advice->verdict = SignalVerdict::kUnknown;
+        advice->reason = "lanes_left_out";
+        monitor_.warned(
+            InputError("lanes_left_out", "intersection " + toText(number) + " has " +
+                                             std::to_string(approach.left_out) +
+                                             " lanes into it whose geometry cannot be used: "
+                                             "expected none; there is no verdict"));
+      }
       if (advice && (!nearest || advice->distance < nearest->distance)) {
         nearest = advice;
         id = number;
