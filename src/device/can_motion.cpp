@@ -57,7 +57,9 @@ CanSignal signalOf(const std::string& name, const std::string& text, const std::
                       "': expected the message's id first, `0x1A0 8|16@1+ "
                       "(0.01,0) [0|250] \"km/h\"`");
   }
-  return canSignal(name, canId(name, std::stoull(part[1], nullptr, 0)), part[2]);
+  const std::string id = part[1];
+  const bool is_hexadecimal = id.size() > 1 && (id[1] == 'x' || id[1] == 'X');
+  return canSignal(name, canId(name, std::stoull(id, nullptr, is_hexadecimal ? 16 : 10)), part[2]);
 }
 
 }  // namespace
@@ -73,9 +75,10 @@ CanMotion::CanMotion(const Checked<CanOptions>& options, Warn warn)
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     add(static_cast<Role>(kWheel + i), kSignalNames[kWheel + i], *wheels[i], "wheel");
   }
-  addCounter("counter", options_.counter);
-  addCounter("yaw_counter", options_.yaw_counter);
   check();
+  addCounter("counter", options_.counter, channels_[kSpeed] ? kSpeed : kWheel,
+             channels_[kSpeed] ? kSpeed : kRoles - 1);
+  addCounter("yaw_counter", options_.yaw_counter, kYawRate, kSteering);
   for (const auto& channel : channels_) {  // the speed's own, or that of the last wheel
     const auto role = &channel - channels_.data();
     const bool is_speed = channels_[kSpeed] ? role == kSpeed : role >= kWheel;
@@ -109,12 +112,26 @@ void CanMotion::add(Role role, const char* name, const std::string& text, const 
   channels_[role] = channel;
 }
 
-void CanMotion::addCounter(const char* name, const std::string& text) {
+void CanMotion::addCounter(const char* name, const std::string& text, int first, int last) {
   if (text.empty()) {
     return;
   }
   Counter counter;
   counter.signal = signalOf(optionName(name), text, options_.dbc);
+  std::string guarded;
+  bool is_guard = false;
+  for (int role = first; role <= last; ++role) {
+    if (channels_[role]) {
+      is_guard = is_guard || channels_[role]->signal.id == counter.signal.id;
+      guarded += (guarded.empty() ? "" : ", ") + toText(channels_[role]->signal.id) + " of " +
+                 optionName(kSignalNames[role]);
+    }
+  }
+  if (!is_guard) {
+    throw OptionError(optionName(name) + " is in the message " + toText(counter.signal.id) +
+                      ": expected that of the signals that it guards, " +
+                      (guarded.empty() ? "which there are none of" : guarded));
+  }
   counters_.push_back(counter);
 }
 

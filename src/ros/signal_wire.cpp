@@ -24,6 +24,9 @@ namespace {
 /// Intersections that are kept at most: those within reach of a modem, and more.
 constexpr std::size_t kMaxIntersections = 100;
 
+/// s by which a clock that is corrected steps back at most; by more, it is another time.
+constexpr double kClockStep = 1.0;
+
 double orNan(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -115,7 +118,7 @@ bool SignalWire::takes(std::string_view bytes) {
 void SignalWire::received(std::string_view bytes, Stamp now) {
   const bool is_map = bytes.size() > 1 && bytes[1] == ItsHeader::kMapem;
   monitor_.received(is_map ? "maps of intersections" : "traffic lights", now);
-  if (last_ && now < *last_) {
+  if (last_ && secondsBetween(now, *last_) > kClockStep) {
     maps_.clear();
     signals_.clear();
   }

@@ -140,6 +140,12 @@ TEST_F(SignalWireTest, ATimeThatJumpsBackBeginsAnew) {
   EXPECT_EQ(wire_.advise(ownAt(100.1))->verdict, SignalAdviceMessage::PASSES);
 }
 
+TEST_F(SignalWireTest, AClockThatIsCorrectedForgetsNoMap) {
+  wire_.received(mapem(), kNewYear + 100.0);
+  wire_.received(spatem(99.5, 130.0), kNewYear + 99.5);
+  EXPECT_EQ(wire_.advise(ownAt(99.5))->verdict, SignalAdviceMessage::PASSES);
+}
+
 TEST_F(SignalWireTest, WithoutOurselvesThereIsNoAdvice) {
   wire_.received(mapem(), kNewYear + 100.0);
   StationTracksMessage own = ownAt(100.0);
