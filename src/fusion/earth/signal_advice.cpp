@@ -175,9 +175,9 @@ MovementAdvice adviseMovement(const ApproachingHost& host, const IntersectionSig
   const SpatEvent& first = movement.events.front();
   advice.now = first.state;
   if (first.timing) {
-    advice.min_end = secondsTo(first.timing->min_end, signals.stamp, host.stamp);
+    advice.min_end = secondsTo(first.timing->min_end, signals.stamp, host.stamp, kLongPast);
     advice.max_end = secondsTo(first.timing->max_end, signals.stamp, host.stamp);
-    advice.likely_end = secondsTo(first.timing->likely, signals.stamp, host.stamp);
+    advice.likely_end = secondsTo(first.timing->likely, signals.stamp, host.stamp, kLongPast);
   }
   if (approach.arrival) {
     const Agreement agreement = onArrival(movement, signals.stamp, host.stamp, approach, options);

@@ -14,7 +14,6 @@ constexpr std::int64_t kMinute = 60;              // s
 constexpr std::int64_t kHour = 3600;              // s
 constexpr std::int64_t kDay = 86400;              // s
 
-constexpr double kHalfHour = 1800.0;     // s
 constexpr double kLongestPhase = 600.0;  // s, for which the first event may have been on
 
 /// Days from 1970 to the first of January of a year (Gregorian).
@@ -90,7 +89,7 @@ TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from) {
     return {-kEver, kEver};
   }
   const double first =
-      secondsTo(event.timing->min_end, reference, from, kHalfHour).value_or(-kEver);
+      secondsTo(event.timing->min_end, reference, from, kLongPast).value_or(-kEver);
   const double last = secondsTo(event.timing->max_end, reference, from, kLatePast).value_or(kEver);
   return last < first ? TimeSpan{last, kEver} : TimeSpan{first, last};
 }

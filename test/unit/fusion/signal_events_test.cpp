@@ -30,6 +30,12 @@ TEST_F(SignalEventsTest, AnEndFarAheadIsNotPast) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);  // ends in the wrong order
 }
 
+TEST_F(SignalEventsTest, WhatHasEndedAndIsToldAsOnIsNotKnown) {
+  show({event(SignalState::kStop, -5.0, -5.0), event(SignalState::kProtected, 30.0, 40.0)});
+  EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
+  EXPECT_NEAR(*advise()->movements[0].min_end, -5.0, 1e-6);  // not an hour ahead
+}
+
 TEST_F(SignalEventsTest, WhatLiesBetweenTwoEventsIsNotKnown) {
   host_.speed = 4.0;  // 25 s to go
   const SpatEvent red = event(SignalState::kStop, 20.0, 20.0);

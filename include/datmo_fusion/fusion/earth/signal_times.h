@@ -12,8 +12,11 @@ namespace datmo {
 
 constexpr double kEver = std::numeric_limits<double>::infinity();
 
-/// s, by which a mark may be past: the message was on its way.
-constexpr double kLatePast = 10.0;
+/// s, by which a mark may be past where the later of its times is meant: the message was on its
+/// way.
+constexpr double kLatePast = 2.0;
+/// s, the same where the earlier one is meant: that is nearest.
+constexpr double kLongPast = 1800.0;
 
 /// From the first to the last time that is possible, s after the host's stamp.
 struct TimeSpan {
