@@ -27,6 +27,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/can_options.cpp
   device/can_signal.cpp
   device/can_socket.cpp
+  device/can_units.cpp
   device/can_vehicle.cpp
   device/capture_file.cpp
   device/clock_estimator.cpp
