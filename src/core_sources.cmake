@@ -27,6 +27,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/can_options.cpp
   device/can_signal.cpp
   device/can_socket.cpp
+  device/can_units.cpp
   device/can_vehicle.cpp
   device/capture_file.cpp
   device/clock_estimator.cpp
@@ -72,6 +73,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/signal_advice.cpp
+  fusion/earth/signal_advice_options.cpp
   fusion/earth/signal_times.cpp
   fusion/earth/station_tracks.cpp
   fusion/wire/cam.cpp

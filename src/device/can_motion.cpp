@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <regex>
 #include <utility>
 
-#include "datmo_fusion/common/angle.h"
+#include "can_units.h"
+
 #include "datmo_fusion/device/can_database.h"
 
 namespace datmo {
@@ -18,25 +18,6 @@ namespace {
 constexpr std::array<const char*, 8> kSignalNames = {"speed",     "yaw_rate",   "steering",
                                                      "direction", "front_left", "front_right",
                                                      "rear_left", "rear_right"};
-
-using Units = std::map<std::string, double>;
-
-const Units& unitsOf(const std::string& quantity) {
-  constexpr double kKilometersPerHour = 1.0 / 3.6;
-  constexpr double kMilesPerHour = 0.44704;
-  static const std::map<std::string, Units> units = {
-      {"speed",
-       {{"m/s", 1.0},
-        {"km/h", kKilometersPerHour},
-        {"kph", kKilometersPerHour},
-        {"mph", kMilesPerHour}}},
-      {"turning", {{"rad/s", 1.0}, {"rpm", 2.0 * kPi / 60.0}, {"1/min", 2.0 * kPi / 60.0}}},
-      {"rate",
-       {{"rad/s", 1.0}, {"deg/s", degrees(1.0)}, {"°/s", degrees(1.0)}, {"\xB0/s", degrees(1.0)}}},
-      {"angle",
-       {{"rad", 1.0}, {"deg", degrees(1.0)}, {"°", degrees(1.0)}, {"\xB0", degrees(1.0)}}}};
-  return units.at(quantity);
-}
 
 std::string optionName(const std::string& option) { return "can/" + option; }
 
@@ -57,7 +38,9 @@ CanSignal signalOf(const std::string& name, const std::string& text, const std::
                       "': expected the message's id first, `0x1A0 8|16@1+ "
                       "(0.01,0) [0|250] \"km/h\"`");
   }
-  return canSignal(name, canId(name, std::stoull(part[1], nullptr, 0)), part[2]);
+  const std::string id = part[1];
+  const bool is_hexadecimal = id.size() > 1 && (id[1] == 'x' || id[1] == 'X');
+  return canSignal(name, canId(name, std::stoull(id, nullptr, is_hexadecimal ? 16 : 10)), part[2]);
 }
 
 }  // namespace
@@ -73,9 +56,10 @@ CanMotion::CanMotion(const Checked<CanOptions>& options, Warn warn)
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     add(static_cast<Role>(kWheel + i), kSignalNames[kWheel + i], *wheels[i], "wheel");
   }
-  addCounter("counter", options_.counter);
-  addCounter("yaw_counter", options_.yaw_counter);
   check();
+  addCounter("counter", options_.counter, channels_[kSpeed] ? kSpeed : kWheel,
+             channels_[kSpeed] ? kSpeed : kRoles - 1);
+  addCounter("yaw_counter", options_.yaw_counter, kYawRate, kSteering);
   for (const auto& channel : channels_) {  // the speed's own, or that of the last wheel
     const auto role = &channel - channels_.data();
     const bool is_speed = channels_[kSpeed] ? role == kSpeed : role >= kWheel;
@@ -109,12 +93,26 @@ void CanMotion::add(Role role, const char* name, const std::string& text, const 
   channels_[role] = channel;
 }
 
-void CanMotion::addCounter(const char* name, const std::string& text) {
+void CanMotion::addCounter(const char* name, const std::string& text, int first, int last) {
   if (text.empty()) {
     return;
   }
   Counter counter;
   counter.signal = signalOf(optionName(name), text, options_.dbc);
+  std::string guarded;
+  bool is_guard = false;
+  for (int role = first; role <= last; ++role) {
+    if (channels_[role]) {
+      is_guard = is_guard || channels_[role]->signal.id == counter.signal.id;
+      guarded += (guarded.empty() ? "" : ", ") + toText(channels_[role]->signal.id) + " of " +
+                 optionName(kSignalNames[role]);
+    }
+  }
+  if (!is_guard) {
+    throw OptionError(optionName(name) + " is in the message " + toText(counter.signal.id) +
+                      ": expected that of the signals that it guards, " +
+                      (guarded.empty() ? "which there are none of" : guarded));
+  }
   counters_.push_back(counter);
 }
 

@@ -36,7 +36,7 @@ std::string errorText(std::uint32_t error) {
 }  // namespace
 
 CanVehicle::CanVehicle(CanOpener open, const Checked<CanOptions>& options, std::string name,
-                       double timeout, const DeviceHost& host)
+                       std::optional<double> timeout, const DeviceHost& host)
     : open_(std::move(open)),
       delay_(options->delay),
       name_(std::move(name)),
@@ -78,10 +78,11 @@ DeviceMeasurement CanVehicle::nextMotion() {
         return {stamp, motion->twist, motion->missed};
       }
     }
-    if (std::chrono::duration<double>(Clock::now() - last_motion_).count() > timeout_) {
+    if (timeout_ &&
+        std::chrono::duration<double>(Clock::now() - last_motion_).count() > *timeout_) {
       throw DeviceError("silent_device",
-                        "no motion from " + name_ + " for " + std::to_string(timeout_) + " s, of " +
-                            std::to_string(frames_) + " frames since it was opened, " +
+                        "no motion from " + name_ + " for " + std::to_string(*timeout_) +
+                            " s, of " + std::to_string(frames_) + " frames since it was opened, " +
                             std::to_string(motion_.otherFrames()) +
                             " of them without our signals: expected " + motion_.paceText() +
                             " and the other signals of can, valid");
@@ -95,6 +96,10 @@ CanFrame CanVehicle::nextFrame() {
       return source_->next();
     } catch (const CanFrameError& error) {
       if (bad > kMaxBadFrames) {
+        if (!timeout_) {
+          throw RecordingEnd(std::string(error.what()) + "; it is the last of " +
+                             std::to_string(bad) + " such lines in a row: it is played no further");
+        }
         throw;
       }
       host_.warn(error);
@@ -106,7 +111,12 @@ void CanVehicle::takeError(std::uint32_t error) const {
   const std::string text = name_ + " reports an error (" + errorText(error) +
                            "): expected none; check the bit rate, the termination and the cable";
   if ((error & CAN_ERR_BUSOFF) != 0) {
-    throw DeviceError("bus_off", text);
+    const DeviceError off("bus_off", text);
+    if (timeout_) {
+      throw off;
+    }
+    host_.warn(off);
+    return;
   }
   host_.warn({"bus_error", text});
 }

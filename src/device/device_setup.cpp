@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/device/device_setup.h"
 
-#include <limits>
 #include <memory>
+#include <optional>
 
 #include "datmo_fusion/device/can_log.h"
 #include "datmo_fusion/device/can_socket.h"
@@ -66,9 +66,9 @@ DeviceMaker canMaker(const DeviceSetup& setup) {
       }
       return CanSocket::open(bus, timeout, stop);
     };
-    return std::make_unique<CanVehicle>(
-        open, options, is_played ? recording : bus,
-        is_played ? std::numeric_limits<double>::infinity() : timeout, host);
+    return std::make_unique<CanVehicle>(open, options, is_played ? recording : bus,
+                                        is_played ? std::nullopt : std::optional<double>(timeout),
+                                        host);
   };
 }
 

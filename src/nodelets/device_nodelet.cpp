@@ -23,7 +23,10 @@ namespace datmo {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 10;  ///< measurements, a quarter of a second or more
+/// Measurements that wait at most: a tenth of a second or more of scanners (10 Hz to 100 Hz) and
+/// receivers, a second of a bus at 100 Hz.
+constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kCanQueue = 100;
 
 }  // namespace
 
@@ -39,6 +42,8 @@ class DeviceNodelet : public nodelet::Nodelet {
         getNodeHandle(), getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
         StageTopics{{}, topics()}, options_.input.silence_after);
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
+    events_ = std::make_unique<DeviceEventQueue>(
+        options_.device.kind == DeviceKind::kCan ? kCanQueue : kQueue);
     bell_ = std::make_unique<CallbackBell>(getNodeHandle(), [this] { serveAll(); });
     DeviceHandlers handlers;
     handlers.connected = [this](const std::string& device) { post(DeviceConnected{device}); };
@@ -67,7 +72,7 @@ class DeviceNodelet : public nodelet::Nodelet {
         velocities_ = node.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
         break;
       case DeviceKind::kCan:
-        output_ = node.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
+        output_ = node.advertise<geometry_msgs::TwistStamped>("twist", kCanQueue);
         break;
     }
   }
@@ -85,12 +90,12 @@ class DeviceNodelet : public nodelet::Nodelet {
   static Stamp now() { return toStamp(ros::Time::now()); }
 
   void post(DeviceEvent event) {
-    events_.put(std::move(event));
+    events_->put(std::move(event));
     bell_->ring();
   }
 
   void serveAll() {
-    const DeviceEventQueue::Taken taken = events_.takeAll();
+    const DeviceEventQueue::Taken taken = events_->takeAll();
     for (const DeviceEvent& one : taken.events) {
       std::visit([this, &taken](const auto& kind) { serve(kind, taken.discarded); }, one);
     }
@@ -127,7 +132,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
   ros::Publisher output_;
   ros::Publisher velocities_;  ///< of a satellite receiver alone
-  DeviceEventQueue events_{kQueue};
+  std::unique_ptr<DeviceEventQueue> events_;
   std::unique_ptr<CallbackBell> bell_;
   std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before what it calls
 };

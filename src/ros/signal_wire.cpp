@@ -24,6 +24,9 @@ namespace {
 /// Intersections that are kept at most: those within reach of a modem, and more.
 constexpr std::size_t kMaxIntersections = 100;
 
+/// s by which a clock that is corrected steps back at most; by more, it is another time.
+constexpr double kClockStep = 1.0;
+
 double orNan(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -83,11 +86,13 @@ std::optional<OwnPlace> placeOf(const StationTracksMessage& message) {
   host.front = track.position + 0.5 * track.length * ahead;
   host.heading = track.heading;
   host.speed = track.velocity.dot(ahead);
-  if (!host.front.allFinite() || !std::isfinite(host.speed) || !covariance.allFinite()) {
+  if (!host.front.allFinite() || !std::isfinite(host.speed) || !track.covariance.allFinite()) {
     return std::nullopt;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance, Eigen::EigenvaluesOnly);
   host.position_sigma = std::sqrt(std::max(axes.eigenvalues().maxCoeff(), 0.0));
+  const Eigen::Matrix2d velocity = track.covariance.bottomRightCorner<2, 2>();
+  host.speed_sigma = std::sqrt(std::max(ahead.dot(velocity * ahead), 0.0));
   return OwnPlace{plane, host};
 }
 
@@ -113,7 +118,7 @@ bool SignalWire::takes(std::string_view bytes) {
 void SignalWire::received(std::string_view bytes, Stamp now) {
   const bool is_map = bytes.size() > 1 && bytes[1] == ItsHeader::kMapem;
   monitor_.received(is_map ? "maps of intersections" : "traffic lights", now);
-  if (last_ && now < *last_) {
+  if (last_ && secondsBetween(now, *last_) > kClockStep) {
     maps_.clear();
     signals_.clear();
   }
@@ -197,8 +202,17 @@ SignalAdviceMessagePtr SignalWire::advise(const StationTracksMessage& own) {
           found == signals_.end() ? std::nullopt
                                   : std::optional<IntersectionSignals>(found->second);
       const ApproachLanes approach = approachLanes(map.intersection, place->plane);
-      const std::optional<SignalAdvice> advice =
+      std::optional<SignalAdvice> advice =
           adviseSignals(place->host, approach.lanes, signals, options_.advice);
+      if (advice && approach.left_out > 0) {  // it may be on one of those
+        advice->verdict = SignalVerdict::kUnknown;
+        advice->reason = "lanes_left_out";
+        monitor_.warned(
+            InputError("lanes_left_out", "intersection " + toText(number) + " has " +
+                                             std::to_string(approach.left_out) +
+                                             " lanes into it whose geometry cannot be used: "
+                                             "expected none; there is no verdict"));
+      }
       if (advice && (!nearest || advice->distance < nearest->distance)) {
         nearest = advice;
         id = number;

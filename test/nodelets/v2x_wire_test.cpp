@@ -191,7 +191,6 @@ TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
   const ros::Time start = ros::Time::now();
   const auto driven = [&](const ros::Time& time) { return kSpeed * (time - start).toSec(); };
-  stations.send(mapOfLane());
   const ros::Duration period(0.05);
   ros::Time next = start;
   ASSERT_TRUE(stations.waitFor([&] {
@@ -199,6 +198,7 @@ TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
       next += period;
       stations.publishPlace(driven(ros::Time::now()));
       stations.publishOwn();
+      stations.send(mapOfLane());
       stations.send(greenLight());
     }
     return stations.advice && stations.advice->verdict == SignalAdviceMessage::PASSES;

@@ -206,6 +206,7 @@ datmo_fusion_add_core_test(fusion
 datmo_fusion_add_core_test(wire
   fusion/intersection_lanes_test.cpp
   fusion/signal_advice_test.cpp
+  fusion/signal_events_test.cpp
   fusion/signal_messages_test.cpp
   fusion/signal_robustness_test.cpp
   fusion/signal_times_test.cpp

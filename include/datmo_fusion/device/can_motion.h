@@ -93,7 +93,8 @@ class CanMotion {
   };
 
   void add(Role role, const char* name, const std::string& text, const char* quantity);
-  void addCounter(const char* name, const std::string& text);
+  /// Of a message with one of the signals of these roles.
+  void addCounter(const char* name, const std::string& text, int first, int last);
   void check() const;
   bool isCounting(const CanFrame& frame);
   bool step(Counter& counter, std::uint64_t value);

@@ -22,9 +22,10 @@ using CanOpener = std::function<std::unique_ptr<CanSource>()>;
 class CanVehicle : public Device {
  public:
   /// `name`: of the bus, for people. `timeout`: s without a motion, after which the bus is opened
-  /// anew; infinite for a recording. Throws OptionError.
-  CanVehicle(CanOpener open, const Checked<CanOptions>& options, std::string name, double timeout,
-             const DeviceHost& host);
+  /// anew; none for a recording, which is played once: a bus that was off then, and what is no
+  /// frame, do not begin it anew. Throws OptionError.
+  CanVehicle(CanOpener open, const Checked<CanOptions>& options, std::string name,
+             std::optional<double> timeout, const DeviceHost& host);
 
   /// Connected by the first motion.
   std::string connect() override;
@@ -33,16 +34,17 @@ class CanVehicle : public Device {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// The next one that is a frame. What is none is said; many in a row are no bus.
+  /// The next one that is a frame. What is none is said; many in a row are no bus, and end a
+  /// recording.
   CanFrame nextFrame();
-  /// Throws DeviceError (`bus_off`); warns of other errors.
+  /// Throws DeviceError (`bus_off`) unless it is recorded; warns of other errors.
   void takeError(std::uint32_t error) const;
   DeviceMeasurement nextMotion();
 
   CanOpener open_;
   double delay_;  ///< s
   std::string name_;
-  double timeout_;  ///< s
+  std::optional<double> timeout_;  ///< s; none: a recording
   DeviceHost host_;
   CanMotion motion_;
   std::unique_ptr<CanSource> source_;

@@ -36,7 +36,8 @@ class SignalWire {
   /// Whether a datagram is a SPATEM or a MAPEM, by its header.
   static bool takes(std::string_view bytes);
 
-  /// One of these. `now`: ROS time when it came; before that of the last one, all is forgotten.
+  /// One of these. `now`: ROS time when it came; a second before that of the last one, all is
+  /// forgotten.
   void received(std::string_view bytes, Stamp now);
 
   /// `own`: our tracks on the earth, of which that with id 0 is ourselves. Null if we are not among

@@ -2,8 +2,8 @@
 #include "datmo_fusion/fusion/earth/signal_advice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/fusion/earth/signal_times.h"
@@ -12,13 +12,7 @@ namespace datmo {
 
 namespace {
 
-constexpr double kEver = std::numeric_limits<double>::infinity();
-
-/// From the first to the last time that is possible, s after the host's stamp.
-struct TimeSpan {
-  double first = 0.0;
-  double last = 0.0;
-};
+constexpr std::int64_t kNoGroup = 0;  ///< DE SignalGroupID: not known
 
 struct Candidate {
   const ApproachLane* lane = nullptr;
@@ -41,20 +35,29 @@ bool isRed(SignalState state) {
 /// Of the lights as a whole; empty: they work.
 std::string faultOf(const ApproachingHost& host, const std::optional<IntersectionSignals>& signals,
                     const SignalAdviceOptions& options) {
-  constexpr unsigned kFailureFlash = 2;
-  constexpr unsigned kFailureMode = 8;
-  constexpr unsigned kOff = 9;
-  constexpr unsigned kNoSpat = 13;
+  // Of DE IntersectionStatusObject: failure flash, failure mode, off, no valid SPAT.
+  constexpr std::array<unsigned, 4> kOff = {2, 8, 9, 13};
+  // By hand, time stopped, preempted: the times that are told need not come true.
+  constexpr std::array<unsigned, 3> kIrregular = {0, 1, 3};
+  // Lanes have changed, no valid MAP.
+  constexpr std::array<unsigned, 2> kMap = {11, 12};
   if (!signals) {
     return "no_signals";
   }
   if (std::abs(secondsBetween(signals->stamp, host.stamp)) > options.max_age) {
     return "old_signals";
   }
-  const SpatIntersection& state = signals->state;
-  const bool fails = state.hasStatus(kFailureFlash) || state.hasStatus(kFailureMode) ||
-                     state.hasStatus(kOff) || state.hasStatus(kNoSpat);
-  return fails ? "signals_off" : "";
+  const auto has_any = [&signals](const auto& bits) {
+    return std::any_of(bits.begin(), bits.end(),
+                       [&signals](unsigned bit) { return signals->state.hasStatus(bit); });
+  };
+  if (has_any(kOff)) {
+    return "signals_off";
+  }
+  if (has_any(kIrregular)) {
+    return "signals_irregular";
+  }
+  return has_any(kMap) ? "map_not_valid" : "";
 }
 
 /// Lanes that the vehicle may be on: the nearest one's neighbors, too, if the place is not known
@@ -79,28 +82,40 @@ std::vector<Candidate> lanesOf(const ApproachingHost& host, const std::vector<Ap
   return found;
 }
 
-std::optional<double> secondsTo(const std::optional<std::int64_t>& mark, Stamp reference,
-                                Stamp from) {
-  const std::optional<Stamp> time = stampOfMark(mark, reference);
-  return time ? std::optional<double>(secondsBetween(from, *time)) : std::nullopt;
-}
+/// How the vehicle comes to the stop line. All is bounded: it holds wherever it may be.
+struct Approach {
+  std::optional<TimeSpan> arrival;  ///< none: it stands
+  bool can_stop = false;            ///< surely
+  bool cannot_stop = false;         ///< surely
+};
 
-/// When an event ends: what is not told may be any time.
-TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from) {
-  if (!event.timing) {
-    return {-kEver, kEver};
+Approach approachOf(const ApproachingHost& host, double distance,
+                    const SignalAdviceOptions& options) {
+  const double reach = options.bound * host.position_sigma;
+  const double slowest = std::max(host.speed - options.bound * host.speed_sigma, 0.0);
+  const double fastest = host.speed + options.bound * host.speed_sigma;
+  const double nearest = std::max(distance - reach, 0.0);
+  const double farthest = std::max(distance, 0.0) + reach;
+  const auto stopping = [&options](double speed) {
+    return speed * options.reaction_time + speed * speed / (2.0 * options.comfort_deceleration);
+  };
+  Approach approach;
+  if (host.speed >= options.min_speed) {
+    approach.arrival = TimeSpan{nearest / fastest - options.time_margin,
+                                slowest > 0.0 ? farthest / slowest + options.time_margin : kEver};
   }
-  const double first = secondsTo(event.timing->min_end, reference, from).value_or(-kEver);
-  const double last = secondsTo(event.timing->max_end, reference, from).value_or(kEver);
-  return {first, std::max(first, last)};
+  approach.can_stop = stopping(fastest) <= nearest;
+  approach.cannot_stop = stopping(slowest) > farthest;
+  return approach;
 }
 
 /// Whether it can be said that a light that shows `state` when the vehicle comes lets it pass.
-SignalVerdict verdictOf(SignalState state, bool can_stop) {
-  if (isGreen(state) || (isYellow(state) && !can_stop)) {
+SignalVerdict verdictOf(SignalState state, const Approach& approach) {
+  if (isGreen(state) || (isYellow(state) && approach.cannot_stop)) {
     return SignalVerdict::kPasses;
   }
-  return isYellow(state) || isRed(state) ? SignalVerdict::kMustBrake : SignalVerdict::kUnknown;
+  return isRed(state) || (isYellow(state) && approach.can_stop) ? SignalVerdict::kMustBrake
+                                                                : SignalVerdict::kUnknown;
 }
 
 /// Verdicts on what may be, one after the other, until one differs.
@@ -123,43 +138,49 @@ class Agreement {
 
 /// What a group shows while the vehicle may come: each event that may be on then.
 Agreement onArrival(const SpatMovement& movement, Stamp reference, Stamp from,
-                    const TimeSpan& arrival, bool can_stop, const SignalAdviceOptions& options) {
+                    const Approach& approach, const SignalAdviceOptions& options) {
+  const TimeSpan& arrival = *approach.arrival;
   Agreement agreement;
-  TimeSpan start{-kEver, -kEver};  // the first event is on
+  TimeSpan before{-kEver, -kEver};  // the first event is on
   for (const SpatEvent& event : movement.events) {
-    TimeSpan end = endOf(event, reference, from);
-    end.first = std::max(end.first, start.first);
-    end.last = std::max(end.last, start.last);
-    if (arrival.last >= start.first && arrival.first <= end.last) {
-      agreement.add(verdictOf(event.state, can_stop), event.state);
+    const bool is_first = &event == &movement.events.front();
+    const EventStart start = startOf(event, before, is_first, reference, from);
+    if (arrival.last >= before.first && arrival.first <= start.gap_end) {
+      agreement.add(SignalVerdict::kUnknown, SignalState::kUnavailable);
     }
-    start = end;
+    TimeSpan end = endOf(event, reference, from);
+    end.first = std::max(end.first, start.span.first);
+    end.last = std::max(end.last, start.span.last);
+    if (arrival.last >= start.span.first && arrival.first <= end.last) {
+      agreement.add(verdictOf(event.state, approach), event.state);
+    }
+    before = end;
   }
-  if (arrival.last >= start.first) {
+  if (arrival.last >= before.first) {
     // Behind the events that are told. After green come yellow and red, for some seconds at least.
     const bool was_green = isGreen(movement.events.back().state);
-    const bool is_red_yet = was_green && arrival.last <= start.first + options.stop_time;
-    agreement.add(is_red_yet && can_stop ? SignalVerdict::kMustBrake : SignalVerdict::kUnknown,
-                  SignalState::kUnavailable);
+    const bool is_red_yet = was_green && arrival.last <= before.first + options.stop_time;
+    agreement.add(
+        is_red_yet && approach.can_stop ? SignalVerdict::kMustBrake : SignalVerdict::kUnknown,
+        SignalState::kUnavailable);
   }
   return agreement;
 }
 
 MovementAdvice adviseMovement(const ApproachingHost& host, const IntersectionSignals& signals,
-                              const SpatMovement& movement, const std::optional<TimeSpan>& arrival,
-                              bool can_stop, const SignalAdviceOptions& options) {
+                              const SpatMovement& movement, const Approach& approach,
+                              const SignalAdviceOptions& options) {
   MovementAdvice advice;
   advice.group = movement.group;
   const SpatEvent& first = movement.events.front();
   advice.now = first.state;
   if (first.timing) {
-    advice.min_end = secondsTo(first.timing->min_end, signals.stamp, host.stamp);
+    advice.min_end = secondsTo(first.timing->min_end, signals.stamp, host.stamp, kLongPast);
     advice.max_end = secondsTo(first.timing->max_end, signals.stamp, host.stamp);
-    advice.likely_end = secondsTo(first.timing->likely, signals.stamp, host.stamp);
+    advice.likely_end = secondsTo(first.timing->likely, signals.stamp, host.stamp, kLongPast);
   }
-  if (arrival) {
-    const Agreement agreement =
-        onArrival(movement, signals.stamp, host.stamp, *arrival, can_stop, options);
+  if (approach.arrival) {
+    const Agreement agreement = onArrival(movement, signals.stamp, host.stamp, approach, options);
     advice.verdict = agreement.verdict();
     advice.on_arrival = agreement.state();
   }
@@ -169,23 +190,19 @@ MovementAdvice adviseMovement(const ApproachingHost& host, const IntersectionSig
 void adviseLane(const ApproachingHost& host, const Candidate& candidate,
                 const IntersectionSignals& signals, const SignalAdviceOptions& options,
                 SignalAdvice& advice) {
-  const double distance = std::max(candidate.place.distance, 0.0);
-  const double reach = options.bound * host.position_sigma;
-  std::optional<TimeSpan> arrival;
-  if (host.speed >= options.min_speed) {
-    arrival = TimeSpan{std::max(distance - reach, 0.0) / host.speed - options.time_margin,
-                       (distance + reach) / host.speed + options.time_margin};
+  const Approach approach = approachOf(host, candidate.place.distance, options);
+  const auto& movements = signals.state.movements;
+  if (candidate.lane->groups.empty()) {
+    MovementAdvice unknown;
+    unknown.lane = candidate.lane->id;
+    advice.movements.push_back(unknown);
   }
-  const double stopping = host.speed * options.reaction_time +
-                          host.speed * host.speed / (2.0 * options.comfort_deceleration);
-  const bool can_stop = stopping <= distance;
   for (const std::int64_t group : candidate.lane->groups) {
-    const auto& movements = signals.state.movements;
     const auto found = std::find_if(movements.begin(), movements.end(),
                                     [group](const auto& one) { return one.group == group; });
     MovementAdvice movement;
-    if (found != movements.end() && !found->events.empty()) {
-      movement = adviseMovement(host, signals, *found, arrival, can_stop, options);
+    if (group != kNoGroup && found != movements.end() && !found->events.empty()) {
+      movement = adviseMovement(host, signals, *found, approach, options);
     }
     movement.group = group;
     movement.lane = candidate.lane->id;
@@ -199,7 +216,8 @@ void agree(const ApproachingHost& host, const SignalAdviceOptions& options, Sign
   const auto is_known = [](const MovementAdvice& one) {
     return one.verdict != SignalVerdict::kUnknown;
   };
-  if (movements.empty()) {
+  if (std::any_of(movements.begin(), movements.end(),
+                  [](const MovementAdvice& one) { return one.group == kNoGroup; })) {
     advice.reason = "no_signal_group";
   } else if (host.speed < options.min_speed) {
     advice.reason = "standing";
@@ -215,36 +233,6 @@ void agree(const ApproachingHost& host, const SignalAdviceOptions& options, Sign
 }
 
 }  // namespace
-
-void SignalAdviceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_distance", "m", "to the stop line; V2X reaches 300 m to 500 m in cities"},
-                 max_distance, {10.0, 2000.0});
-  visitor.number({"max_heading", "rad", "between the vehicle and its lane"}, max_heading,
-                 {0.05, 1.5});
-  visitor.number({"lane_width", "m", "of an intersection that does not say it"}, lane_width,
-                 {1.0, 10.0});
-  visitor.number({"max_position_sigma", "m",
-                  "standard deviation of the vehicle's place on the earth, above which there is no "
-                  "advice: a lane and a half"},
-                 max_position_sigma, {0.1, 50.0});
-  visitor.number({"bound", "1", "standard deviations within which the vehicle is taken to be"},
-                 bound, {0.0, 5.0});
-  visitor.number({"time_margin", "s", "before and after the arrival, for clocks and for the speed"},
-                 time_margin, {0.0, 5.0});
-  visitor.number({"stop_time", "s",
-                  "for which yellow and red last at least after green whose next lights are not "
-                  "told: 3 s of yellow at 50 km/h and a red of some seconds (RiLSA 2015)"},
-                 stop_time, {0.0, 60.0});
-  visitor.number({"comfort_deceleration", "m/s^2",
-                  "with which the vehicle stops at yellow if it can (ITE: 3.05)"},
-                 comfort_deceleration, {0.5, 10.0});
-  visitor.number({"reaction_time", "s", "before it brakes (ITE: 1)"}, reaction_time, {0.0, 3.0});
-  visitor.number({"min_speed", "m/s", "a slower vehicle stands: it never arrives"}, min_speed,
-                 {0.1, 5.0});
-  visitor.number({"max_age", "s",
-                  "of lights: older ones say nothing (ETSI TS 103 301: sent each 0.1 s to 1 s)"},
-                 max_age, {0.1, 60.0});
-}
 
 std::optional<SignalAdvice> adviseSignals(const ApproachingHost& host,
                                           const std::vector<ApproachLane>& lanes,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/earth/signal_times.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace datmo {
@@ -12,6 +13,8 @@ constexpr std::int64_t kMillisecond = 1000000;    // ns
 constexpr std::int64_t kMinute = 60;              // s
 constexpr std::int64_t kHour = 3600;              // s
 constexpr std::int64_t kDay = 86400;              // s
+
+constexpr double kLongestPhase = 600.0;  // s, for which the first event may have been on
 
 /// Days from 1970 to the first of January of a year (Gregorian).
 std::int64_t daysTo(std::int64_t year) {
@@ -57,20 +60,51 @@ std::optional<Stamp> stampOf(const Spatem& message, const SpatIntersection& inte
   return nearest;
 }
 
-std::optional<Stamp> stampOfMark(const std::optional<std::int64_t>& mark, Stamp now) {
+std::optional<Stamp> stampOfMark(const std::optional<std::int64_t>& mark, Stamp now,
+                                 double max_past) {
   constexpr std::int64_t kMark = 100 * kMillisecond;
   constexpr std::int64_t kHourTime = kHour * kNanosecond;
   if (!mark || *mark < 0 || *mark >= SpatTiming::kHour) {
     return std::nullopt;
   }
   const std::int64_t hour = now.nanoseconds - now.nanoseconds % kHourTime;
+  const std::int64_t earliest = (now + -max_past).nanoseconds;
   std::int64_t time = hour + *mark * kMark;
-  if (time - now.nanoseconds > kHourTime / 2) {
+  if (time - kHourTime >= earliest) {
     time -= kHourTime;
-  } else if (now.nanoseconds - time > kHourTime / 2) {
+  } else if (time < earliest) {
     time += kHourTime;
   }
   return Stamp{time};
+}
+
+std::optional<double> secondsTo(const std::optional<std::int64_t>& mark, Stamp reference,
+                                Stamp from, double max_past) {
+  const std::optional<Stamp> time = stampOfMark(mark, reference, max_past);
+  return time ? std::optional<double>(secondsBetween(from, *time)) : std::nullopt;
+}
+
+TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from) {
+  if (!event.timing) {
+    return {-kEver, kEver};
+  }
+  const double first =
+      secondsTo(event.timing->min_end, reference, from, kLongPast).value_or(-kEver);
+  const double last = secondsTo(event.timing->max_end, reference, from, kLatePast).value_or(kEver);
+  return last < first ? TimeSpan{last, kEver} : TimeSpan{first, last};
+}
+
+EventStart startOf(const SpatEvent& event, const TimeSpan& before, bool is_first, Stamp reference,
+                   Stamp from) {
+  constexpr double kMark = 0.1;  // s, to which marks are rounded
+  const std::optional<double> told = event.timing ? secondsTo(event.timing->start, reference, from,
+                                                              is_first ? kLongestPhase : kLatePast)
+                                                  : std::nullopt;
+  const double due = is_first ? secondsBetween(from, reference) : before.first;
+  if (!told || *told <= due + kMark) {
+    return {{std::min(before.first, told.value_or(before.first)), before.last}};
+  }
+  return {{before.first, std::max(before.last, *told)}, *told};
 }
 
 }  // namespace datmo

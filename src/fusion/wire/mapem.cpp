@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// DF RegulatorySpeedLimit: what type, and how fast.
+/// DF SignalControlZone: regional extensions alone.
 void skipPreemption(Uper& uper) {
   const bool is_extended = uper.extended();
   skipRegional(uper);

@@ -57,8 +57,8 @@ TEST(CanLogTest, ItsFramesComeAtTheirRateAndThenItsEnd) {
                          "(1000.05) can0 1A0#03\n(3.0) can0 1A0#04\n";
   const std::atomic<bool> stop{false};
   CanLog log(file, "can0", stop);
-  EXPECT_EQ(log.next().data[0], 1);
   const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(log.next().data[0], 1);
   EXPECT_EQ(reasonOf([&] { log.next(); }), "bad_frame");
   EXPECT_EQ(log.next().data[0], 3);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(49));

@@ -90,6 +90,51 @@ TEST_F(CanMotionTest, AMessageWhoseCounterStandsStillIsNotUsedUntilItMoves) {
   EXPECT_TRUE(takeBoth(2.0, 0.0));
 }
 
+TEST_F(CanMotionTest, AYawRateWhoseCounterStandsStillIsNotUsedUntilItMoves) {
+  options_.yaw_counter = "0x1B0 16|4@1+ (1,0)";
+  std::uint8_t yaw_counter = 0;
+  const auto yaw = [&yaw_counter] { return canFrame(samples::kYawId, {0, 0, yaw_counter}); };
+  const auto speed = [this] { return take(speedFrame(1.0, counter_++)); };
+  take(yaw());
+  speed();
+  EXPECT_FALSE(speed());  // it has not moved yet
+  ++yaw_counter;
+  take(yaw());
+  EXPECT_TRUE(speed());
+  for (int i = 0; i < 8; ++i) {
+    now_ += 0.1;
+    take(yaw());
+  }
+  EXPECT_FALSE(speed());
+  EXPECT_EQ(warnings_["frozen_counter"], 6);
+  ++yaw_counter;
+  take(yaw());
+  EXPECT_TRUE(speed());
+}
+
+TEST_F(CanMotionTest, ACounterOfAnotherMessageIsRefused) {
+  options_.counter = "0x1B0 16|4@1+ (1,0)";
+  EXPECT_NE(refusal().find("can/counter is in the message 0x1B0"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("0x1A0 of can/speed"), std::string::npos) << refusal();
+  options_ = canSample();
+  options_.yaw_counter = "0x1A0 0|4@1+ (1,0)";
+  EXPECT_NE(refusal().find("can/yaw_counter is in the message 0x1A0"), std::string::npos)
+      << refusal();
+  EXPECT_NE(refusal().find("0x1B0 of can/yaw_rate"), std::string::npos) << refusal();
+  options_ = canSample();
+  options_.yaw_rate.clear();
+  options_.yaw_from = CanYaw::kNone;
+  options_.yaw_counter = "0x1B0 16|4@1+ (1,0)";
+  EXPECT_NE(refusal().find("none"), std::string::npos);
+  EXPECT_NE(refusal().find("can/yaw_counter"), std::string::npos) << refusal();
+}
+
+TEST_F(CanMotionTest, AnIdWithoutXIsDecimal) {
+  options_.speed = "0416 8|16@1+ (0.01,0) [0|250] \"km/h\"";  // 0x1A0
+  takeBoth(1.0, 0.0);
+  EXPECT_TRUE(takeBoth(1.0, 0.0));
+}
+
 TEST_F(CanMotionTest, BadFramesAndSignalsAreNamedAndTheRestGoesOn) {
   takeBoth(1.0, 0.0);
   EXPECT_FALSE(take(canFrame(samples::kSpeedId, {static_cast<std::uint8_t>(counter_), 0})));

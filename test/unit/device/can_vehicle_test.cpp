@@ -85,7 +85,25 @@ TEST_F(CanRecordingTest, OneOfAnotherVehicleAndOneThatIsNoneAreSaid) {
     text += "no log\n";
   }
   play(text);
-  EXPECT_EQ(probe_.faults.take(), "bad_frame");
+  EXPECT_EQ(probe_.faults.take(), "recording_end");
+}
+
+TEST_F(CanRecordingTest, WhatIsWrongInItDoesNotBeginItAnew) {
+  std::string text = canLogText(1.0, yawFrame(1.0)) + canLogText(1.0, speedFrame(3.0, 0)) +
+                     canLogText(1.0, speedFrame(3.0, 1)) +
+                     "(1.0) can0 20000040#0000000000000000\n" + canLogText(1.0, speedFrame(4.0, 2));
+  for (int i = 0; i < 21; ++i) {
+    text += "broken\n";
+  }
+  play(text + canLogText(1.0, speedFrame(5.0, 3)));
+  EXPECT_EQ(probe_.faults.take(), "recording_end");
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ten times max_backoff
+  probe_.stop();
+  EXPECT_NEAR(twistOf(probe_.measurements.take().data).speed, 3.0, 1e-9);
+  EXPECT_NEAR(twistOf(probe_.measurements.take().data).speed, 4.0, 1e-9);
+  EXPECT_TRUE(probe_.measurements.isEmpty());
+  EXPECT_TRUE(probe_.faults.isEmpty());
+  EXPECT_EQ(probe_.warnings.take(), "bus_off");
 }
 
 /// Both ends of a socket: the vehicle's, and ours.

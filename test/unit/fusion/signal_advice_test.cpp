@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lights_ahead.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
@@ -12,57 +13,9 @@
 namespace datmo {
 namespace {
 
-constexpr double kHourStart = 1704067200.0;  // s, a whole hour
+using samples::kHourStart;
 
-/// A lane of 200 m from the west, whose stop line is at the origin, with group 3; beside it to the
-/// left one with group 4.
-class SignalAdviceTest : public testing::Test {
- protected:
-  SignalAdviceTest() {
-    ApproachLane lane;
-    lane.id = 5;
-    lane.points = {{0.0, 0.0}, {-200.0, 0.0}};
-    lane.width = 3.5;
-    lane.groups = {3};
-    lanes_.push_back(lane);
-    lane.id = 6;
-    lane.points = {{0.0, 3.5}, {-200.0, 3.5}};
-    lane.groups = {4};
-    lanes_.push_back(lane);
-    host_.stamp = Stamp::fromSeconds(kHourStart + 100.0);
-    host_.front = {-100.0, 0.3};
-    host_.speed = 10.0;  // 10 s to go
-    host_.position_sigma = 0.2;
-    signals_ = IntersectionSignals{host_.stamp, {}};
-  }
-
-  /// `first`, `last`: s after the host's stamp; NaN: not known.
-  SpatEvent event(SignalState state, double first, double last) const {
-    const auto mark = [](double seconds) {
-      return std::isnan(seconds) ? SpatTiming::kUnknown : std::llround(10.0 * (100.0 + seconds));
-    };
-    SpatTiming timing;
-    timing.min_end = mark(first);
-    timing.max_end = mark(last);
-    return {state, timing};
-  }
-
-  void show(std::vector<SpatEvent> events, std::int64_t group = 3) {
-    signals_->state.movements.push_back({group, std::move(events)});
-  }
-
-  std::optional<SignalAdvice> advise() const {
-    return adviseSignals(host_, lanes_, signals_, options_);
-  }
-
-  SignalVerdict verdict() const { return advise().value().verdict; }
-
-  std::vector<ApproachLane> lanes_;
-  ApproachingHost host_;
-  std::optional<IntersectionSignals> signals_;
-  SignalAdviceOptions options_;
-  const double unknown_ = std::nan("");
-};
+class SignalAdviceTest : public samples::LightsAhead {};
 
 TEST_F(SignalAdviceTest, GreenThatLastsPasses) {
   show({event(SignalState::kProtected, 12.0, 20.0)});
@@ -101,37 +54,28 @@ TEST_F(SignalAdviceTest, RedThatLastsMustBrake) {
   EXPECT_EQ(advise()->movements[0].on_arrival, SignalState::kStop);
 }
 
-TEST_F(SignalAdviceTest, WhatFollowsIsUsedWhereItIsTold) {
-  show({event(SignalState::kStop, 5.0, 5.0), event(SignalState::kPreMovement, 7.0, 7.0),
-        event(SignalState::kProtected, 30.0, 40.0)});
-  EXPECT_EQ(verdict(), SignalVerdict::kPasses);
-  EXPECT_EQ(advise()->movements[0].on_arrival, SignalState::kProtected);
-  host_.speed = 100.0 / 6.0;  // at red and yellow
-  EXPECT_EQ(verdict(), SignalVerdict::kMustBrake);
-  host_.speed = 100.0 / 7.2;  // when that ends
-  EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
-}
-
-TEST_F(SignalAdviceTest, RedThatEndsWithNothingToldIsNotKnown) {
-  show({event(SignalState::kStop, 5.0, 6.0)});
-  EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
-}
-
 TEST_F(SignalAdviceTest, YellowPassesOnlyWhereItCannotStop) {
   show({event(SignalState::kProtectedClearance, 12.0, 12.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kMustBrake);
   host_.front.x() = -20.0;  // 2 s; it needs 10 m + 16.7 m to stop
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
+  for (const double distance : {26.3, 27.0}) {  // 0.4 m more or less decide
+    host_.front.x() = -distance;
+    EXPECT_EQ(verdict(), SignalVerdict::kUnknown) << distance;
+  }
+  host_.front.x() = -27.2;
+  EXPECT_EQ(verdict(), SignalVerdict::kMustBrake);
+  host_.speed_sigma = 0.2;  // by up to 1.8 m
+  EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalAdviceTest, EndsThatAreNotToldAreAnyTime) {
-  show({event(SignalState::kProtected, 12.0, unknown_)});
+TEST_F(SignalAdviceTest, ASpeedThatIsNotKnownWellCountsAtTheArrival) {
+  show({event(SignalState::kProtected, 12.0, 20.0)});
+  host_.speed_sigma = 0.5;  // 9 m/s to 11 m/s: up to 11.2 s and the margin
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
-  signals_->state.movements.clear();
-  show({event(SignalState::kProtected, unknown_, 12.0)});
+  host_.speed_sigma = 0.8;
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
-  signals_->state.movements.clear();
-  show({{SignalState::kStop, std::nullopt}});
+  host_.speed_sigma = 6.0;  // it may stand
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
@@ -145,6 +89,11 @@ TEST_F(SignalAdviceTest, BothLanesCountWhereThePlaceIsNotKnownWellEnough) {
   EXPECT_EQ(advise()->movements.size(), 2U);
   signals_->state.movements[1].events = signals_->state.movements[0].events;
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
+  lanes_[1].groups.clear();  // without lights
+  EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
+  EXPECT_EQ(advise()->reason, "no_signal_group");
+  EXPECT_EQ(advise()->movements.size(), 2U);
+  lanes_[1].groups = {4};
   host_.position_sigma = 6.0;
   EXPECT_EQ(advise()->reason, "position_uncertain");
 }
@@ -182,8 +131,22 @@ TEST_F(SignalAdviceTest, LightsThatAreOldOffOrNotThereSayNothing) {
   signals_->stamp = host_.stamp + -2.1;
   EXPECT_EQ(advise()->reason, "old_signals");
   signals_ = good;
-  signals_->state.status = 0x0040;  // off
-  EXPECT_EQ(advise()->reason, "signals_off");
+  const auto reason_of = [this](unsigned bit) {
+    signals_->state.status = 0x8000 >> bit;
+    return advise()->reason;
+  };
+  for (const unsigned bit : {2U, 8U, 9U, 13U}) {
+    EXPECT_EQ(reason_of(bit), "signals_off") << bit;
+  }
+  for (const unsigned bit : {0U, 1U, 3U}) {  // by hand, time stopped, preempted
+    EXPECT_EQ(reason_of(bit), "signals_irregular") << bit;
+  }
+  for (const unsigned bit : {11U, 12U}) {
+    EXPECT_EQ(reason_of(bit), "map_not_valid") << bit;
+  }
+  for (const unsigned bit : {4U, 5U, 6U, 7U, 10U}) {
+    EXPECT_EQ(reason_of(bit), "") << bit;
+  }
   signals_.reset();
   EXPECT_EQ(advise()->reason, "no_signals");
   signals_ = good;

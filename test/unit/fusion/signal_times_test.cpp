@@ -2,6 +2,8 @@
 // Times of traffic lights: minutes of a year and marks of an hour as stamps.
 #include "datmo_fusion/fusion/earth/signal_times.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace datmo {
@@ -43,18 +45,45 @@ TEST(SignalTimes, TheMessagesMinuteServesAndWithoutOneThereIsNone) {
   EXPECT_FALSE(stampAt(527040, 0, kNewYear2024));
 }
 
-TEST(SignalTimes, AMarkIsInTheNearestHour) {
+TEST(SignalTimes, AMarkIsAheadUnlessItIsJustPast) {
   const auto at = [](std::int64_t mark, double now) {
-    return stampOfMark(mark, Stamp::fromSeconds(kNewYear2024 + now))->seconds() - kNewYear2024;
+    return stampOfMark(mark, Stamp::fromSeconds(kNewYear2024 + now), 10.0)->seconds() -
+           kNewYear2024;
   };
   EXPECT_NEAR(at(1205, 100.0), 120.5, 1e-6);
   EXPECT_NEAR(at(50, 3590.0), 3605.0, 1e-6);
   EXPECT_NEAR(at(35990, 3605.0), 3599.0, 1e-6);
   EXPECT_NEAR(at(0, 7100.0), 7200.0, 1e-6);
+  EXPECT_NEAR(at(900, 100.0), 90.0, 1e-6);
+  EXPECT_NEAR(at(899, 100.0), 3689.9, 1e-6);
+  for (const double minutes : {31.0, 59.0}) {
+    for (const double now : {100.0, 3590.0}) {
+      const double time = now + 60.0 * minutes;
+      EXPECT_NEAR(at(std::llround(10.0 * std::fmod(time, 3600.0)), now), time, 1e-6);
+    }
+  }
   const Stamp now = Stamp::fromSeconds(kNewYear2024);
-  EXPECT_FALSE(stampOfMark(36000, now));
-  EXPECT_FALSE(stampOfMark(36001, now));
-  EXPECT_FALSE(stampOfMark(std::nullopt, now));
+  EXPECT_FALSE(stampOfMark(36000, now, 10.0));
+  EXPECT_FALSE(stampOfMark(36001, now, 10.0));
+  EXPECT_FALSE(stampOfMark(std::nullopt, now, 10.0));
+}
+
+TEST(SignalTimes, EndsOfAnEventAreTheFarthestApartThatTheirMarksMayMean) {
+  const Stamp now = Stamp::fromSeconds(kNewYear2024 + 100.0);
+  const auto ends = [now](double first, double last) {
+    SpatEvent event;
+    event.timing = SpatTiming();
+    event.timing->min_end = std::llround(10.0 * (100.0 + first));
+    event.timing->max_end = std::llround(10.0 * (100.0 + last));
+    return endOf(event, now, now);
+  };
+  EXPECT_NEAR(ends(10.0, 2400.0).first, 10.0, 1e-6);
+  EXPECT_NEAR(ends(10.0, 2400.0).last, 2400.0, 1e-6);
+  EXPECT_NEAR(ends(10.0, 3400.0).last, 3400.0, 1e-6);
+  EXPECT_LT(ends(1860.0, 1860.0).first, 0.0);  // or it is long past
+  EXPECT_NEAR(ends(1860.0, 1860.0).last, 1860.0, 1e-6);
+  EXPECT_NEAR(ends(10.0, 5.0).first, 5.0, 1e-6);  // in the wrong order
+  EXPECT_EQ(ends(10.0, 5.0).last, kEver);
 }
 
 }  // namespace

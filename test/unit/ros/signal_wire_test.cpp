@@ -85,6 +85,27 @@ TEST_F(SignalWireTest, LightsAndAMapGiveAdvice) {
   EXPECT_EQ(monitor_.figures().at("intersections with a map"), 1.0);
 }
 
+TEST_F(SignalWireTest, ALaneThatCannotBeUsedLeavesNoVerdict) {
+  Mapem map = samples::mapem();
+  map.intersections[0].lanes[1].computed->reference = 99;  // there is none
+  wire_.received(encode(map), kNewYear + 99.0);
+  wire_.received(spatem(100.0, 130.0), kNewYear + 100.0);
+  const SignalAdviceMessagePtr advice = wire_.advise(ownAt(100.0));
+  ASSERT_TRUE(advice);
+  EXPECT_EQ(advice->verdict, SignalAdviceMessage::UNKNOWN);
+  EXPECT_EQ(advice->reason, "lanes_left_out");
+  EXPECT_EQ(samples::warnings(monitor_, "lanes_left_out"), 1U);
+}
+
+TEST_F(SignalWireTest, AnUncertainSpeedLeavesNoVerdict) {
+  wire_.received(mapem(), kNewYear + 99.0);
+  wire_.received(spatem(100.0, 103.0), kNewYear + 100.0);
+  StationTracksMessage own = ownAt(100.0);
+  EXPECT_EQ(wire_.advise(own)->verdict, SignalAdviceMessage::PASSES);
+  own.tracks[0].covariance[10] = 9.0;  // of the velocity to the east
+  EXPECT_EQ(wire_.advise(own)->reason, "not_known_on_arrival");
+}
+
 TEST_F(SignalWireTest, WhatIsOldAheadRepeatedOrBrokenIsCounted) {
   wire_.received(spatem(100.0, 130.0), kNewYear + 102.5);
   EXPECT_EQ(samples::drops(monitor_, "old_signals"), 1U);
@@ -117,6 +138,12 @@ TEST_F(SignalWireTest, ATimeThatJumpsBackBeginsAnew) {
   EXPECT_FALSE(wire_.advise(ownAt(100.0)));
   wire_.received(mapem(), kNewYear + 100.1);
   EXPECT_EQ(wire_.advise(ownAt(100.1))->verdict, SignalAdviceMessage::PASSES);
+}
+
+TEST_F(SignalWireTest, AClockThatIsCorrectedForgetsNoMap) {
+  wire_.received(mapem(), kNewYear + 100.0);
+  wire_.received(spatem(99.5, 130.0), kNewYear + 99.5);
+  EXPECT_EQ(wire_.advise(ownAt(99.5))->verdict, SignalAdviceMessage::PASSES);
 }
 
 TEST_F(SignalWireTest, WithoutOurselvesThereIsNoAdvice) {

@@ -36,6 +36,7 @@ struct ApproachingHost {
   Point2 front = Point2::Zero();  ///< m
   double heading = 0.0;           ///< rad, from east to the left
   double speed = 0.0;             ///< m/s, ahead
+  double speed_sigma = 0.0;       ///< m/s
   double position_sigma = 0.0;    ///< m, along the worst axis
 };
 
@@ -50,7 +51,7 @@ enum class SignalVerdict { kUnknown, kPasses, kMustBrake };
 /// A lane that the vehicle may be on, and one group of lights of it.
 struct MovementAdvice {
   std::int64_t lane = 0;
-  std::int64_t group = 0;
+  std::int64_t group = 0;  ///< 0: the lane has none
   SignalState now = SignalState::kUnavailable;
   SignalState on_arrival = SignalState::kUnavailable;  ///< unavailable: not known
   std::optional<double> min_end;                       ///< s from the host's stamp, of what is now
@@ -73,10 +74,10 @@ struct SignalAdvice {
 /// leads into the intersection.
 ///
 /// A verdict holds for all that may be: for the whole time from the first to the last end that the
-/// lights may have, for the vehicle's place and a margin of time, for each lane that it may be on,
-/// and for each of their groups, since the lane does not say where it wants to go. What differs
-/// among these is not known. Green with right of way or not passes; yellow that it cannot stop for
-/// at `comfort_deceleration` passes, too.
+/// lights may have, for the vehicle's place and speed and a margin of time, for each lane that it
+/// may be on, and for each of their groups, since the lane does not say where it wants to go. What
+/// differs among these is not known, nor what lies between two events. Green with right of way or
+/// not passes; yellow that it surely cannot stop for at `comfort_deceleration` passes, too.
 std::optional<SignalAdvice> adviseSignals(const ApproachingHost& host,
                                           const std::vector<ApproachLane>& lanes,
                                           const std::optional<IntersectionSignals>& signals,
