@@ -22,6 +22,8 @@ CHANGELOG = SOURCE / "CHANGELOG.rst"
 MAX_README_LINES = 200  # lines
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+# Groups of files that one nodelet alone reads: can_signals of live.launch.
+OWN_FILES = {"can": "device"}
 # Names that the examples choose, and what stands for any name in doc/parameters.md.
 CHOSEN = {"/radar/": "/stereo/", "/laser/": "/<frame>/"}
 
@@ -44,6 +46,7 @@ def anchors_of(text):
 
 
 def documented_name(key):
+    key = f"{OWN_FILES[key.split('/')[0]]}/{key}" if key.split("/")[0] in OWN_FILES else key
     for chosen, documented in CHOSEN.items():
         key = key.replace(chosen, documented)
     return key

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/figures: what a pass of steps does, and how figures are summarized."""
 
-import json
+import contextlib
+import io
 import subprocess
 import unittest
+from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures import cameras, data_sets, results_file
@@ -12,6 +14,8 @@ from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
 from folder_case import InFolder
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Spread(unittest.TestCase):
