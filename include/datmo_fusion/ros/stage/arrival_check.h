@@ -62,9 +62,11 @@ void setSequence(Message& message, std::uint32_t sequence) {
   }
 }
 
+/// In simulated time, when it was queued is not known: that clock goes as fast as a bag is played.
 template <typename Message>
 Arrived arrivedOf(const ros::MessageEvent<const Message>& event) {
-  return {event.getPublisherName(), sequenceOf(*event.getConstMessage()), event.getReceiptTime()};
+  return {event.getPublisherName(), sequenceOf(*event.getConstMessage()),
+          ros::Time::isSimTime() ? ros::Time() : event.getReceiptTime()};
 }
 
 }  // namespace datmo
