@@ -3,39 +3,48 @@
 
 namespace datmo {
 
-void CanOptions::visit(OptionVisitor& visitor) {
-  constexpr double kCounterValues = 65536.0;
-  visitor.text({"dbc", "", "file that describes the bus's messages; empty: there is none"}, dbc,
-               {});
+namespace {
+
+/// Which bits of which message have what.
+void visitSignals(CanOptions& options, OptionVisitor& visitor) {
+  visitor.text({"dbc", "", "file that describes the bus's messages; empty: there is none"},
+               options.dbc, {});
   visitor.text({"speed", "",
                 "signal of the vehicle's speed (m/s, km/h, mph): its name in the DBC file, or ID "
                 "START|LENGTH@ORDER SIGN (FACTOR,OFFSET) [MIN|MAX] UNIT, as in such a file; empty: "
                 "the mean of the wheels"},
-               speed, {});
+               options.speed, {});
   const auto wheel = [&visitor](const char* name, const char* which, std::string& text) {
     visitor.text({name, "",
                   std::string("the same of the speed of the ") + which +
                       " wheel (those units, or rad/s, rpm); empty: it is not known"},
                  text, {});
   };
-  wheel("front_left", "front left", front_left);
-  wheel("front_right", "front right", front_right);
-  wheel("rear_left", "rear left", rear_left);
-  wheel("rear_right", "rear right", rear_right);
+  wheel("front_left", "front left", options.front_left);
+  wheel("front_right", "front right", options.front_right);
+  wheel("rear_left", "rear left", options.rear_left);
+  wheel("rear_right", "rear right", options.rear_right);
   visitor.text({"yaw_rate", "", "the same of the yaw rate (rad/s, deg/s), positive to the left"},
-               yaw_rate, {});
+               options.yaw_rate, {});
   visitor.text({"steering", "", "the same of the steering wheel (rad, deg), positive to the left"},
-               steering, {});
+               options.steering, {});
   visitor.text({"direction", "",
                 "the same of the gear or the direction of travel; empty: the speed has a sign, or "
                 "the vehicle does not reverse"},
-               direction, {});
+               options.direction, {});
   visitor.text({"counter", "",
                 "the same of the counter in the speed's message: while it stands still, the "
                 "message is not used; empty: it has none"},
-               counter, {});
+               options.counter, {});
   visitor.text({"yaw_counter", "", "the same in the yaw rate's or the steering's message"},
-               yaw_counter, {});
+               options.yaw_counter, {});
+}
+
+}  // namespace
+
+void CanOptions::visit(OptionVisitor& visitor) {
+  constexpr double kCounterValues = 65536.0;
+  visitSignals(*this, visitor);
   visitor.choice({"yaw_from", "",
                   "source of the yaw rate: its signal; the difference of the rear wheels; the "
                   "steering by the bicycle model; or none, where an Imu has it"},
