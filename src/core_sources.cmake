@@ -38,7 +38,6 @@ set(DATMO_FUSION_CORE_SOURCES
   device/datagram_socket.cpp
   device/device_clock.cpp
   device/device_error.cpp
-  device/device_events.cpp
   device/device_runner.cpp
   device/device_setup.cpp
   device/hokuyo_scanner.cpp

@@ -12,6 +12,9 @@ namespace datmo {
 
 namespace {
 
+/// s, the last second that ROS time has.
+constexpr double kMaxTime = 4294967295.0;
+
 /// The next word before white space, which is taken off the front; empty: there is none.
 std::string_view nextWord(std::string_view& rest) {
   constexpr std::string_view kSpace = " \t\r";
@@ -42,11 +45,18 @@ double timeOfLine(std::string_view field, std::string_view line) {
       field.find_first_not_of("0123456789.", 1) != field.size() - 1) {
     refuseLine(line);
   }
+  const std::string number(field.substr(1, field.size() - 2));
+  std::size_t read = 0;
+  double time = 0.0;
   try {
-    return std::stod(std::string(field.substr(1, field.size() - 2)));
+    time = std::stod(number, &read);
   } catch (const std::exception&) {
     refuseLine(line);
   }
+  if (read != number.size() || time > kMaxTime) {
+    refuseLine(line);
+  }
+  return time;
 }
 
 void readData(std::string_view digits, std::size_t longest, std::string_view line,
@@ -111,7 +121,11 @@ CanFrame CanLog::next() {
     } catch (const CanFrameError& error) {
       throw CanFrameError(file_ + ", line " + std::to_string(lines_) + ": " + error.what());
     }
-    if (!logged || (!interface_.empty() && logged->interface != interface_)) {
+    if (!logged) {
+      continue;
+    }
+    if (!interface_.empty() && logged->interface != interface_) {
+      other_interface_ = logged->interface;
       continue;
     }
     if (logged->time < last_) {
@@ -121,7 +135,11 @@ CanFrame CanLog::next() {
     pace_.waitUntil(logged->time);
     return logged->frame;
   }
-  throw RecordingEnd(file_ + " was played to its end");
+  throw RecordingEnd(file_ + " was played to its end" +
+                     (other_interface_.empty()
+                          ? ""
+                          : " (frames of " + other_interface_ + " are not of " + interface_ +
+                                ", and were left out)"));
 }
 
 }  // namespace datmo

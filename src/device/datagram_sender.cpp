@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "ipv4_address.h"
 #include <sys/socket.h>
@@ -39,6 +40,22 @@ void DatagramSender::send(std::string_view bytes) const {
                                         name_ + " was not sent (" + std::strerror(errno) + ")");
     }
   }
+}
+
+DatagramDestination::DatagramDestination(std::string host, int port, double pause)
+    : host_(std::move(host)), port_(port), pause_(pause) {}
+
+bool DatagramDestination::send(std::string_view bytes) {
+  if (!sender_) {
+    const Clock::time_point now = Clock::now();
+    if (host_.empty() || (looked_up_ && now - *looked_up_ < pause_)) {
+      return false;
+    }
+    looked_up_ = now;
+    sender_.emplace(host_, port_);
+  }
+  sender_->send(bytes);
+  return true;
 }
 
 }  // namespace datmo

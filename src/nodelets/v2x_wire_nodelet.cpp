@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <deque>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +12,7 @@
 
 #include "datmo_fusion/device/datagram_listener.h"
 #include "datmo_fusion/device/datagram_sender.h"
+#include "datmo_fusion/device/event_queue.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/signal_wire.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
@@ -23,7 +21,7 @@
 namespace datmo {
 
 /// CAM and CPM of other stations by UDP to `stations`, and `stations/own` to CAM and CPM; SPATEM
-/// and MAPEM with our own place among `stations/own` to `signal_advice`. What the socket's own
+/// and MAPEM with our own position in `stations/own` to `signal_advice`. What the socket's own
 /// thread has is handed to the nodelet's callback queue, where the diagnostics live.
 class V2xWireNodelet : public nodelet::Nodelet {
  private:
@@ -46,6 +44,8 @@ class V2xWireNodelet : public nodelet::Nodelet {
     options_ = loadOptions<StationWireOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
     monitor_->condition(HealthLevel::kNothing, "does not listen yet");
+    destination_ = std::make_unique<DatagramDestination>(options_.destination,
+                                                         options_.destination_port, kLookUpPause);
     wire_ = std::make_unique<StationWire>(options_, *monitor_);
     signals_ = std::make_unique<SignalWire>(options_.signals, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
@@ -70,25 +70,14 @@ class V2xWireNodelet : public nodelet::Nodelet {
   }
 
   void put(News news) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      news_.push_back(std::move(news));
-      if (news_.size() > kWaiting) {
-        news_.pop_front();
-        ++discarded_;
-      }
-    }
+    news_.put(std::move(news));
     bell_->ring();
   }
 
   void serveAll() {
-    std::deque<News> news;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      news.swap(news_);
-      monitor_->figure("datagrams discarded", static_cast<double>(discarded_));
-    }
-    for (const News& one : news) {
+    const auto taken = news_.takeAll();
+    monitor_->figure("datagrams discarded", static_cast<double>(taken.discarded));
+    for (const News& one : taken.events) {
       std::visit([this](const auto& kind) { serve(kind); }, one);
     }
   }
@@ -127,27 +116,14 @@ class V2xWireNodelet : public nodelet::Nodelet {
     if (options_.destination.empty()) {
       return;
     }
-    const std::vector<std::string> datagrams = wire_->toSend(tracks);
     try {
-      for (const std::string& datagram : datagrams) {
-        if (const DatagramSender* const sender = connected()) {
-          sender->send(datagram);
-          monitor_->figure("datagrams sent", static_cast<double>(++sent_));
-        }
+      for (const std::string& datagram : wire_->toSend(tracks)) {
+        sent_ += destination_->send(datagram) ? 1 : 0;
       }
+      monitor_->figure("datagrams sent", static_cast<double>(sent_));
     } catch (const DeviceError& error) {
       monitor_->warned(InputError(error.reason(), error.what()));
     }
-  }
-
-  /// Null shortly after its name was not found. Throws DeviceError (`no_connection`).
-  const DatagramSender* connected() {
-    const bool is_pause = looked_up_ && looked_up_->seconds() < kLookUpPause;
-    if (!sender_ && !is_pause) {
-      looked_up_.emplace();
-      sender_ = std::make_unique<DatagramSender>(options_.destination, options_.destination_port);
-    }
-    return sender_.get();
   }
 
   StationWireOptions options_;
@@ -158,12 +134,9 @@ class V2xWireNodelet : public nodelet::Nodelet {
   ros::Publisher advice_;
   ros::Publisher stations_;
   ros::Subscriber own_;
-  std::unique_ptr<DatagramSender> sender_;
-  std::optional<Stopwatch> looked_up_;  ///< since the last look-up of the destination
+  std::unique_ptr<DatagramDestination> destination_;
   std::uint64_t sent_ = 0;
-  std::mutex mutex_;  ///< of the next two
-  std::deque<News> news_;
-  std::uint64_t discarded_ = 0;
+  EventQueue<News, Datagram, DeviceError> news_{kWaiting};
   std::unique_ptr<CallbackBell> bell_;
   std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before what it calls
 };

@@ -11,7 +11,6 @@
 #include <Eigen/Eigenvalues>
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/fusion/earth/signal_times.h"
 #include "datmo_fusion/fusion/wire/wire_error.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
@@ -57,43 +56,23 @@ SignalAdviceMessagePtr toMessage(const SignalAdvice& advice, const IntersectionI
   return message;
 }
 
-/// The vehicle in the plane that touches the earth at it; none if it does not know where it is.
-struct OwnPlace {
-  LocalPlane plane;
-  ApproachingHost host;
-};
-
-std::optional<OwnPlace> placeOf(const StationTracksMessage& message) {
-  const auto own = std::find_if(message.tracks.begin(), message.tracks.end(),
-                                [](const auto& track) { return track.id == 0; });
-  if (own == message.tracks.end()) {
-    return std::nullopt;
-  }
-  GeodeticPosition here;
-  here.latitude = degrees(own->latitude);
-  here.longitude = degrees(own->longitude);
-  if (!isValid(here)) {
-    return std::nullopt;
-  }
-  StationTracksMessage alone = message;
-  alone.tracks = {*own};
-  const LocalPlane plane(here);
-  const StationTrack track = fromMessage(alone, plane).tracks.front();
+/// None if its state is not finite.
+std::optional<ApproachingHost> hostOf(const StationTrack& track, Stamp stamp) {
   const Point2 ahead(std::cos(track.heading), std::sin(track.heading));
-  const Eigen::Matrix2d covariance = track.covariance.topLeftCorner<2, 2>();
   ApproachingHost host;
-  host.stamp = toStamp(message.header.stamp);
+  host.stamp = stamp;
   host.front = track.position + 0.5 * track.length * ahead;
   host.heading = track.heading;
   host.speed = track.velocity.dot(ahead);
   if (!host.front.allFinite() || !std::isfinite(host.speed) || !track.covariance.allFinite()) {
     return std::nullopt;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance, Eigen::EigenvaluesOnly);
+  const Eigen::Matrix2d position = track.covariance.topLeftCorner<2, 2>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position, Eigen::EigenvaluesOnly);
   host.position_sigma = std::sqrt(std::max(axes.eigenvalues().maxCoeff(), 0.0));
   const Eigen::Matrix2d velocity = track.covariance.bottomRightCorner<2, 2>();
   host.speed_sigma = std::sqrt(std::max(ahead.dot(velocity * ahead), 0.0));
-  return OwnPlace{plane, host};
+  return host;
 }
 
 }  // namespace
@@ -186,42 +165,48 @@ void SignalWire::forgetOld(Stamp now) {
 }
 
 SignalAdviceMessagePtr SignalWire::advise(const StationTracksMessage& own) {
-  const std::optional<OwnPlace> place = placeOf(own);
-  if (!place) {
+  const std::optional<OwnTrack> us = ownTrack(own);
+  const auto host = us ? hostOf(us->track, toStamp(own.header.stamp)) : std::nullopt;
+  if (!host) {
     return nullptr;
   }
   std::optional<SignalAdvice> nearest;
   IntersectionId id;
   for (const auto& [number, map] : maps_) {
-    if (secondsBetween(map.stamp, place->host.stamp) > options_.map_age) {
+    if (secondsBetween(map.stamp, host->stamp) > options_.map_age) {
       continue;
     }
-    try {
-      const auto found = signals_.find(number);
-      const std::optional<IntersectionSignals> signals =
-          found == signals_.end() ? std::nullopt
-                                  : std::optional<IntersectionSignals>(found->second);
-      const ApproachLanes approach = approachLanes(map.intersection, place->plane);
-      std::optional<SignalAdvice> advice =
-          adviseSignals(place->host, approach.lanes, signals, options_.advice);
-      if (advice && approach.left_out > 0) {  // it may be on one of those
-        advice->verdict = SignalVerdict::kUnknown;
-        advice->reason = "lanes_left_out";
-        monitor_.warned(
-            InputError("lanes_left_out", "intersection " + toText(number) + " has " +
-                                             std::to_string(approach.left_out) +
-                                             " lanes into it whose geometry cannot be used: "
-                                             "expected none; there is no verdict"));
-      }
-      if (advice && (!nearest || advice->distance < nearest->distance)) {
-        nearest = advice;
-        id = number;
-      }
-    } catch (const WireError& error) {
-      monitor_.warned(InputError(error.reason(), error.what()));
+    const std::optional<SignalAdvice> advice = adviseAt(map.intersection, *host, us->plane);
+    if (advice && (!nearest || advice->distance < nearest->distance)) {
+      nearest = advice;
+      id = number;
     }
   }
   return nearest ? toMessage(*nearest, id, own.header) : nullptr;
+}
+
+std::optional<SignalAdvice> SignalWire::adviseAt(const MapIntersection& intersection,
+                                                 const ApproachingHost& host,
+                                                 const LocalPlane& plane) {
+  std::optional<SignalAdvice> advice;
+  try {
+    const auto found = signals_.find(intersection.id);
+    const auto signals = found == signals_.end() ? std::nullopt : std::make_optional(found->second);
+    const ApproachLanes approach = approachLanes(intersection, plane);
+    advice = adviseSignals(host, approach.lanes, signals, options_.advice);
+    if (advice && approach.left_out > 0) {  // it may be on one of those
+      advice->verdict = SignalVerdict::kUnknown;
+      advice->reason = "lanes_left_out";
+      monitor_.warned(InputError("lanes_left_out",
+                                 "intersection " + toText(intersection.id) + " has " +
+                                     std::to_string(approach.left_out) +
+                                     " lanes into it whose geometry cannot be used: expected none; "
+                                     "there is no verdict"));
+    }
+  } catch (const WireError& error) {
+    monitor_.warned(InputError(error.reason(), error.what()));
+  }
+  return advice;
 }
 
 }  // namespace datmo

@@ -6,7 +6,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/fusion/wire/wire_error.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -29,18 +28,6 @@ constexpr double kMaxIntervalsAhead = 2.0;
 /// Datagrams whose echo is recognized: those of a second at least, ten lists of a CAM and at most
 /// eight CPMs.
 constexpr std::size_t kMaxRecent = 90;
-
-/// The plane that touches the earth where we are.
-LocalPlane planeOf(const StationTracksMessage& message) {
-  const auto own = std::find_if(message.tracks.begin(), message.tracks.end(),
-                                [](const auto& track) { return track.id == 0; });
-  GeodeticPosition here;
-  if (own != message.tracks.end()) {
-    here.latitude = degrees(own->latitude);
-    here.longitude = degrees(own->longitude);
-  }
-  return LocalPlane(isValid(here) ? here : GeodeticPosition());
-}
 
 }  // namespace
 
@@ -117,7 +104,8 @@ std::vector<std::string> StationWire::toSend(const StationTracksMessage& message
   const bool low_frequency = !last_low_frequency_ || stamp < *last_low_frequency_ ||
                              secondsBetween(*last_low_frequency_, stamp) >= kLowFrequencyPeriod;
   try {
-    const LocalPlane plane = planeOf(message);
+    const std::optional<OwnTrack> own = ownTrack(message);
+    const LocalPlane plane = own ? own->plane : LocalPlane(GeodeticPosition());
     std::vector<std::string> datagrams =
         encodeStation(fromMessage(message, plane), plane, options_.messages, low_frequency);
     last_low_frequency_ = low_frequency ? stamp : last_low_frequency_;

@@ -116,7 +116,7 @@ class Gap(unittest.TestCase):
         stamps = np.array([7.9, 11.0, 11.4, 11.6, 12.0])
         clean = (np.arange(20.0), np.full(20, 0.1))
         result = gap_effect(stamps, np.array([0.1, 0.9, 0.5, 0.2, 0.3]), clean, (8.0, 11.0), 20.0)
-        self.assertEqual((result["poses_meanwhile"], result["way_m"]), (0, 20.0))
+        self.assertEqual((result["poses_meanwhile"], result["distance_m"]), (0, 20.0))
         self.assertAlmostEqual(result["first_m"], 0.8)
         self.assertAlmostEqual(result["settled_m"], 0.2)
 

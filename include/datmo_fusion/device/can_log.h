@@ -41,8 +41,9 @@ class CanLog : public CanSource {
   std::string interface_;
   std::ifstream stream_;
   PlaybackClock pace_;
-  double last_ = 0.0;        ///< s, of the last line
-  std::uint64_t lines_ = 0;  ///< so far
+  std::string other_interface_;  ///< of a frame that was left out; empty: of none
+  double last_ = 0.0;            ///< s, of the last line
+  std::uint64_t lines_ = 0;      ///< so far
 };
 
 }  // namespace datmo

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <mutex>
 #include <string>
 #include <variant>
 
 #include "datmo_fusion/device/device_clock.h"
 #include "datmo_fusion/device/device_data.h"
 #include "datmo_fusion/device/device_error.h"
+#include "datmo_fusion/device/event_queue.h"
 
 namespace datmo {
 
@@ -33,27 +30,8 @@ struct DeviceMeasured {
 
 using DeviceEvent = std::variant<DeviceConnected, DeviceFault, DeviceWarning, DeviceMeasured>;
 
-/// What a device's thread reports to another thread. If nobody takes them, newer measurements and
-/// warnings replace older ones; reports on the connection are rare, and kept. Thread safe.
-class DeviceEventQueue {
- public:
-  /// `longest`: measurements that wait at most, and as many warnings.
-  explicit DeviceEventQueue(std::size_t longest) : longest_(longest) {}
-
-  void put(DeviceEvent event);
-
-  struct Taken {
-    std::deque<DeviceEvent> events;  ///< in their order
-    std::uint64_t discarded = 0;     ///< measurements, ever
-  };
-  /// All that waits.
-  Taken takeAll();
-
- private:
-  std::size_t longest_;
-  std::mutex mutex_;
-  std::deque<DeviceEvent> events_;
-  std::uint64_t discarded_ = 0;
-};
+/// What a device's thread reports to another thread: newer measurements and warnings replace older
+/// ones.
+using DeviceEventQueue = EventQueue<DeviceEvent, DeviceMeasured, DeviceWarning>;
 
 }  // namespace datmo

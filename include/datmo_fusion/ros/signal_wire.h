@@ -55,6 +55,9 @@ class SignalWire {
   /// Throws InputError (`old_signals`, `future_signals`, `repeated_signals`).
   void keep(const Spatem& message, const SpatIntersection& intersection, Stamp now);
   void forgetOld(Stamp now);
+  /// None if the vehicle is on no lane into it.
+  std::optional<SignalAdvice> adviseAt(const MapIntersection& intersection,
+                                       const ApproachingHost& host, const LocalPlane& plane);
 
   SignalWireOptions options_;
   StageMonitor& monitor_;

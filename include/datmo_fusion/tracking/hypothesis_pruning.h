@@ -49,8 +49,8 @@ bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothe
   return kept > 0;
 }
 
-/// Sorts the hypotheses, merges equal ones, and removes leaves and trees that are in none. No tree
-/// may be left.
+/// Sorts the hypotheses, merges equal ones, and removes leaves and trees that are in none, which
+/// may be all trees.
 template <typename Tree>
 void canonicalize(std::vector<Tree>& trees, std::vector<GlobalHypothesis>& hypotheses) {
   std::size_t kept = 0;

@@ -5,23 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/fusion/wire/wire_error.h"
 
 namespace datmo {
 
 namespace {
 
-constexpr double kMeter = 0.01;     ///< of the units of steps and widths
-constexpr double kGeodetic = 1e-7;  ///< deg, of the units of places
-constexpr double kMinStep = 0.01;   ///< m; nodes that are nearer are one
-
-GeodeticPosition placeOf(std::int64_t latitude, std::int64_t longitude) {
-  GeodeticPosition place;
-  place.latitude = degrees(kGeodetic * static_cast<double>(latitude));
-  place.longitude = degrees(kGeodetic * static_cast<double>(longitude));
-  return place;
-}
+constexpr double kMinStep = 0.01;  ///< m; nodes that are nearer are one
 
 /// Of its own nodes; empty if they cannot be used.
 std::vector<Point2> pointsOf(const MapLane& lane, const Point2& reference,
@@ -29,13 +19,13 @@ std::vector<Point2> pointsOf(const MapLane& lane, const Point2& reference,
   std::vector<Point2> points;
   Point2 at = reference;
   for (const MapNode& node : lane.nodes) {
-    const GeodeticPosition place = placeOf(node.y, node.x);
-    if (node.is_geodetic && !isValid(place)) {
+    const GeodeticPosition position = geodeticOf(node.y, node.x);
+    if (node.is_geodetic && !isValid(position)) {
       return {};
     }
-    at = node.is_geodetic ? plane.toPlane(place)
-                          : Point2(at + kMeter * Point2(static_cast<double>(node.x),
-                                                        static_cast<double>(node.y)));
+    at = node.is_geodetic ? plane.toPlane(position)
+                          : Point2(at + kItsCentimeter * Point2(static_cast<double>(node.x),
+                                                                static_cast<double>(node.y)));
     if (points.empty() || (at - points.back()).norm() >= kMinStep) {
       points.push_back(at);
     }
@@ -57,7 +47,8 @@ std::vector<Point2> pointsOf(const MapLane& lane, const MapIntersection& interse
   }
   std::vector<Point2> points = pointsOf(*other, reference, plane);
   for (Point2& point : points) {
-    point += kMeter * Point2(static_cast<double>(computed.x), static_cast<double>(computed.y));
+    point +=
+        kItsCentimeter * Point2(static_cast<double>(computed.x), static_cast<double>(computed.y));
   }
   return points;
 }
@@ -72,12 +63,12 @@ bool isForVehicles(const MapLane& lane) {
 }  // namespace
 
 ApproachLanes approachLanes(const MapIntersection& intersection, const LocalPlane& plane) {
-  const GeodeticPosition place = placeOf(intersection.latitude, intersection.longitude);
-  if (!isValid(place)) {
+  const GeodeticPosition position = geodeticOf(intersection.latitude, intersection.longitude);
+  if (!isValid(position)) {
     throw WireError("no_position", "intersection " + toText(intersection.id) +
                                        " without a reference point: expected one on the earth");
   }
-  const Point2 reference = plane.toPlane(place);
+  const Point2 reference = plane.toPlane(position);
   ApproachLanes found;
   for (const MapLane& lane : intersection.lanes) {
     if (!isForVehicles(lane)) {
@@ -86,7 +77,7 @@ ApproachLanes approachLanes(const MapIntersection& intersection, const LocalPlan
     ApproachLane approach;
     approach.id = lane.id;
     approach.points = pointsOf(lane, intersection, reference, plane);
-    approach.width = kMeter * static_cast<double>(intersection.lane_width.value_or(0));
+    approach.width = kItsCentimeter * static_cast<double>(intersection.lane_width.value_or(0));
     for (const MapConnection& connection : lane.connections) {
       const auto& groups = approach.groups;
       if (connection.group &&
@@ -103,8 +94,8 @@ ApproachLanes approachLanes(const MapIntersection& intersection, const LocalPlan
   return found;
 }
 
-LanePlace placeOn(const ApproachLane& lane, const Point2& point) {
-  LanePlace best;
+LanePosition positionOn(const ApproachLane& lane, const Point2& point) {
+  LanePosition best;
   double nearest = std::numeric_limits<double>::infinity();
   double before = 0.0;  // m, from the stop line to the segment
   for (std::size_t i = 0; i + 1 < lane.points.size(); ++i) {

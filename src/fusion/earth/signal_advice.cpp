@@ -16,7 +16,7 @@ constexpr std::int64_t kNoGroup = 0;  ///< DE SignalGroupID: not known
 
 struct Candidate {
   const ApproachLane* lane = nullptr;
-  LanePlace place;
+  LanePosition position;
 };
 
 bool isGreen(SignalState state) {
@@ -37,7 +37,7 @@ std::string faultOf(const ApproachingHost& host, const std::optional<Intersectio
                     const SignalAdviceOptions& options) {
   // Of DE IntersectionStatusObject: failure flash, failure mode, off, no valid SPAT.
   constexpr std::array<unsigned, 4> kOff = {2, 8, 9, 13};
-  // By hand, time stopped, preempted: the times that are told need not come true.
+  // By hand, time stopped, preempted: the times that are given need not come true.
   constexpr std::array<unsigned, 3> kIrregular = {0, 1, 3};
   // Lanes have changed, no valid MAP.
   constexpr std::array<unsigned, 2> kMap = {11, 12};
@@ -60,24 +60,24 @@ std::string faultOf(const ApproachingHost& host, const std::optional<Intersectio
   return has_any(kMap) ? "map_not_valid" : "";
 }
 
-/// Lanes that the vehicle may be on: the nearest one's neighbors, too, if the place is not known
+/// Lanes that the vehicle may be on: the nearest one's neighbors, too, if the position is not known
 /// well enough.
 std::vector<Candidate> lanesOf(const ApproachingHost& host, const std::vector<ApproachLane>& lanes,
                                const SignalAdviceOptions& options) {
   std::vector<Candidate> found;
   for (const ApproachLane& lane : lanes) {
-    const LanePlace place = placeOn(lane, host.front);
+    const LanePosition position = positionOn(lane, host.front);
     const double half = 0.5 * (lane.width > 0.0 ? lane.width : options.lane_width);
-    const bool is_on = place.lateral <= half + options.bound * host.position_sigma &&
-                       place.distance >= -options.bound * host.position_sigma &&
-                       place.outside <= options.bound * host.position_sigma &&
-                       place.distance <= options.max_distance;
-    if (is_on && std::abs(angleBetween(host.heading, place.heading)) <= options.max_heading) {
-      found.push_back({&lane, place});
+    const bool is_on = position.lateral <= half + options.bound * host.position_sigma &&
+                       position.distance >= -options.bound * host.position_sigma &&
+                       position.outside <= options.bound * host.position_sigma &&
+                       position.distance <= options.max_distance;
+    if (is_on && std::abs(angleBetween(host.heading, position.heading)) <= options.max_heading) {
+      found.push_back({&lane, position});
     }
   }
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.place.lateral < b.place.lateral;
+    return a.position.lateral < b.position.lateral;
   });
   return found;
 }
@@ -157,7 +157,7 @@ Agreement onArrival(const SpatMovement& movement, Stamp reference, Stamp from,
     before = end;
   }
   if (arrival.last >= before.first) {
-    // Behind the events that are told. After green come yellow and red, for some seconds at least.
+    // After the events that are given. After green come yellow and red, for some seconds at least.
     const bool was_green = isGreen(movement.events.back().state);
     const bool is_red_yet = was_green && arrival.last <= before.first + options.stop_time;
     agreement.add(
@@ -190,7 +190,7 @@ MovementAdvice adviseMovement(const ApproachingHost& host, const IntersectionSig
 void adviseLane(const ApproachingHost& host, const Candidate& candidate,
                 const IntersectionSignals& signals, const SignalAdviceOptions& options,
                 SignalAdvice& advice) {
-  const Approach approach = approachOf(host, candidate.place.distance, options);
+  const Approach approach = approachOf(host, candidate.position.distance, options);
   const auto& movements = signals.state.movements;
   if (candidate.lane->groups.empty()) {
     MovementAdvice unknown;
@@ -237,26 +237,26 @@ void agree(const ApproachingHost& host, const SignalAdviceOptions& options, Sign
 std::optional<SignalAdvice> adviseSignals(const ApproachingHost& host,
                                           const std::vector<ApproachLane>& lanes,
                                           const std::optional<IntersectionSignals>& signals,
-                                          const Checked<SignalAdviceOptions>& options) {
-  const std::vector<Candidate> candidates = lanesOf(host, lanes, *options);
+                                          const SignalAdviceOptions& options) {
+  const std::vector<Candidate> candidates = lanesOf(host, lanes, options);
   if (candidates.empty()) {
     return std::nullopt;
   }
   SignalAdvice advice;
-  advice.distance = candidates.front().place.distance;
-  if (host.speed >= options->min_speed) {
+  advice.distance = candidates.front().position.distance;
+  if (host.speed >= options.min_speed) {
     advice.arrival = std::max(advice.distance, 0.0) / host.speed;
   }
   constexpr double kAtLine = 0.1;  // m
   advice.deceleration = host.speed * host.speed / (2.0 * std::max(advice.distance, kAtLine));
-  advice.reason = host.position_sigma > options->max_position_sigma
+  advice.reason = host.position_sigma > options.max_position_sigma
                       ? "position_uncertain"
-                      : faultOf(host, signals, *options);
+                      : faultOf(host, signals, options);
   if (advice.reason.empty()) {
     for (const Candidate& candidate : candidates) {
-      adviseLane(host, candidate, *signals, *options, advice);
+      adviseLane(host, candidate, *signals, options, advice);
     }
-    agree(host, *options, advice);
+    agree(host, options, advice);
   }
   return advice;
 }

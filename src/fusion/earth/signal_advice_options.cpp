@@ -10,10 +10,11 @@ void SignalAdviceOptions::visit(OptionVisitor& visitor) {
                  {0.05, 1.5});
   visitor.number({"lane_width", "m", "of an intersection that does not say it"}, lane_width,
                  {1.0, 10.0});
-  visitor.number({"max_position_sigma", "m",
-                  "standard deviation of the vehicle's place on the earth, above which there is no "
-                  "advice: a lane and a half"},
-                 max_position_sigma, {0.1, 50.0});
+  visitor.number(
+      {"max_position_sigma", "m",
+       "standard deviation of the vehicle's position on the earth, above which there is no "
+       "advice: a lane and a half"},
+      max_position_sigma, {0.1, 50.0});
   visitor.number({"bound", "1", "standard deviations within which the vehicle is taken to be"},
                  bound, {0.0, 5.0});
   visitor.number(
@@ -21,7 +22,7 @@ void SignalAdviceOptions::visit(OptionVisitor& visitor) {
       time_margin, {0.0, 5.0});
   visitor.number({"stop_time", "s",
                   "for which yellow and red last at least after green whose next lights are not "
-                  "told: 3 s of yellow at 50 km/h and a red of some seconds (RiLSA 2015)"},
+                  "given: 3 s of yellow at 50 km/h and a red of some seconds (RiLSA 2015)"},
                  stop_time, {0.0, 60.0});
   visitor.number({"comfort_deceleration", "m/s^2",
                   "with which the vehicle stops at yellow if it can (ITE: 3.05)"},

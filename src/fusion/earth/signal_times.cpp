@@ -97,14 +97,14 @@ TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from) {
 EventStart startOf(const SpatEvent& event, const TimeSpan& before, bool is_first, Stamp reference,
                    Stamp from) {
   constexpr double kMark = 0.1;  // s, to which marks are rounded
-  const std::optional<double> told = event.timing ? secondsTo(event.timing->start, reference, from,
-                                                              is_first ? kLongestPhase : kLatePast)
-                                                  : std::nullopt;
+  const std::optional<double> start = event.timing ? secondsTo(event.timing->start, reference, from,
+                                                               is_first ? kLongestPhase : kLatePast)
+                                                   : std::nullopt;
   const double due = is_first ? secondsBetween(from, reference) : before.first;
-  if (!told || *told <= due + kMark) {
-    return {{std::min(before.first, told.value_or(before.first)), before.last}};
+  if (!start || *start <= due + kMark) {
+    return {{std::min(before.first, start.value_or(before.first)), before.last}};
   }
-  return {{before.first, std::max(before.last, *told)}, *told};
+  return {{before.first, std::max(before.last, *start)}, *start};
 }
 
 }  // namespace datmo

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/wire/wire_error.h"
 
@@ -41,9 +40,7 @@ Place placeOf(const ItsPosition& position, const StationMessageOptions& options)
     throw WireError("no_position",
                     "a station that does not know where it is, or only to 41 m: left out");
   }
-  GeodeticPosition place;
-  place.latitude = degrees(kItsGeodetic * static_cast<double>(position.latitude));
-  place.longitude = degrees(kItsGeodetic * static_cast<double>(position.longitude));
+  GeodeticPosition place = geodeticOf(position.latitude, position.longitude);
   place.altitude = position.altitude == ItsPosition::kNoAltitude
                        ? 0.0
                        : kItsCentimeter * static_cast<double>(position.altitude);

@@ -52,6 +52,15 @@ void skipRegionals(Uper& uper) {
   skipList(uper, kMost, [](Uper& one) { skipRegional(one); });
 }
 
+void skipEnd(Uper& uper, bool has_regional, bool is_extended) {
+  if (has_regional) {
+    skipRegionals(uper);
+  }
+  if (is_extended) {
+    uper.skipAdditions();
+  }
+}
+
 void skipEnumerated(Uper& uper, std::int64_t last) {
   if (uper.extended()) {
     uper.skipSmallNumber();

@@ -50,6 +50,11 @@ ItsAngle itsAngle(double angle, double variance) {
 
 }  // namespace
 
+GeodeticPosition geodeticOf(std::int64_t latitude, std::int64_t longitude) {
+  return {degrees(kItsGeodetic * static_cast<double>(latitude)),
+          degrees(kItsGeodetic * static_cast<double>(longitude)), 0.0};
+}
+
 std::int64_t toItsTime(Stamp stamp, int leap_seconds) {
   return stamp.nanoseconds / kNanosecondsPerMillisecond +
          kMillisecondsPerSecond * (leap_seconds - kEpoch);

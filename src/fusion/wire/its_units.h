@@ -13,10 +13,9 @@ namespace datmo {
 
 // Between the units of the standard and ours.
 
-inline constexpr double kItsCentimeter = 0.01;  ///< m; m/s of speeds
-inline constexpr double kItsDecimeter = 0.1;    ///< m
-inline constexpr double kItsGeodetic = 1e-7;    ///< deg, of latitudes and longitudes
-inline constexpr double kItsPercent = 0.01;     ///< 1
+inline constexpr double kItsDecimeter = 0.1;  ///< m
+inline constexpr double kItsGeodetic = 1e-7;  ///< deg, of latitudes and longitudes
+inline constexpr double kItsPercent = 0.01;   ///< 1
 
 /// TimestampIts: milliseconds since 2004 began in UTC, leap seconds counted; ours are not. With
 /// those since then.

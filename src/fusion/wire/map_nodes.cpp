@@ -138,12 +138,7 @@ void walkComputed(Uper& uper, MapComputedLane& lane) {
     }
   }
   lane.is_changed = has_turn || has_x_scale || has_y_scale || has_regional;
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 }  // namespace

@@ -95,12 +95,7 @@ void walkLane(Uper& uper, MapLane& lane) {
   if (has_overlays) {
     skipList(uper, 5, [](Uper& one) { one.skipInteger(0, kItsByteMax); });
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 /// DF Position3D, but for the elevation.
@@ -113,12 +108,7 @@ void walkReference(Uper& uper, MapIntersection& intersection) {
   if (has_elevation) {
     uper.skipInteger(-4096, 61439);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 void walkIntersectionGeometry(Uper& uper, MapIntersection& intersection) {
@@ -142,12 +132,7 @@ void walkIntersectionGeometry(Uper& uper, MapIntersection& intersection) {
   if (has_preemption) {
     skipList(uper, 32, skipPreemption);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 /// What comes behind the intersections is not read.

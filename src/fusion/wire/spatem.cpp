@@ -29,12 +29,7 @@ void skipAdvisorySpeed(Uper& uper) {
   if (has_class) {
     uper.skipInteger(0, kItsByteMax);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 /// DF ConnectionManeuverAssist.
@@ -56,12 +51,7 @@ void skipAssist(Uper& uper) {
       uper.skipInteger(0, 1);
     }
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 void walkTiming(Uper& uper, SpatTiming& timing) {
@@ -94,12 +84,7 @@ void walkEvent(Uper& uper, SpatEvent& event) {
   if (has_speeds) {
     skipList(uper, 16, skipAdvisorySpeed);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 void walkMovement(Uper& uper, SpatMovement& movement) {
@@ -115,12 +100,7 @@ void walkMovement(Uper& uper, SpatMovement& movement) {
   if (has_assists) {
     skipList(uper, 16, skipAssist);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 void walkIntersectionState(Uper& uper, SpatIntersection& intersection) {
@@ -146,12 +126,7 @@ void walkIntersectionState(Uper& uper, SpatIntersection& intersection) {
   if (has_assists) {
     skipList(uper, 16, skipAssist);
   }
-  if (has_regional) {
-    skipRegionals(uper);
-  }
-  if (is_extended) {
-    uper.skipAdditions();
-  }
+  skipEnd(uper, has_regional, is_extended);
 }
 
 /// What comes behind the intersections is not read.

@@ -71,6 +71,9 @@ StationTrack fromMessage(const datmo_fusion::StationTrack& message, const LocalP
   return track;
 }
 
+/// Our own track has this number.
+constexpr std::uint32_t kOwnId = 0;
+
 }  // namespace
 
 EarthFrameMessage toMessage(const EarthFrame& frame, const std::string& map_frame) {
@@ -150,6 +153,20 @@ StationTrackList fromMessage(const StationTracksMessage& message, const LocalPla
     list.tracks.push_back(fromMessage(track, plane));
   }
   return list;
+}
+
+std::optional<OwnTrack> ownTrack(const StationTracksMessage& message) {
+  const auto own = std::find_if(message.tracks.begin(), message.tracks.end(),
+                                [](const auto& track) { return track.id == kOwnId; });
+  if (own == message.tracks.end()) {
+    return std::nullopt;
+  }
+  const GeodeticPosition position = geodetic(*own, 0.0);
+  if (!isValid(position)) {
+    return std::nullopt;
+  }
+  const LocalPlane plane(position);
+  return OwnTrack{plane, fromMessage(*own, plane)};
 }
 
 }  // namespace datmo

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// A gap of more is another count (a bag that begins at another place), no loss.
+/// A gap of more is another count (a bag that begins elsewhere), no loss.
 constexpr std::uint32_t kMaxGap = 1000;
 
 /// Publishers that are remembered: those with a new name at each start are many.

@@ -71,5 +71,20 @@ TEST_F(DatagramLoopbackTest, ANameThatIsNoneIsAFault) {
   EXPECT_EQ(faults_.take(), "no_connection");
 }
 
+TEST_F(DatagramLoopbackTest, ANameIsLookedUpAtTheFirstDatagramAndAgainAfterAPause) {
+  constexpr double kLong = 3600.0;  // s
+  DatagramDestination unknown("no host is named so", port_, kLong);
+  EXPECT_THROW(unknown.send("first"), DeviceError);
+  EXPECT_FALSE(unknown.send("in the pause"));
+  DatagramDestination again("no host is named so", port_, 0.0);
+  EXPECT_THROW(again.send("first"), DeviceError);
+  EXPECT_THROW(again.send("second"), DeviceError);
+  EXPECT_FALSE(DatagramDestination("", port_, 0.0).send("to nobody"));
+  const auto listener = listen();
+  EXPECT_TRUE(listening_.take());
+  EXPECT_TRUE(DatagramDestination("localhost", port_, kLong).send("to somebody"));
+  EXPECT_EQ(received_.take(), "to somebody");
+}
+
 }  // namespace
 }  // namespace datmo::datagram_test

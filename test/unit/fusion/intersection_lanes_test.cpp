@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lanes of an intersection in a plane, and places on them.
+// The lanes of an intersection in a plane, and positions on them.
 #include "datmo_fusion/fusion/earth/intersection_lanes.h"
 
 #include "fusion/signal_messages.h"
@@ -65,22 +65,22 @@ TEST(ApproachLanes, LanesThatVehiclesDoNotComeOnAndThoseThatCannotBeUsedAreLeftO
 TEST(PlaceOnLane, DistancesAreAlongTheLane) {
   ApproachLane lane;
   lane.points = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 20.0}};
-  LanePlace place = placeOn(lane, {4.0, 1.0});
-  EXPECT_NEAR(place.distance, 4.0, 1e-9);
-  EXPECT_NEAR(place.lateral, 1.0, 1e-9);
-  EXPECT_NEAR(std::abs(place.heading), kPi, 1e-9);  // to the west
-  place = placeOn(lane, {12.0, 15.0});
-  EXPECT_NEAR(place.distance, 25.0, 1e-9);
-  EXPECT_NEAR(place.lateral, 2.0, 1e-9);
-  EXPECT_NEAR(place.heading, -kQuarterTurn, 1e-9);
-  EXPECT_EQ(place.outside, 0.0);
-  place = placeOn(lane, {-3.0, 0.5});
-  EXPECT_NEAR(place.distance, -3.0, 1e-9);
-  EXPECT_NEAR(place.lateral, 0.5, 1e-9);
-  place = placeOn(lane, {10.0, 26.0});  // before it begins
-  EXPECT_NEAR(place.distance, 36.0, 1e-9);
-  EXPECT_NEAR(place.lateral, 0.0, 1e-9);
-  EXPECT_NEAR(place.outside, 6.0, 1e-9);
+  LanePosition position = positionOn(lane, {4.0, 1.0});
+  EXPECT_NEAR(position.distance, 4.0, 1e-9);
+  EXPECT_NEAR(position.lateral, 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(position.heading), kPi, 1e-9);  // to the west
+  position = positionOn(lane, {12.0, 15.0});
+  EXPECT_NEAR(position.distance, 25.0, 1e-9);
+  EXPECT_NEAR(position.lateral, 2.0, 1e-9);
+  EXPECT_NEAR(position.heading, -kQuarterTurn, 1e-9);
+  EXPECT_EQ(position.outside, 0.0);
+  position = positionOn(lane, {-3.0, 0.5});
+  EXPECT_NEAR(position.distance, -3.0, 1e-9);
+  EXPECT_NEAR(position.lateral, 0.5, 1e-9);
+  position = positionOn(lane, {10.0, 26.0});  // before it begins
+  EXPECT_NEAR(position.distance, 36.0, 1e-9);
+  EXPECT_NEAR(position.lateral, 0.0, 1e-9);
+  EXPECT_NEAR(position.outside, 6.0, 1e-9);
 }
 
 }  // namespace

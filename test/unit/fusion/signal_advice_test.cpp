@@ -103,7 +103,7 @@ TEST_F(SignalAdviceTest, GroupsOfOneLaneThatDifferAreNotKnown) {
   show({event(SignalState::kProtected, 30.0, 30.0)});
   show({event(SignalState::kStop, 30.0, 30.0)}, 4);
   EXPECT_EQ(advise()->reason, "groups_differ");
-  lanes_[0].groups = {3, 9};  // of which nothing is told
+  lanes_[0].groups = {3, 9};  // of which nothing is given
   EXPECT_EQ(advise()->reason, "not_known_on_arrival");
   lanes_[0].groups.clear();
   EXPECT_EQ(advise()->reason, "no_signal_group");
@@ -219,8 +219,8 @@ TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthWhatIsSaidIsSo) {
       advice.verdict == SignalVerdict::kUnknown ? ++not_said : ++said;
     }
   }
-  // Not said is what changes within 0.5 s of the arrival and 0.4 m of the place, before or after:
-  // about a second at two of the changes in a minute.
+  // Not said is what changes within 0.5 s of the arrival and 0.4 m of the position, before or
+  // after: about a second at two of the changes in a minute.
   EXPECT_GT(passes, 400);
   EXPECT_GT(said, 15 * not_said);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a group of lights shows on arrival, by its events: those that are told, and what lies
+// What a group of lights shows on arrival, by its events: those that are given, and what lies
 // between and after them.
 #include "lights_ahead.h"
 #include <gtest/gtest.h>

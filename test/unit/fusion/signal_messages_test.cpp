@@ -207,7 +207,7 @@ TEST(Mapem, WhatIsNotReadIsPassedOver) {
                       .add(0b00, 2)
                       .add(0, 6)  // two nodes
                       .add(0b01, 2)
-                      .add(6, 3)  // a place on the earth
+                      .add(6, 3)  // a position on the earth
                       .add(57210000 + 1800000000, 32)
                       .add(451910000 + 900000000, 31)
                       .add(attributes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM with our own place to advice; what is old, repeated or broken is counted.
+// SPATEM and MAPEM with our own position to advice; what is old, repeated or broken is counted.
 #include "datmo_fusion/ros/signal_wire.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ const Stamp kNewYear = Stamp::fromSeconds(1767225600.0);
 
 class SignalWireTest : public testing::Test {
  protected:
-  /// Green of group 3 until `end` (s), told at `seconds`.
+  /// Green of group 3 until `end` (s), given at `seconds`.
   static std::string spatem(double seconds, double end) {
     Spatem message = samples::spatem();
     SpatIntersection& intersection = message.intersections[0];

@@ -193,8 +193,8 @@ def _silent_scanner(values, played):
             begin = played.messages[0].recorded + since
             with tempfile.TemporaryDirectory(prefix="campaign_") as name:
                 run = _play(values, drive, silent, begin, Path(name))
-                way = read_path(run.drive, TRUTH).length_between(begin * NANOSECONDS, (begin + SILENT) * NANOSECONDS)
-                pose = gap_effect(*_path(run), clean, (begin, begin + SILENT), way)
+                distance = read_path(run.drive, TRUTH).length_between(begin * NANOSECONDS, (begin + SILENT) * NANOSECONDS)
+                pose = gap_effect(*_path(run), clean, (begin, begin + SILENT), distance)
                 ids = kept_ids(run.computed, run.drive, begin, begin + SILENT)
             results.append({"level": level, "from_s": since, **pose, **ids})
     return results

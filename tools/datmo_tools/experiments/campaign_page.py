@@ -45,10 +45,10 @@ def _silent_lines(runs):
         "## One scanner silent for 3 s, with a stereo camera",
         "",
         "At five times of that drive, by level of fusion. Error: that the silence added, at the first pose after it and the most from",
-        "0.5 s later on, in m and of the way driven meanwhile. Ids: of what moves in the camera's view before, meanwhile and",
+        "0.5 s later on, in m and of the distance driven meanwhile. Ids: of what moves in the camera's view before, meanwhile and",
         "after, how many have a track before and after, and how many of them under one id.",
         "",
-        "| level | from [s] | poses, lists of tracks meanwhile | way [m] | error after [m] | 0.5 s later [m] | of the way | seen | tracked | ids kept |",
+        "| level | from [s] | poses, lists of tracks meanwhile | distance [m] | error after [m] | 0.5 s later [m] | of the distance | seen | tracked | ids kept |",
         "|---|---|---|---|---|---|---|---|---|---|",
         *(_silent_row(run) for run in runs),
     ]
@@ -56,8 +56,8 @@ def _silent_lines(runs):
 
 def _silent_row(run):
     settled = run["settled_m"]
-    share = None if settled is None else settled / run["way_m"]
-    cells = [run["level"], f"{run['from_s']:g}", f"{run['poses_meanwhile']}, {run['lists_meanwhile']}", f"{run['way_m']:.1f}",
+    share = None if settled is None else settled / run["distance_m"]
+    cells = [run["level"], f"{run['from_s']:g}", f"{run['poses_meanwhile']}, {run['lists_meanwhile']}", f"{run['distance_m']:.1f}",
              rounded(run["first_m"], 2), rounded(settled, 2), f"{percent(share)} %", *(str(run[key]) for key in ("seen", "tracked", "kept"))]  # fmt: skip
     return f"| {' | '.join(cells)} |"
 

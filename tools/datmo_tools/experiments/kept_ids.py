@@ -57,18 +57,18 @@ def _ids_of(tracks, truth, seen, paths):
     return found
 
 
-def gap_effect(stamps, errors, clean, gap, way):
+def gap_effect(stamps, errors, clean, gap, distance_m):
     """What a gap did to the pose (dict): the error that it added at the first pose after it, and from
     BESIDE later on the most; None: no pose.
 
-    stamps (s) and errors (m), and the clean drive's: as of pose_errors; gap: begin and end (s); way: m,
-    driven in it.
+    stamps (s) and errors (m), and the clean drive's: as of pose_errors; gap: begin and end (s);
+    distance_m: driven in it.
     """
     begin, end = gap
     added = np.abs(errors - np.interp(stamps, *clean))
     after, settled = added[stamps >= end], added[stamps >= end + BESIDE]
     return {
-        "way_m": way,
+        "distance_m": distance_m,
         "poses_meanwhile": int(((stamps >= begin) & (stamps < end)).sum()),
         "first_m": float(after[0]) if len(after) else None,
         "settled_m": float(settled.max()) if len(settled) else None,

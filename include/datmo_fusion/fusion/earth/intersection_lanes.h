@@ -29,7 +29,7 @@ struct ApproachLanes {
 ApproachLanes approachLanes(const MapIntersection& intersection, const LocalPlane& plane);
 
 /// Where something is on a lane.
-struct LanePlace {
+struct LanePosition {
   double distance = 0.0;  ///< m along it to the stop line; negative: beyond it
   double lateral = 0.0;   ///< m from its middle
   double heading = 0.0;   ///< rad in the plane, of the lane there towards the intersection
@@ -37,6 +37,6 @@ struct LanePlace {
 };
 
 /// The nearest point of a lane. Beyond the stop line and its other end it goes straight on.
-LanePlace placeOn(const ApproachLane& lane, const Point2& point);
+LanePosition positionOn(const ApproachLane& lane, const Point2& point);
 
 }  // namespace datmo

@@ -74,13 +74,13 @@ struct SignalAdvice {
 /// leads into the intersection.
 ///
 /// A verdict holds for all that may be: for the whole time from the first to the last end that the
-/// lights may have, for the vehicle's place and speed and a margin of time, for each lane that it
-/// may be on, and for each of their groups, since the lane does not say where it wants to go. What
-/// differs among these is not known, nor what lies between two events. Green with right of way or
-/// not passes; yellow that it surely cannot stop for at `comfort_deceleration` passes, too.
+/// lights may have, for the vehicle's position and speed and a margin of time, for each lane that
+/// it may be on, and for each of their groups, since the lane does not say where it wants to go.
+/// What differs among these is not known, nor what lies between two events. Green with right of way
+/// or not passes; yellow that it surely cannot stop for at `comfort_deceleration` passes, too.
 std::optional<SignalAdvice> adviseSignals(const ApproachingHost& host,
                                           const std::vector<ApproachLane>& lanes,
                                           const std::optional<IntersectionSignals>& signals,
-                                          const Checked<SignalAdviceOptions>& options);
+                                          const SignalAdviceOptions& options);
 
 }  // namespace datmo

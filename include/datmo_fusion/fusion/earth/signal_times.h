@@ -39,13 +39,13 @@ std::optional<Stamp> stampOfMark(const std::optional<std::int64_t>& mark, Stamp 
 std::optional<double> secondsTo(const std::optional<std::int64_t>& mark, Stamp reference,
                                 Stamp from, double max_past = kLatePast);
 
-/// When an event ends: what is not told may be any time. A mark does not say its hour: the first
+/// When an event ends: what is not given may be any time. A mark does not say its hour: the first
 /// end is the earlier one that it may mean, the last one the later. Ends in the wrong order bound
 /// nothing after the first.
 TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from);
 
 /// When an event begins, after the one before it, which ends within `before`; and until when before
-/// that nothing is told.
+/// that nothing is given.
 struct EventStart {
   TimeSpan span;
   double gap_end = -kEver;  ///< s after the host's stamp; the gap begins at `before`'s first

@@ -41,6 +41,9 @@ void skipName(Uper& uper);
 void skipRegional(Uper& uper);
 void skipRegionals(Uper& uper);
 
+/// What comes last in a SEQUENCE: regional extensions, then additions of later versions.
+void skipEnd(Uper& uper, bool has_regional, bool is_extended);
+
 /// A BIT STRING of fixed size as a number whose most significant bit is the first one.
 inline void walkBits(Uper& uper, std::int64_t& value, unsigned size) {
   uper.integer(value, 0, (std::int64_t{1} << size) - 1);

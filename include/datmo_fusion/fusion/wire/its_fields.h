@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "datmo_fusion/fusion/earth/local_plane.h"
 #include "datmo_fusion/fusion/wire/uper.h"
 
 namespace datmo {
@@ -78,6 +79,11 @@ enum ItsStationType : std::int64_t {
   kItsAgricultural = 14,
   kItsRoadSide = 15
 };
+
+inline constexpr double kItsCentimeter = 0.01;  ///< m; m/s of speeds
+
+/// On the ellipsoid, of 1e-7 degrees.
+GeodeticPosition geodeticOf(std::int64_t latitude, std::int64_t longitude);
 
 /// Whatever message it is of.
 void walkFields(Uper& uper, ItsHeader& header);

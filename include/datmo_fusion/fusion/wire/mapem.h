@@ -12,7 +12,7 @@
 namespace datmo {
 
 /// DF NodeXY, but for its attributes: a step from the node before it, at first from the
-/// intersection's reference point, or a place on the earth.
+/// intersection's reference point, or a position on the earth.
 struct MapNode {
   bool is_geodetic = false;
   std::int64_t x = 0;  ///< 0.01 m to the east; 1e-7 deg of longitude

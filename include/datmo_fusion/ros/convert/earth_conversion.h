@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include <datmo_fusion/EarthFrame.h>
 #include <datmo_fusion/StationTracks.h>
 
@@ -36,6 +38,15 @@ GeodeticPosition positionOf(const sensor_msgs::NavSatFix& message);
 Eigen::Matrix2d covarianceOf(const sensor_msgs::NavSatFix& message, double sigma);
 
 StationTracksMessage toMessage(const StationTrackList& list, const LocalPlane& plane);
+
+/// Our own track, that with id 0, in the plane that touches the earth there.
+struct OwnTrack {
+  LocalPlane plane;
+  StationTrack track;
+};
+
+/// None if it is not in the list, or not on the earth.
+std::optional<OwnTrack> ownTrack(const StationTracksMessage& message);
 
 /// Tracks that are not on the earth get a position of NaN, so that they are counted.
 StationTrackList fromMessage(const StationTracksMessage& message, const LocalPlane& plane);

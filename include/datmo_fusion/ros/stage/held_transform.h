@@ -24,7 +24,7 @@ class HeldTransform {
   void drop() { last_.reset(); }
 
   /// At the stamp of a motion that came now; none before the first, while scans come, and when they
-  /// have been silent for so long that odometry tells too little.
+  /// have been silent for so long that odometry alone is not enough.
   std::optional<geometry_msgs::TransformStamped> at(Stamp stamp, Stamp now) const;
 
   void clear() { *this = {}; }
