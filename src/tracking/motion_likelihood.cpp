@@ -86,9 +86,9 @@ struct CrossingBeams {
   }
 
   BeamEvidence evidence(double detection_strength) const {
-    return observed == 0
-               ? BeamEvidence{}
-               : BeamEvidence{log_moving - logStanding(detection_strength), {}, observed, false};
+    return observed == 0 ? BeamEvidence{}
+                         : BeamEvidence{log_moving - logStanding(detection_strength), 0.0, 0.0,
+                                        observed, false};
   }
 };
 
@@ -97,6 +97,9 @@ constexpr double kSignificant = 3.84;
 
 /// s, over which the scanner's own velocity is taken.
 constexpr double kVelocityTime = 0.3;
+
+/// rad; how well its direction tells where the vehicle will pass.
+constexpr double kCourseStd = 0.02;
 
 Point2 scannerVelocity(const ScanHistory& history) {
   std::size_t back = 1;
@@ -108,16 +111,27 @@ Point2 scannerVelocity(const ScanHistory& history) {
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Whether its motion is that of the end of one beam along a surface that stands, as the scanner
-/// moves past it: the bearing stays, and the surface does not lie on the scanner's own path.
-bool maySlide(const ScanHistory& history, const BeamPositions& seen, const MovingBody& body) {
+/// That a wall may stand there, beside the vehicle's path: the course is the scanner's.
+double besidePath(const Point2& line_of_sight, const Point2& course, double free_path) {
+  const double lateral = std::abs(cross(course, line_of_sight));
+  return insideProbability(free_path, lateral, kCourseStd * line_of_sight.norm());
+}
+
+/// Share of what stands there and seems to move so that is the end of one beam along a surface, as
+/// the scanner moves past it; 0 where the bearing does not stay.
+double grazingShare(const ScanHistory& history, const BeamPositions& seen, const MovingBody& body,
+                    const MotionLikelihoodOptions& options) {
   if (history.size() < 2 || body.velocity.isZero() || !seen.keepsItsBeam()) {
-    return false;
+    return 0.0;
   }
   const Point2 line_of_sight = body.box.center.position() - history.scanner(0);
-  const double across = cross(line_of_sight.normalized(), body.velocity - scannerVelocity(history));
-  const double offset = std::abs(cross(line_of_sight, body.velocity.normalized()));
-  return square(across) < kSignificant * body.speed_variance && offset >= body.box.width;
+  const Point2 own_velocity = scannerVelocity(history);
+  const double across = cross(line_of_sight.normalized(), body.velocity - own_velocity);
+  if (square(across) >= kSignificant * body.speed_variance || own_velocity.isZero()) {
+    return 0.0;
+  }
+  return options.grazing_share *
+         besidePath(line_of_sight, own_velocity.normalized(), options.free_path);
 }
 
 /// What the beams of one scan say of the positions of `seen`, at `time` on its clock.
@@ -177,6 +191,10 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
       {"grazing_share", "1",
        "of single echoes that stand and keep their bearing: ends of a beam along a wall"},
       grazing_share, kProbability);
+  visitor.number({"free_path", "m",
+                  "to each side of the vehicle's course, where no such wall stands: half of a lane "
+                  "of 3.5 m; indoors half of what the robot needs"},
+                 free_path, {0.0, 10.0});
   visitor.number({"apparent_motion", "1",
                   "that what stands seems to move: what is seen of it slides, or echoes of "
                   "different things were joined"},
@@ -227,7 +245,8 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
   };
   BeamEvidence evidence = sumWith(Point2::Zero());
   evidence.by_others = positions.areOfOthers();
-  if (maySlide(history, positions, body)) {
+  evidence.grazing_share = grazingShare(history, positions, body, options);
+  if (evidence.grazing_share > 0.0) {
     evidence.log_ratio_to_grazing = sumWith(body.velocity.normalized()).log_ratio;
   }
   return evidence;
@@ -248,12 +267,11 @@ double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
   return std::log(moving / standing);
 }
 
-double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, double grazing_share) {
+double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio) {
   const double facing = beams.log_ratio + velocity_log_ratio;
-  return beams.log_ratio_to_grazing
-             ? -std::log((1.0 - grazing_share) * std::exp(-facing) +
-                         grazing_share * std::exp(-*beams.log_ratio_to_grazing))
-             : facing;
+  const double grazing = beams.log_ratio_to_grazing;
+  return -std::log((1.0 - beams.grazing_share) * std::exp(-facing) +
+                   beams.grazing_share * std::exp(-grazing));
 }
 
 double motionProbability(double log_ratio, double existence_log_odds,

@@ -122,16 +122,13 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
                         0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
   BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
-  if (beams.log_ratio_to_grazing) {
-    // The end of a beam moves along a wall that stands, and what was measured is the wall.
-    *beams.log_ratio_to_grazing -= std::log(standing_velocity_ratio_);
-  }
+  // The end of a beam moves along a wall that stands, and what was measured is the wall.
+  beams.log_ratio_to_grazing -= std::log(standing_velocity_ratio_);
   const double false_motion =
       beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
   const double log_ratio = motion_log_odds_ +
                            classLogRatio(class_.probabilities(), options.motion_by_class) +
-                           motionLogRatio(beams, trackedVelocityEvidence(false_motion, options),
-                                          options.motion_likelihood.grazing_share);
+                           motionLogRatio(beams, trackedVelocityEvidence(false_motion, options));
   return datmo::motionProbability(log_ratio, existence_.logOdds(options.existence),
                                   options.motion_likelihood);
 }

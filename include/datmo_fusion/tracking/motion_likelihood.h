@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +20,7 @@ struct MotionLikelihoodOptions {
   double echo_detection = 0.6;         ///< 1
   double background = 0.05;            ///< 1
   double grazing_share = 0.1;          ///< 1
+  double free_path = 1.75;             ///< m
   double apparent_motion = 0.1;        ///< 1
   double apparent_box_motion = 0.005;  ///< 1
   double wrong_velocity = 0.02;        ///< 1
@@ -41,10 +41,11 @@ struct MovingBody {
 /// What the beams of the last scans say of a target.
 struct BeamEvidence {
   double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
-  /// That it moves over that it is the end of a beam along a wall; none: it cannot be.
-  std::optional<double> log_ratio_to_grazing;
-  std::size_t observed = 0;  ///< informative beams; 0: nothing is known
-  bool by_others = false;    ///< no beam ended on it: other sensors see it
+  double log_ratio_to_grazing =
+      0.0;                     ///< that it moves over that it is the end of a beam along a wall
+  double grazing_share = 0.0;  ///< of what stands there, the share of such ends; 0: it is none
+  std::size_t observed = 0;    ///< informative beams; 0: nothing is known
+  bool by_others = false;      ///< no beam ended on it: other sensors see it
 };
 
 /// Asks all beams of a window of scans whether something was at the positions where a target was
@@ -62,7 +63,8 @@ struct BeamEvidence {
 ///
 /// Of a single echo the surface's direction is not known. Either it faces the beam; or the echo is
 /// the end of one beam that slides along a wall as the vehicle passes, and the surface runs along
-/// the target's motion (motionLogRatio).
+/// the target's motion (motionLogRatio). Walls, hedges and parked rows stand beside the vehicle's
+/// path, not in it: the nearer to its course an echo is, the less likely is that.
 ///
 /// Sources of the idea: Wang, Posner, Newman, Model-free detection
 /// and tracking of dynamic objects with 2D lidar, 2015 (one likelihood of all beams); Petrovskaya
@@ -85,9 +87,9 @@ double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
                         const std::vector<double>& speed_stds, double apparent_motion);
 
 /// Logarithm of how much likelier all that was observed is for a target that moves than for one
-/// that stands: by its beams and by its velocity. Of what stands, `grazing_share` are ends of a
-/// beam along a wall, where that may be: these have an apparent velocity, so it says nothing.
-double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, double grazing_share);
+/// that stands: by its beams and by its velocity. The end of a beam along a wall has an apparent
+/// velocity, so that this says nothing then.
+double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio);
 
 /// That a target moves and exists: neither something that stands nor a chain of false alarms.
 /// `log_ratio`: logarithm of how much likelier what is known of it is if it moves than if it

@@ -117,4 +117,10 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                     is_intersection ? intersection(joint.share) : independent(joint.share));
 }
 
+StateEstimate mixtureOf(const StateEstimate& a, const StateEstimate& b) {
+  const TrackState half_apart = 0.5 * (b.mean - a.mean);
+  return {a.mean + half_apart,
+          0.5 * (a.covariance + b.covariance) + half_apart * half_apart.transpose()};
+}
+
 }  // namespace datmo

@@ -144,10 +144,12 @@ std::vector<SourceTrack> mergedSources(const Track& a, const Track& b) {
 
 }  // namespace
 
-Track combined(Track a, const Track& b, const CrossCovariance& cross,
+Track combined(Track a, const Track& b, bool contradict, const CrossCovariance& cross,
                const TrackCombinationOptions& options) {
+  const StateEstimate of_a{a.state, a.covariance};
+  const StateEstimate of_b{b.state, b.covariance};
   const StateEstimate estimate =
-      fusedState({a.state, a.covariance}, {b.state, b.covariance}, cross, options);
+      contradict ? mixtureOf(of_a, of_b) : fusedState(of_a, of_b, cross, options);
   const Heading heading = fusedHeading(a, b, estimate.mean);
   a.box = fusedBox(a, b, Pose2(estimate.mean.head<2>(), heading.value));
   a.heading_variance = heading.variance;

@@ -137,9 +137,11 @@ std::vector<Track> TrackFuser::fused(const std::vector<TrackGroup>& groups,
         whole = std::move(track);
         continue;
       }
+      const TrackComparisonOptions& comparison = options_.association.comparison;
+      const bool contradict = compare(*whole, track, comparison).squared_distance > comparison.gate;
       reconcileExtents(*whole, sensors[group[0].list], track, sensors[group[i].list]);
       const double age = std::max(whole->age, track.age);
-      whole = combined(*std::move(whole), track, crossCovariance(group, i, present),
+      whole = combined(*std::move(whole), track, contradict, crossCovariance(group, i, present),
                        options_.combination);
       whole->age = age;
     }

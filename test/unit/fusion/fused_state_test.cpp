@@ -53,6 +53,15 @@ TEST(FusedStateTest, IndependentEstimatesAreWeightedByTheirVariances) {
   }
 }
 
+TEST(FusedStateTest, AMixtureCoversBothOfTwoThatContradictEachOther) {
+  // Mean 2, variance (1 + 3) / 2 + 2^2, and all components go along with each other.
+  const StateEstimate mixture = mixtureOf(estimateAt(0.0, 1.0), estimateAt(4.0, 3.0));
+  EXPECT_TRUE(mixture.mean.isApproxToConstant(2.0, 1e-12));
+  EXPECT_TRUE(mixture.covariance.isApprox(
+      TrackCovariance::Identity() * 2.0 + TrackCovariance::Constant(4.0), 1e-12));
+  EXPECT_TRUE(isPositive(mixture.covariance));
+}
+
 TEST(FusedStateTest, BarShalomCampoIsByHand) {
   // K = (1 - 0.5) / (1 + 3 - 2 * 0.5) = 1/6; P = 1 - 0.5 / 6.
   const CrossCovariance cross = CrossCovariance::Identity() * 0.5;

@@ -25,18 +25,27 @@ void turnTo(Track& track, double heading) {
 }
 
 double fusedHeading(const Track& a, const Track& b) {
-  const double heading = combined(a, b, kNoCross, kOptions).box.center.heading();
-  const double other = combined(b, a, kNoCross, kOptions).box.center.heading();
+  const double heading = combined(a, b, false, kNoCross, kOptions).box.center.heading();
+  const double other = combined(b, a, false, kNoCross, kOptions).box.center.heading();
   EXPECT_NEAR(std::cos(heading - other), 1.0, 1e-9) << heading << " or " << other;
   return heading;
 }
 
 TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
-  const Track fused = combined(lidarCar(), stereoCar(), kNoCross, kOptions);
+  const Track fused = combined(lidarCar(), stereoCar(), false, kNoCross, kOptions);
   EXPECT_NEAR(fused.state[0], 10.2, 1e-9);
   EXPECT_NEAR(fused.state[2], 5.1, 1e-9);
   EXPECT_NEAR((fused.box.center.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
   EXPECT_NEAR(fused.covariance(0, 0), 0.04, 1e-9);
+}
+
+TEST(TrackCombinationTest, OfTwoThatContradictEachOtherTheCovarianceCoversBoth) {
+  Track stands = stereoCar();
+  stands.state.segment<2>(2).setZero();
+  const Track fused = combined(lidarCar(), stands, true, kNoCross, kOptions);
+  EXPECT_NEAR(fused.state[2], 2.5, 1e-9);
+  EXPECT_GT(fused.covariance(2, 2), 2.5 * 2.5);
+  EXPECT_NEAR((fused.box.center.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
 }
 
 TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
@@ -45,11 +54,11 @@ TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
   turnTo(b, 0.2);
   EXPECT_NEAR(fusedHeading(a, b), 0.1, 1e-9);
   // No surer than one of them: both follow the same motion.
-  EXPECT_NEAR(combined(a, b, kNoCross, kOptions).heading_variance, 0.01, 1e-9);
+  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).heading_variance, 0.01, 1e-9);
   // Weights 3/4 and 1/4 of the informations 100 and 100/3: 75 and 8.33.
   b.heading_variance = 0.03;
   EXPECT_NEAR(fusedHeading(a, b), 0.02, 1e-9);
-  EXPECT_NEAR(combined(a, b, kNoCross, kOptions).heading_variance, 0.012, 1e-9);
+  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).heading_variance, 0.012, 1e-9);
 }
 
 TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
@@ -87,7 +96,7 @@ TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
   b.box.width = 2.8;
   b.covariance(0, 0) = 0.25;
   b.covariance(1, 1) = 0.09;
-  const Box2 box = combined(a, b, kNoCross, kOptions).box;
+  const Box2 box = combined(a, b, false, kNoCross, kOptions).box;
   EXPECT_NEAR(box.length, (3.0 * 0.25 + 5.0 * 1.0) / 1.25, 1e-9);
   EXPECT_NEAR(box.width, (1.8 * 0.09 + 2.8 * 0.01) / 0.10, 1e-9);
 }
@@ -99,7 +108,7 @@ TEST(TrackCombinationTest, SizesAreThoseAlongTheCommonAxes) {
   a.box.width = 4.5;
   turnTo(a, kQuarterTurn);
   a.heading_variance = 0.005;
-  const Box2 box = combined(a, stereoCar(), kNoCross, kOptions).box;
+  const Box2 box = combined(a, stereoCar(), false, kNoCross, kOptions).box;
   EXPECT_NEAR(box.center.heading(), kQuarterTurn, 1e-9);
   EXPECT_NEAR(box.length, 1.8, 1e-9);
   EXPECT_NEAR(box.width, 4.5, 1e-9);
@@ -111,12 +120,12 @@ TEST(TrackCombinationTest, ClassesAreFusedByBayes) {
   // Of even odds of 1: 4 and 1: 2, the others never above.
   a.class_probabilities = {0.1, 0.1, 0.4, 0.3, 0.1};
   b.class_probabilities = {0.1, 0.1, 0.1, 0.6, 0.1};
-  const Track fused = combined(a, b, kNoCross, kOptions);
+  const Track fused = combined(a, b, false, kNoCross, kOptions);
   // Products 0.01, 0.01, 0.04, 0.18, 0.01 of 0.25; 0.95 of them, and 0.01.
   EXPECT_NEAR(fused.class_probabilities[3], 0.95 * 0.72 + 0.01, 1e-9);
   EXPECT_NEAR(fused.class_probabilities[2], 0.95 * 0.16 + 0.01, 1e-9);
   b.class_probabilities = {};
-  EXPECT_NEAR(combined(a, b, kNoCross, kOptions).class_probabilities[3], 0.2, 1e-9);
+  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).class_probabilities[3], 0.2, 1e-9);
 }
 
 TEST(TrackCombinationTest, TheMotionModesAreAveraged) {
@@ -125,12 +134,12 @@ TEST(TrackCombinationTest, TheMotionModesAreAveraged) {
   a.mode_probabilities = {1.0, 0.0, 0.0, 0.0, 0.0};
   b.mode_probabilities = {0.5, 0.0, 0.5, 0.0, 0.0};
   b.yaw_rate = 0.2;
-  const Track fused = combined(a, b, kNoCross, kOptions);
+  const Track fused = combined(a, b, false, kNoCross, kOptions);
   EXPECT_NEAR(fused.mode_probabilities[0], 0.75, 1e-12);
   EXPECT_NEAR(fused.mode_probabilities[2], 0.25, 1e-12);
   EXPECT_NEAR(fused.yaw_rate, 0.1, 1e-12);
   b.mode_probabilities = {};
-  EXPECT_EQ(combined(a, b, kNoCross, kOptions).mode_probabilities, a.mode_probabilities);
+  EXPECT_EQ(combined(a, b, false, kNoCross, kOptions).mode_probabilities, a.mode_probabilities);
 }
 
 TEST(TrackCombinationTest, TheRestOfBothIsKept) {
@@ -143,7 +152,7 @@ TEST(TrackCombinationTest, TheRestOfBothIsKept) {
   b.height = 1.5;
   a.since_update = 0.3;
   a.hits = std::numeric_limits<std::uint32_t>::max() - 5;
-  const Track fused = combined(a, b, kNoCross, kOptions);
+  const Track fused = combined(a, b, false, kNoCross, kOptions);
   EXPECT_EQ(fused.sensors, (std::vector<std::string>{"lidar", "stereo"}));
   ASSERT_EQ(fused.sources.size(), 3U);
   EXPECT_EQ(fused.sources[0].source, "lidar");
@@ -162,7 +171,7 @@ TEST(TrackCombinationTest, IdExistenceAgeAndHistoryAreThoseOfTheFirst) {
   a.history = {{Stamp{1}, Pose2()}};
   b.existence_probability = 0.1;
   b.age = 9.0;
-  const Track fused = combined(a, b, kNoCross, kOptions);
+  const Track fused = combined(a, b, false, kNoCross, kOptions);
   EXPECT_EQ(fused.id, a.id);
   EXPECT_EQ(fused.existence_probability, a.existence_probability);
   EXPECT_EQ(fused.age, a.age);
@@ -188,9 +197,9 @@ TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
       track.box.length = random.uniform(1.0, 6.0);
       turnTo(track, random.uniform(-kPi, kPi));
     }
-    const Track one = combined(tracks[0], tracks[1], kNoCross, kOptions);
-    const Track swapped = combined(tracks[1], tracks[0], kNoCross, kOptions);
-    const Track other = combined(turned(tracks[0]), turned(tracks[1]), kNoCross, kOptions);
+    const Track one = combined(tracks[0], tracks[1], false, kNoCross, kOptions);
+    const Track swapped = combined(tracks[1], tracks[0], false, kNoCross, kOptions);
+    const Track other = combined(turned(tracks[0]), turned(tracks[1]), false, kNoCross, kOptions);
     for (const auto& [expected, actual] :
          {std::pair(one, swapped), std::pair(turned(one), other)}) {
       EXPECT_TRUE(actual.state.isApprox(expected.state, 1e-6));

@@ -50,6 +50,25 @@ TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
   EXPECT_EQ(result.list.views.size(), 2U);
 }
 
+TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
+  // They were one for two seconds, at 5 m/s; now one of them is wrong.
+  TrackFuser fuser(withScheme(TrackScheme::kByExistence));
+  const auto step = [&](double t, double speed_of_stereo) {
+    Track own = driving(-19.7, t, "stereo", 1);
+    own.state[2] = speed_of_stereo;
+    own.covariance.block<2, 2>(2, 2) = 0.0025 * Eigen::Matrix2d::Identity();
+    return fuser.fuse(at(t), {lidar(t, {driving(-20.0, t, "lidar", 1)}), stereo(t, {own})});
+  };
+  for (int i = 0; i < 20; ++i) {
+    step(0.1 * i, 5.0);
+  }
+  const TrackFusionResult result = step(2.0, 0.0);
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  const Track& both = result.list.tracks[0];
+  ASSERT_EQ(both.sources.size(), 2U);
+  EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
+}
+
 TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kConfirmedByAll);
   ASSERT_EQ(result.list.tracks.size(), 1U);

@@ -2,7 +2,6 @@
 #include "datmo_fusion/tracking/motion_likelihood.h"
 
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "scan_history_samples.h"
@@ -166,11 +165,12 @@ TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotAsked) {
   EXPECT_EQ(evidence(2.5, elsewhere()).observed, 0U);
 }
 
-/// The end of a beam that moves along a wall with the scanner, 1 m/s, as the scanner passes it.
+/// The end of a beam that moves along a wall with the scanner, 1 m/s along x, as the scanner passes
+/// it.
 class GrazingTest : public BeamEvidenceTest {
  protected:
   /// Scans of an echo at these positions relative to the scanner, 0.1 s apart.
-  BeamEvidence follow(const std::vector<Point2>& positions) {
+  double grazingShare(const std::vector<Point2>& positions) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const double seconds = 0.1 * static_cast<double>(i);
       const double x = seconds;  // of the scanner
@@ -182,12 +182,32 @@ class GrazingTest : public BeamEvidenceTest {
     return evidence(end, {{Pose2(positions.back() + Point2(end, 0.0), 0.0), 0.5, 0.5},
                           {0.0, 0.0},
                           {1.0, 0.0},
-                          0.04});
+                          0.04})
+        .grazing_share;
+  }
+  double grazingShareAt(const Point2& position) {
+    return grazingShare({position, position, position});
   }
 };
 
-TEST_F(GrazingTest, AnEchoThatKeepsItsBeamMayBeTheEndOfOneAlongAWall) {
-  EXPECT_TRUE(follow({{20.0, 5.0}, {20.0, 5.0}, {20.0, 5.0}}).log_ratio_to_grazing);
+TEST_F(GrazingTest, AnEchoBesideThePathThatKeepsItsBeamMayBeTheEndOfOneAlongAWall) {
+  EXPECT_NEAR(grazingShareAt({20.0, 5.0}), options_.grazing_share, 1e-9);
+}
+
+TEST_F(GrazingTest, NoWallStandsInTheVehiclesOwnPath) {
+  EXPECT_LT(grazingShareAt({20.0, 0.5}), 0.01 * options_.grazing_share);
+}
+
+TEST_F(GrazingTest, AtTheEdgeOfThePathAWallIsHalfAsLikely) {
+  options_.free_path = 1.4;  // m: a beam looks there
+  EXPECT_NEAR(grazingShareAt({20.0, 1.4}), 0.5 * options_.grazing_share, 1e-9);
+}
+
+TEST_F(GrazingTest, FarAheadThePathIsLessCertain) {
+  const double near = grazingShareAt({20.0, 1.4});
+  history_.clear();
+  seen_.clear();
+  EXPECT_GT(grazingShareAt({40.0, 1.4}), 1.5 * near);
 }
 
 TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
@@ -197,11 +217,11 @@ TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
   }
   const MovingBody keeps_its_bearing{
       {Pose2(20.1, 5.0, 0.0), 0.5, 0.5}, {0.0, 0.0}, {1.0, 0.0}, 0.04};
-  EXPECT_FALSE(evidence(0.1, keeps_its_bearing).log_ratio_to_grazing);
+  EXPECT_EQ(evidence(0.1, keeps_its_bearing).grazing_share, 0.0);
 }
 
 TEST_F(GrazingTest, AnEchoThatGoesFromBeamToBeamIsNone) {
-  EXPECT_FALSE(follow({{20.0, 5.0}, {20.0, 5.7}, {20.0, 5.7}}).log_ratio_to_grazing);
+  EXPECT_EQ(grazingShare({{20.0, 5.0}, {20.0, 5.7}, {20.0, 5.7}}), 0.0);
 }
 
 const std::vector<double> kSpeeds = {2.0};  // m/s
@@ -238,20 +258,23 @@ TEST(VelocityLogRatio, SpeedsOfSeveralKindsAreAMixture) {
   EXPECT_GT(ratio({1.25, 8.0}), ratio({8.0}));
 }
 
-BeamEvidence evidence(double facing, std::optional<double> grazing) { return {facing, grazing, 1}; }
+/// `share`: of echoes at the end of a beam along a wall.
+BeamEvidence evidence(double facing, double grazing, double share) {
+  return {facing, grazing, share, 1};
+}
 
 TEST(MotionLogRatio, AddsTheVelocityWhereNothingGrazes) {
-  EXPECT_DOUBLE_EQ(motionLogRatio(evidence(1.5, std::nullopt), 0.5, 0.1), 2.0);
+  EXPECT_DOUBLE_EQ(motionLogRatio(evidence(1.5, 0.0, 0.0), 0.5), 2.0);
 }
 
 TEST(MotionLogRatio, TheEndOfABeamAlongAWallMovesToo) {
   // However fast it is, what the beams do not refute is as likely as its share.
-  EXPECT_NEAR(motionLogRatio(evidence(50.0, 0.0), 2.0, 0.1), std::log(10.0), 1e-9);
-  EXPECT_NEAR(motionLogRatio(evidence(50.0, 3.0), 2.0, 0.1), std::log(10.0) + 3.0, 1e-9);
+  EXPECT_NEAR(motionLogRatio(evidence(50.0, 0.0, 0.1), 2.0), std::log(10.0), 1e-9);
+  EXPECT_NEAR(motionLogRatio(evidence(50.0, 3.0, 0.1), 2.0), std::log(10.0) + 3.0, 1e-9);
 }
 
 TEST(MotionLogRatio, WhatFacesTheBeamsCountsByItsShare) {
-  EXPECT_NEAR(motionLogRatio(evidence(-2.0, 50.0), 1.0, 0.1), -1.0 - std::log(0.9), 1e-9);
+  EXPECT_NEAR(motionLogRatio(evidence(-2.0, 50.0, 0.1), 1.0), -1.0 - std::log(0.9), 1e-9);
 }
 
 TEST(MotionProbability, IsThatOfNeitherOfTheTwoOthers) {

@@ -41,6 +41,7 @@ PEOPLE_TRACKER = {
     "target": {
         "birth_speed_std": 1.5,  # m/s: people walk
         "stop_speed": 0.2,  # m/s
+        "motion_likelihood": {"free_path": 0.4},  # m: a robot passes close to walls
         "box": {
             "size": {
                 "vehicle": {"share": 1e-4},

@@ -35,9 +35,15 @@ struct TrackCombinationOptions {
 StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                          const CrossCovariance& cross, const TrackCombinationOptions& options);
 
+/// Two estimates that contradict each other: one of them is wrong, and which one is not known. The
+/// mixture of both, each as likely, by its mean and covariance (Bar-Shalom, Li, Kirubarajan 2001,
+/// 1.4.16; as covariance union, Uhlmann 2003, it covers both).
+StateEstimate mixtureOf(const StateEstimate& a, const StateEstimate& b);
+
 /// Two tracks at one time, taken for one object.
 ///
-/// State by fusedState, the box's center is its position. The heading is known modulo pi by its
+/// State by fusedState, or, if they `contradict` each other, by mixtureOf; the box's center is its
+/// position. The heading is known modulo pi by its
 /// variance, and by the motion where the front is. A tracker infers the center from the sides that
 /// it saw and the size that it thinks of, so the one whose center is surer along an axis of the box
 /// also knows better how far the box reaches along it: so are the sizes weighted. Height: the
@@ -47,7 +53,7 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
 /// are those of both, the time since the last object the shorter one; `objects` there are none.
 ///
 /// Id, existence, age and history are a's; all else is symmetric. Both must be valid.
-Track combined(Track a, const Track& b, const CrossCovariance& cross,
+Track combined(Track a, const Track& b, bool contradict, const CrossCovariance& cross,
                const TrackCombinationOptions& options);
 
 }  // namespace datmo
