@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/track/track_extents.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -130,25 +131,37 @@ std::vector<Track> TrackFuser::fused(const std::vector<TrackGroup>& groups,
                                      TrackFusionCounts& counts) {
   std::vector<Track> tracks;
   for (const TrackGroup& group : groups) {
-    std::optional<Track> whole;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      Track track = present[group[i].list].tracks[group[i].track];
-      if (!whole) {
-        whole = std::move(track);
-        continue;
-      }
-      const TrackComparisonOptions& comparison = options_.association.comparison;
-      const bool contradict = compare(*whole, track, comparison).squared_distance > comparison.gate;
-      reconcileExtents(*whole, sensors[group[0].list], track, sensors[group[i].list]);
-      const double age = std::max(whole->age, track.age);
-      whole = combined(*std::move(whole), track, contradict, crossCovariance(group, i, present),
-                       options_.combination);
-      whole->age = age;
+    if (group.size() > 1) {
+      tracks.push_back(joined(group, present, sensors));
+      ++counts.fused;
+    } else {
+      tracks.push_back(present[group[0].list].tracks[group[0].track]);
     }
-    counts.fused += group.size() > 1 ? 1 : 0;
-    tracks.push_back(std::move(*whole));
   }
   return tracks;
+}
+
+Track TrackFuser::joined(const TrackGroup& group, const std::vector<PresentTracks>& present,
+                         const std::vector<std::optional<Point2>>& sensors) {
+  TrackComparisonOptions comparison = options_.association.comparison;
+  const double body_variance = square(comparison.body_std);
+  comparison.body_std = 0.0;  // it is in the covariances of the members
+  const auto member = [&](std::size_t i) {
+    Track track = present[group[i].list].tracks[group[i].track];
+    track.covariance.diagonal().head<2>().array() += body_variance;
+    return track;
+  };
+  Track whole = member(0);
+  for (std::size_t i = 1; i < group.size(); ++i) {
+    Track track = member(i);
+    const bool contradict = compare(whole, track, comparison).squared_distance > comparison.gate;
+    reconcileExtents(whole, sensors[group[0].list], track, sensors[group[i].list]);
+    const double age = std::max(whole.age, track.age);
+    whole = combined(std::move(whole), track, contradict, crossCovariance(group, i, present),
+                     options_.combination);
+    whole.age = age;
+  }
+  return whole;
 }
 
 CrossCovariance TrackFuser::crossCovariance(const TrackGroup& group, std::size_t index,
