@@ -122,6 +122,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/track/track_fuser_options.cpp
   fusion/track/track_prediction.cpp
   fusion/track/windowed_evidence.cpp
+  grid/beam_end.cpp
   grid/distance_field.cpp
   grid/grid_window_options.cpp
   grid/hit_distribution.cpp

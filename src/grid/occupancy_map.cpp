@@ -262,8 +262,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
   const Point2 from = base_in_map * ray.origin;
   const Point2 to_end = base_in_map * ray.end - from;
   const CellIndex end = window().cellAt(from + to_end);
-  const double free_range =
-      ray.hit ? ray.range - options_.end_margin * options_.range_sigma : ray.range;
+  const double free_range = ray.range - options_.beam_end.margin(ray);
   if (!(free_range > 0.0)) {
     return;
   }

@@ -49,7 +49,7 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
-      .key("map/range_sigma", "scanner/range_sigma")
+      .group<BeamEndOptions>("map/", "scanner/")
       .key("matcher/point_sigma", "scanner/range_sigma")
       .group<OdometryNoiseOptions>("motion/", "motion/");
 }
