@@ -178,12 +178,14 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/gradual_correction.cpp
   slam/grid_masked_scan.cpp
   slam/grid_slam.cpp
+  slam/grid_slam_drift.cpp
   slam/grid_slam_recovery.cpp
   slam/keyframe.cpp
   slam/keyframe_selector.cpp
   slam/loop_closer.cpp
   slam/loop_closer_judgement.cpp
   slam/loop_closer_results.cpp
+  slam/map_drift.cpp
   slam/map_recovery.cpp
   slam/map_search.cpp
   slam/map_search_cost.cpp

@@ -137,8 +137,9 @@ class OccupancyMap {
     float freed = 0.0F;         ///< share of free_log_odds_ that this update has given it
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
-    int refuted = 0;   ///< ends of beams here that others have refuted
-    int believed = 0;  ///< other ends of beams here, since there are fused grids
+    float mean_hit = 0.0F;  ///< of the hits below
+    int refuted = 0;        ///< ends of beams here that others have refuted
+    int believed = 0;       ///< other ends of beams here, since there are fused grids
     CellHits hits;
   };
 
