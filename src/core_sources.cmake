@@ -122,6 +122,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/track/track_fuser_options.cpp
   fusion/track/track_prediction.cpp
   fusion/track/windowed_evidence.cpp
+  grid/beam_end.cpp
   grid/distance_field.cpp
   grid/grid_window_options.cpp
   grid/hit_distribution.cpp
@@ -177,12 +178,14 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/gradual_correction.cpp
   slam/grid_masked_scan.cpp
   slam/grid_slam.cpp
+  slam/grid_slam_drift.cpp
   slam/grid_slam_recovery.cpp
   slam/keyframe.cpp
   slam/keyframe_selector.cpp
   slam/loop_closer.cpp
   slam/loop_closer_judgement.cpp
   slam/loop_closer_results.cpp
+  slam/map_drift.cpp
   slam/map_recovery.cpp
   slam/map_search.cpp
   slam/map_search_cost.cpp

@@ -24,8 +24,7 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-/// A cell that is occupied holds its hits to this many at the most, so that the surface follows
-/// what is seen now.
+/// Hits that a cell holds at the most, so that its surface follows what is seen now.
 constexpr float kMaxHits = 50.0F;
 
 }  // namespace
@@ -131,7 +130,7 @@ std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) co
     return std::nullopt;
   }
   HitSums sums;
-  sums.add(nearest->hits, Point2::Zero(), maturity(*nearest));
+  sums.add(nearest->hits, Point2::Zero(), maturity(*nearest), now_ - nearest->mean_hit);
   return sums.about(location);
 }
 
@@ -219,6 +218,7 @@ void OccupancyMap::hit(const Point2& point) {
     }
     cell->last_hit = now_;
     cell->hits.add((point - window().centerOf(index)).cast<float>(), kMaxHits);
+    cell->mean_hit += (now_ - cell->mean_hit) / cell->hits.count;
   }
 }
 
@@ -262,8 +262,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
   const Point2 from = base_in_map * ray.origin;
   const Point2 to_end = base_in_map * ray.end - from;
   const CellIndex end = window().cellAt(from + to_end);
-  const double free_range =
-      ray.hit ? ray.range - options_.end_margin * options_.range_sigma : ray.range;
+  const double free_range = ray.range - options_.beam_end.margin(ray);
   if (!(free_range > 0.0)) {
     return;
   }

@@ -10,6 +10,9 @@ namespace datmo {
 
 namespace {
 
+/// s: so long ago a restored map was made, for all that a drive takes.
+constexpr float kLongAgo = 1e6F;
+
 /// Calls `visit(CellIndex)` for each cell of a window, row by row.
 template <typename Visit>
 void forEachCell(const GridWindow& window, Visit&& visit) {
@@ -92,6 +95,7 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
     cell.updated = map.update_;
     map.change(cell, known.log_odds);
     cell.first_hit = -known.age;
+    cell.mean_hit = -kLongAgo;
     cell.refuted = known.refuted;
     cell.believed = known.believed;
     cell.hits = known.hits;

@@ -27,15 +27,7 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
                   "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)",
                   Tier::kPublic},
                  surface_sigma, {0.0, 2.0});
-  visitor.number({"range_sigma", "m", "standard deviation of the scanner's ranges; 0: not known"},
-                 range_sigma, {0.0, 2.0});
-  visitor.number(
-      {"end_margin", "1",
-       "nearer to its end than so many standard deviations of its range a beam frees nothing: what "
-       "is there may be what it hit. Freed up to the end (0: thesis), a surface keeps those of its "
-       "noisy hits that lie behind it and loses those before it, so that all that comes into view "
-       "is mapped too far away, and the pose drifts"},
-      end_margin, {0.0, 10.0});
+  beam_end.visit(visitor);
   visitor.number({"moving_below", "1",
                   "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
                  moving_below, {0.01, 0.5});
@@ -54,7 +46,7 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "no obstacle: what ends there again does not move; 0: forgets them"},
       ghost_after, {0, 1000});
   visitor.integer({"max_tiles", "1",
-                   "of 32 x 32 cells, 57 kB each, that are kept of what the window has left, for "
+                   "of 32 x 32 cells, 61 kB each, that are kept of what the window has left, for "
                    "save_map; of more the first ones are forgotten"},
                   max_tiles, {1, 1000000});
 }

@@ -7,10 +7,17 @@ void ScannerOptions::visit(OptionVisitor& visitor) {
   scan.visit(visitor);
   visitor.number({"range_sigma", "m",
                   "standard deviation of its range, as the match of scans and the boxes of objects "
-                  "take it; before its end a beam frees nothing for three of it; 0: not known: 0.1 "
-                  "for boxes, 0.2 for the match, and free up to the end",
+                  "take it; before its end a beam frees nothing for some of it (end_margin); 0: "
+                  "not known: 0.1 for boxes, 0.2 for the match, and free up to the end",
                   Tier::kPublic},
                  range_sigma, {0.0, 2.0});
+  visitor.number(
+      {"end_margin", "1",
+       "nearer to its end than so many standard deviations of its range a beam frees nothing, in "
+       "maps and in lidar_grid: what is there may be what it hit. Freed up to the end (0: thesis), "
+       "a surface keeps those of its noisy hits that lie behind it and loses those before it, so "
+       "that all that comes into view is mapped too far away, and the pose drifts"},
+      end_margin, {0.0, 10.0});
   visitor.number({"beam_width", "rad",
                   "opening angle of a beam, for lidar_grid; 0: it reaches half way to its "
                   "neighbors (thesis 3.2.1: each cell asks the nearest beam)",

@@ -20,19 +20,29 @@ double reachFrom(const Point2& point, const GridWindow& window) {
 /// Writes what beams say into a grid.
 class BeamWriter {
  public:
-  BeamWriter(SensorGrid& grid, double beam_width, double min_incidence)
-      : grid_(grid), beam_width_(beam_width), cut_per_turn_(1.0 / std::tan(min_incidence)) {}
+  BeamWriter(SensorGrid& grid, double beam_width, const LidarGridOptions& options)
+      : grid_(grid),
+        beam_width_(beam_width),
+        cut_per_turn_(1.0 / std::tan(options.min_incidence)),
+        beam_end_(options.beam_end) {}
 
   /// A surface that is met at a flat angle comes toward the scanner on one side of the beam: away
-  /// from its axis the beam is free as far as such a surface lets it.
+  /// from its axis the beam is free as far as such a surface lets it. What lies as near to that as
+  /// the range is uncertain may be the surface.
   void pass(const Ray& ray, Percent free) {
     const Beam beam = beamOf(ray);
     const Point2 axis = beam.along.normalized();
+    const double margin = beam_end_.margin(ray);
     forEachLine(grid_.window(), beam, [&](const Point2& to) {
       const Point2 line = to - beam.from;
       const double turn = std::acos(std::min(1.0, axis.dot(line.normalized())));
       const double share = ray.hit ? std::max(0.0, 1.0 - turn * cut_per_turn_) : 1.0;
-      write(beam.from, beam.from + share * line, free);
+      // Of the margin a part may lie beyond the window.
+      const double shown_margin = std::max(0.0, margin - share * (ray.range - beam.range));
+      const double free_share = share - shown_margin / beam.range;
+      if (free_share >= 0.0) {
+        write(beam.from, beam.from + free_share * line, free);
+      }
     });
   }
 
@@ -68,6 +78,7 @@ class BeamWriter {
   SensorGrid& grid_;
   double beam_width_;
   double cut_per_turn_;  ///< 1/rad, share of the range that a line is shorter by
+  BeamEndOptions beam_end_;
 };
 
 }  // namespace
@@ -89,6 +100,7 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
                   "flattest angle at which a beam meets a surface: the flatter, the shorter the "
                   "beam's borders are free; pi/2: as far as its axis (thesis)"},
                  min_incidence, {0.01, kQuarterTurn});
+  beam_end.visit(visitor);
 }
 
 LidarGridModel::LidarGridModel(const Checked<LidarGridOptions>& options)
@@ -98,7 +110,7 @@ SensorGrid LidarGridModel::grid(const Scan& scan) const {
   SensorGrid grid(scan.stamp, window_);
   const double beam_width =
       options_.beam_width > 0.0 ? options_.beam_width : std::abs(scan.field.beam_spacing);
-  BeamWriter writer(grid, beam_width, options_.min_incidence);
+  BeamWriter writer(grid, beam_width, options_);
   for (const Ray& ray : scan.rays) {
     writer.pass(ray, toPercent(options_.free_probability));
   }

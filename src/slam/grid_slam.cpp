@@ -153,7 +153,9 @@ GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
       map_(options->map),
       odometry_(options->odometry_hold, kOdometryMemory),
       random_(static_cast<std::uint64_t>(options->seed)),
-      filter_(options->pose, options->motion) {}
+      filter_(options->pose, options->motion),
+      drift_(noDrift()),
+      drift_of_left_map_(drift_) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) {
   odometry_.add(sample);
@@ -256,6 +258,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
     searchPriorMap(prior_map_->map, prior_map_->start, scan.stamp);
   }
   const PoseWithCovariance base_in_map = poseInFirstMap();
+  followDrift(base_in_map, scan, result);
   const GridMaskedScan view = viewOf(measurement, scan);
   Scan own = measuredScan(view);
   std::vector<PointState> states = judge(own, map_, base_in_map.pose);

@@ -78,6 +78,7 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
       gap_end_ = stamp;
     }
     recovery_.emplace(options_.recovery, std::move(map_), prior, stamp);
+    drift_of_left_map_ = drift_;
   }
   map_ = OccupancyMap(options_.map);
   filter_.restartAt({prior.pose, startCovariance()});
@@ -121,6 +122,7 @@ void GridSlam::undoGapForOdometry(Stamp stamp) {
 
 void GridSlam::returnToMap() {
   map_ = recovery_->takeOlder();
+  drift_ = recovery_->isInPriorMap() ? noDrift() : drift_of_left_map_;
   if (recovery_->isInPriorMap()) {
     map_.setWindow(options_.map.window.window());
   }

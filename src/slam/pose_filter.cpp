@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
@@ -38,6 +40,10 @@ PoseFilter::PoseFilter(const Checked<PoseFilterOptions>& options, const MotionMo
     covariance_(kSpeedScale, kSpeedScale) = kSpeedScaleSigma * kSpeedScaleSigma;
     covariance_(kYawRateBias, kYawRateBias) = kYawRateBiasSigma * kYawRateBiasSigma;
   }
+}
+
+double PoseFilter::priorScaleVariance() const {
+  return options_.calibrate_odometry ? square(kSpeedScaleSigma) : 0.0;
 }
 
 PoseWithCovariance PoseFilter::pose() const { return {pose_, covariance_.topLeftCorner<3, 3>()}; }

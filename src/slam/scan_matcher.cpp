@@ -72,6 +72,8 @@ struct ScanMatcher::Normal {
   double max_maturity = 0.0;
   double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
   bool degenerate = false;
+  double weight = 0.0;  ///< 1/m^2, of all points
+  double age = 0.0;     ///< s/m^2, of their surfaces, by weight
 
   /// Adds an end point's information (1/m^2) and error (m), both in the map frame; `arm`: from the
   /// pose to the point, m.
@@ -186,6 +188,9 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
     const double weight = std::exp(-0.5 * distance) * std::max(options_.min_maturity, maturity);
     normal.max_maturity = std::max(normal.max_maturity, surface->maturity);
     normal.add(weight * information, turned, error);
+    const double point_weight = weight * information.trace();
+    normal.weight += point_weight;
+    normal.age += point_weight * surface->age;
     ++normal.points;
   }
   normal.information *= options_.information_share;
@@ -238,8 +243,12 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   }
   result.pose.pose = pose;
   result.pose.covariance = (normal.information + prediction.pose.covariance.inverse()).inverse();
-  result.quality = {normal.points, task.scorer.score(pose), true, normal.weakest_sigma,
-                    normal.degenerate};
+  result.quality = {normal.points,
+                    task.scorer.score(pose),
+                    true,
+                    normal.weakest_sigma,
+                    normal.degenerate,
+                    normal.weight > 0.0 ? normal.age / normal.weight : 0.0};
   return result;
 }
 

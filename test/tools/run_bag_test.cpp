@@ -3,6 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "input_bag.h"
 #include "interruption.h"
@@ -43,6 +45,27 @@ TEST_F(RunBag, PosesFollowTheDrive) {
   }
   EXPECT_NEAR(last.x(), (kScans - 1) * kPeriod * kSpeed, 0.3);
   EXPECT_NEAR(last.y(), 0.0, 0.1);
+}
+
+TEST_F(RunBag, ThePoseIsAsUncertainAsMatchAndDriftTogether) {
+  run();
+  rosbag::Bag bag(arguments_.output);
+  const auto posesOf = [&](const std::string& topic) {
+    std::vector<PoseWithCovariance> poses;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+      poses.push_back(
+          fromMessage(message.instantiate<geometry_msgs::PoseWithCovarianceStamped>()->pose));
+    }
+    return poses;
+  };
+  const auto poses = posesOf("/pose");
+  const auto local = posesOf("/pose/local");
+  ASSERT_EQ(poses.size(), local.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].pose.position(), local[i].pose.position());
+    EXPECT_GE(poses[i].covariance(0, 0), local[i].covariance(0, 0));
+  }
+  EXPECT_GT(poses.back().covariance(2, 2), local.back().covariance(2, 2));
 }
 
 TEST_F(RunBag, SameBagGivesTheSameBytes) {

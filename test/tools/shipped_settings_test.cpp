@@ -52,7 +52,9 @@ TEST(ThesisPreset, IsLaidOverAnySensorSet) {
   for (const std::string& file : sensorSets()) {
     const SensorSet sensors(file, {thesis});
     EXPECT_EQ(std::get<std::string>(sensors.values("road_border").at("method")), "thesis") << file;
-    EXPECT_EQ(sensors.values("scanner"), SensorSet(file).values("scanner")) << file;
+    OptionValues scanner = SensorSet(file).values("scanner");
+    scanner["end_margin"] = 0.0;
+    EXPECT_EQ(sensors.values("scanner"), scanner) << file;
   }
 }
 

@@ -78,7 +78,7 @@ class Gaps(unittest.TestCase):
             for tenths in (*range(100, 201), *range(221, 281)):
                 off = tenths > 200
                 pose = estimate_at(0.1 * tenths, error * off, turn * off, sigma)
-                bag.write("/pose", pose, pose.header.stamp)
+                bag.write("/pose/local", pose, pose.header.stamp)
         return score(computed, self.drive, Gap("both", (START + 20) * 10**9, 2.0))
 
     def test_within_the_limits(self):
@@ -108,7 +108,7 @@ class Gaps(unittest.TestCase):
         with rosbag.Bag(str(computed), "w") as bag:
             for seconds in (19.0, 20.0):
                 pose = estimate_at(seconds, 0.0, 0.0, 0.1)
-                bag.write("/pose", pose, pose.header.stamp)
+                bag.write("/pose/local", pose, pose.header.stamp)
         result = score(computed, self.drive, Gap("scan", (START + 20) * 10**9, 2.0))
         self.assertFalse(passed(result))
         run = {"kind": "scan", "seconds": 2.0, "score": result}
@@ -133,7 +133,7 @@ class Gaps(unittest.TestCase):
             with rosbag.Bag(str(result), "w") as bag:
                 for tenths in range(400):
                     pose = estimate_at(0.1 * tenths, error * (tenths > 150), 0.0, 0.1)
-                    bag.write("/pose", pose, pose.header.stamp)
+                    bag.write("/pose/local", pose, pose.header.stamp)
             code, out = self.sweep("--kinds", "scan", "both")
             self.assertEqual(code, expected)
             runs = json.loads((self.folder / "out.json").read_text())["runs"]

@@ -135,9 +135,11 @@ datmo_fusion_add_core_test(slam
   slam/fused_slam_test.cpp
   slam/gradual_correction_test.cpp
   slam/grid_masked_scan_test.cpp
+  slam/grid_slam_drift_test.cpp
   slam/grid_slam_test.cpp
   slam/keyframe_test.cpp
   slam/loop_closer_test.cpp
+  slam/map_drift_test.cpp
   slam/map_recovery_test.cpp
   slam/map_search_test.cpp
   slam/motion_compensation_test.cpp

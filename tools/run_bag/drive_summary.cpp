@@ -51,8 +51,8 @@ void DriveSummary::add(const Publication& publication) {
   fused_lists_ += publication.topic == "objects/fused" ? 1 : 0;
   if (const auto dropped = publication.as<DroppedObjects>()) {
     dropped_objects_ += dropped->objects.size();
-  } else if (const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>()) {
-    addPose(*pose);
+  } else if (publication.topic == "pose") {
+    addPose(*publication.as<geometry_msgs::PoseWithCovarianceStamped>());
   } else if (const auto tracks = publication.as<TrackArray>()) {
     addTracks(publication.topic, *tracks);
   }

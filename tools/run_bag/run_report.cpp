@@ -135,8 +135,9 @@ void RunReport::bookCondition(const StageMonitor& monitor, Stamp now) {
 }
 
 void RunReport::add(const Publication& publication) {
-  const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>();
-  if (pose) {
+  // The drift of the map would hide when the vehicle was lost in it.
+  if (publication.topic == "pose/local") {
+    const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>();
     poses_.push_back({toStamp(pose->header.stamp), worstSigma(*pose)});
   }
 }

@@ -80,8 +80,8 @@ TextOutputs::TextOutputs(TextFiles files) : files_(std::move(files)) {
 }
 
 void TextOutputs::add(const Publication& publication) {
-  if (const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>()) {
-    addPose(*pose);
+  if (publication.topic == "pose") {
+    addPose(*publication.as<geometry_msgs::PoseWithCovarianceStamped>());
   } else if (publication.topic == "tracks") {
     addTracks(*publication.as<TrackArray>());
   }

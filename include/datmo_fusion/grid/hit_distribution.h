@@ -13,6 +13,7 @@ struct HitDistribution {
   Point2 mean = Point2::Zero();                          ///< m, map frame
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
   double maturity = 0.0;  ///< 0 to 1, 1: hit for as long as what stands still
+  double age = 0.0;       ///< s, mean of the hits, at the map's last update
 };
 
 /// The hits in one cell, as sums relative to the cell's center, so that floats do.
@@ -33,7 +34,8 @@ struct CellHits {
 class HitSums {
  public:
   /// `shift`: of the cell's center from the common reference, m. `maturity`: of the cell, 0 to 1.
-  void add(const CellHits& cell, const Point2& shift, double maturity);
+  /// `age`: mean of its hits, s.
+  void add(const CellHits& cell, const Point2& shift, double maturity, double age = 0.0);
 
   bool empty() const { return hits_ <= 0.0; }
 
@@ -43,6 +45,7 @@ class HitSums {
  private:
   double hits_ = 0.0;
   double maturity_ = 0.0;
+  double age_ = 0.0;  ///< s, sum over the hits
   Point2 sum_ = Point2::Zero();
   Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();  ///< xx, xy, yy
 };

@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/beam_end.h"
 #include "datmo_fusion/grid/cell_evidence.h"
 #include "datmo_fusion/grid/grid_window_options.h"
 #include "datmo_fusion/grid/hit_distribution.h"
@@ -26,13 +27,12 @@ struct OccupancyMapOptions {
   double min_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
   double beam_width = 0.0;        ///< rad, in which a beam is free up to its end
   double surface_sigma = 0.2;     ///< m, 0: a beam frees each cell that it passes
-  double range_sigma = 0.0;       ///< m, of a beam's end; 0: not known
-  double end_margin = 3.0;        ///< in range_sigma, 0: a beam frees up to its end
-  double moving_below = 0.3;      ///< occupancy that counts as seen free
-  double static_after = 0.8;      ///< s, between first and last hit of a static cell
-  int static_neighborhood = 1;    ///< cells around an end point that vouch for it
-  int ghost_after = 2;            ///< ends that others have refuted
-  int max_tiles = 2000;           ///< of 32 x 32 cells that are kept outside of the window
+  BeamEndOptions beam_end;
+  double moving_below = 0.3;    ///< occupancy that counts as seen free
+  double static_after = 0.8;    ///< s, between first and last hit of a static cell
+  int static_neighborhood = 1;  ///< cells around an end point that vouch for it
+  int ghost_after = 2;          ///< ends that others have refuted
+  int max_tiles = 2000;         ///< of 32 x 32 cells that are kept outside of the window
 
   void visit(OptionVisitor& visitor);
 };
@@ -137,8 +137,9 @@ class OccupancyMap {
     float freed = 0.0F;         ///< share of free_log_odds_ that this update has given it
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
-    int refuted = 0;   ///< ends of beams here that others have refuted
-    int believed = 0;  ///< other ends of beams here, since there are fused grids
+    float mean_hit = 0.0F;  ///< of the hits below
+    int refuted = 0;        ///< ends of beams here that others have refuted
+    int believed = 0;       ///< other ends of beams here, since there are fused grids
     CellHits hits;
   };
 

@@ -10,6 +10,7 @@ namespace datmo {
 struct ScannerOptions {
   ScanConversionOptions scan;
   double range_sigma = 0.0;        ///< m; 0: not known
+  double end_margin = 3.0;         ///< in range_sigma
   double beam_width = 0.0;         ///< rad
   double max_tilt = degrees(5.0);  ///< rad
 

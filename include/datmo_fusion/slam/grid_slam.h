@@ -9,6 +9,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/grid_masked_scan.h"
+#include "datmo_fusion/slam/map_drift.h"
 #include "datmo_fusion/slam/map_recovery.h"
 #include "datmo_fusion/slam/odometry_anchor.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
@@ -34,7 +35,12 @@ struct GridSlamOptions {
 
 /// What one scan led to.
 struct SlamResult {
-  LabeledScan split;               ///< the scan's end points, judged against the map, and the pose
+  /// The scan's end points, judged against the map, and the pose. Its covariance is that in the map
+  /// as it is now, in which things seen at about the same time are compared.
+  LabeledScan split;
+  /// How far that map has drifted since the start, about the pose (MapDrift): with this in addition
+  /// the covariance is that since the start.
+  Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
   bool odometry_used = false;      ///< false: predicted with the last estimated velocity
   MatchQuality match;              ///< how well the scan fits the map
   OdometryErrors odometry_errors;  ///< as estimated so far
@@ -135,7 +141,10 @@ class GridSlam {
   /// One step back into the map that was left; what it changes holds from the next scan on.
   void recover(Stamp stamp);
   void returnToMap();
-  /// Of the pose, with all that is not known of the map's own frame.
+  MapDrift noDrift() const;
+  /// To where the vehicle is now; the scan is about to be written to the map from there.
+  void followDrift(const PoseWithCovariance& base_in_map, const Scan& scan, SlamResult& result);
+  /// Of the pose, with all that gaps left open of the map's own frame.
   PoseWithCovariance poseInFirstMap() const;
   void rememberScan(const Scan& scan);
 
@@ -169,6 +178,8 @@ class GridSlam {
   std::optional<LastScan> before_gap_;  ///< while odometry may still come for it
   Stamp gap_end_;                       ///< of the first scan behind that gap
   std::optional<MapRecovery> recovery_;
+  MapDrift drift_;
+  MapDrift drift_of_left_map_;                 ///< while recovery_ searches it
   std::shared_ptr<const PriorMap> prior_map_;  ///< its window holds all that is known
   /// Of the map's frame in that of the first map, about the origin.
   Eigen::Matrix3d frame_covariance_ = Eigen::Matrix3d::Zero();

@@ -42,6 +42,9 @@ class PoseFilter {
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
 
+  /// Of odometry's scale error before any match; 0 where it is not estimated.
+  double priorScaleVariance() const;
+
   /// As odometry measured it last, or else from the matches.
   const Twist2& velocity() const { return velocity_; }
 

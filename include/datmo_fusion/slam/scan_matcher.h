@@ -41,7 +41,8 @@ struct MatchQuality {
   /// m, standard deviation of the position that the match alone would give, in the direction that
   /// that it observes least; infinite where it observes nothing (a corridor, a guard rail).
   double weakest_sigma = std::numeric_limits<double>::infinity();
-  bool degenerate = false;  ///< that direction was left to the prediction
+  bool degenerate = false;   ///< that direction was left to the prediction
+  double surface_age = 0.0;  ///< s, mean of the surfaces by what they tell of the position
 };
 
 /// The pose from which a scan fits the map best, in the map frame, and how far to trust it.

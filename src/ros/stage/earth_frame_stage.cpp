@@ -130,7 +130,8 @@ void EarthFrameStage::connect(StagePorts& ports) {
   ports.in<sensor_msgs::NavSatFix>("gnss",
                                    [this](const auto& fix, Stamp /*now*/) { takeFix(*fix); });
   ports.in<geometry_msgs::PoseWithCovarianceStamped>(
-      "pose", [this, frames](const auto& pose, Stamp /*now*/) { frames.publish(takePose(*pose)); });
+      "pose/local",
+      [this, frames](const auto& pose, Stamp /*now*/) { frames.publish(takePose(*pose)); });
 }
 
 }  // namespace datmo

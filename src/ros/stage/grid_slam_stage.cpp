@@ -49,7 +49,7 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
-      .key("map/range_sigma", "scanner/range_sigma")
+      .group<BeamEndOptions>("map/", "scanner/")
       .key("matcher/point_sigma", "scanner/range_sigma")
       .group<OdometryNoiseOptions>("motion/", "motion/");
 }
@@ -215,10 +215,14 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   GridSlamOutput output;
   output.labeled_scan = boost::make_shared<LabeledScanMessage>(
       toMessage(result.split, options_.frames.base, options_.frames.map));
-  output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
-  output.pose->header.stamp = toTime(stamp);
-  output.pose->header.frame_id = options_.frames.map;
-  output.pose->pose = output.labeled_scan->pose;
+  output.local_pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  output.local_pose->header.stamp = toTime(stamp);
+  output.local_pose->header.frame_id = options_.frames.map;
+  output.local_pose->pose = output.labeled_scan->pose;
+  PoseWithCovariance since_start = result.split.base_in_map;
+  since_start.covariance += result.drift;
+  output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(*output.local_pose);
+  output.pose->pose = toMessage(since_start);
   output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
   for (const geometry_msgs::TransformStamped& transform : output.transforms) {
     monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
@@ -257,6 +261,7 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
 void GridSlamStage::connect(StagePorts& ports) {
   const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
+  const auto local_pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose/local");
   const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
   ports.service<datmo_fusion::SaveMap>("save_map",
@@ -270,6 +275,7 @@ void GridSlamStage::connect(StagePorts& ports) {
     message->transforms = output->transforms;
     transforms.publish(message);
     pose.publish(output->pose);
+    local_pose.publish(output->local_pose);
     labeled_scan.publish(output->labeled_scan);
     map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
   };

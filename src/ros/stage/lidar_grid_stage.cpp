@@ -20,6 +20,7 @@ SharedKeys LidarGridStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
+      .group<BeamEndOptions>("", "scanner/")
       .key("beam_width", "scanner/beam_width");
 }
 

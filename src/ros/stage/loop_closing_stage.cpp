@@ -43,7 +43,7 @@ void LoopClosingStageOptions::visit(OptionVisitor& visitor) {
 
 SharedKeys LoopClosingStageOptions::sharedKeys() {
   return SharedKeys()
-      .key("map/range_sigma", "scanner/range_sigma")
+      .group<BeamEndOptions>("map/", "scanner/")
       .key("matcher/point_sigma", "scanner/range_sigma");
 }
 

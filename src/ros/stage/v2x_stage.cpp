@@ -197,7 +197,7 @@ void V2xStage::connect(StagePorts& ports) {
   ports.in<EarthFrameMessage>("earth_frame",
                               [this](const auto& frame, Stamp /*now*/) { takeFrame(*frame); });
   ports.in<geometry_msgs::PoseWithCovarianceStamped>(
-      "pose", [this](const auto& pose, Stamp /*now*/) { takePose(*pose); });
+      "pose/local", [this](const auto& pose, Stamp /*now*/) { takePose(*pose); });
   ports.optionalIn<StationTracksMessage>("stations",
                                          [this, foreign](const auto& tracks, Stamp now) {
                                            foreign.publish(takeStation(*tracks, now));

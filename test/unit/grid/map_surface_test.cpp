@@ -42,8 +42,8 @@ TEST(MapSurfaceTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
 
 TEST(MapSurfaceTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   OccupancyMapOptions options = smallMap();
-  options.range_sigma = 0.5;
-  options.end_margin = 3.0;
+  options.beam_end.range_sigma = 0.5;
+  options.beam_end.end_margin = 3.0;
   OccupancyMap map(options);
   updateWith(map, scanTo({{8.5, 0.5}}));
   EXPECT_NEAR(map.occupancy({6, 0}), 0.4, 1e-6);
@@ -61,8 +61,8 @@ double biasOfANoisyWall(double end_margin) {
   constexpr double kWall = 8.1;
   OccupancyMapOptions options = smallMap();
   options.window.cell_size = kNoise;
-  options.range_sigma = kNoise;
-  options.end_margin = end_margin;
+  options.beam_end.range_sigma = kNoise;
+  options.beam_end.end_margin = end_margin;
   OccupancyMap map(options);
   Random random(1);
   for (int i = 0; i < 400; ++i) {
@@ -84,7 +84,7 @@ double biasOfANoisyWall(double end_margin) {
 TEST(MapSurfaceTest, ABeamOfNoLengthFreesNothing) {
   for (const double range_sigma : {0.0, 0.5}) {
     OccupancyMapOptions options = smallMap();
-    options.range_sigma = range_sigma;
+    options.beam_end.range_sigma = range_sigma;
     OccupancyMap map(options);
     updateWith(map, scanTo({{0.0, 0.0}}));
     EXPECT_DOUBLE_EQ(map.occupancy({0, -1}), 0.5);

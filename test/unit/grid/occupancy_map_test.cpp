@@ -180,6 +180,18 @@ TEST(OccupancyMapTest, TheNearestCellsHitsAreThoseWhoseMeanIsNearest) {
   EXPECT_FALSE(map.nearestHits({5.2, 8.5}));
 }
 
+TEST(OccupancyMapTest, ASurfaceIsAsOldAsItsHitsInTheMean) {
+  OccupancyMap map(smallMap());
+  for (const double seconds : {0.0, 1.0, 3.5, 5.0}) {
+    const bool seen = seconds < 4.0;
+    updateWith(map, scanTo({seen ? Point2(5.5, 0.5) : Point2(0.5, 5.5)}, seconds));
+  }
+  EXPECT_NEAR(map.nearestHits({5.5, 0.5})->age, 5.0 - 1.5, 1e-5);
+  EXPECT_NEAR(map.nearestHits({0.5, 5.5})->age, 0.0, 1e-5);
+  const OccupancyMap restored = OccupancyMap::restored(smallMap(), map.evidence());
+  EXPECT_GT(restored.nearestHits({5.5, 0.5})->age, 1e5) << "older than any drive";
+}
+
 TEST(OccupancyMapTest, HitsMatureInTheTimeOfStaticAfter) {
   OccupancyMap map(smallMap());
   const auto maturity = [&] { return map.hitsAround({4.5, 0.5})->maturity; };

@@ -99,9 +99,12 @@ TEST(SharedOptions, MovedKeysAreRefusedWithTheNewOne) {
 }
 
 TEST(SharedOptions, ScannerIsSaidOnce) {
-  const SharedOptions shared = sharedOf(
-      {{"scanner",
-        {{"free_range", 12.0}, {"range_sigma", 0.03}, {"beam_width", 0.01}, {"max_tilt", 0.2}}}});
+  const SharedOptions shared = sharedOf({{"scanner",
+                                          {{"free_range", 12.0},
+                                           {"range_sigma", 0.03},
+                                           {"end_margin", 2.0},
+                                           {"beam_width", 0.01},
+                                           {"max_tilt", 0.2}}}});
   const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
   const auto grid = readStageOptions<LidarGridStageOptions>({}, shared);
   EXPECT_EQ(slam.scan.free_range, 12.0);
@@ -110,6 +113,12 @@ TEST(SharedOptions, ScannerIsSaidOnce) {
   EXPECT_EQ(grid.max_tilt, 0.2);
   EXPECT_EQ(grid.grid.beam_width, 0.01);
   EXPECT_EQ(slam.slam.matcher.point_sigma, 0.03);
+  const auto loops = readStageOptions<LoopClosingStageOptions>({}, shared);
+  for (const BeamEndOptions& beam_end :
+       {slam.slam.map.beam_end, grid.grid.beam_end, loops.loops.submaps.map.beam_end}) {
+    EXPECT_EQ(beam_end.range_sigma, 0.03);
+    EXPECT_EQ(beam_end.end_margin, 2.0);
+  }
   EXPECT_EQ(readStageOptions<MovingObjectsStageOptions>({}, shared).detector.range_sigma, 0.03);
 }
 

@@ -63,6 +63,39 @@ TEST(LidarGridTest, OneBeamIsFreeBeforeItsEndOccupiedThereUnknownBehind) {
   EXPECT_EQ(count(grid, kUnknownPercent), 394U);
 }
 
+TEST(LidarGridTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
+  LidarGridOptions options = smallGrid();
+  options.beam_end.range_sigma = 0.5;
+  options.beam_end.end_margin = 3.0;
+  const LidarGridModel model(options);
+  const SensorGrid grid = model.grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5})}));
+  EXPECT_EQ(grid.at({3, 0}), kFree);
+  EXPECT_EQ(grid.at({4, 0}), kFree) << "up to 1.5 m before the end, which is its border";
+  EXPECT_EQ(grid.at({5, 0}), kOccupied);
+  const SensorGrid nearer = model.grid(scanOf({rayTo({0.5, 0.5}, {5.3, 0.5})}));
+  EXPECT_EQ(nearer.at({3, 0}), kFree);
+  EXPECT_EQ(nearer.at({4, 0}), kUnknownPercent);
+  EXPECT_EQ(nearer.at({5, 0}), kOccupied);
+  // Nearer than that to the scanner it frees nothing at all, and without a return all of it.
+  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {1.6, 0.5})})), kFree), 0U);
+  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5}, false)})), kFree), 6U);
+  // Of an end beyond the window only what of the margin lies within it counts.
+  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {10.3, 0.5})})), kFree), 9U);
+  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {30.5, 0.5})})), kFree), 10U);
+}
+
+TEST(LidarGridTest, BesideItsAxisTheMarginCountsFromTheFlatSurface) {
+  LidarGridOptions options = smallGrid();
+  options.beam_width = 0.2;
+  options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long: 4.5 m
+  options.beam_end.range_sigma = 0.5;
+  options.beam_end.end_margin = 3.0;
+  const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.9}, {9.0, 0.9})}));
+  EXPECT_EQ(grid.at({2, 1}), kFree);
+  EXPECT_EQ(grid.at({3, 1}), kUnknownPercent);
+  EXPECT_EQ(grid.at({6, 0}), kFree) << "its axis: up to 7.5 m";
+}
+
 TEST(LidarGridTest, ABeamWithoutReturnIsFreeUpToItsEnd) {
   const SensorGrid grid =
       LidarGridModel(smallGrid()).grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5}, false)}));

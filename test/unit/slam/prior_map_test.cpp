@@ -91,6 +91,25 @@ TEST(PriorMapTest, FromAnywhereItIsFoundOnTheWay) {
   }
 }
 
+TEST(PriorMapTest, InAPriorMapThePoseDoesNotDrift) {
+  SearchRegion guess;
+  guess.prior.covariance = Eigen::Vector3d(0.01, 0.01, 0.001).asDiagonal();
+  GridSlam in_prior_map{GridSlamOptions{}};
+  in_prior_map.startIn({mapOfYard(), guess});
+  GridSlam in_new_map{GridSlamOptions{}};
+  SlamResult found;
+  SlamResult made;
+  Vehicle one{Pose2()};
+  Vehicle other{Pose2()};
+  for (int i = 0; i < 80; ++i) {
+    found = one.step(in_prior_map, {2.0, 0.2});
+    made = other.step(in_new_map, {2.0, 0.2});
+  }
+  ASSERT_EQ(found.localization, Localization::kLocated);
+  EXPECT_LT(found.drift(2, 2), 0.01 * made.drift(2, 2));
+  EXPECT_LT(found.drift(0, 0), 0.01 * made.drift(0, 0));
+}
+
 TEST(PriorMapTest, FromAGuessItIsFoundThere) {
   GridSlam slam{GridSlamOptions{}};
   SearchRegion guess;

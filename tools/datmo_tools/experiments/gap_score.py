@@ -32,11 +32,12 @@ class Gap(NamedTuple):
         return self.begin + round(self.seconds * NANOSECONDS)
 
 
-def score(computed, recorded, gap, topic="/pose", truth_topic="/ground_truth/pose"):
+def score(computed, recorded, gap, topic="/pose/local", truth_topic="/ground_truth/pose"):
     """Score (dict) of the poses in the bag `computed` (Path) after a gap.
 
     recorded: bag (Path) with the truth. Both paths are compared by their motion since the last pose
-    before the gap, so that what the map was off before does not count. Raises InputError.
+    before the gap, so that what the map was off before does not count, and by the covariance in the
+    map as it is. Raises InputError.
     """
     truth = read_path(recorded, truth_topic)
     poses = _poses(computed, topic)

@@ -56,6 +56,7 @@ struct GridSlamStageOptions {
 struct GridSlamOutput {
   LabeledScanPtr labeled_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
+  geometry_msgs::PoseWithCovarianceStampedPtr local_pose;  ///< without the drift of the map
   std::vector<geometry_msgs::TransformStamped> transforms;
 };
 

@@ -27,7 +27,7 @@ void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& 
         [&stage](const auto& odometry, Stamp /*now*/) { stage.takeOdometry(*odometry); });
   } else {
     ports.in<geometry_msgs::PoseWithCovarianceStamped>(
-        "pose", [&stage](const auto& pose, Stamp /*now*/) { stage.takePose(*pose); });
+        "pose/local", [&stage](const auto& pose, Stamp /*now*/) { stage.takePose(*pose); });
   }
 }
 
