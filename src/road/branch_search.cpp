@@ -59,8 +59,10 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
                  {5.0, 40.0});
   visitor.number({"width", "m", "of it: two lanes; driveways and gaps between cars are narrower"},
                  width, {1.0, 20.0});
-  visitor.number({"max_shift", "m", "from the place to its middle line: a street's half width"},
-                 max_shift, {0.0, 10.0});
+  visitor.number(
+      {"max_shift", "m",
+       "from the place to its middle line: beside a yard that is so long for a moment only"},
+      max_shift, {0.0, 10.0});
   visitor.number({"heading_step", "rad", "from a heading that is tried to the next"}, heading_step,
                  {degrees(1.0), degrees(30.0)});
   visitor.number({"min_free", "1", "share of a street that beams have passed"}, min_free,

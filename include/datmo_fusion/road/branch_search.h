@@ -14,7 +14,7 @@ namespace datmo {
 struct BranchSearchOptions {
   double length = 24.0;                   ///< m
   double width = 5.5;                     ///< m
-  double max_shift = 3.0;                 ///< m
+  double max_shift = 2.0;                 ///< m
   double heading_step = degrees(5.0);     ///< rad
   double min_free = 0.9;                  ///< 1
   double blocked_weight = 2.0;            ///< 1

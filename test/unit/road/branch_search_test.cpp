@@ -78,9 +78,10 @@ TEST_F(BranchSearchTest, ARoadLeadsAheadAndBack) {
   ASSERT_EQ(branches().size(), 2U);
   EXPECT_TRUE(leadsTo(0.0));
   EXPECT_TRUE(leadsTo(kPi));
-  // A corridor of 5.5 m in a street of 12 m turns by up to atan(6.5 / 24) = 15 degrees.
+  // A corridor of 5.5 m in a street of 12 m ends up to 3.25 m beside its middle line, and begins up
+  // to 2 m beside it: it turns by up to atan(5.25 / 24) = 12 degrees.
   for (const RoadBranch& branch : branches()) {
-    EXPECT_NEAR(branch.angle, degrees(35.0), degrees(5.0));
+    EXPECT_NEAR(branch.angle, degrees(25.0), degrees(5.0));
   }
 }
 
