@@ -150,8 +150,10 @@ set(DATMO_FUSION_CORE_SOURCES
   road/border_search_options.cpp
   road/border_track.cpp
   road/border_track_set.cpp
+  road/branch_search.cpp
   road/followed_border.cpp
   road/intersection_detector.cpp
+  road/passage_grid.cpp
   road/presence_history.cpp
   road/road_border_detector.cpp
   road/road_extension.cpp

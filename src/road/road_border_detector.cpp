@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/road_border_detector.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "datmo_fusion/road/border_scan.h"
@@ -16,6 +17,15 @@ RoadBorder borderOf(const FoundBorder& found, double spacing) {
   border.probability = 1.0;
   border.points = pointsOf(found, spacing);
   return border;
+}
+
+/// Whether a border runs from behind the vehicle to ahead of it.
+bool hasBorderBeside(const std::vector<RoadBorder>& borders, const Pose2& vehicle) {
+  const Pose2 map_in_base = vehicle.inverse();
+  return std::any_of(borders.begin(), borders.end(), [&](const RoadBorder& border) {
+    return (map_in_base * border.points.front().position).x() <= 0.0 &&
+           (map_in_base * border.points.back().position).x() >= 0.0;
+  });
 }
 
 }  // namespace
@@ -35,6 +45,8 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("search", [&] { search.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
   visitor.group("presence", [&] { presence.visit(visitor); });
+  visitor.group("passages", [&] { passages.visit(visitor); });
+  visitor.group("branches", [&] { branches.visit(visitor); });
   visitor.group("intersection", [&] { intersection.visit(visitor); });
   visitor.group("openings", [&] { openings.visit(visitor); });
   visitor.group("side_streets", [&] { side_streets.visit(visitor); });
@@ -62,6 +74,8 @@ RoadBorderDetector::RoadBorderDetector(const Checked<RoadBorderDetectorOptions>&
       search_(options->search),
       tracks_(options->tracks),
       presence_(options->presence),
+      passages_(options->passages),
+      branch_search_(options->branches),
       intersection_(options->intersection),
       side_streets_(options->side_streets) {}
 
@@ -107,10 +121,12 @@ void RoadBorderDetector::search(const Pose2& scanner) {
 }
 
 void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
-  tracks_.update(borderScan(scan, hits_, seconds), hits_, search_);
+  const BorderScan seen = borderScan(scan, hits_, seconds);
+  passages_.update(seen);
+  tracks_.update(seen, hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);
   presence_.update(tracks_.borders(), *vehicle_, seconds);
-  intersection_.update(presence_.presence());
+  lookForIntersection();
   side_streets_.update(
       hits_, openingsOf(presence_.presence(), road_.borders, *vehicle_, options_.openings),
       scan.stamp);
@@ -121,10 +137,20 @@ void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
   road_.at_intersection = intersection_.atIntersection();
 }
 
+void RoadBorderDetector::lookForIntersection() {
+  const double arc_length = presence_.presence().arc_length;
+  if (intersection_.isDue(arc_length)) {
+    const auto branches = branch_search_.search(passages_, road_.borders, vehicle_->position());
+    intersection_.update(
+        {arc_length, hasBorderBeside(road_.borders, *vehicle_), static_cast<int>(branches.size())});
+  }
+}
+
 void RoadBorderDetector::reset() {
   hits_.reset();
   tracks_.clear();
   presence_.reset();
+  passages_.reset();
   intersection_.reset();
   side_streets_.reset();
   road_ = {};

@@ -62,9 +62,13 @@ def one_side(folder, seed):
 
 
 def intersection_borders(folder, seed):
-    """The vehicle turns off: such an intersection may be missed, but none is reported elsewhere."""
+    """The vehicle turns off at an intersection, and none is reported elsewhere."""
     run = _with_borders(folder, "intersection", seed)
-    return _false(run, borders.score(run))
+    thesis = evaluated(run, run)["thesis"]
+    return {
+        **_false(run, borders.score(run)),
+        "intersections_missed": thesis["intersections"] - thesis["intersections_found"],
+    }
 
 
 def footpath(folder, seed):

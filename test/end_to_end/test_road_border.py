@@ -31,7 +31,7 @@ class RoadBorder(unittest.TestCase):
         self.check_scene("bend")
 
     def test_turn_at_an_intersection(self):
-        """Such an intersection may be missed, but none is reported elsewhere."""
+        """It is found, and none is reported elsewhere."""
         self.check_scene("intersection_borders")
 
     def test_one_side(self):

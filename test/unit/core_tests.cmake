@@ -79,7 +79,9 @@ datmo_fusion_add_core_test(road
   road/border_scan_test.cpp
   road/border_search_test.cpp
   road/border_track_test.cpp
+  road/branch_search_test.cpp
   road/intersection_detector_test.cpp
+  road/passage_grid_test.cpp
   road/presence_history_test.cpp
   road/road_border_detector_test.cpp
   road/road_extension_test.cpp

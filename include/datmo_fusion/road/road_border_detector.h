@@ -10,7 +10,9 @@
 #include "datmo_fusion/road/border_publishing.h"
 #include "datmo_fusion/road/border_search.h"
 #include "datmo_fusion/road/border_track_set.h"
+#include "datmo_fusion/road/branch_search.h"
 #include "datmo_fusion/road/intersection_detector.h"
+#include "datmo_fusion/road/passage_grid.h"
 #include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/road/road_opening.h"
@@ -29,6 +31,8 @@ struct RoadBorderDetectorOptions {
   BorderSearchOptions search;
   BorderTrackSetOptions tracks;
   PresenceHistoryOptions presence;
+  PassageGridOptions passages;
+  BranchSearchOptions branches;
   IntersectionDetectorOptions intersection;
   RoadOpeningOptions openings;
   SideStreetOptions side_streets;
@@ -62,12 +66,15 @@ class RoadBorderDetector {
   std::optional<double> secondsSinceLast(const LabeledScan& scan) const;
   void search(const Pose2& scanner);
   void follow(const LabeledScan& scan, double seconds);
+  void lookForIntersection();
 
   RoadBorderDetectorOptions options_;
   HitGrid hits_;
   BorderSearch search_;
   BorderTrackSet tracks_;
   PresenceHistory presence_;
+  PassageGrid passages_;
+  BranchSearch branch_search_;
   IntersectionDetector intersection_;
   SideStreets side_streets_;
   RoadModel road_;

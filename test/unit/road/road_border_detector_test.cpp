@@ -20,6 +20,13 @@ struct Wall {
   double last = 300.0;
 };
 
+/// A wall along y, m, map frame.
+struct CrossWall {
+  double x = 0.0;
+  double first = -100.0;
+  double last = 100.0;
+};
+
 /// A vehicle that drives along x between walls.
 class RoadBorderDetectorTest : public testing::Test {
  protected:
@@ -72,6 +79,7 @@ class RoadBorderDetectorTest : public testing::Test {
   }
 
   std::vector<Wall> walls_{{4.0}, {-3.0}};
+  std::vector<CrossWall> cross_walls_;
   RoadBorderDetector detector_{RoadBorderDetectorOptions()};
   double x_ = 0.0;
   Stamp stamp_ = Stamp::fromSeconds(100.0);
@@ -83,6 +91,13 @@ class RoadBorderDetectorTest : public testing::Test {
       const double range = (wall.y - scanner.y()) / std::sin(direction);
       const double x = scanner.x() + range * std::cos(direction);
       if (range > 0.0 && x >= wall.first && x <= wall.last) {
+        nearest = std::min(nearest, range);
+      }
+    }
+    for (const CrossWall& wall : cross_walls_) {
+      const double range = (wall.x - scanner.x()) / std::cos(direction);
+      const double y = scanner.y() + range * std::sin(direction);
+      if (range > 0.0 && y >= wall.first && y <= wall.last) {
         nearest = std::min(nearest, range);
       }
     }
@@ -131,8 +146,9 @@ TEST_F(RoadBorderDetectorTest, BordersEndAtASideStreetAndGoOnBehindIt) {
   EXPECT_TRUE(behind);
 }
 
-TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionWhereBothSidesAreOpen) {
-  walls_ = {{-3.0, -100.0, 45.0}, {4.0, -100.0, 45.0}, {-3.0, 65.0, 300.0}, {4.0, 65.0, 300.0}};
+TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionWhereAStreetCrosses) {
+  walls_ = {{-5.0, -100.0, 45.0}, {5.0, -100.0, 45.0}, {-5.0, 65.0, 300.0}, {5.0, 65.0, 300.0}};
+  cross_walls_ = {{45.0, 5.0}, {65.0, 5.0}, {45.0, -100.0, -5.0}, {65.0, -100.0, -5.0}};
   EXPECT_FALSE(drive(30.0).at_intersection);
   bool found = false;
   while (x_ < 65.0) {
@@ -140,6 +156,18 @@ TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionWhereBothSidesAreOpen) {
   }
   EXPECT_TRUE(found);
   EXPECT_FALSE(drive(20.0).at_intersection);
+}
+
+TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionAtWhichItTurns) {
+  walls_ = {{-5.0, -100.0, 45.0}, {5.0, -100.0, 45.0}, {-5.0, 65.0, 300.0}, {5.0, 65.0, 300.0}};
+  cross_walls_ = {{45.0, 5.0}, {65.0, 5.0}, {45.0, -100.0, -5.0}, {65.0, -100.0, -5.0}};
+  bool found = drive(46.0).at_intersection;
+  constexpr double kRadius = 8.0;  // m, to the right
+  for (double turned = 0.0; turned < 0.5 * kPi; turned += 0.05) {
+    const Pose2 pose(x_ + kRadius * std::sin(turned), kRadius * (std::cos(turned) - 1.0), -turned);
+    found = detector_.update(scanFrom(pose)).at_intersection || found;
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(RoadBorderDetectorTest, KeepsABorderThatIsHiddenForAShortTime) {

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/road/passage_grid.h"
+#include "datmo_fusion/road/road_model.h"
+
+namespace datmo {
+
+struct BranchSearchOptions {
+  double length = 24.0;                   ///< m
+  double width = 5.5;                     ///< m
+  double max_shift = 2.0;                 ///< m
+  double heading_step = degrees(5.0);     ///< rad
+  double min_free = 0.9;                  ///< 1
+  double blocked_weight = 2.0;            ///< 1
+  double border_width = 4.0;              ///< m
+  double max_angle = degrees(70.0);       ///< rad
+  double min_separation = degrees(70.0);  ///< rad
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// A street that leads away from a place.
+struct RoadBranch {
+  double heading = 0.0;  ///< rad, map frame, the middle of those in which it is free
+  double angle = 0.0;    ///< rad, of all headings in which it is
+};
+
+/// Finds the streets that lead away from a place: corridors as wide as a street and so long that
+/// neither a yard nor a driveway is, which beams have passed and in which nothing stands. That
+/// holds however the vehicle is turned. On a road there are two of them, at an intersection three
+/// or more; what is free in a wider angle is open space and no street.
+class BranchSearch {
+ public:
+  /// Throws OptionError.
+  explicit BranchSearch(const Checked<BranchSearchOptions>& options) : options_(*options) {}
+
+  /// Those that lead away from a point (m, map frame); a border (map frame) across a corridor
+  /// closes it. None at all in an open space.
+  std::vector<RoadBranch> search(const PassageGrid& grid, const std::vector<RoadBorder>& borders,
+                                 const Point2& from) const;
+
+ private:
+  bool isFree(const PassageGrid& grid, const std::vector<Point2>& borders, const Pose2& from) const;
+
+  BranchSearchOptions options_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/grid/grid_window_options.h"
+#include "datmo_fusion/grid/rolling_grid.h"
+#include "datmo_fusion/road/border_scan.h"
+
+namespace datmo {
+
+struct PassageGridOptions {
+  PassageGridOptions();
+
+  GridWindowOptions window;
+  int min_hits = 2;         ///< 1
+  double hit_share = 0.15;  ///< 1
+  double end_margin = 0.7;  ///< m
+  int max_beams = 1000;     ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What beams say of each cell around the vehicle: how many ended in it, and how many passed.
+class PassageGrid {
+ public:
+  enum class State : std::uint8_t { kUnseen, kFree, kOccupied };
+
+  /// Throws OptionError, also for more cells than any memory holds.
+  explicit PassageGrid(const Checked<PassageGridOptions>& options);
+
+  /// Moves the window with the scanner and counts the scan's beams.
+  void update(const BorderScan& scan);
+
+  /// Of the cell at a point, m, map frame; unseen outside of the window.
+  State at(const Point2& point) const;
+
+  /// Forgets all, as at the start.
+  void reset();
+
+ private:
+  struct Cell {
+    std::int32_t hits = 0;
+    std::int32_t passages = 0;
+  };
+
+  void count(CellIndex cell, int hits, int passages);
+
+  PassageGridOptions options_;
+  RollingGrid<Cell> cells_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/road/passage_grid.h"
+
+#include "datmo_fusion/grid/ray_walk.h"
+
+namespace datmo {
+
+PassageGridOptions::PassageGridOptions() {
+  window.length = 90.0;
+  window.width = 90.0;
+  window.cell_size = 0.5;
+}
+
+void PassageGridOptions::visit(OptionVisitor& visitor) {
+  visitor.group("window", [&] { window.visit(visitor); });
+  visitor.integer({"min_hits", "1", "beams that end in a cell that is not free"}, min_hits,
+                  {1, 1000});
+  visitor.number({"hit_share", "1",
+                  "of the beams that end in a cell or pass, from which on it is not free: what "
+                  "moved through it had fewer"},
+                 hit_share, {0.0, 1.0});
+  visitor.number({"end_margin", "m",
+                  "before the end of a beam, where it does not say that a cell is free: noise of "
+                  "its range, and the cell's size"},
+                 end_margin, {0.0, 10.0});
+  visitor.integer({"max_beams", "1",
+                   "that a cell counts; of more the older half is forgotten, as what stands may "
+                   "leave"},
+                  max_beams, {2, 1000000});
+}
+
+PassageGrid::PassageGrid(const Checked<PassageGridOptions>& options)
+    : options_(*options), cells_(options->window.window(), Cell{}) {}
+
+void PassageGrid::update(const BorderScan& scan) {
+  const Point2 from = scan.scanner.position();
+  cells_.centerOn(from);
+  for (const BorderScan::Beam& beam : scan.beams) {
+    const Point2 way = beam.end - from;
+    const double free = way.norm() - options_.end_margin;
+    if (free > 0.0) {
+      walkRay(cells_.window(), from, from + free * way.normalized(),
+              [this](CellIndex cell) { count(cell, 0, 1); });
+    }
+    if (beam.hit) {
+      count(cells_.window().cellAt(beam.end), 1, 0);
+    }
+  }
+}
+
+void PassageGrid::count(CellIndex index, int hits, int passages) {
+  if (!cells_.window().contains(index)) {
+    return;
+  }
+  Cell& cell = cells_.at(index);
+  cell.hits += hits;
+  cell.passages += passages;
+  if (cell.hits + cell.passages > options_.max_beams) {
+    cell.hits /= 2;
+    cell.passages /= 2;
+  }
+}
+
+PassageGrid::State PassageGrid::at(const Point2& point) const {
+  const Cell& cell = cells_.atOrEmpty(cells_.window().cellAt(point));
+  const int beams = cell.hits + cell.passages;
+  if (cell.hits >= options_.min_hits && cell.hits > options_.hit_share * beams) {
+    return State::kOccupied;
+  }
+  return cell.passages > 0 ? State::kFree : State::kUnseen;
+}
+
+void PassageGrid::reset() { cells_ = RollingGrid<Cell>(options_.window.window(), Cell{}); }
+
+}  // namespace datmo
