@@ -9,22 +9,19 @@ namespace datmo {
 
 namespace {
 
-/// m, from a point at which a corridor is looked at to the next, along and across.
-constexpr double kLookStep = 0.5;
+/// m, between the samples of a corridor, along and across.
+constexpr double kSampleStep = 0.5;
 
 /// m, from the place to where a corridor begins: the vehicle itself.
 constexpr double kBranchBegin = 1.0;
 
-int stepsIn(double length) { return static_cast<int>(std::lround(length / kLookStep)); }
+int stepsIn(double length) { return static_cast<int>(std::lround(length / kSampleStep)); }
 
-/// Points of the borders of the vehicle's road; their spacing is less than the width of a street.
 std::vector<Point2> pointsOfRoad(const std::vector<RoadBorder>& borders) {
   std::vector<Point2> points;
   for (const RoadBorder& border : borders) {
-    if (!border.side_street) {
-      for (const BorderPoint& point : border.points) {
-        points.push_back(point.position);
-      }
+    for (const BorderPoint& point : border.points) {
+      points.push_back(point.position);
     }
   }
   return points;
@@ -93,8 +90,8 @@ bool BranchSearch::isFree(const PassageGrid& grid, const std::vector<Point2>& bo
   for (int slice = 0; slice < slices; ++slice) {
     for (std::size_t i = 0; i + 1 < free_before.size(); ++i) {
       const PassageGrid::State state =
-          grid.at(from * Point2(kBranchBegin + slice * kLookStep,
-                                rightmost + static_cast<double>(i) * kLookStep));
+          grid.at(from * Point2(kBranchBegin + slice * kSampleStep,
+                                rightmost + static_cast<double>(i) * kSampleStep));
       free_before[i + 1] = free_before[i] + (state == PassageGrid::State::kFree ? 1 : 0);
       occupied_before[i + 1] =
           occupied_before[i] + (state == PassageGrid::State::kOccupied ? 1 : 0);
@@ -111,7 +108,7 @@ bool BranchSearch::isFree(const PassageGrid& grid, const std::vector<Point2>& bo
     if (share - options_.blocked_weight * blocked[i] / slices < options_.min_free) {
       continue;
     }
-    const double shift = -options_.max_shift + static_cast<double>(i) * kLookStep;
+    const double shift = -options_.max_shift + static_cast<double>(i) * kSampleStep;
     const bool closed = std::any_of(borders.begin(), borders.end(), [&](const Point2& point) {
       const Point2 seen = map_in_from * point;
       return seen.x() >= 0.0 && seen.x() <= options_.length &&

@@ -12,7 +12,8 @@ PassageGridOptions::PassageGridOptions() {
 }
 
 void PassageGridOptions::visit(OptionVisitor& visitor) {
-  visitor.group("window", [&] { window.visit(visitor); });
+  visitor.group(
+      "window", [&] { window.visit(visitor); }, Tier::kExpert);
   visitor.integer({"min_hits", "1", "beams that end in a cell that is not free"}, min_hits,
                   {1, 1000});
   visitor.number({"hit_share", "1",
@@ -36,10 +37,10 @@ void PassageGrid::update(const BorderScan& scan) {
   const Point2 from = scan.scanner.position();
   cells_.centerOn(from);
   for (const BorderScan::Beam& beam : scan.beams) {
-    const Point2 way = beam.end - from;
-    const double free = way.norm() - options_.end_margin;
+    const Point2 ray = beam.end - from;
+    const double free = ray.norm() - (beam.hit ? options_.end_margin : 0.0);
     if (free > 0.0) {
-      walkRay(cells_.window(), from, from + free * way.normalized(),
+      walkRay(cells_.window(), from, from + free * ray.normalized(),
               [this](CellIndex cell) { count(cell, 0, 1); });
     }
     if (beam.hit) {
@@ -67,7 +68,7 @@ PassageGrid::State PassageGrid::at(const Point2& point) const {
   if (cell.hits >= options_.min_hits && cell.hits > options_.hit_share * beams) {
     return State::kOccupied;
   }
-  return cell.passages > 0 ? State::kFree : State::kUnseen;
+  return cell.passages > 0 ? State::kFree : State::kUnknown;
 }
 
 void PassageGrid::reset() { cells_ = RollingGrid<Cell>(options_.window.window(), Cell{}); }

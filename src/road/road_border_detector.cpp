@@ -66,6 +66,13 @@ void RoadBorderDetectorOptions::check() const {
         "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
         ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
   }
+  const double min_window = 2.0 * (branches.length + branches.max_shift);
+  const double window = std::min(passages.window.length, passages.window.width);
+  if (window < min_window) {
+    throw OptionError("passages/window: length and width " + std::to_string(window) +
+                      " m: expected " + std::to_string(min_window) +
+                      " m or more, twice branches/length and branches/max_shift");
+  }
 }
 
 RoadBorderDetector::RoadBorderDetector(const Checked<RoadBorderDetectorOptions>& options)
@@ -140,9 +147,11 @@ void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
 void RoadBorderDetector::lookForIntersection() {
   const double arc_length = presence_.presence().arc_length;
   if (intersection_.isDue(arc_length)) {
-    const auto branches = branch_search_.search(passages_, road_.borders, vehicle_->position());
+    // Independent of what users publish of them.
+    const auto borders = publishedBorders(tracks_.borders(), *vehicle_, BorderPublishingOptions());
+    const auto branches = branch_search_.search(passages_, borders, vehicle_->position());
     intersection_.update(
-        {arc_length, hasBorderBeside(road_.borders, *vehicle_), static_cast<int>(branches.size())});
+        {arc_length, hasBorderBeside(borders, *vehicle_), static_cast<int>(branches.size())});
   }
 }
 

@@ -20,9 +20,11 @@ constexpr double kMatchesOfADistance = 2.0;
 
 }  // namespace
 
-MapDrift::MapDrift(double scale_variance, double step)
-    : step_(step), covariance_(Eigen::Matrix<double, kStates, kStates>::Zero()) {
-  covariance_(kScale, kScale) = scale_variance;
+MapDrift::MapDrift(const ScalePrior& scale, double step)
+    : learns_scale_(scale.calibrated),
+      step_(step),
+      covariance_(Eigen::Matrix<double, kStates, kStates>::Zero()) {
+  covariance_(kScale, kScale) = scale.variance;
 }
 
 double MapDrift::scaleSigma() const { return std::sqrt(covariance_(kScale, kScale)); }
@@ -36,7 +38,7 @@ void MapDrift::moveTo(const Pose2& base_in_map, bool by_odometry) {
     transition(kX, kHeading) = -motion.y();
     transition(kY, kHeading) = motion.x();
     if (by_odometry) {
-      transition.block<2, 1>(kX, kScale) = -motion;
+      transition.block<2, 1>(kX, kScale) = -laid_out_ * motion;
     }
     covariance_ = (transition * covariance_ * transition.transpose()).eval();
   }
@@ -50,13 +52,12 @@ double MapDrift::moved(const Pose2& from, const Pose2& to, double view_range) {
 
 void MapDrift::write(const MatchedScan& scan) {
   const Pose2& pose = scan.base_in_map.pose;
-  const Pose2 last = last_.value_or(pose);
-  last_ = pose;
   if (!since_) {
     since_ = pose;
   }
+  ++scans_since_;
   Written now{scan.stamp, written_.empty() ? 0.0 : written_.back().distance};
-  // The noise of matches at rest is no way.
+  // The noise of matches at rest is no motion.
   const double progress = moved(*since_, pose, scan.view_range);
   const bool has_moved = progress >= step_;
   if (has_moved) {
@@ -71,10 +72,11 @@ void MapDrift::write(const MatchedScan& scan) {
     return;
   }
   const Renewal renewal = renewalOf(scan.surface_age);
-  const double scans = progress / std::max(moved(last, pose, scan.view_range), step_ / kMaxWritten);
   covariance_.topLeftCorner<3, 3>() +=
-      std::min(1.0, scans / renewal.scans) * scan.base_in_map.covariance;
-  if (renewal.distance > 0.0) {
+      std::min(1.0, scans_since_ / renewal.scans) * scan.base_in_map.covariance;
+  scans_since_ = 0.0;
+  laid_out_ = renewal.remembered;
+  if (learns_scale_ && renewal.distance > 0.0) {
     const Point2 along = pose.rotate(Point2(1.0, 0.0));
     const double variance = along.dot(scan.base_in_map.covariance.topLeftCorner<2, 2>() * along);
     learnScale(kMatchesOfADistance * variance / square(renewal.distance));
@@ -90,7 +92,7 @@ MapDrift::Renewal MapDrift::renewalOf(double age) const {
   const double span = secondsBetween(written_.front().stamp, now.stamp);
   const double longer = first == written_.begin() && span > 0.0 ? std::max(1.0, age / span) : 1.0;
   return {std::max(1.0, longer * static_cast<double>(written_.end() - first - 1)),
-          longer * (now.distance - (first == written_.end() ? now : *first).distance)};
+          now.distance - first->distance, 1.0 / longer};
 }
 
 void MapDrift::learnScale(double variance) {

@@ -37,13 +37,13 @@ PoseFilter::PoseFilter(const Checked<PoseFilterOptions>& options, const MotionMo
     : options_(*options), motion_model_(motion) {
   covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.initialVelocityCovariance();
   if (options_.calibrate_odometry) {
-    covariance_(kSpeedScale, kSpeedScale) = kSpeedScaleSigma * kSpeedScaleSigma;
+    covariance_(kSpeedScale, kSpeedScale) = square(kSpeedScaleSigma);
     covariance_(kYawRateBias, kYawRateBias) = kYawRateBiasSigma * kYawRateBiasSigma;
   }
 }
 
-double PoseFilter::priorScaleVariance() const {
-  return options_.calibrate_odometry ? square(kSpeedScaleSigma) : 0.0;
+ScalePrior PoseFilter::scalePrior() const {
+  return {square(kSpeedScaleSigma), options_.calibrate_odometry};
 }
 
 PoseWithCovariance PoseFilter::pose() const { return {pose_, covariance_.topLeftCorner<3, 3>()}; }

@@ -25,7 +25,7 @@ struct PassageGridOptions {
 /// What beams say of each cell around the vehicle: how many ended in it, and how many passed.
 class PassageGrid {
  public:
-  enum class State : std::uint8_t { kUnseen, kFree, kOccupied };
+  enum class State : std::uint8_t { kUnknown, kFree, kOccupied };
 
   /// Throws OptionError, also for more cells than any memory holds.
   explicit PassageGrid(const Checked<PassageGridOptions>& options);
@@ -33,7 +33,7 @@ class PassageGrid {
   /// Moves the window with the scanner and counts the scan's beams.
   void update(const BorderScan& scan);
 
-  /// Of the cell at a point, m, map frame; unseen outside of the window.
+  /// Of the cell at a point, m, map frame; unknown outside of the window.
   State at(const Point2& point) const;
 
   /// Forgets all, as at the start.

@@ -45,7 +45,7 @@ struct RoadBorderDetectorOptions {
 };
 
 /// Finds the borders of the road in what scans of a planar scanner have hit, follows them, and
-/// detects where they open into an intersection (thesis 3.5).
+/// detects intersections by the streets that lead away (thesis 3.5: where no border is).
 class RoadBorderDetector {
  public:
   /// Throws OptionError.

@@ -179,6 +179,7 @@ class GridSlam {
   Stamp gap_end_;                       ///< of the first scan behind that gap
   std::optional<MapRecovery> recovery_;
   MapDrift drift_;
+  std::optional<Eigen::Matrix3d> unmatched_;   ///< covariance of the last pose without a match
   MapDrift drift_of_left_map_;                 ///< while recovery_ searches it
   std::shared_ptr<const PriorMap> prior_map_;  ///< its window holds all that is known
   /// Of the map's frame in that of the first map, about the origin.

@@ -19,6 +19,12 @@ struct MatchedScan {
   double view_range = 0.0;         ///< m, mean range of what it sees: so far a turn moves the view
 };
 
+/// What is known of odometry's scale at the start.
+struct ScalePrior {
+  double variance = 0.0;    ///< of its speed, as a share of it
+  bool calibrated = false;  ///< whether it is estimated from matches, online
+};
+
 /// How far the map itself has drifted since the start, which a match in it cannot tell.
 ///
 /// What comes into view is written at a pose that errs, and later scans are matched with it. Of
@@ -31,14 +37,14 @@ struct MatchedScan {
 /// along, so that what it leads to grows with distance, not with its root.
 ///
 /// Surfaces that were written long ago, as those of a prior map are or of a place that is seen
-/// again, hold the pose, and little drifts.
+/// again, hold the pose, and little drifts; odometry has laid out none of them.
 ///
 /// Called by GridSlam. Beyond what is published, nothing depends on it.
 class MapDrift {
  public:
-  /// `scale_variance`: of odometry's speed, as a share of it, before anything is learned; `step`:
-  /// m, over which matches have errors of their own: a cell of the map.
-  MapDrift(double scale_variance, double step);
+  /// `scale`: of the odometry; `step`: m, over which matches have errors of their own: a cell of
+  /// the map.
+  MapDrift(const ScalePrior& scale, double step);
 
   /// The vehicle has moved in the map. `by_odometry`: how far was measured by it.
   void moveTo(const Pose2& base_in_map, bool by_odometry);
@@ -63,8 +69,9 @@ class MapDrift {
 
   /// What lies between now and the time at which surfaces of this age (s) were written.
   struct Renewal {
-    double scans = 1.0;     ///< 1 or more
-    double distance = 0.0;  ///< m
+    double scans = 1.0;       ///< 1 or more
+    double distance = 0.0;    ///< m, as far as it is remembered
+    double remembered = 1.0;  ///< 0 to 1, share of the age that is
   };
   Renewal renewalOf(double age) const;
 
@@ -72,11 +79,13 @@ class MapDrift {
   static double moved(const Pose2& from, const Pose2& to, double view_range);
   void learnScale(double variance);
 
+  bool learns_scale_;
   double step_;
   Eigen::Matrix<double, kStates, kStates> covariance_;
   std::optional<Pose2> pose_;
-  std::optional<Pose2> last_;   ///< of the scan before
   std::optional<Pose2> since_;  ///< since when the drift has been added up
+  double scans_since_ = 0.0;
+  double laid_out_ = 1.0;  ///< share of what is seen that was laid out on this drive
   std::deque<Written> written_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/twist2.h"
+#include "datmo_fusion/slam/map_drift.h"
 #include "datmo_fusion/slam/motion_model.h"
 
 namespace datmo {
@@ -42,8 +43,8 @@ class PoseFilter {
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
 
-  /// Of odometry's scale error before any match; 0 where it is not estimated.
-  double priorScaleVariance() const;
+  /// Of odometry's scale error before any match.
+  ScalePrior scalePrior() const;
 
   /// As odometry measured it last, or else from the matches.
   const Twist2& velocity() const { return velocity_; }

@@ -64,7 +64,8 @@ struct BeamEvidence {
 /// Of a single echo the surface's direction is not known. Either it faces the beam; or the echo is
 /// the end of one beam that slides along a wall as the vehicle passes, and the surface runs along
 /// the target's motion (motionLogRatio). Walls, hedges and parked rows stand beside the vehicle's
-/// path, not in it: the nearer to its course an echo is, the less likely is that.
+/// path, not in it: the nearer to its course an echo is, the less likely is that, as far as the
+/// course is known: it is not at rest, nor far ahead in a bend.
 ///
 /// Sources of the idea: Wang, Posner, Newman, Model-free detection
 /// and tracking of dynamic objects with 2D lidar, 2015 (one likelihood of all beams); Petrovskaya

@@ -76,7 +76,7 @@ void EarthFrameStage::takeFix(const sensor_msgs::NavSatFix& message) {
 EarthFrameMessagePtr EarthFrameStage::takePose(
     const geometry_msgs::PoseWithCovarianceStamped& message) {
   return runner_.serve([&]() -> EarthFrameMessagePtr {
-    runner_.check("pose", message.header.stamp);
+    runner_.check("pose/local", message.header.stamp);
     const StampedPose now{toStamp(message.header.stamp), fromMessage(message.pose)};
     bool is_new = false;
     while (!waiting_.empty() && waiting_.front().stamp <= now.stamp) {

@@ -65,7 +65,7 @@ void V2xStage::takeFrame(const EarthFrameMessage& message) {
 
 void V2xStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
   runner_.serve([&] {
-    runner_.check("pose", message.header.stamp);
+    runner_.check("pose/local", message.header.stamp);
     poses_.push_back({toStamp(message.header.stamp), fromMessage(message.pose)});
     while (secondsBetween(poses_.front().stamp, poses_.back().stamp) > kMaxPoseAge) {
       poses_.pop_front();

@@ -69,6 +69,21 @@ TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
   EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
 }
 
+TEST(TrackFuserTest, WhereEachSensorTakesTheBodysCenterToBeIsUncertain) {
+  const TrackFuserOptions options = withScheme(TrackScheme::kByExistence);
+  TrackFuser fuser(options);
+  TrackFusionResult result;
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    result = fuser.fuse(at(t), {lidar(t, {driving(-20.0, t, "lidar", 1)}),
+                                stereo(t, {driving(-20.0, t, "stereo", 1)})});
+  }
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  ASSERT_EQ(result.list.tracks[0].sources.size(), 2U);
+  const double body_std = options.association.comparison.body_std;
+  EXPECT_GT(result.list.tracks[0].covariance(0, 0), body_std * body_std);
+}
+
 TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kConfirmedByAll);
   ASSERT_EQ(result.list.tracks.size(), 1U);

@@ -121,9 +121,6 @@ TEST_F(BranchSearchTest, NoneLeadsWhereNothingWasSeen) { EXPECT_TRUE(branches().
 TEST_F(BranchSearchTest, ABorderOfTheRoadClosesAStreet) {
   see(crossroads);
   EXPECT_EQ(branches({borderAcross()}).size(), 3U);
-  RoadBorder of_street = borderAcross();
-  of_street.side_street = true;
-  EXPECT_EQ(branches({of_street}).size(), 4U);
 }
 
 }  // namespace

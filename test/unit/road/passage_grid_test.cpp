@@ -37,8 +37,8 @@ class PassageGridTest : public ::testing::Test {
 TEST_F(PassageGridTest, WhatABeamPassesIsFreeAndWhereTwoEndedItIsOccupied) {
   repeat(1, beamTo(kEnd, true, {0.0, 0.25}));
   EXPECT_EQ(grid_.at(kBefore), State::kFree);
-  EXPECT_EQ(grid_.at(kEnd), State::kUnseen);
-  EXPECT_EQ(grid_.at(kBeyond), State::kUnseen);
+  EXPECT_EQ(grid_.at(kEnd), State::kUnknown);
+  EXPECT_EQ(grid_.at(kBeyond), State::kUnknown);
   repeat(1, beamTo(kEnd, true, {0.0, 0.25}));
   EXPECT_EQ(grid_.at(kEnd), State::kOccupied);
 }
@@ -46,7 +46,7 @@ TEST_F(PassageGridTest, WhatABeamPassesIsFreeAndWhereTwoEndedItIsOccupied) {
 TEST_F(PassageGridTest, ABeamWithoutReturnEndsOnNothing) {
   repeat(5, beamTo(kEnd, false, {0.0, 0.25}));
   EXPECT_EQ(grid_.at(kBefore), State::kFree);
-  EXPECT_EQ(grid_.at(kEnd), State::kUnseen);
+  EXPECT_EQ(grid_.at(kEnd), State::kFree);
 }
 
 TEST_F(PassageGridTest, WhatFewOfTheBeamsEndedInIsFree) {
@@ -70,16 +70,16 @@ TEST_F(PassageGridTest, WhatStoodForLongAndLeftIsFreeBeforeAsManyBeamsPassed) {
 TEST_F(PassageGridTest, WhatTheVehicleLeavesBehindIsForgotten) {
   repeat(2, beamTo(kEnd, true, {0.0, 0.25}));
   repeat(1, beamTo({110.0, 0.25}, false, {100.0, 0.25}));
-  EXPECT_EQ(grid_.at(kEnd), State::kUnseen);
+  EXPECT_EQ(grid_.at(kEnd), State::kUnknown);
   repeat(1, beamTo({1.0, 0.25}, false, {0.0, 0.25}));
-  EXPECT_EQ(grid_.at(kEnd), State::kUnseen);
+  EXPECT_EQ(grid_.at(kEnd), State::kUnknown);
 }
 
 TEST_F(PassageGridTest, ResetForgetsAll) {
   repeat(2, beamTo(kEnd, true, {0.0, 0.25}));
   grid_.reset();
-  EXPECT_EQ(grid_.at(kEnd), State::kUnseen);
-  EXPECT_EQ(grid_.at(kBefore), State::kUnseen);
+  EXPECT_EQ(grid_.at(kEnd), State::kUnknown);
+  EXPECT_EQ(grid_.at(kBefore), State::kUnknown);
 }
 
 }  // namespace

@@ -19,6 +19,20 @@ class Vehicle {
     return result;
   }
 
+  /// The same without a hit in any of the scans.
+  SlamResult blind(GridSlam& slam, const Twist2& twist, int scans) {
+    SlamResult result;
+    for (int i = 0; i < scans; ++i) {
+      slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds_), twist});
+      pose_ = pose_ * arc(twist, 0.1);
+      Scan scan = Yard().scan(pose_, seconds_);
+      scan.rays.clear();
+      result = slam.process(scan);
+      seconds_ += 0.1;
+    }
+    return result;
+  }
+
   SlamResult go(GridSlam& slam, const Twist2& twist, int scans) {
     SlamResult result;
     for (int i = 0; i < scans; ++i) {
@@ -32,7 +46,7 @@ class Vehicle {
   double seconds_ = 0.0;
 };
 
-TEST(GridSlamDriftTest, TheMapDriftsWithTheWay) {
+TEST(GridSlamDriftTest, TheMapDriftsWithTheDistance) {
   GridSlam slam{GridSlamOptions{}};
   Vehicle vehicle;
   EXPECT_TRUE(vehicle.step(slam, {}).drift.isZero());
@@ -54,6 +68,19 @@ TEST(GridSlamDriftTest, AtRestItDoesNot) {
   const SlamResult end = vehicle.go(slam, {4.0, 0.05}, 60);
   const SlamResult rest = vehicle.go(slam, {}, 200);
   EXPECT_NEAR(rest.drift(2, 2), end.drift(2, 2), 0.1 * end.drift(2, 2));
+}
+
+TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
+  GridSlam slam{GridSlamOptions{}};
+  Vehicle vehicle;
+  vehicle.go(slam, {4.0, 0.0}, 20);
+  const SlamResult before = vehicle.blind(slam, {4.0, 0.0}, 10);
+  const SlamResult after = vehicle.go(slam, {4.0, 0.0}, 2);
+  ASSERT_TRUE(after.match.accepted);
+  const auto sinceStart = [](const SlamResult& result) {
+    return result.split.base_in_map.covariance(0, 0) + result.drift(0, 0);
+  };
+  EXPECT_GT(sinceStart(after), 0.9 * sinceStart(before));
 }
 
 TEST(GridSlamDriftTest, AResetForgetsIt) {

@@ -27,7 +27,9 @@ Eigen::Matrix3d matchCovariance() {
 class Drive {
  public:
   explicit Drive(bool by_odometry, double scale_sigma = 0.05)
-      : drift(square(scale_sigma), kStep), by_odometry_(by_odometry) {}
+      : Drive(by_odometry, ScalePrior{square(scale_sigma), true}) {}
+  Drive(bool by_odometry, const ScalePrior& scale)
+      : drift(scale, kStep), by_odometry_(by_odometry) {}
 
   void scan(const Pose2& pose, double age) {
     drift.moveTo(pose, by_odometry_);
@@ -106,7 +108,22 @@ TEST(MapDriftTest, TheScaleOfOdometryIsKnownAsOneRenewalShowsIt) {
       << "what was learned stays";
 }
 
-TEST(MapDriftTest, TheScaleMakesTheWayUncertainInProportionToIt) {
+TEST(MapDriftTest, AScaleThatIsNotEstimatedStaysUnknown) {
+  Drive drive(true, ScalePrior{square(0.05), false});
+  drive.straight(100);
+  EXPECT_DOUBLE_EQ(drive.drift.scaleSigma(), 0.05);
+}
+
+TEST(MapDriftTest, SurfacesOfLongAgoShowTheScaleOnlyOverTheDistanceDrivenSince) {
+  constexpr double kLongAgo = 1e6;  // s
+  Drive drive(true);
+  for (int i = 1; i <= 100; ++i) {
+    drive.scan(Pose2(i, 0.0, 0.0), kLongAgo);
+  }
+  EXPECT_NEAR(drive.drift.scaleSigma(), std::sqrt(2.0) * kPositionSigma / 99.0, 1e-4);
+}
+
+TEST(MapDriftTest, TheScaleMakesTheDistanceUncertainInProportionToIt) {
   const auto alongAfter = [](bool by_odometry, int scans) {
     Drive drive(by_odometry);
     drive.straight(scans);

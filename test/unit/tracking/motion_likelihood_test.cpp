@@ -165,23 +165,22 @@ TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotAsked) {
   EXPECT_EQ(evidence(2.5, elsewhere()).observed, 0U);
 }
 
-/// The end of a beam that moves along a wall with the scanner, 1 m/s along x, as the scanner passes
-/// it.
+/// The end of a beam that moves along a wall with the scanner, along x, as the scanner passes it.
 class GrazingTest : public BeamEvidenceTest {
  protected:
   /// Scans of an echo at these positions relative to the scanner, 0.1 s apart.
-  double grazingShare(const std::vector<Point2>& positions) {
+  double grazingShare(const std::vector<Point2>& positions, double speed = 8.0) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const double seconds = 0.1 * static_cast<double>(i);
-      const double x = seconds;  // of the scanner
+      const double x = speed * seconds;  // of the scanner
       const Point2 position = positions[i] + Point2(x, 0.0);
       history_.add(scanOf({position}, seconds, Pose2(x, 0.0, 0.0)));
       see(seconds, {position});
     }
     const double end = 0.1 * static_cast<double>(positions.size() - 1);
-    return evidence(end, {{Pose2(positions.back() + Point2(end, 0.0), 0.0), 0.5, 0.5},
+    return evidence(end, {{Pose2(positions.back() + Point2(speed * end, 0.0), 0.0), 0.5, 0.5},
                           {0.0, 0.0},
-                          {1.0, 0.0},
+                          {speed, 0.0},
                           0.04})
         .grazing_share;
   }
@@ -208,6 +207,11 @@ TEST_F(GrazingTest, FarAheadThePathIsLessCertain) {
   history_.clear();
   seen_.clear();
   EXPECT_GT(grazingShareAt({40.0, 1.4}), 1.5 * near);
+}
+
+TEST_F(GrazingTest, AtACreepNobodyKnowsWhereThePathLeads) {
+  const std::vector<Point2> ahead(5, {20.0, 0.0});
+  EXPECT_GT(grazingShare(ahead, 0.05), 0.4 * options_.grazing_share);
 }
 
 TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {

@@ -175,7 +175,7 @@ def _path(run):
 def _largest_sigma(run):
     """m, in the worst direction, of the poses after the fault began."""
     covariances = [np.reshape(message.pose.covariance, (6, 6))[:2, :2]
-                   for message, _ in read_messages(run.computed, "/pose")
+                   for message, _ in read_messages(run.computed, "/pose/local")
                    if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0)]  # fmt: skip
     return float(np.sqrt(max(np.linalg.eigvalsh(covariance)[1] for covariance in covariances)))
 

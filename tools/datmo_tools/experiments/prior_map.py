@@ -67,7 +67,7 @@ def score(computed, reference, begin):
     whether any pose that did was off; errors are those of the last pose.
     """
     found_after, wrong, last = None, False, None
-    for message, kind in read_messages(computed, "/pose"):
+    for message, kind in read_messages(computed, "/pose/local"):
         sigma = math.sqrt(max(message.pose.covariance[0], message.pose.covariance[7]))
         if sigma > LOCATED_SIGMA:
             continue
