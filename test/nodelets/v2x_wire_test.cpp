@@ -107,7 +107,8 @@ class Stations : public Listener {
   ros::Subscriber foreign_;
   ros::Subscriber advice_;
   ros::Publisher frames_ = node_.advertise<EarthFrameMessage>("earth_frame", kQueue);
-  ros::Publisher poses_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose/local", kQueue);
+  ros::Publisher poses_ =
+      node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose/local", kQueue);
   ros::Publisher own_ = node_.advertise<TrackArray>("tracks/own", kQueue);
   DatagramSender sender_{"127.0.0.1", kPort};
   std::unique_ptr<DatagramListener> ours_;
