@@ -45,7 +45,7 @@ class PriorMap(unittest.TestCase):
             for second in range(15):
                 is_found = second >= found_at
                 pose = pose_at(second, offset if is_found else 9.0, turn, 0.1 if is_found else 8.0)
-                bag.write("/pose", pose, pose.header.stamp)
+                bag.write("/pose/local", pose, pose.header.stamp)
         return score(computed, self.reference, BEGIN)
 
     def test_found(self):
