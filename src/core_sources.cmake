@@ -220,6 +220,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/clutter_map.cpp
   tracking/duplicates.cpp
   tracking/existence_score.cpp
+  tracking/grazing.cpp
   tracking/hypothesis_cluster.cpp
   tracking/hypothesis_expansion.cpp
   tracking/hypothesis_pruning.cpp

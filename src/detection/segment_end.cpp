@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/uniform.h"
 
 namespace datmo {
@@ -12,8 +13,6 @@ namespace {
 
 /// Ranges that differ by more standard deviations than this are of different surfaces.
 constexpr double kSurelyApart = 3.0;
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Point2 turned(const Point2& vector, double angle) {
   return Pose2(Point2::Zero(), angle).rotate(vector);

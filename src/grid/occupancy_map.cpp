@@ -108,7 +108,7 @@ void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) cons
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
   HitSums sums;
   forEachSurfaceAround(point, [&](const Cell& cell, CellIndex index) {
-    sums.add(cell.hits, window().centerOf(index) - point, maturity(cell));
+    sums.add(cell.hits, window().centerOf(index) - point, maturity(cell), now_ - cell.mean_hit);
   });
   return sums.empty() ? std::nullopt : std::make_optional(sums.about(point));
 }
@@ -228,7 +228,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
     return 1.0F;
   }
   HitSums sums;
-  sums.add(cell.hits, Point2::Zero(), maturity(cell));
+  sums.add(cell.hits, Point2::Zero(), maturity(cell), now_ - cell.mean_hit);
   const HitDistribution surface = sums.about(window().centerOf(index));
   const Point2 across(-direction.y(), direction.x());
   const double distance = across.dot(surface.mean - from);

@@ -37,7 +37,7 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
                  min_road, {0.0, 50.0});
   visitor.number({"enter_above", "1", "probability from which on the vehicle is at one"},
                  enter_above, {0.01, 0.99});
-  visitor.number({"leave_below", "1", "probability from which on it is at one no more"},
+  visitor.number({"leave_below", "1", "probability below which it is no longer at one"},
                  leave_below, {0.01, 0.99});
 }
 

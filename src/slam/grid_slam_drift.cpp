@@ -24,15 +24,10 @@ MapDrift GridSlam::noDrift() const { return {filter_.scalePrior(), options_.map.
 void GridSlam::followDrift(const PoseWithCovariance& base_in_map, const Scan& scan,
                            SlamResult& result) {
   drift_.moveTo(base_in_map.pose, result.odometry_used);
-  if (!result.match.accepted) {
-    unmatched_ = filter_.pose().covariance;
-  } else {
-    if (unmatched_) {
-      // What was written meanwhile errs as the prediction did; the next match is with that.
-      drift_.write({scan.stamp, {base_in_map.pose, *unmatched_}, 0.0, meanRange(scan)});
-      unmatched_.reset();
-    }
+  if (result.match.accepted) {
     drift_.write({scan.stamp, filter_.pose(), result.match.surface_age, meanRange(scan)});
+  } else {
+    drift_.writeUnmatched(filter_.pose().covariance);
   }
   result.drift = drift_.covariance();
 }

@@ -71,6 +71,10 @@ void MapDrift::write(const MatchedScan& scan) {
   if (!has_moved) {
     return;
   }
+  if (unmatched_) {
+    covariance_.topLeftCorner<3, 3>() += *unmatched_;
+    unmatched_.reset();
+  }
   const Renewal renewal = renewalOf(scan.surface_age);
   covariance_.topLeftCorner<3, 3>() +=
       std::min(1.0, scans_since_ / renewal.scans) * scan.base_in_map.covariance;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grazing.h"
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/square.h"
@@ -91,76 +92,6 @@ struct CrossingBeams {
                                         observed, false};
   }
 };
-
-/// The 95 % quantile of chi-square with one degree of freedom.
-constexpr double kSignificant = 3.84;
-
-/// s, over which the scanner's own velocity is taken, and between two of them.
-constexpr double kVelocityTime = 0.3;
-constexpr double kTurnTime = 1.0;
-
-/// rad; how well its direction tells where the vehicle will pass on a straight road.
-constexpr double kCourseStd = 0.02;
-
-/// m, of the scanner's motion between two scans.
-constexpr double kMotionStd = 0.02;
-
-/// The scan nearest to this age, s; of at least two the last but one, at most.
-std::size_t scanOfAge(const ScanHistory& history, double age) {
-  std::size_t back = 0;
-  while (back + 2 < history.size() && history.age(back) < age) {
-    ++back;
-  }
-  return back;
-}
-
-/// The scanner's mean velocity in kVelocityTime before a scan, which is not the oldest one.
-Point2 scannerVelocity(const ScanHistory& history, std::size_t last = 0) {
-  std::size_t back = last + 1;
-  while (back + 1 < history.size() && history.age(back) - history.age(last) < kVelocityTime) {
-    ++back;
-  }
-  return (history.scanner(last) - history.scanner(back)) / (history.age(back) - history.age(last));
-}
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Standard deviation, m, of how far from its present course the vehicle will pass at this range.
-double pathStd(const ScanHistory& history, double range) {
-  const Point2 velocity = scannerVelocity(history);
-  const std::size_t before = scanOfAge(history, kTurnTime);
-  const Point2 velocity_before = scannerVelocity(history, before);
-  const double turn =
-      std::atan2(cross(velocity_before, velocity), velocity_before.dot(velocity));  // rad
-  const double distance = velocity.norm() * std::max(kVelocityTime, history.age(before));
-  const double bend = 0.5 * square(range) * turn / distance;
-  const double direction = kMotionStd / (velocity.norm() * kVelocityTime);
-  return std::hypot(range * std::hypot(kCourseStd, direction), bend);
-}
-
-/// That a wall may stand there, beside the vehicle's path.
-double besidePath(const ScanHistory& history, const Point2& line_of_sight, double free_path) {
-  const Point2 course = scannerVelocity(history).normalized();
-  const double lateral = std::abs(cross(course, line_of_sight));
-  const double std = pathStd(history, line_of_sight.norm());
-  return 0.5 * std::erfc((free_path - lateral) / (std::sqrt(2.0) * std));
-}
-
-/// Share of what stands there and seems to move so that is the end of one beam along a surface, as
-/// the scanner moves past it; 0 where the bearing does not stay.
-double grazingShare(const ScanHistory& history, const BeamPositions& seen, const MovingBody& body,
-                    const MotionLikelihoodOptions& options) {
-  if (history.size() < 2 || body.velocity.isZero() || !seen.keepsItsBeam()) {
-    return 0.0;
-  }
-  const Point2 line_of_sight = body.box.center.position() - history.scanner(0);
-  const Point2 own_velocity = scannerVelocity(history);
-  const double across = cross(line_of_sight.normalized(), body.velocity - own_velocity);
-  if (square(across) >= kSignificant * body.speed_variance || own_velocity.isZero()) {
-    return 0.0;
-  }
-  return options.grazing_share * besidePath(history, line_of_sight, options.free_path);
-}
 
 /// What the beams of one scan say of the positions of `seen`, at `time` on its clock.
 class ScanBeams {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo::kitti {
 
 namespace {
@@ -21,10 +23,6 @@ struct Polygon {
 
   void add(const Eigen::Vector2d& corner) { corners[size++] = corner; }
 };
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 Eigen::Vector2d groundCenter(const Box3& box) { return {box.x, box.z}; }
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo::simulator {
 
 namespace {
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Interval of the half line inside the slab |coordinate| <= half, cut with `[enter, leave]`.
 void cutWithSlab(double origin, double direction, double half, double& enter, double& leave) {

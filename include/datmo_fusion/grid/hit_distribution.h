@@ -35,7 +35,7 @@ class HitSums {
  public:
   /// `shift`: of the cell's center from the common reference, m. `maturity`: of the cell, 0 to 1.
   /// `age`: mean of its hits, s.
-  void add(const CellHits& cell, const Point2& shift, double maturity, double age = 0.0);
+  void add(const CellHits& cell, const Point2& shift, double maturity, double age);
 
   bool empty() const { return hits_ <= 0.0; }
 

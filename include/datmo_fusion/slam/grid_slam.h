@@ -36,7 +36,8 @@ struct GridSlamOptions {
 /// What one scan led to.
 struct SlamResult {
   /// The scan's end points, judged against the map, and the pose. Its covariance is that in the map
-  /// as it is now, in which things seen at about the same time are compared.
+  /// as it is now, in which things seen at about the same time are compared, and of what gaps left
+  /// open since the first map.
   LabeledScan split;
   /// How far that map has drifted since the start, about the pose (MapDrift): with this in addition
   /// the covariance is that since the start.
@@ -179,7 +180,6 @@ class GridSlam {
   Stamp gap_end_;                       ///< of the first scan behind that gap
   std::optional<MapRecovery> recovery_;
   MapDrift drift_;
-  std::optional<Eigen::Matrix3d> unmatched_;   ///< covariance of the last pose without a match
   MapDrift drift_of_left_map_;                 ///< while recovery_ searches it
   std::shared_ptr<const PriorMap> prior_map_;  ///< its window holds all that is known
   /// Of the map's frame in that of the first map, about the origin.

@@ -49,6 +49,10 @@ class MapDrift {
   /// The vehicle has moved in the map. `by_odometry`: how far was measured by it.
   void moveTo(const Pose2& base_in_map, bool by_odometry);
 
+  /// A scan that was not matched is written to the map from where moveTo() led, with the covariance
+  /// of the prediction. The next match is with what was written so, and does not know its error.
+  void writeUnmatched(const Eigen::Matrix3d& covariance) { unmatched_ = covariance; }
+
   /// A scan is written to the map from where moveTo() led.
   void write(const MatchedScan& scan);
 
@@ -86,6 +90,7 @@ class MapDrift {
   std::optional<Pose2> since_;  ///< since when the drift has been added up
   double scans_since_ = 0.0;
   double laid_out_ = 1.0;  ///< share of what is seen that was laid out on this drive
+  std::optional<Eigen::Matrix3d> unmatched_;  ///< of the last one, until the next match
   std::deque<Written> written_;
 };
 

@@ -41,8 +41,8 @@ struct MovingBody {
 /// What the beams of the last scans say of a target.
 struct BeamEvidence {
   double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
-  double log_ratio_to_grazing =
-      0.0;                     ///< that it moves over that it is the end of a beam along a wall
+  /// That it moves over that it is the end of a beam along a wall.
+  double log_ratio_to_grazing = 0.0;
   double grazing_share = 0.0;  ///< of what stands there, the share of such ends; 0: it is none
   std::size_t observed = 0;    ///< informative beams; 0: nothing is known
   bool by_others = false;      ///< no beam ended on it: other sensors see it

@@ -150,66 +150,6 @@ std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {
   return before && after ? std::make_optional(before->inverse() * *after) : std::nullopt;
 }
 
-void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
-  for (const InputError& fault :
-       faultsOf(mount, converted, options_.max_tilt, "goes on with the predicted pose")) {
-    monitor_.warned(fault);
-  }
-  if (const auto misfit = extent_.take(converted.scan)) {
-    monitor_.warned(*misfit);
-  }
-}
-
-void GridSlamStage::showLocalization(const SlamResult& result) {
-  monitor_.figure("maps started over", result.maps_begun);
-  switch (result.localization) {
-    case Localization::kLocated:
-      if (result.maps_begun > maps_begun_) {
-        monitor_.condition(HealthLevel::kGood,
-                           "not found again after a gap: goes on in a new map, and the pose's "
-                           "covariance keeps what is not known of it");
-      } else if (monitor_.health() != HealthLevel::kGood) {
-        monitor_.condition(HealthLevel::kGood, "located in the map");
-      }
-      maps_begun_ = result.maps_begun;
-      return;
-    case Localization::kUncertain:
-    case Localization::kLost:
-      showSearch(result);
-      return;
-  }
-}
-
-void GridSlamStage::showSearch(const SlamResult& result) {
-  const bool is_lost = result.localization == Localization::kLost;
-  const HealthLevel health = is_lost ? HealthLevel::kNothing : HealthLevel::kLess;
-  if (result.searches_prior_map) {
-    monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
-                                   ": searches the prior map, and writes nothing to it until one "
-                                   "place alone fits what was seen on the way");
-  } else if (is_lost) {
-    monitor_.condition(health,
-                       "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
-                       "too much of it");
-  } else {
-    monitor_.condition(health,
-                       "uncertain where in the map after a gap: searches, and keeps the map as it "
-                       "was");
-  }
-}
-
-void GridSlamStage::showMatch(const SlamResult& result) {
-  const MatchQuality& match = result.match;
-  degenerate_scans_ += match.degenerate ? 1 : 0;
-  monitor_.figure("points matched", match.matched_points);
-  monitor_.figure("match score, 0 to 1", match.score);
-  monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
-  monitor_.figure("scans with a direction left to the odometry",
-                  static_cast<double>(degenerate_scans_));
-  monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
-  monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
-}
-
 GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   const Stamp stamp = result.split.stamp;
   GridSlamOutput output;

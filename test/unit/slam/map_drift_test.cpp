@@ -144,6 +144,16 @@ TEST(MapDriftTest, APriorMapHoldsThePose) {
   EXPECT_LT(drive.drift.covariance()(0, 0), 0.01 * square(kPositionSigma));
 }
 
+TEST(MapDriftTest, WhatWasWrittenWithoutAMatchErrsAsThePredictionDid) {
+  Drive drive(false);
+  drive.straight(100);
+  const double before = drive.drift.covariance()(0, 0);
+  drive.drift.writeUnmatched(Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal());
+  drive.drift.writeUnmatched(Eigen::Vector3d(4.0, 0.0, 0.0).asDiagonal());
+  drive.straight(2);
+  EXPECT_NEAR(drive.drift.covariance()(0, 0) - before, 4.0, 0.01) << "the last one's, once";
+}
+
 TEST(MapDriftTest, WithoutMatchesItIsCarriedAlong) {
   Drive drive(false);
   drive.straight(100);

@@ -214,6 +214,25 @@ TEST_F(GrazingTest, AtACreepNobodyKnowsWhereThePathLeads) {
   EXPECT_GT(grazingShare(ahead, 0.05), 0.4 * options_.grazing_share);
 }
 
+TEST_F(GrazingTest, InABendAWallMayStandStraightAhead) {
+  // 8 m/s on a radius of 50 m to the left, whose outer wall is met by the beam straight ahead.
+  constexpr double kRadius = 50.0;
+  constexpr double kYawRate = 8.0 / kRadius;
+  Pose2 scanner;
+  for (int i = 0; i <= 15; ++i) {
+    const double seconds = 0.1 * i;
+    const double turn = kYawRate * seconds;
+    scanner = Pose2(kRadius * std::sin(turn), kRadius * (1.0 - std::cos(turn)), turn);
+    const Point2 position = scanner * Point2(20.0, 0.0);
+    history_.add(scanOf({position}, seconds, scanner));
+    see(seconds, {position});
+  }
+  const Point2 along = scanner.rotate(Point2(8.0, 0.0));
+  const MovingBody end_of_beam{
+      {scanner * Pose2(20.0, 0.0, 0.0), 0.5, 0.5}, {0.0, 0.0}, along, 0.04};
+  EXPECT_GT(evidence(1.5, end_of_beam).grazing_share, 0.2 * options_.grazing_share);
+}
+
 TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
   see(0.0, {{20.0, 5.0}});
   for (const double seconds : {0.0, 0.1}) {
