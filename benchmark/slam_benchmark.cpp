@@ -52,7 +52,7 @@ void timeSteps(benchmark::State& state, const GridSlamOptions& options,
 void scorePoses(benchmark::State& state) {
   const auto poses = static_cast<int>(state.range(1));
   RunningSlam slam({}, {static_cast<int>(state.range(0))});
-  const PoseWithCovariance prediction = slam.step().split.base_in_map;
+  const PoseWithCovariance prediction = slam.step().labeled_scan.base_in_map;
   const auto points = endPoints(slam.lastScan(), GridSlamOptions{}.max_step);
   ScanMatcherOptions options;
   options.samples = poses;

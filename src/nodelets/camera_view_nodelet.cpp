@@ -15,8 +15,8 @@
 
 namespace datmo {
 
-/// The door to CameraView. In: image, camera_info, tracks, tf. Out: camera_view. It subscribes to
-/// the images only while somebody looks, so that nobody rectifies them for nothing.
+/// ROS interface of CameraView. In: image, camera_info, tracks, tf. Out: camera_view. It subscribes
+/// to the images only while it has subscribers, so that none are rectified in vain.
 class CameraViewNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -26,7 +26,7 @@ class CameraViewNodelet : public nodelet::Nodelet {
         options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     view_ = std::make_unique<CameraView>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
-    // No input is missed while nobody looks.
+    // No input is missed while there are no subscribers.
     reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
                                                 std::vector<WatchedInput>{}, StageTopics{},
                                                 options.input.silence_after);
@@ -37,11 +37,13 @@ class CameraViewNodelet : public nodelet::Nodelet {
     camera_info_ =
         node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this, hints);
     tracks_ = node.subscribe("tracks", kQueue, &CameraViewNodelet::takeTracks, this, hints);
-    const auto look = [this](const ros::SingleSubscriberPublisher& /*who*/) { lookOrNot(); };
-    picture_ = node.advertise<sensor_msgs::Image>("camera_view", 1, look, look);
+    const auto update = [this](const ros::SingleSubscriberPublisher& /*subscriber*/) {
+      updateImageSubscription();
+    };
+    picture_ = node.advertise<sensor_msgs::Image>("camera_view", 1, update, update);
   }
 
-  void lookOrNot() {
+  void updateImageSubscription() {
     if (picture_.getNumSubscribers() == 0) {
       images_.shutdown();
     } else if (!images_) {

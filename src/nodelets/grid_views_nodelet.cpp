@@ -12,8 +12,8 @@
 
 namespace datmo {
 
-/// The door to GridViews. In: grids/<panel> of each panel, map, pose. Out: grid_views. It draws
-/// only while somebody looks, and only when something new has come.
+/// ROS interface of GridViews. In: grids/<panel> of each panel, map, pose. Out: grid_views. It
+/// draws only for subscribers, and only when something new has come.
 class GridViewsNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -25,7 +25,7 @@ class GridViewsNodelet : public nodelet::Nodelet {
     using Callback = boost::function<void(const nav_msgs::OccupancyGridConstPtr&)>;
     for (const std::string& panel : views_->panels()) {
       const Callback take = [this, panel](const nav_msgs::OccupancyGridConstPtr& grid) {
-        views_->takeGrid(panel, grid);
+        guarded(*monitor_, topicOf(panel), [&] { views_->takeGrid(panel, grid); });
         news_ = true;
       };
       grids_.push_back(node.subscribe<nav_msgs::OccupancyGrid>(topicOf(panel), 1, take));
@@ -40,7 +40,7 @@ class GridViewsNodelet : public nodelet::Nodelet {
   }
 
   void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    views_->takePose(message);
+    guarded(*monitor_, "pose", [&] { views_->takePose(message); });
   }
 
   void draw() {

@@ -17,7 +17,7 @@
 namespace datmo {
 
 /// Draws for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks, risks,
-/// ground_truth/objects. Out: markers, while somebody looks; legend, once.
+/// ground_truth/objects. Out: markers, while there are subscribers; legend, once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -46,9 +46,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   void takeLabeledScan(const LabeledScanConstPtr& message) {
     last_scan_ = message;
     draw("labeled_scan", *message);
-    if (markers_.getNumSubscribers() > 0) {
-      publish("vehicle", vehicleMarkers(message->header, options_.vehicle));
-    }
+    publishGuarded("vehicle", [&] { return vehicleMarkers(message->header, options_.vehicle); });
   }
 
   void takeBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
@@ -58,26 +56,28 @@ class MarkersNodelet : public nodelet::Nodelet {
   void takeTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
 
   void takeRisks(const RiskArrayConstPtr& message) {
-    if (markers_.getNumSubscribers() > 0) {
-      publish("risks", markersOf(*message, RiskStyle()));
-    }
+    publishGuarded("risks", [&] { return markersOf(*message, RiskStyle()); });
   }
 
   template <typename Message>
   void draw(const std::string& source, const Message& message) {
-    if (markers_.getNumSubscribers() == 0) {
-      return;
-    }
-    guarded(*monitor_, source, [&] {
+    publishGuarded(source, [&] {
       visualization_msgs::MarkerArray markers = markersOf(message, options_);
       transformToFrame(message, markers);
-      publish(source, std::move(markers));
+      return markers;
     });
   }
 
-  void publish(const std::string& source, visualization_msgs::MarkerArray markers) {
-    stale_.replace(source, markers);
-    markers_.publish(markers);
+  /// `make`: the markers of a source, made only for subscribers.
+  template <typename Make>
+  void publishGuarded(const std::string& source, const Make& make) {
+    if (markers_.getNumSubscribers() > 0) {
+      guarded(*monitor_, source, [&] {
+        visualization_msgs::MarkerArray markers = make();
+        stale_.replace(source, markers);
+        markers_.publish(markers);
+      });
+    }
   }
 
   /// Objects of the last scan go where the scan was seen from: tf may not know yet.

@@ -110,7 +110,7 @@ void removeConflictingBeams(const Scan& measured, const GridMaskedScan& view, Sc
   states.resize(kept);
 }
 
-LabeledScan split(const Scan& scan, const std::vector<PointState>& states,
+LabeledScan label(const Scan& scan, const std::vector<PointState>& states,
                   const PoseWithCovariance& base_in_map) {
   LabeledScan result{scan.stamp, base_in_map,      scan.scanner_in_base,
                      scan.field, blindBeams(scan), {}};
@@ -281,7 +281,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   if (recovery_) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   }
-  result.split = split(own, states, base_in_map);
+  result.labeled_scan = label(own, states, base_in_map);
   rememberScan(scan);
   recover(scan.stamp);
   result.maps_begun = maps_begun_;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,15 @@ const std::vector<std::string> kNodelets{
 
 class OutageTest : public testing::Test {
  protected:
-  static bool isLoaded(const std::string& nodelet) {
+  static bool areLoaded(const std::vector<std::string>& nodelets) {
     nodelet::NodeletList list;
     if (!ros::service::call("/perception/list", list)) {
       return false;
     }
     const auto& known = list.response.nodelets;
-    return std::count(known.begin(), known.end(), "/" + nodelet) > 0;
+    return std::all_of(nodelets.begin(), nodelets.end(), [&](const std::string& nodelet) {
+      return std::count(known.begin(), known.end(), "/" + nodelet) > 0;
+    });
   }
 
   static bool unload(const std::string& nodelet) {
@@ -62,12 +65,27 @@ class OutageTest : public testing::Test {
     return found == lists.rend() ? 0 : found->car;
   }
 
-  /// How long tracks were away, and whether the other car is the same one in them.
-  nlohmann::json measured(const std::string& what, double time, std::uint32_t id) {
-    EXPECT_TRUE(drive_.run(kPatience, kRates, [&] { return hasTracksOf(time); })) << what;
-    const double took = drive_.now() - time;
+  /// How long after `time` (s) the nodelets are loaded and tracks come, and whether the other car is
+  /// the same one in them.
+  nlohmann::json measured(const std::string& what, const std::vector<std::string>& nodelets,
+                          double time, std::uint32_t id) {
+    std::optional<double> loaded;
+    std::optional<double> tracks;
+    const auto isBack = [&] {
+      if (!loaded && areLoaded(nodelets)) {
+        loaded = drive_.now() - time;
+      }
+      if (!tracks && hasTracksOf(time)) {
+        tracks = drive_.now() - time;
+      }
+      return loaded && tracks;
+    };
+    EXPECT_TRUE(drive_.run(kPatience, kRates, isBack)) << what;
     drive_.run(kSettle, kRates);
-    nlohmann::json one = {{"what", what}, {"tracks_s", took}, {"id_kept", carId() == id}};
+    nlohmann::json one = {{"what", what},
+                          {"loaded_s", loaded.value_or(kPatience)},
+                          {"tracks_s", tracks.value_or(kPatience)},
+                          {"id_kept", carId() == id}};
     std::cout << one.dump() << std::endl;
     return one;
   }
@@ -82,27 +100,20 @@ TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
   ASSERT_TRUE(drive_.run(kPatience, kRates, [this] { return carId() != 0; }));
   drive_.run(kSettle, kRates);
   nlohmann::json outages = nlohmann::json::array();
-  outages.push_back(measured("nothing", drive_.now(), carId()));
-  outages.back()["loaded_s"] = 0.0;
+  outages.push_back(measured("nothing", {}, drive_.now(), carId()));
   for (const std::string& nodelet : kNodelets) {
     const std::uint32_t id = carId();
     const double time = drive_.now();
     EXPECT_TRUE(unload(nodelet)) << nodelet;
-    EXPECT_TRUE(drive_.run(kPatience, kRates, [&] { return isLoaded(nodelet); })) << nodelet;
-    const double back = drive_.now() - time;
-    outages.push_back(measured(nodelet + " unloaded", time, id));
-    outages.back()["loaded_s"] = back;
+    outages.push_back(measured(nodelet + " unloaded", {nodelet}, time, id));
   }
   const std::uint32_t id = carId();
   const pid_t process = processOf("/perception");
   ASSERT_GT(process, 0);
   const double time = drive_.now();
   ASSERT_EQ(kill(process, SIGKILL), 0);
-  outages.push_back(measured("the process killed", time, id));
+  outages.push_back(measured("the process killed", kNodelets, time, id));
   outages.back()["id_kept"] = nullptr;  // ids begin anew
-  EXPECT_TRUE(drive_.run(kPatience, kRates,
-                         [] { return std::all_of(kNodelets.begin(), kNodelets.end(), isLoaded); }));
-  outages.back()["loaded_s"] = drive_.now() - time;
   if (!out.empty()) {
     std::ofstream(out) << outages.dump(1) << "\n";
   }

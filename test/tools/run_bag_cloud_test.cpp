@@ -92,6 +92,20 @@ TEST_F(RunBagOnClouds, ANamedCloudServesInPlaceOfScans) {
   EXPECT_EQ(count(arguments_.output, "/pose"), std::size_t{kScans});
 }
 
+TEST_F(RunBagOnClouds, ObjectsOfTheCloudsAreFusedByTheirSwitchAlone) {
+  writeClouds("/cloud");
+  arguments_.cloud_objects = true;
+  run();
+  std::size_t of_clouds = 0;
+  for (const ObjectArray& list : listsOf<ObjectArray>("/objects/fused")) {
+    for (const auto& object : list.objects) {
+      of_clouds += static_cast<std::size_t>(
+          std::count(object.sensors.begin(), object.sensors.end(), "cloud"));
+    }
+  }
+  EXPECT_GT(of_clouds, 0U);
+}
+
 TEST_F(RunBagOnClouds, ACloudThatIsNotThereIsNamed) {
   arguments_.remappings["/cloud"] = "/velodyne_points";
   EXPECT_NE(failure().find("no PointCloud2 on /velodyne_points"), std::string::npos);

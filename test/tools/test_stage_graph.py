@@ -75,6 +75,7 @@ class StageGraph(unittest.TestCase):
             levels = [level for level, value in zip(LEVELS, values) if value]
             yield levels
             yield [*levels, *OTHERS]
+        yield from ([other] for other in OTHERS)
         yield ["merge_scans"]
         yield ["merge_scans", *LEVELS]
 
@@ -158,12 +159,21 @@ class Parts(unittest.TestCase):
             self.assertEqual(node.machine_name,
                              part if alone else "perception" if "perception" in parts else None)
 
-    def test_there_is_a_thread_for_each_nodelet(self):
-        nodes = self.loaded(PARTS, [*LEVELS, *OTHERS], "stereo_images:=raw")
-        loaded = collections.Counter(node.args.split()[2] for node in nodes if node.args.startswith("load "))
-        self.assertEqual(len(loaded), len(PARTS))
+    def check_threads(self, config, managers):
+        """As many threads as nodelets in each process."""
+        loaded = collections.Counter(node.args.split()[2] for node in config.nodes if node.args.startswith("load "))
+        self.assertEqual(len(loaded), managers)
         for manager, nodelets in loaded.items():
-            self.assertGreaterEqual(self.config.params[f"/{manager}/num_worker_threads"].value, nodelets)
+            self.assertGreaterEqual(config.params[f"/{manager}/num_worker_threads"].value, nodelets)
+
+    def test_there_is_a_thread_for_each_nodelet(self):
+        self.loaded(PARTS, [*LEVELS, *OTHERS], "stereo_images:=raw")
+        self.check_threads(self.config, len(PARTS))
+
+    def test_there_is_a_thread_for_each_nodelet_of_one_process_with_devices(self):
+        words = [f"{switch}:=true" for switch in (*LEVELS, *OTHERS, "v2x_wire") if switch != "cloud"]
+        self.check_threads(load("live.launch", [*words, "cloud:=cloud", "stereo_images:=raw", "lidar:=velodyne",
+                                                "odometry:=can_imu", f"config:={PACKAGE}/config/demonstrator.yaml"]), 1)
 
     def test_each_machine_beside_perceptions_answers_for_its_clock(self):
         nodes = {node.name: node for node in self.loaded(PARTS, ["risk"])}

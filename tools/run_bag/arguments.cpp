@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "arguments.h"
 
-#include "output_bag.h"
+#include "argument_checks.h"
 
 #include "datmo_fusion/ros/map_files.h"
 
@@ -48,25 +48,6 @@ const Choices<FusionLevel> kFusionLevels = {{"none", FusionLevel::kNone},
                                             {"track", FusionLevel::kTrack},
                                             {"recommended", FusionLevel::kRecommended}};
 
-/// A stage that runs only if its option is given.
-struct OptionalStage {
-  const char* option;
-  bool Arguments::*is_given;
-  LastStage stage;
-  LastStage earliest_end;  ///< of --until with it
-};
-
-constexpr OptionalStage kOptionalStages[] = {
-    {"--low-level-fusion", &Arguments::low_level_fusion, LastStage::kGridFusion,
-     LastStage::kGridFusion},
-    {"--loop-closing", &Arguments::loop_closing, LastStage::kLoopClosing, LastStage::kLoopClosing},
-    {"--road-border", &Arguments::road_border, LastStage::kRoadBorder, LastStage::kRoadBorder},
-    {"--object-fusion", &Arguments::object_fusion, LastStage::kObjectFusion,
-     LastStage::kObjectFusion},
-    {"--track-fusion", &Arguments::track_fusion, LastStage::kTrackFusion, LastStage::kTracker},
-    {"--risk", &Arguments::risk, LastStage::kRisk, LastStage::kRisk},
-};
-
 constexpr char kDescription[] =
     "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and writes\n"
     "/pose, /map, /labeled_scan, /objects, /tracks and /tf to another bag.";
@@ -88,74 +69,6 @@ void switchOn(FusionLevel level, Arguments& arguments) {
   arguments.object_fusion |= switches.object_fusion;
   arguments.track_fusion |= switches.track_fusion;
   arguments.road_border |= switches.road_border;
-}
-
-void checkOutputs(const Arguments& arguments) {
-  std::vector<std::string> written;
-  std::vector<std::string> outputs{arguments.output,   arguments.times,    arguments.report,
-                                   arguments.save_map, arguments.text.tum, arguments.text.kitti,
-                                   arguments.text.mot};
-  if (!arguments.save_map.empty()) {
-    const MapServerNames beside = mapServerNames(arguments.save_map);
-    outputs.insert(outputs.end(), {beside.yaml, beside.image});
-  }
-  for (const std::string& file : outputs) {
-    if (file.empty()) {
-      continue;
-    }
-    std::vector<std::string> inputs = arguments.presets;
-    inputs.insert(inputs.end(), {arguments.input, arguments.config});
-    if (!arguments.map.empty()) {
-      inputs.push_back(arguments.map);
-    }
-    for (const std::string& input : inputs) {
-      if (isSameFile(file, input)) {
-        throw UsageError("'" + input + "': the output must not be an input");
-      }
-    }
-    for (const std::string& other : written) {
-      if (isSameFile(file, other)) {
-        throw UsageError("'" + file + "': expected another file for each output");
-      }
-    }
-    written.push_back(file);
-  }
-}
-
-void checkStages(const Arguments& arguments) {
-  for (const OptionalStage& one : kOptionalStages) {
-    const bool is_fusion = one.stage == LastStage::kObjectFusion;
-    const std::string by = is_fusion && arguments.mono    ? "--mono"
-                           : is_fusion && arguments.radar ? "--radar"
-                                                          : one.option;
-    const bool is_given = arguments.*one.is_given || by != one.option;
-    if (arguments.last_stage == one.stage && !is_given) {
-      throw UsageError("--until " + stageType(one.stage) + ": expected " + one.option + " with it");
-    }
-    if (arguments.last_stage < one.earliest_end && is_given) {
-      throw UsageError(by + ": expected no --until before " + stageType(one.earliest_end));
-    }
-  }
-}
-
-void checkMaps(const Arguments& arguments) {
-  if (arguments.last_stage <= LastStage::kGridSlam && arguments.map_fusion) {
-    throw UsageError("--map-fusion: expected no --until before road_border");
-  }
-  if (arguments.last_stage < LastStage::kGridSlam &&
-      !(arguments.map.empty() && arguments.save_map.empty())) {
-    throw UsageError((arguments.map.empty() ? "--save-map" : "--map") +
-                     std::string(": expected no --until before grid_slam"));
-  }
-}
-
-void checkStereo(const Arguments& arguments) {
-  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.map_fusion &&
-      !arguments.object_fusion && !arguments.track_fusion) {
-    throw UsageError(
-        "--stereo-from-images: expected --low-level-fusion, --map-fusion, --object-fusion or "
-        "--track-fusion with it");
-  }
 }
 
 void addFiles(CommandLine& line, Arguments& arguments) {
@@ -194,8 +107,8 @@ void addMaps(CommandLine& line, Arguments& arguments) {
 
 void addStages(CommandLine& line, Arguments& arguments) {
   line.addChoice("--until", arguments.last_stage, kStages,
-                 "goes no further than grid_fusion, grid_slam, road_border, moving_objects,\n"
-                 "object_fusion, tracker, track_fusion or risk",
+                 "goes no further than grid_fusion, grid_slam, loop_closing, road_border,\n"
+                 "moving_objects, object_fusion, tracker, track_fusion or risk",
                  "STAGE");
   CLI::Option* low_level =
       line.add_flag("--low-level-fusion", arguments.low_level_fusion,
@@ -220,7 +133,8 @@ void addStages(CommandLine& line, Arguments& arguments) {
       "makes the scan of those of several scanners (scan_merge/sources), of which `front`\n"
       "is on front_scan and `rear` on rear_scan, and writes /merged_scan");
   line.add_flag("--cloud-objects", arguments.cloud_objects,
-                "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
+                "finds objects in a 3D lidar's clouds and fuses them with the scanner's before\n"
+                "tracker, and writes /objects/cloud and /objects/fused");
   line.add_flag("--radar", arguments.radar,
                 "finds objects in a radar's detections (radar) and fuses them with the scanner's\n"
                 "before tracker, and writes /objects/radar and /objects/fused");
@@ -264,6 +178,12 @@ std::string stageType(LastStage stage) {
   return "";
 }
 
+bool Arguments::fusesObjects() const { return object_fusion || !fusedSource().empty(); }
+
+std::string Arguments::fusedSource() const {
+  return mono ? "--mono" : radar ? "--radar" : cloud_objects ? "--cloud-objects" : "";
+}
+
 std::string Arguments::inputTopic(const std::string& topic) const {
   return inputTopic(topic, topic);
 }
@@ -290,10 +210,7 @@ Arguments parseArguments(std::vector<std::string> words) {
   line.add_flag("--quiet", arguments.quiet, "no progress bar and no table");
   line.read(std::move(words));
   switchOn(arguments.fusion, arguments);
-  checkOutputs(arguments);
-  checkStages(arguments);
-  checkMaps(arguments);
-  checkStereo(arguments);
+  checkArguments(arguments);
   return arguments;
 }
 

@@ -47,6 +47,12 @@ struct Arguments {
   TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 
+  /// Whether object_fusion runs: by its switch, or by that of another sensor of objects.
+  bool fusesObjects() const;
+
+  /// The option of a sensor whose objects are fused without object_fusion's switch; empty: none.
+  std::string fusedSource() const;
+
   /// The name of one of our topics in the input bag, with a leading slash.
   std::string inputTopic(const std::string& topic) const;
 

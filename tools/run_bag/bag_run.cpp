@@ -99,7 +99,10 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   if (arguments.radar) {
     sensors.set("object_fusion", "sources/radar/use", true);
   }
-  if ((arguments.mono || arguments.radar) && !arguments.object_fusion) {
+  if (arguments.cloud_objects) {
+    sensors.set("object_fusion", "sources/cloud/use", true);
+  }
+  if (arguments.fusesObjects() && !arguments.object_fusion) {
     sensors.set("object_fusion", "sources/stereo/use", false);
   }
   if (arguments.v2x) {

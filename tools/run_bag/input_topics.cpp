@@ -241,7 +241,7 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   if (arguments.radar) {
     topics.radar = radarTopic(bag, arguments);
   }
-  if (arguments.object_fusion || arguments.mono || arguments.radar) {
+  if (arguments.fusesObjects()) {
     findObjectTopics(bag, arguments, sensors.options<ObjectFusionStageOptions>("object_fusion"),
                      topics);
   }

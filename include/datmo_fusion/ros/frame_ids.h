@@ -89,7 +89,7 @@ boost::shared_ptr<const Message> withPlainFrames(const std::string& input,
   return stripped;
 }
 
-/// The door of a nodelet: books a message's arrival, and returns it with plain frames.
+/// Entry point of a nodelet: books a message's arrival, and returns it with plain frames.
 template <typename Message>
 boost::shared_ptr<const Message> receive(const std::string& input,
                                          const boost::shared_ptr<const Message>& message,

@@ -38,7 +38,7 @@ struct SlamResult {
   /// The scan's end points, judged against the map, and the pose. Its covariance is that in the map
   /// as it is now, in which things seen at about the same time are compared, and of what gaps left
   /// open since the first map.
-  LabeledScan split;
+  LabeledScan labeled_scan;
   /// How far that map has drifted since the start, about the pose (MapDrift): with this in addition
   /// the covariance is that since the start.
   Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
@@ -57,8 +57,8 @@ struct PriorMap {
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
-/// vehicle's own motion, match the scan to the map, split the scan into static and moving points,
-/// and update the map with what stands still.
+/// vehicle's own motion, match the scan to the map, label the points of the scan as static or
+/// moving, and update the map with what stands still.
 ///
 /// With low-level fusion the measurement is a grid fused from several sensors (thesis 3.2.5) beside
 /// the scan of the same stamp: beams end only where the grid is occupied, and the map takes its
@@ -90,7 +90,7 @@ class GridSlam {
   /// bounded time of it is kept: while scans fail for longer, the pose goes on with it.
   void addOdometry(const OdometrySample& sample);
 
-  /// Takes the next scan, and splits it as compensated for the vehicle's motion. A scan without
+  /// Takes the next scan, and labels it as compensated for the vehicle's motion. A scan without
   /// rays moves the pose by odometry alone.
   SlamResult process(const Scan& scan);
 

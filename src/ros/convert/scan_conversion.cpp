@@ -75,9 +75,10 @@ std::optional<InputError> faultOfTimes(const Message& message, double max_sweep)
                         " s for all beams; takes them as measured at once");
 }
 
-/// NaN compares false with everything, and so is never valid.
+/// NaN compares false with everything, and so is never valid. Nor is 0, by which drivers say that
+/// they measured nothing, also where range_min is 0.
 bool isHit(float range, float range_min, float reach) {
-  return range >= range_min && range <= reach;
+  return range > 0.0F && range >= range_min && range <= reach;
 }
 
 float rangeOf(float range, float /*range_min*/, float /*reach*/) { return range; }

@@ -121,7 +121,7 @@ GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
   showMatch(result);
   showLocalization(result);
   GridSlamOutput output = outputOf(result);
-  runner_.processed(result.split.stamp);
+  runner_.processed(result.labeled_scan.stamp);
   return output;
 }
 
@@ -151,19 +151,19 @@ std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {
 }
 
 GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
-  const Stamp stamp = result.split.stamp;
+  const Stamp stamp = result.labeled_scan.stamp;
   GridSlamOutput output;
   output.labeled_scan = boost::make_shared<LabeledScanMessage>(
-      toMessage(result.split, options_.frames.base, options_.frames.map));
+      toMessage(result.labeled_scan, options_.frames.base, options_.frames.map));
   output.local_pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   output.local_pose->header.stamp = toTime(stamp);
   output.local_pose->header.frame_id = options_.frames.map;
   output.local_pose->pose = output.labeled_scan->pose;
-  PoseWithCovariance since_start = result.split.base_in_map;
+  PoseWithCovariance since_start = result.labeled_scan.base_in_map;
   since_start.covariance += result.drift;
   output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(*output.local_pose);
   output.pose->pose = toMessage(since_start);
-  output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
+  output.transforms = transformsTo(result.labeled_scan.base_in_map.pose, stamp);
   for (const geometry_msgs::TransformStamped& transform : output.transforms) {
     monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
                                                     transform.child_frame_id + " is published");

@@ -15,6 +15,10 @@ void RoadBorderStageOptions::visit(OptionVisitor& visitor) {
   detector.visit(visitor);
 }
 
+SharedKeys RoadBorderStageOptions::sharedKeys() {
+  return SharedKeys().key("tracks/border/range_sigma", "scanner/range_sigma");
+}
+
 RoadBorderStage::RoadBorderStage(const Checked<RoadBorderStageOptions>& options,
                                  StageMonitor& monitor)
     : options_(*options),

@@ -65,6 +65,9 @@ OptionValues fusedSources(const GraphSwitches& switches) {
   if (switches.radar) {
     sources["sources/radar/use"] = true;
   }
+  if (switches.cloud_objects) {
+    sources["sources/cloud/use"] = true;
+  }
   if (!switches.object_fusion) {
     sources["sources/stereo/use"] = false;
   }
@@ -96,7 +99,8 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const std::string scan = switches.scan_from_cloud ? "cloud_scan"
                            : switches.merge_scans   ? "merged_scan"
                                                     : "scan";
-  const bool fuses_objects = switches.object_fusion || switches.mono || switches.radar;
+  const bool fuses_objects =
+      switches.object_fusion || switches.mono || switches.radar || switches.cloud_objects;
   const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
   const Remaps camera = cameraRemaps();

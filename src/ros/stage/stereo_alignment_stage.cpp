@@ -50,7 +50,9 @@ void StereoAlignmentStageOptions::visit(OptionVisitor& visitor) {
 }
 
 SharedKeys StereoAlignmentStageOptions::sharedKeys() {
-  return StereoInputOptions::cameraKeys().group<ScanConversionOptions>("scan/", "scanner/");
+  return StereoInputOptions::cameraKeys()
+      .group<ScanConversionOptions>("scan/", "scanner/")
+      .key("pairs/range_sigma", "scanner/range_sigma");
 }
 
 StereoAlignmentStage::StereoAlignmentStage(const Checked<StereoAlignmentStageOptions>& options,

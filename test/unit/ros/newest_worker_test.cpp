@@ -43,17 +43,25 @@ TEST(NewestWorker, EndsWithAJobThatWaits) {
   std::promise<void> begun;
   std::promise<void> may_end;
   auto end = may_end.get_future();
-  NewestWorker<int, int> worker(
-      [&](int job) {
-        begun.set_value();
-        end.wait();
-        return job;
-      },
-      true);
-  worker.start(1);
-  begun.get_future().wait();
-  worker.start(2);
-  may_end.set_value();
+  std::vector<int> done;
+  {
+    NewestWorker<int, int> worker(
+        [&](int job) {
+          if (job == 1) {
+            begun.set_value();
+            end.wait();
+          }
+          done.push_back(job);
+          return job;
+        },
+        true);
+    worker.start(1);
+    begun.get_future().wait();
+    worker.start(2);
+    may_end.set_value();
+  }
+  ASSERT_FALSE(done.empty()) << "what is being done is waited for";
+  EXPECT_EQ(done.front(), 1);
 }
 
 }  // namespace

@@ -166,6 +166,15 @@ TEST(ScanConversion, InvalidBeamsHaveNoRayAndKeepTheOthersIndex) {
   EXPECT_EQ(converted.scan.rays[0].beam, 2U);
 }
 
+TEST(ScanConversion, ZeroIsNoMeasurementWhereTheScannerMeasuresFromZeroOn) {
+  auto message = samples::laserScan({0.0F, 0.01F, 3.0F});
+  message.range_min = 0.0F;
+  const auto converted = convert(message);
+  EXPECT_EQ(converted.beams.dropped, 1U);
+  ASSERT_EQ(converted.scan.rays.size(), 2U);
+  EXPECT_EQ(converted.scan.rays[0].beam, 1U);
+}
+
 TEST(ScanConversion, AnAbsurdRangeIsNoReturnHoweverFarTheDriverClaimsToSee) {
   auto message = samples::laserScan({std::numeric_limits<float>::max(), 1.0e6F, 3.0F});
   message.range_max = std::numeric_limits<float>::max();

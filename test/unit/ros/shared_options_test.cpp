@@ -14,6 +14,8 @@
 #include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
+#include "datmo_fusion/ros/stage/road_border_stage.h"
+#include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
@@ -210,6 +212,8 @@ TEST(SharedOptions, DefaultsAreThoseOfTheStages) {
   expectSharedDefaults<GridSlamStageOptions>(sections);
   expectSharedDefaults<LoopClosingStageOptions>(sections);
   expectSharedDefaults<MovingObjectsStageOptions>(sections);
+  expectSharedDefaults<RoadBorderStageOptions>(sections);
+  expectSharedDefaults<StereoAlignmentStageOptions>(sections);
   expectSharedDefaults<StereoGridStageOptions>(sections);
   expectSharedDefaults<StereoObjectsStageOptions>(sections);
   expectSharedDefaults<RiskStageOptions>(sections);

@@ -113,10 +113,10 @@ DriveErrors drive(bool compensate, bool with_odometry) {
       slam.addOdometry({Stamp::fromSeconds(kStart + time), state.twist});
     }
     const SlamResult result = slam.process(toScan(scanner.measure(course.world(), time), options));
-    const Pose2 base = map_in_world * result.split.base_in_map.pose;
+    const Pose2 base = map_in_world * result.labeled_scan.base_in_map.pose;
     errors.position += (base.position() - state.base.position()).squaredNorm() / kScans;
     errors.heading += std::pow(angleBetween(base.heading(), state.base.heading()), 2) / kScans;
-    for (const ScanPoint& point : result.split.points) {
+    for (const ScanPoint& point : result.labeled_scan.points) {
       errors.ends += std::pow(course.distanceToWall(base * point.position), 2);
       ++ends;
     }

@@ -33,7 +33,7 @@ double errorAfterDrive(GridSlam& slam, bool with_scans) {
     if (!with_scans) {
       scan.rays.clear();
     }
-    estimate = slam.process(grid, scan).split.base_in_map.pose;
+    estimate = slam.process(grid, scan).labeled_scan.base_in_map.pose;
   }
   return (estimate.position() - truth.position()).norm();
 }
@@ -67,7 +67,7 @@ class FusedSlamInTheYard : public testing::Test {
 
   static int moving(const SlamResult& result) {
     int count = 0;
-    for (const ScanPoint& point : result.split.points) {
+    for (const ScanPoint& point : result.labeled_scan.points) {
       count += point.state == PointState::kMoving ? 1 : 0;
     }
     return count;
@@ -88,11 +88,11 @@ TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
   const Scan scan = yard_.scan(Pose2(), 2.0, &box_);
   const SlamResult result = slam_.process(gridOf(yard_.scan(Pose2(), 2.0)), scan);
   EXPECT_EQ(moving(result), 0);
-  for (const ScanPoint& point : result.split.points) {
+  for (const ScanPoint& point : result.labeled_scan.points) {
     EXPECT_GT(box_.distanceTo(point.position), 0.5);
   }
-  EXPECT_GE(result.split.blind_beams.size(), 5U) << "contested beams tell nothing";
-  EXPECT_EQ(result.split.blind_beams.size() + result.split.points.size(), 81U);
+  EXPECT_GE(result.labeled_scan.blind_beams.size(), 5U) << "contested beams tell nothing";
+  EXPECT_EQ(result.labeled_scan.blind_beams.size() + result.labeled_scan.points.size(), 81U);
 }
 
 TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingWasKnown) {
@@ -104,7 +104,7 @@ TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingW
   grid.at(behind) = 80;
   const SlamResult result = slam_.process(grid, scan);
   EXPECT_EQ(moving(result), 0);
-  const Pose2 base = result.split.base_in_map.pose;
+  const Pose2 base = result.labeled_scan.base_in_map.pose;
   const auto occupancy = [&](CellIndex cell) {
     return slam_.map().occupancy(slam_.map().window().cellAt(base * grid.window().centerOf(cell)));
   };

@@ -57,7 +57,7 @@ TEST(GridSlamDriftTest, TheMapDriftsWithTheDistance) {
   EXPECT_GT(end.drift(1, 1), 2.0 * half.drift(1, 1)) << "the heading's error leads aside";
   EXPECT_LT(end.drift(2, 2), square(degrees(2.0)));
   const auto local = [](const SlamResult& result) {
-    return result.split.base_in_map.covariance(2, 2);
+    return result.labeled_scan.base_in_map.covariance(2, 2);
   };
   EXPECT_LT(local(end), 2.0 * local(half)) << "in the map as it is nothing grows";
 }
@@ -78,7 +78,7 @@ TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
   const SlamResult after = vehicle.go(slam, {4.0, 0.0}, 2);
   ASSERT_TRUE(after.match.accepted);
   const auto sinceStart = [](const SlamResult& result) {
-    return result.split.base_in_map.covariance(0, 0) + result.drift(0, 0);
+    return result.labeled_scan.base_in_map.covariance(0, 0) + result.drift(0, 0);
   };
   EXPECT_GT(sinceStart(after), 0.9 * sinceStart(before));
 }

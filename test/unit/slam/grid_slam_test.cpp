@@ -34,23 +34,23 @@ Drive drive(GridSlam& slam, const Twist2& odometry_error, bool with_odometry, in
 }
 
 double positionError(const Drive& drive) {
-  return (drive.result.split.base_in_map.pose.position() - drive.truth.position()).norm();
+  return (drive.result.labeled_scan.base_in_map.pose.position() - drive.truth.position()).norm();
 }
 
 TEST(GridSlamTest, TheFirstPoseIsTheOrigin) {
   GridSlam slam{GridSlamOptions{}};
   const SlamResult result = slam.process(Yard().scan(Pose2(), 0.0));
-  EXPECT_EQ(result.split.base_in_map.pose.position(), Point2::Zero());
+  EXPECT_EQ(result.labeled_scan.base_in_map.pose.position(), Point2::Zero());
   EXPECT_FALSE(result.match.accepted);
-  EXPECT_EQ(result.split.points.size(), 81U);
+  EXPECT_EQ(result.labeled_scan.points.size(), 81U);
 }
 
 TEST(GridSlamTest, CorrectsBiasedOdometry) {
   GridSlam slam{GridSlamOptions{}};
   const Drive end = drive(slam, {0.2, degrees(1.0)}, true);
   EXPECT_LT(positionError(end), 0.15);  // odometry alone: 1.2 m and 6 degrees
-  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
-              degrees(0.5));
+  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.labeled_scan.base_in_map.pose.heading()),
+              0.0, degrees(0.5));
 }
 
 TEST(GridSlamTest, OdometryThatComesLateIsNotTakenForNow) {
@@ -70,8 +70,9 @@ TEST(GridSlamTest, OdometryThatComesLateIsNotTakenForNow) {
     end.truth =
         arc({4.0, 0.0}, std::min(seconds, 1.0)) * arc({4.0, 0.6}, std::max(0.0, seconds - 1.0));
     end.result = slam.process(yard.scan(end.truth, seconds));
-    EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
-                degrees(1.0))
+    EXPECT_NEAR(
+        angleBetween(end.truth.heading(), end.result.labeled_scan.base_in_map.pose.heading()), 0.0,
+        degrees(1.0))
         << "at " << seconds;
   }
   EXPECT_FALSE(end.result.odometry_used);
@@ -99,8 +100,8 @@ TEST(GridSlamTest, AYawRateAloneServesWithoutASpeed) {
   }
   EXPECT_FALSE(end.result.odometry_used) << "not all of the motion was measured";
   EXPECT_LT(positionError(end), 0.3);
-  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
-              degrees(1.0));
+  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.labeled_scan.base_in_map.pose.heading()),
+              0.0, degrees(1.0));
 }
 
 TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
@@ -126,7 +127,7 @@ TEST(GridSlamTest, SomethingThatComesIntoFreeSpaceIsMovingAndNotMapped) {
   const Box2 box{Pose2(9.0, 0.0, 0.0), 1.0, 2.0};
   const SlamResult result = slam.process(yard.scan(Pose2(), 2.0, &box));
   int on_box = 0;
-  for (const ScanPoint& point : result.split.points) {
+  for (const ScanPoint& point : result.labeled_scan.points) {
     const bool is_on_box = box.distanceTo(point.position) < 0.01;
     on_box += is_on_box ? 1 : 0;
     EXPECT_EQ(point.state, is_on_box ? PointState::kMoving : PointState::kStatic)
@@ -144,8 +145,8 @@ TEST(GridSlamTest, AScanWithoutRaysMovesByOdometryAlone) {
   empty.stamp = Stamp::fromSeconds(1000.1);
   const SlamResult result = slam.process(empty);
   EXPECT_FALSE(result.match.accepted);
-  EXPECT_NEAR(result.split.base_in_map.pose.x(), 0.4, 1e-9);
-  EXPECT_TRUE(result.split.points.empty());
+  EXPECT_NEAR(result.labeled_scan.base_in_map.pose.x(), 0.4, 1e-9);
+  EXPECT_TRUE(result.labeled_scan.points.empty());
 }
 
 TEST(GridSlamTest, TheLabeledScanHasBeamsWithoutReturn) {
@@ -160,7 +161,7 @@ TEST(GridSlamTest, TheLabeledScanHasBeamsWithoutReturn) {
     ray.end = Point2(10.0, 0.0);
     scan.rays.push_back(ray);
   }
-  const LabeledScan split = GridSlam{GridSlamOptions{}}.process(scan).split;
+  const LabeledScan split = GridSlam{GridSlamOptions{}}.process(scan).labeled_scan;
   EXPECT_EQ(split.field.beams, 5U);
   EXPECT_EQ(split.field.range, 80.0);
   ASSERT_EQ(split.points.size(), 1U);
@@ -195,7 +196,7 @@ TEST(GridSlamTest, BetweenEndlessWallsTheDistanceIsLeftToTheOdometry) {
     slam.addOdometry({Stamp::fromSeconds(1000.0 + 0.1 * i), {5.0, 0.0}});
     result = slam.process(corridorScan(0.1 * i));
   }
-  const PoseWithCovariance& pose = result.split.base_in_map;
+  const PoseWithCovariance& pose = result.labeled_scan.base_in_map;
   EXPECT_NEAR(pose.pose.x(), 20.0, 0.5);
   EXPECT_NEAR(pose.pose.y(), 0.0, 0.1);
   EXPECT_GT(std::sqrt(pose.covariance(0, 0)), 4.0 * std::sqrt(pose.covariance(1, 1)));
@@ -205,12 +206,12 @@ TEST(GridSlamTest, BetweenEndlessWallsTheDistanceIsLeftToTheOdometry) {
 TEST(GridSlamTest, TheSameInputGivesTheSameOutput) {
   GridSlam first{GridSlamOptions{}};
   GridSlam second{GridSlamOptions{}};
-  const Pose2 a = drive(first, {0.1, 0.01}, true).result.split.base_in_map.pose;
-  const Pose2 b = drive(second, {0.1, 0.01}, true).result.split.base_in_map.pose;
+  const Pose2 a = drive(first, {0.1, 0.01}, true).result.labeled_scan.base_in_map.pose;
+  const Pose2 b = drive(second, {0.1, 0.01}, true).result.labeled_scan.base_in_map.pose;
   EXPECT_EQ(a.position(), b.position());
   EXPECT_EQ(a.heading(), b.heading());
   first.reset();
-  const Pose2 again = drive(first, {0.1, 0.01}, true).result.split.base_in_map.pose;
+  const Pose2 again = drive(first, {0.1, 0.01}, true).result.labeled_scan.base_in_map.pose;
   EXPECT_EQ(again.position(), b.position()) << "after a reset it runs as if it were new";
 }
 
@@ -257,8 +258,9 @@ TEST(GridSlamTest, AnEncoderCountsOverAGapOfScansAndOdometry) {
     for (const double late : {0.0, 0.1, 0.5}) {
       const Drive end = driveOverAGap(gap, late);
       EXPECT_LT(positionError(end), 0.3) << gap << " s, odometry " << late << " s late";
-      EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()),
-                  0.0, degrees(2.0))
+      EXPECT_NEAR(
+          angleBetween(end.truth.heading(), end.result.labeled_scan.base_in_map.pose.heading()),
+          0.0, degrees(2.0))
           << gap << " s, odometry " << late << " s late";
     }
   }

@@ -55,7 +55,7 @@ std::vector<Step> run(const Drive& drive, int scans_after = 50) {
 }
 
 Eigen::Vector3d errorOf(const Step& step) {
-  const Pose2& pose = step.result.split.base_in_map.pose;
+  const Pose2& pose = step.result.labeled_scan.base_in_map.pose;
   return {pose.x() - step.truth.x(), pose.y() - step.truth.y(),
           angleBetween(step.truth.heading(), pose.heading())};
 }
@@ -63,7 +63,7 @@ Eigen::Vector3d errorOf(const Step& step) {
 /// Whether an error beyond 0.5 m, 2 degrees is at most three standard deviations.
 bool admits(const Step& step) {
   const Eigen::Vector3d error = errorOf(step);
-  const Eigen::Matrix3d& covariance = step.result.split.base_in_map.covariance;
+  const Eigen::Matrix3d& covariance = step.result.labeled_scan.base_in_map.covariance;
   const double distance = error.head<2>().norm();
   const Eigen::Vector2d along = error.head<2>() / std::max(distance, 1e-9);
   const double sigma = std::sqrt(along.dot(covariance.topLeftCorner<2, 2>() * along));
@@ -94,13 +94,14 @@ TEST(MapRecoveryTest, ItIsFoundWhereNothingElseFits) {
   EXPECT_EQ(steps.back().result.maps_begun, 0);
   EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
   EXPECT_LT(errorOf(steps.back()).head<2>().norm(), 0.3);
-  EXPECT_LT(steps.back().result.split.base_in_map.covariance(0, 0), 0.1);
+  EXPECT_LT(steps.back().result.labeled_scan.base_in_map.covariance(0, 0), 0.1);
 }
 
 TEST(MapRecoveryTest, OdometryThatComesLateStillBoundsTheGap) {
-  const Eigen::Matrix3d in_time = run({2.0, 2.0}, 4).back().result.split.base_in_map.covariance;
+  const Eigen::Matrix3d in_time =
+      run({2.0, 2.0}, 4).back().result.labeled_scan.base_in_map.covariance;
   const Eigen::Matrix3d late =
-      run({2.0, 2.0, 0.0, 0.15}, 4).back().result.split.base_in_map.covariance;
+      run({2.0, 2.0, 0.0, 0.15}, 4).back().result.labeled_scan.base_in_map.covariance;
   EXPECT_LT(late(0, 0), 1.5 * in_time(0, 0));
 }
 
@@ -156,7 +157,7 @@ TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {
     if (step.result.localization == Localization::kLocated) {
       continue;
     }
-    for (const ScanPoint& point : step.result.split.points) {
+    for (const ScanPoint& point : step.result.labeled_scan.points) {
       EXPECT_NE(point.state, PointState::kMoving);
     }
   }
@@ -166,7 +167,7 @@ TEST(MapRecoveryTest, PutDownElsewhereItGoesOnInANewMap) {
   const std::vector<Step> steps = run({2.0, 2.0, 0.0, 0.0, true}, 70);
   EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
   EXPECT_EQ(steps.back().result.maps_begun, 1);
-  EXPECT_GT(steps.back().result.split.base_in_map.covariance(2, 2), 0.04)
+  EXPECT_GT(steps.back().result.labeled_scan.base_in_map.covariance(2, 2), 0.04)
       << "what the gap left open";
   EXPECT_TRUE(steps.back().result.match.accepted);
 }

@@ -60,14 +60,14 @@ OccupancyMap mapOfYard() {
 }
 
 double positionError(const SlamResult& result, const Pose2& truth) {
-  return (result.split.base_in_map.pose.position() - truth.position()).norm();
+  return (result.labeled_scan.base_in_map.pose.position() - truth.position()).norm();
 }
 
 /// Whether a pose claims to know what it does not.
 bool isConfidentlyWrong(const SlamResult& result, const Pose2& truth) {
   return result.localization == Localization::kLocated &&
          (positionError(result, truth) > 0.5 ||
-          std::abs(angleBetween(truth.heading(), result.split.base_in_map.pose.heading())) >
+          std::abs(angleBetween(truth.heading(), result.labeled_scan.base_in_map.pose.heading())) >
               degrees(3.0));
 }
 
@@ -119,7 +119,7 @@ TEST(PriorMapTest, FromAGuessItIsFoundThere) {
   Vehicle vehicle{Pose2(3.0, 1.0, 0.1)};
   SlamResult result = vehicle.step(slam, {2.0, 0.0});
   EXPECT_EQ(result.localization, Localization::kUncertain);
-  EXPECT_NEAR(result.split.base_in_map.pose.x(), 4.0, 1e-9);
+  EXPECT_NEAR(result.labeled_scan.base_in_map.pose.x(), 4.0, 1e-9);
   for (int i = 0; i < 50; ++i) {
     result = vehicle.step(slam, {2.0, 0.0});
     EXPECT_FALSE(isConfidentlyWrong(result, vehicle.truth()));

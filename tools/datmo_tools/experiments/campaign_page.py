@@ -87,12 +87,12 @@ def _load_lines(load):
         f"sensors' rates (scans at 37.5 Hz), clouds of 196,608 pixels at 20 Hz and lists of {load['objects']} objects at 37.5 Hz; then the",
         f"process stands still (SIGSTOP) for {load['still_s']:.0f} s meanwhile. Latency: from the stamp of a scan to its tracks.",
         "",
-        "| | lists of tracks | median [s] | 99 % [s] | most [s] |",
+        "| | lists of tracks | median [s] | 99 % [s] | max [s] |",
         "|---|---|---|---|---|",
         *(f"| {name} | {row['lists']} | {row['median_s']:.3f} | {row['percentile_99_s']:.3f} | {row['worst_s']:.3f} |"
           for name, row in rows),
         "",
-        f"- latency is within twice the 99 % of before {load['recovered_s']:.2f} s after the end of both",
+        f"- {load['recovered_s']:.2f} s after the end of both, latency is again within twice the 99th percentile of before",
         f"- memory of the process: {before:.0f} MiB before, {most:.0f} MiB at most, {after:.0f} MiB at the end",
         "",
         "Sent and what became of it; every message that is not served is counted by the stage:",
@@ -171,7 +171,7 @@ def _mutated_lines(mutated):
         "stamps), at the doors of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
         "with 3 s without mutations, in which tracks have to come again.",
         "",
-        f"- found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
+        f"- faults found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
         f"- slowest message with all that follows from it: {mutated['slowest_s']:.2f} s ({mutated['slowest_on']})",
         f"- peak of memory: {mutated['peak_memory_mib']:.0f} MiB",
         "- refused or warned of, by reason: "

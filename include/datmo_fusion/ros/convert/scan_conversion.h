@@ -27,7 +27,7 @@ struct ScanConversionOptions {
 struct BeamCounts {
   std::size_t hits = 0;
   std::size_t no_return = 0;  ///< +inf or beyond range_max (REP 117), or beyond 1 km
-  std::size_t dropped = 0;    ///< NaN, -inf, negative or below range_min: no ray
+  std::size_t dropped = 0;    ///< NaN, -inf, 0, negative or below range_min: no ray
 };
 
 /// A message as a scan, and what of it could not be used.

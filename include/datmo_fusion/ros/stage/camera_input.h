@@ -12,7 +12,7 @@
 
 namespace datmo {
 
-/// The door of one camera's rectified images: their info, and whether an image is that camera's.
+/// Input check of one camera's rectified images: their info, and whether an image is that camera's.
 class CameraInput {
  public:
   /// The newest one serves; its matrix P. Throws InputError (`bad_camera_info`): the last good one

@@ -44,8 +44,8 @@ struct LeftOut {
 void checkSourceNames(const std::vector<std::string>& sources, const std::string& what,
                       const std::set<std::string>& own);
 
-/// The door of a stage that fuses several sources: which messages are let in, what time it is, how
-/// the vehicle moved, and which source is missed.
+/// Input check of a stage that fuses several sources: which messages are let in, what time it is,
+/// how the vehicle moved, and which source is missed.
 ///
 /// A source that falls silent is said once
 /// until it is fused again, and so is one that for as long is always too late or whose motion is

@@ -18,7 +18,7 @@
 
 namespace datmo {
 
-/// The door of a stage for odometry: of the vehicle, in its frames, with stamps that rise and
+/// Input check of a stage for odometry: of the vehicle, in its frames, with stamps that rise and
 /// twists that a vehicle can have.
 class OdometryReader {
  public:

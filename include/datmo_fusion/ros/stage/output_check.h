@@ -138,7 +138,7 @@ struct OutputContent {
   std::string fault;           ///< contentFault
 };
 
-/// The door of one output: what nobody can use is not published but counted (`bad_output`), and the
+/// Check of one output: what cannot be used is not published but counted (`bad_output`), and the
 /// stage that made it is to start over.
 class OutputCheck {
  public:

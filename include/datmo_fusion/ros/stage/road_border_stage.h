@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/road/road_border_detector.h"
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 
@@ -16,6 +17,7 @@ struct RoadBorderStageOptions {
   RoadBorderDetectorOptions detector;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// RoadBorderDetector between messages: the same one serves the nodelet and the bag runner. Bad

@@ -24,7 +24,7 @@ struct StreamOptions {
 /// Whether a message goes on with the stream or begins a new run of the clock (a looped bag).
 enum class Arrival { kNext, kRestart };
 
-/// The door of a stream of stamped messages: time behind it only goes forward.
+/// Input check of a stream of stamped messages: time behind it only goes forward.
 class StampCheck {
  public:
   explicit StampCheck(double restart_after) : gate_(restart_after) {}
