@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "run_bag/bag_run.h"
 #include <gtest/gtest.h>
@@ -134,6 +135,17 @@ class RunBag : public testing::Test {
   static std::size_t count(const std::string& file, const std::string& topic) {
     rosbag::Bag bag(file);
     return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
+  }
+
+  /// All messages of a topic of the output.
+  template <typename Message>
+  std::vector<Message> listsOf(const std::string& topic) const {
+    rosbag::Bag bag(arguments_.output);
+    std::vector<Message> lists;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+      lists.push_back(*message.template instantiate<Message>());
+    }
+    return lists;
   }
 
   std::filesystem::path folder_;

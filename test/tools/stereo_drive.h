@@ -90,17 +90,6 @@ class StereoRunBag : public RunBag {
     }
   }
 
-  /// All messages of a topic of the output.
-  template <typename Message>
-  std::vector<Message> listsOf(const std::string& topic) const {
-    rosbag::Bag bag(arguments_.output);
-    std::vector<Message> lists;
-    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-      lists.push_back(*message.template instantiate<Message>());
-    }
-    return lists;
-  }
-
   StereoPairSample sample_;
 };
 
