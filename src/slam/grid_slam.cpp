@@ -247,15 +247,19 @@ SlamResult GridSlam::process(const SensorGrid& grid, const Scan& scan) {
 
 SlamResult GridSlam::process(const Measurement& measurement) {
   SlamResult result;
-  Scan scan = compensated(measurement.scan);
+  Scan scan;
   if (stamp_) {
-    undoGapForOdometry(scan.stamp);
-    result.odometry_used = scan.stamp > *stamp_ && predict(scan.stamp);
-    leaveMapAfterGap(scan.stamp);
+    const Stamp stamp = measurement.scan.stamp;
+    undoGapForOdometry(stamp);
+    result.odometry_used = stamp > *stamp_ && predict(stamp);
+    leaveMapAfterGap(stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
-  } else if (prior_map_) {
-    searchPriorMap(prior_map_->map, prior_map_->start, scan.stamp);
+  } else {
+    scan = compensated(measurement.scan);
+    if (prior_map_) {
+      searchPriorMap(prior_map_->map, prior_map_->start, scan.stamp);
+    }
   }
   const PoseWithCovariance base_in_map = poseInFirstMap();
   followDrift(base_in_map, scan, result);
