@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "callback_bell.h"
+#include "callback_poster.h"
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -44,7 +44,7 @@ class DeviceNodelet : public nodelet::Nodelet {
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
     events_ = std::make_unique<DeviceEventQueue>(
         options_.device.kind == DeviceKind::kCan ? kCanQueue : kQueue);
-    bell_ = std::make_unique<CallbackBell>(getNodeHandle(), [this] { serveAll(); });
+    callbacks_ = std::make_unique<CallbackPoster>(getNodeHandle(), [this] { serveAll(); });
     DeviceHandlers handlers;
     handlers.connected = [this](const std::string& device) { post(DeviceConnected{device}); };
     handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {
@@ -91,7 +91,7 @@ class DeviceNodelet : public nodelet::Nodelet {
 
   void post(DeviceEvent event) {
     events_->put(std::move(event));
-    bell_->ring();
+    callbacks_->post();
   }
 
   void serveAll() {
@@ -133,7 +133,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   ros::Publisher output_;
   ros::Publisher velocities_;  ///< of a satellite receiver alone
   std::unique_ptr<DeviceEventQueue> events_;
-  std::unique_ptr<CallbackBell> bell_;
+  std::unique_ptr<CallbackPoster> callbacks_;
   std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before what it calls
 };
 

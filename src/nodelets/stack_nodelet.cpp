@@ -79,10 +79,10 @@ class StackNodelet : public nodelet::Nodelet {
     for (const auto& [process, description] : clocks_->descriptions(now)) {
       status.add("clock of " + process, description);
     }
-    const bool may_come_yet = !said_ && health.level != HealthLevel::kGood && ++beats_ < kPatience;
+    const bool may_come_yet = !said_ && health.level != HealthLevel::kOk && ++beats_ < kPatience;
     if (health.level != said_ && !may_come_yet) {
       said_ = health.level;
-      const bool is_good = health.level == HealthLevel::kGood;
+      const bool is_good = health.level == HealthLevel::kOk;
       ROS_LOG(is_good ? ros::console::levels::Info : ros::console::levels::Warn,
               ROSCONSOLE_DEFAULT_NAME, "stack: %s", health.sentence.c_str());
     }

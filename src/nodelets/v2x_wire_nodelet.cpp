@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "callback_bell.h"
+#include "callback_poster.h"
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -43,7 +43,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
   void onInit() override {
     options_ = loadOptions<StationWireOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    monitor_->condition(HealthLevel::kNothing, "does not listen yet");
+    monitor_->condition(HealthLevel::kNoOutput, "does not listen yet");
     destination_ = std::make_unique<DatagramDestination>(options_.destination,
                                                          options_.destination_port, kLookUpPause);
     wire_ = std::make_unique<StationWire>(options_, *monitor_);
@@ -58,7 +58,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
         node, getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
         StageTopics{{own_.getTopic()}, {stations_.getTopic(), advice_.getTopic()}},
         StreamOptions().silence_after);
-    bell_ = std::make_unique<CallbackBell>(node, [this] { serveAll(); });
+    callbacks_ = std::make_unique<CallbackPoster>(node, [this] { serveAll(); });
     DatagramHandlers handlers;
     handlers.listening = [this] { put(Listening()); };
     handlers.received = [this](std::string_view bytes) {
@@ -71,7 +71,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
 
   void put(News news) {
     news_.put(std::move(news));
-    bell_->ring();
+    callbacks_->post();
   }
 
   void serveAll() {
@@ -83,13 +83,13 @@ class V2xWireNodelet : public nodelet::Nodelet {
   }
 
   void serve(const Listening& /*news*/) {
-    monitor_->condition(HealthLevel::kGood, "listens to UDP port " + std::to_string(options_.port));
+    monitor_->condition(HealthLevel::kOk, "listens to UDP port " + std::to_string(options_.port));
   }
 
   void serve(const DeviceError& error) {
     monitor_->setTime(toStamp(ros::Time::now()));
     monitor_->dropped(InputError(error.reason(), error.what()));
-    monitor_->condition(HealthLevel::kNothing, error.what());
+    monitor_->condition(HealthLevel::kNoOutput, error.what());
   }
 
   void serve(const Datagram& datagram) {
@@ -137,7 +137,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
   std::unique_ptr<DatagramDestination> destination_;
   std::uint64_t sent_ = 0;
   EventQueue<News, Datagram, DeviceError> news_{kWaiting};
-  std::unique_ptr<CallbackBell> bell_;
+  std::unique_ptr<CallbackPoster> callbacks_;
   std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before what it calls
 };
 

@@ -26,7 +26,7 @@ std::string partOf(const DeviceData& data) {
 }  // namespace
 
 DeviceDiagnostics::DeviceDiagnostics(StageMonitor& monitor) : monitor_(monitor) {
-  monitor_.condition(HealthLevel::kNothing, "not connected yet");
+  monitor_.condition(HealthLevel::kNoOutput, "not connected yet");
 }
 
 void DeviceDiagnostics::connected(const std::string& device, Stamp now) {
@@ -35,13 +35,13 @@ void DeviceDiagnostics::connected(const std::string& device, Stamp now) {
   first_offset_.reset();
   last_twist_.reset();
   longest_gap_ = 0.0;
-  monitor_.condition(HealthLevel::kGood, "connected with " + device);
+  monitor_.condition(HealthLevel::kOk, "connected with " + device);
 }
 
 void DeviceDiagnostics::fault(const DeviceError& error, Stamp now) {
   monitor_.setTime(now);
   monitor_.dropped(InputError(error.reason(), error.what()));
-  monitor_.condition(HealthLevel::kNothing, error.what());
+  monitor_.condition(HealthLevel::kNoOutput, error.what());
 }
 
 void DeviceDiagnostics::warning(const DeviceError& error, Stamp now) {

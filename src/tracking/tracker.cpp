@@ -166,10 +166,10 @@ bool Tracker::isPublished(const BestTarget& best) const {
 
 void Tracker::confirm() {
   for (const BestTarget& best : targets_->best()) {
-    if (!best.target->confirmed() && deservesTrack(*best.target)) {
+    if (!best.target->confirmed() && isConfirmable(*best.target)) {
       const std::uint32_t id = next_id_++;
       const JumpCounts prior = transition_priors_.of(best.target->objectClass());
-      const bool moves = seemsToMove(*best.target);
+      const bool moves = isLikelyMoving(*best.target);
       targets_->change(best.target->number(), [&](Target& target) {
         target.confirm(id, moves);
         target.setTransitionPrior(prior);
@@ -179,19 +179,19 @@ void Tracker::confirm() {
   }
 }
 
-bool Tracker::seemsToMove(const Target& target) const {
+bool Tracker::isLikelyMoving(const Target& target) const {
   const double required = options_.target.motion_likelihood.required_probability;
   // What moves exists: of what hardly does no beam has to be asked.
   return existence(target) >= required &&
          target.motionProbability(scans_, *stamp_, options_.target) >= required;
 }
 
-bool Tracker::deservesTrack(const Target& target) const {
+bool Tracker::isConfirmable(const Target& target) const {
   return target.measurementIndex() != kUnseen &&
          target.hits() >= static_cast<std::uint32_t>(options_.confirmation_hits) &&
          target.objectClass() != ObjectClass::kPole &&
          existence(target) >= options_.confirmation_existence &&
-         (!options_.require_motion || seemsToMove(target));
+         (!options_.require_motion || isLikelyMoving(target));
 }
 
 void Tracker::learnClutter(const AssociationScan& scan, double seconds) {

@@ -24,7 +24,7 @@ struct SightLine {
   std::vector<Step> hits;  ///< the cells that it has there, each up to an obstacle's height
 };
 
-/// The line from the camera of a view towards `direction` (unit vector, base frame) within a scan's
+/// The line from the camera of a view toward `direction` (unit vector, base frame) within a scan's
 /// grid, up to `range` (m); what is hit is looked at up to `obstacle_height` (m).
 SightLine sightLine(const GroundView& view, const Point2& direction, const SensorGrid& scanned,
                     double range, double obstacle_height);

@@ -70,7 +70,7 @@ class RunBagCauses : public RunBag {
     const StackHealth health = healthAfter(cause);
     EXPECT_TRUE(holds(health.sentence, cause.sentence)) << cause.name << ": " << health.sentence;
     EXPECT_EQ(health.level,
-              holds(cause.sentence, "no tracks") ? HealthLevel::kNothing : HealthLevel::kLess)
+              holds(cause.sentence, "no tracks") ? HealthLevel::kNoOutput : HealthLevel::kDegraded)
         << cause.name;
   }
 };

@@ -86,7 +86,9 @@ double worstSigma(const geometry_msgs::PoseWithCovarianceStamped& pose) {
 }
 
 const char* nameOf(HealthLevel level) {
-  return level == HealthLevel::kNothing ? "nothing" : level == HealthLevel::kLess ? "less" : "good";
+  return level == HealthLevel::kNoOutput   ? "nothing"
+         : level == HealthLevel::kDegraded ? "less"
+                                           : "good";
 }
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -127,7 +129,7 @@ void RunReport::bookCondition(const StageMonitor& monitor, Stamp now) {
     conditions_[open->second].to = now;
     open_conditions_.erase(open);
   }
-  if (monitor.health() != HealthLevel::kGood) {
+  if (monitor.health() != HealthLevel::kOk) {
     open_conditions_[monitor.stage()] = conditions_.size();
     conditions_.push_back(
         {monitor.stage(), monitor.health(), monitor.healthReason(), now, std::nullopt});

@@ -41,7 +41,7 @@ class RunReport {
   /// A stage that is not well, and why.
   struct Condition {
     std::string stage;
-    HealthLevel level = HealthLevel::kGood;
+    HealthLevel level = HealthLevel::kOk;
     std::string why;
     Stamp from;
     std::optional<Stamp> to;  ///< none: to the end

@@ -34,7 +34,7 @@ class CanVehicle : public Device {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// The next one that is a frame. What is none is said; many in a row are no bus, and end a
+  /// The next valid frame. Invalid ones are reported; many in a row are an error, and end a
   /// recording.
   CanFrame nextFrame();
   /// Throws DeviceError (`bus_off`) unless it is recorded; warns of other errors.

@@ -69,7 +69,7 @@ struct CircleMove {
 bool circlesMeet(const CircleMove& a, const CircleMove& b);
 
 /// The share (0 to 1) of two simultaneous moves at which the rectangles first touch, to within
-/// 1 cm; none if they do not. Nothing is tunnelled through, however long the moves: by conservative
+/// 1 cm; none if they do not. No contact is missed, however long the moves: by conservative
 /// advancement along the separating axis (Mirtich, Impulse-based Dynamic Simulation, 1996, 2.3.2).
 std::optional<double> firstContact(const BodyMove& a, const BodyMove& b);
 

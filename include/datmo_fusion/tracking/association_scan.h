@@ -30,8 +30,8 @@ struct AssociationScan {
   std::vector<Point2> centers;      ///< of the objects by themselves: to look through many of them
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
-  double noise = 0.0;               ///< m, most of an object's position and sides
-  double extent = 0.0;              ///< m, most of an object
+  double noise = 0.0;               ///< m, largest standard deviation of position and sides
+  double extent = 0.0;              ///< m, largest diagonal of an object
 
   const Visibility* visibility = nullptr;  ///< vehicle's frame
   Pose2 fixed_in_base;

@@ -83,8 +83,8 @@ class Tracker {
   void confirm();
 
   /// With the required probability, as far as is known.
-  bool seemsToMove(const Target& target) const;
-  bool deservesTrack(const Target& target) const;
+  bool isLikelyMoving(const Target& target) const;
+  bool isConfirmable(const Target& target) const;
 
   /// What belongs to a confirmed target is no clutter.
   void learnClutter(const AssociationScan& scan, double seconds);

@@ -82,7 +82,7 @@ class RoadColor {
   };
 
   void begin(PixelColors samples);
-  /// Moves the components towards the samples by `share`. `finds_new`: what is of none of them is
+  /// Moves the components toward the samples by `share`. `finds_new`: what is of none of them is
   /// left out, and may become one.
   void shift(const PixelColors& samples, double share, bool finds_new);
   /// Those that have any weight, which is made 1 in all.

@@ -119,7 +119,7 @@ void EarthFrameStage::report() {
     monitor_.figure("heading of the map, standard deviation [rad]",
                     std::sqrt(map->covariance(2, 2)));
   }
-  monitor_.condition(map ? HealthLevel::kGood : HealthLevel::kLess,
+  monitor_.condition(map ? HealthLevel::kOk : HealthLevel::kDegraded,
                      map ? "the map's pose on the earth is known"
                          : "where the map lies on the earth is not known before the vehicle has "
                            "driven for a while");

@@ -58,11 +58,11 @@ void checkNotFrozen(bool is_frozen, StageMonitor& monitor) {
       "the scanner repeats its last scan bit for bit though the vehicle moves: its driver or the "
       "device hangs; its scans are dropped until they change";
   if (is_frozen) {
-    monitor.condition(HealthLevel::kNothing, kFrozen);
+    monitor.condition(HealthLevel::kNoOutput, kFrozen);
     throw InputError("frozen_scan", kFrozen);
   }
   if (monitor.healthReason() == kFrozen) {
-    monitor.condition(HealthLevel::kGood, "the scans change again");
+    monitor.condition(HealthLevel::kOk, "the scans change again");
   }
 }
 

@@ -21,11 +21,11 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
   switch (result.localization) {
     case Localization::kLocated:
       if (result.maps_begun > maps_begun_) {
-        monitor_.condition(HealthLevel::kGood,
+        monitor_.condition(HealthLevel::kOk,
                            "not found again after a gap: goes on in a new map, and the pose's "
                            "covariance keeps what is not known of it");
-      } else if (monitor_.health() != HealthLevel::kGood) {
-        monitor_.condition(HealthLevel::kGood, "located in the map");
+      } else if (monitor_.health() != HealthLevel::kOk) {
+        monitor_.condition(HealthLevel::kOk, "located in the map");
       }
       maps_begun_ = result.maps_begun;
       return;
@@ -38,7 +38,7 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
 
 void GridSlamStage::showSearch(const SlamResult& result) {
   const bool is_lost = result.localization == Localization::kLost;
-  const HealthLevel health = is_lost ? HealthLevel::kNothing : HealthLevel::kLess;
+  const HealthLevel health = is_lost ? HealthLevel::kNoOutput : HealthLevel::kDegraded;
   if (result.searches_prior_map) {
     monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
                                    ": searches the prior map, and writes nothing to it until one "

@@ -66,8 +66,7 @@ LoopClosingStage::LoopClosingStage(const Checked<LoopClosingStageOptions>& optio
 
 void LoopClosingStage::beginDrive(Stamp stamp) {
   if (drive_ > 0) {
-    monitor_.condition(HealthLevel::kGood,
-                       "begins a new trajectory: the SLAM's map is another one");
+    monitor_.condition(HealthLevel::kOk, "begins a new trajectory: the SLAM's map is another one");
   }
   ++drive_;
   begun_ = stamp;

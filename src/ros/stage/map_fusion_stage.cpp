@@ -107,7 +107,7 @@ void MapFusionStage::readPriorMap(const GridWindow& window) {
     fuser_.setPrior(readMap(options_.prior_map, map));
   } catch (const std::exception& error) {  // no memory, too
     monitor_.warned(InputError("bad_prior_map", error.what()));
-    monitor_.condition(HealthLevel::kLess, "goes on without the prior map");
+    monitor_.condition(HealthLevel::kDegraded, "goes on without the prior map");
   }
 }
 

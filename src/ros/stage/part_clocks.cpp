@@ -81,8 +81,8 @@ std::optional<std::string> PartClocks::fault(const std::string& process, const C
 StackHealth PartClocks::judged(StackHealth health, Stamp now) const {
   for (const auto& [process, clock] : clocks_) {
     if (const auto found = fault(process, clock, now)) {
-      const bool is_good = health.level == HealthLevel::kGood;
-      return {is_good ? HealthLevel::kLess : health.level,
+      const bool is_good = health.level == HealthLevel::kOk;
+      return {is_good ? HealthLevel::kDegraded : health.level,
               (is_good ? "less than all: " : health.sentence + "; ") + *found};
     }
   }

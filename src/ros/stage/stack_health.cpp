@@ -32,7 +32,7 @@ const StageState& sourceOfNothing(const Stages& stages, const StageState& stage,
   visited.insert(stage.stage);
   for (const std::string& topic : stage.topics.inputs) {
     const StageState* const producer = producerOf(stages, topic);
-    if (producer != nullptr && producer->level == HealthLevel::kNothing &&
+    if (producer != nullptr && producer->level == HealthLevel::kNoOutput &&
         visited.count(producer->stage) == 0) {
       return sourceOfNothing(stages, *producer, visited);
     }
@@ -49,21 +49,21 @@ std::string firstFault(const StageState& stage) {
 StackHealth stackHealth(const Stages& stages, const std::string& result) {
   const StageState* const last = producerOf(stages, result);
   if (last == nullptr) {
-    return {HealthLevel::kNothing,
+    return {HealthLevel::kNoOutput,
             "no " + withoutSlash(result) + ": no stage that makes them has reported"};
   }
-  if (last->level == HealthLevel::kNothing) {
+  if (last->level == HealthLevel::kNoOutput) {
     std::set<std::string> visited;
-    return {HealthLevel::kNothing, "no " + withoutSlash(result) + ": " +
-                                       firstFault(sourceOfNothing(stages, *last, visited))};
+    return {HealthLevel::kNoOutput, "no " + withoutSlash(result) + ": " +
+                                        firstFault(sourceOfNothing(stages, *last, visited))};
   }
   const auto worse = std::find_if(stages.begin(), stages.end(), [](const StageState& stage) {
-    return stage.level != HealthLevel::kGood;
+    return stage.level != HealthLevel::kOk;
   });
   if (worse != stages.end()) {
-    return {HealthLevel::kLess, "less than all: " + firstFault(*worse)};
+    return {HealthLevel::kDegraded, "less than all: " + firstFault(*worse)};
   }
-  return {HealthLevel::kGood, withoutSlash(result) + " come"};
+  return {HealthLevel::kOk, withoutSlash(result) + " come"};
 }
 
 void ReportingStages::take(const StageState& state, double seconds) {

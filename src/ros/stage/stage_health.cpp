@@ -60,9 +60,9 @@ StageState StageHealth::judge(const StageMonitor& monitor, Stamp now,
     state.faults.push_back(monitor.lastWarning());
   }
   if (!state.faults.empty()) {
-    state.level = makesResults(monitor, now) ? HealthLevel::kLess : HealthLevel::kNothing;
+    state.level = makesResults(monitor, now) ? HealthLevel::kDegraded : HealthLevel::kNoOutput;
   }
-  if (monitor.health() != HealthLevel::kGood) {
+  if (monitor.health() != HealthLevel::kOk) {
     state.faults.insert(state.faults.begin(), monitor.healthReason());
     state.level = std::max(state.level, monitor.health());
   }

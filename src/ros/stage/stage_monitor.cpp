@@ -61,7 +61,7 @@ void StageMonitor::dropped(const InputError& error) {
 }
 
 void StageMonitor::condition(HealthLevel health, const std::string& why) {
-  if (why != health_reason_ && health == HealthLevel::kGood) {
+  if (why != health_reason_ && health == HealthLevel::kOk) {
     ROS_INFO("%s: %s", stage_.c_str(), why.c_str());
   } else if (why != health_reason_) {
     ROS_WARN("%s: %s", stage_.c_str(), why.c_str());

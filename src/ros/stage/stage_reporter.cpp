@@ -72,11 +72,11 @@ double milliseconds(double seconds) { return 1e3 * seconds; }
 
 unsigned char diagnosticLevel(HealthLevel level) {
   switch (level) {
-    case HealthLevel::kNothing:
+    case HealthLevel::kNoOutput:
       return DiagnosticStatus::ERROR;
-    case HealthLevel::kLess:
+    case HealthLevel::kDegraded:
       return DiagnosticStatus::WARN;
-    case HealthLevel::kGood:
+    case HealthLevel::kOk:
       break;
   }
   return DiagnosticStatus::OK;
@@ -85,9 +85,9 @@ unsigned char diagnosticLevel(HealthLevel level) {
 std::optional<StageState> stateOf(const DiagnosticStatus& status) {
   StageState state;
   state.stage = status.name.substr(0, status.name.find(':'));
-  state.level = status.level >= DiagnosticStatus::ERROR  ? HealthLevel::kNothing
-                : status.level == DiagnosticStatus::WARN ? HealthLevel::kLess
-                                                         : HealthLevel::kGood;
+  state.level = status.level >= DiagnosticStatus::ERROR  ? HealthLevel::kNoOutput
+                : status.level == DiagnosticStatus::WARN ? HealthLevel::kDegraded
+                                                         : HealthLevel::kOk;
   bool is_stage = false;
   for (const diagnostic_msgs::KeyValue& entry : status.values) {
     if (entry.key == kTakes) {

@@ -77,11 +77,11 @@ const EarthFrame& V2xStage::frameAt(Stamp stamp) {
   if (!frame_ || std::abs(secondsBetween(frame_->stamp, stamp)) > options_.max_frame_age) {
     const std::string why = frame_ ? "the receiver's last position is older than max_frame_age"
                                    : "where the map lies on the earth is not known yet";
-    monitor_.condition(HealthLevel::kLess, "nothing passes in or out: " + why);
+    monitor_.condition(HealthLevel::kDegraded, "nothing passes in or out: " + why);
     throw InputError("no_earth_frame",
                      why + ": expected earth_frame, which takes gnss and a drive");
   }
-  monitor_.condition(HealthLevel::kGood, "the map's pose on the earth is known");
+  monitor_.condition(HealthLevel::kOk, "the map's pose on the earth is known");
   return *frame_;
 }
 

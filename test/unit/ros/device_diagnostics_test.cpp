@@ -17,11 +17,11 @@ class DeviceDiagnosticsTest : public testing::Test {
 };
 
 TEST_F(DeviceDiagnosticsTest, NothingComesUntilItIsConnectedAndAfterAFault) {
-  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNoOutput);
   diagnostics_.connected("a scanner", now_);
-  EXPECT_EQ(monitor_.health(), HealthLevel::kGood);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kOk);
   diagnostics_.fault(DeviceError("lost_connection", "it is gone"), now_);
-  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNoOutput);
   EXPECT_EQ(monitor_.healthReason(), "it is gone");
   EXPECT_EQ(monitor_.drops().at("lost_connection"), 1U);
   diagnostics_.connected("a scanner", now_);

@@ -262,10 +262,10 @@ TEST_F(GridSlamStageTest, AScanThatIsRepeatedWhileTheVehicleMovesIsDropped) {
     EXPECT_FALSE(goOn(seconds)) << "0.8 m on";
   }
   EXPECT_EQ(drops("frozen_scan"), 3U);
-  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNoOutput);
   scan.ranges.back() += 0.01F;
   EXPECT_TRUE(goOn(100.4));
-  EXPECT_EQ(monitor_.health(), HealthLevel::kGood);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kOk);
 }
 
 TEST_F(GridSlamStageTest, WhileTheVehicleStandsScansMayBeTheSame) {

@@ -269,7 +269,7 @@ TEST_F(MapFusionStageTest, WithoutTheWholePriorMapItGoesOn) {
   EXPECT_EQ(output->changes, nullptr);
   EXPECT_EQ(warnings("bad_prior_map"), 1U);
   EXPECT_NE(monitor_.lastError().find("cells of 0.5 m, expected 1 m"), std::string::npos);
-  EXPECT_EQ(monitor_.health(), HealthLevel::kLess);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
   options_.prior_map = "/nowhere/prior.map";
   start();
   EXPECT_TRUE(allAt(100.0, kOccupied, kOccupied)->fused);

@@ -38,15 +38,15 @@ TEST(PartClocks, EachIsDescribed) {
 }
 
 TEST(PartClocks, OneThatMayAgreeIsFine) {
-  const StackHealth good{HealthLevel::kGood, "tracks come"};
-  EXPECT_EQ(judgedNow(PartClocks((PartClocksOptions())), good).level, HealthLevel::kGood);
-  EXPECT_EQ(judgedNow(with("/perception_stereo", 0.0109), good).level, HealthLevel::kGood);
+  const StackHealth good{HealthLevel::kOk, "tracks come"};
+  EXPECT_EQ(judgedNow(PartClocks((PartClocksOptions())), good).level, HealthLevel::kOk);
+  EXPECT_EQ(judgedNow(with("/perception_stereo", 0.0109), good).level, HealthLevel::kOk);
 }
 
 TEST(PartClocks, OneThatIsSurelyOffIsNamed) {
   const StackHealth health =
-      judgedNow(with("/perception_stereo", -0.0115), {HealthLevel::kGood, "tracks come"});
-  EXPECT_EQ(health.level, HealthLevel::kLess);
+      judgedNow(with("/perception_stereo", -0.0115), {HealthLevel::kOk, "tracks come"});
+  EXPECT_EQ(health.level, HealthLevel::kDegraded);
   EXPECT_EQ(health.sentence,
             "less than all: clock of perception_stereo: 11.5 +- 1.0 ms behind, expected at most "
             "10.0 ms; synchronize the machines' clocks (chrony)");
@@ -54,16 +54,16 @@ TEST(PartClocks, OneThatIsSurelyOffIsNamed) {
 
 TEST(PartClocks, WhatIsKnownAlreadyStays) {
   const StackHealth health = judgedNow(with("/perception_stereo", 1.0),
-                                       {HealthLevel::kNothing, "no tracks: tracker: no pose yet"});
-  EXPECT_EQ(health.level, HealthLevel::kNothing);
+                                       {HealthLevel::kNoOutput, "no tracks: tracker: no pose yet"});
+  EXPECT_EQ(health.level, HealthLevel::kNoOutput);
   EXPECT_EQ(health.sentence.find("no tracks: tracker: no pose yet; clock of perception_stereo: "),
             0U);
 }
 
 TEST(PartClocks, APartThatDoesNotAnswerAnyMoreIsNamed) {
   const PartClocks clocks = with("/perception_risk", 0.0);
-  const StackHealth good{HealthLevel::kGood, "tracks come"};
-  EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 9.0)).level, HealthLevel::kGood);
+  const StackHealth good{HealthLevel::kOk, "tracks come"};
+  EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 9.0)).level, HealthLevel::kOk);
   EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 12.0)).sentence,
             "less than all: perception_risk: no answer for 12 s");
 }

@@ -13,20 +13,20 @@ StageState stage(const std::string& name, HealthLevel level, const StageTopics& 
 
 TEST(StackHealth, TheStageFarthestUpTheChainIsNamed) {
   const StackHealth health = stackHealth(
-      {stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"),
-       stage("tracker", HealthLevel::kNothing, {{"/pose"}, {"/tracks"}}, "no pose yet")},
+      {stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"),
+       stage("tracker", HealthLevel::kNoOutput, {{"/pose"}, {"/tracks"}}, "no pose yet")},
       "/tracks");
   EXPECT_EQ(health.sentence, "no tracks: slam: no scan yet");
 }
 
 TEST(ReportingStages, OneThatDoesNotReportAnyMoreIsForgotten) {
   ReportingStages stages;
-  stages.take(stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
-  stages.take(stage("tracker", HealthLevel::kGood, {{"/pose"}, {"/tracks"}}, ""), 10.0);
+  stages.take(stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
+  stages.take(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 10.0);
   EXPECT_EQ(stages.at(14.0).size(), 2U);
-  stages.take(stage("tracker", HealthLevel::kGood, {{"/pose"}, {"/tracks"}}, ""), 14.0);
+  stages.take(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 14.0);
   ASSERT_EQ(stages.at(21.0).size(), 1U);
-  EXPECT_EQ(stackHealth(stages.at(21.0), "/tracks").level, HealthLevel::kGood);
+  EXPECT_EQ(stackHealth(stages.at(21.0), "/tracks").level, HealthLevel::kOk);
 }
 
 }  // namespace

@@ -42,13 +42,13 @@ TEST_F(StageHealthTest, OneThatRunsHasNoFaults) {
   receiveAll(100.0);
   process(100.0);
   const StageState state = judge(100.5);
-  EXPECT_EQ(state.level, HealthLevel::kGood);
+  EXPECT_EQ(state.level, HealthLevel::kOk);
   EXPECT_TRUE(state.faults.empty());
 }
 
 TEST_F(StageHealthTest, NothingPublishedIsNothingMade) {
   const StageState state = judge(100.0);
-  EXPECT_EQ(state.level, HealthLevel::kNothing);
+  EXPECT_EQ(state.level, HealthLevel::kNoOutput);
   ASSERT_EQ(state.faults.size(), 2U);
   EXPECT_EQ(state.faults[0], "no scan yet: nobody publishes it (scan on /scan or /echoes)");
   EXPECT_EQ(state.faults[1], "no odometry yet: nobody publishes it (odometry on /odom)");
@@ -77,9 +77,9 @@ TEST_F(StageHealthTest, WhatStillMakesResultsGivesLess) {
   monitor_.received("scan", at(102.0));
   process(102.0);
   const StageState state = judge(102.5);
-  EXPECT_EQ(state.level, HealthLevel::kLess);
+  EXPECT_EQ(state.level, HealthLevel::kDegraded);
   EXPECT_EQ(state.faults, std::vector<std::string>{"no odometry for 2.5 s"});
-  EXPECT_EQ(judge(104.0).level, HealthLevel::kNothing) << "no result for longer than a second";
+  EXPECT_EQ(judge(104.0).level, HealthLevel::kNoOutput) << "no result for longer than a second";
 }
 
 TEST_F(StageHealthTest, ADropThatLeavesNothingComesFirst) {
@@ -87,7 +87,7 @@ TEST_F(StageHealthTest, ADropThatLeavesNothingComesFirst) {
   monitor_.dropped(InputError("missing_transform", "no tf base_link -> laser"));
   monitor_.warned(InputError("tilt", "tilted"));
   const StageState state = judge(100.1);
-  EXPECT_EQ(state.level, HealthLevel::kNothing);
+  EXPECT_EQ(state.level, HealthLevel::kNoOutput);
   ASSERT_EQ(state.faults.size(), 3U);
   EXPECT_EQ(state.faults[0], "no tf base_link -> laser");
   EXPECT_EQ(state.faults[2], "tilted");
@@ -105,35 +105,36 @@ StageState stage(const std::string& name, HealthLevel level, const std::string& 
 
 TEST(StackHealth, TheFirstCauseInTheChainIsSaid) {
   const std::vector<StageState> stages{
-      stage("tracker", HealthLevel::kNothing, "no objects for 2.0 s", {"/objects"}, {"/tracks"}),
-      stage("moving_objects", HealthLevel::kNothing, "no labeled_scan yet", {"/labeled_scan"},
+      stage("tracker", HealthLevel::kNoOutput, "no objects for 2.0 s", {"/objects"}, {"/tracks"}),
+      stage("moving_objects", HealthLevel::kNoOutput, "no labeled_scan yet", {"/labeled_scan"},
             {"/objects"}),
-      stage("grid_slam", HealthLevel::kNothing, "no tf base_link -> laser", {"/odom", "/scan"},
+      stage("grid_slam", HealthLevel::kNoOutput, "no tf base_link -> laser", {"/odom", "/scan"},
             {"/labeled_scan", "/pose"})};
   const StackHealth health = stackHealth(stages, "/tracks");
-  EXPECT_EQ(health.level, HealthLevel::kNothing);
+  EXPECT_EQ(health.level, HealthLevel::kNoOutput);
   EXPECT_EQ(health.sentence, "no tracks: grid_slam: no tf base_link -> laser");
 }
 
 TEST(StackHealth, AStageThatGivesLessIsNoCauseOfNothing) {
   const std::vector<StageState> stages{
-      stage("grid_slam", HealthLevel::kLess, "no odometry for 1.1 s", {"/odom"}, {"/labeled_scan"}),
-      stage("tracker", HealthLevel::kNothing, "no tf", {"/labeled_scan"}, {"/tracks"})};
+      stage("grid_slam", HealthLevel::kDegraded, "no odometry for 1.1 s", {"/odom"},
+            {"/labeled_scan"}),
+      stage("tracker", HealthLevel::kNoOutput, "no tf", {"/labeled_scan"}, {"/tracks"})};
   EXPECT_EQ(stackHealth(stages, "/tracks").sentence, "no tracks: tracker: no tf");
 }
 
 TEST(StackHealth, LessThanAllNamesTheFirstFault) {
   const std::vector<StageState> stages{
-      stage("stereo_grid", HealthLevel::kNothing, "no points2 for 3.0 s", {}, {"/grids/stereo"}),
-      stage("tracker", HealthLevel::kGood, "", {"/grids/stereo"}, {"/tracks"})};
+      stage("stereo_grid", HealthLevel::kNoOutput, "no points2 for 3.0 s", {}, {"/grids/stereo"}),
+      stage("tracker", HealthLevel::kOk, "", {"/grids/stereo"}, {"/tracks"})};
   const StackHealth health = stackHealth(stages, "/tracks");
-  EXPECT_EQ(health.level, HealthLevel::kLess);
+  EXPECT_EQ(health.level, HealthLevel::kDegraded);
   EXPECT_EQ(health.sentence, "less than all: stereo_grid: no points2 for 3.0 s");
 }
 
 TEST(StackHealth, GoodOnesAreSaidInTwoWords) {
   EXPECT_EQ(
-      stackHealth({stage("tracker", HealthLevel::kGood, "", {}, {"/tracks"})}, "/tracks").sentence,
+      stackHealth({stage("tracker", HealthLevel::kOk, "", {}, {"/tracks"})}, "/tracks").sentence,
       "tracks come");
 }
 
@@ -144,8 +145,8 @@ TEST(StackHealth, AStageThatHasNotReportedIsNamedByWhatItMakes) {
 
 TEST(StackHealth, ACircleEnds) {
   const std::vector<StageState> stages{
-      stage("one", HealthLevel::kNothing, "no b", {"/b"}, {"/a"}),
-      stage("other", HealthLevel::kNothing, "no a", {"/a"}, {"/b"})};
+      stage("one", HealthLevel::kNoOutput, "no b", {"/b"}, {"/a"}),
+      stage("other", HealthLevel::kNoOutput, "no a", {"/a"}, {"/b"})};
   EXPECT_EQ(stackHealth(stages, "/a").sentence, "no a: other: no a");
 }
 

@@ -80,7 +80,7 @@ class V2xStageTest : public testing::Test {
 TEST_F(V2xStageTest, WithoutReceiverNothingPassesAndThatIsSaid) {
   EXPECT_EQ(stage_.takeStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
-  EXPECT_EQ(monitor_.health(), HealthLevel::kLess);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
 }
 
 TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {

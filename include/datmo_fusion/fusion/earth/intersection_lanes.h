@@ -32,7 +32,7 @@ ApproachLanes approachLanes(const MapIntersection& intersection, const LocalPlan
 struct LanePosition {
   double distance = 0.0;  ///< m along it to the stop line; negative: beyond it
   double lateral = 0.0;   ///< m from its middle
-  double heading = 0.0;   ///< rad in the plane, of the lane there towards the intersection
+  double heading = 0.0;   ///< rad in the plane, of the lane there toward the intersection
   double outside = 0.0;   ///< m beyond the end of what is known of the lane; 0: within it
 };
 

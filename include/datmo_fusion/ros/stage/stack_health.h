@@ -11,7 +11,7 @@ namespace datmo {
 
 /// How the stack does, in one sentence.
 struct StackHealth {
-  HealthLevel level = HealthLevel::kGood;
+  HealthLevel level = HealthLevel::kOk;
   std::string sentence;
 };
 

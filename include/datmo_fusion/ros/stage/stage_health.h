@@ -45,7 +45,7 @@ struct StageTopics {
 /// One stage, as a person or the next program asks for it.
 struct StageState {
   std::string stage;
-  HealthLevel level = HealthLevel::kGood;
+  HealthLevel level = HealthLevel::kOk;
   std::vector<std::string> faults;  ///< what keeps it from working comes first
   StageTopics topics;
 };

@@ -33,9 +33,9 @@ struct Processed {
 
 /// How well a stage, or the stack, does.
 enum class HealthLevel {
-  kGood,
-  kLess,     ///< something is missing or wrong, but results come
-  kNothing,  ///< and none comes that serves
+  kOk,
+  kDegraded,  ///< something is missing or wrong, but results come
+  kNoOutput,  ///< and no usable result comes
 };
 
 /// Processing times over the last messages, s; 0 before the first.
@@ -145,7 +145,7 @@ class StageMonitor {
   std::map<std::string, std::uint64_t> drops_;
   std::map<std::string, std::uint64_t> warnings_;
   std::map<std::string, double> figures_;
-  HealthLevel health_ = HealthLevel::kGood;
+  HealthLevel health_ = HealthLevel::kOk;
   std::string health_reason_;
   std::deque<double> times_;  ///< s, the last ones
   std::uint64_t processed_ = 0;

@@ -12,17 +12,17 @@
 
 namespace datmo {
 
-/// Calls a function in the callback queue of a nodelet, rung from any thread. When it is gone, it
-/// has been called for the last time: who rings ends before it.
-class CallbackBell {
+/// Posts calls of a function to the callback queue of a nodelet, from any thread. Once it is
+/// destroyed the function is not called any more; the threads that post must have stopped before.
+class CallbackPoster {
  public:
-  CallbackBell(const ros::NodeHandle& node, std::function<void()> serve)
+  CallbackPoster(const ros::NodeHandle& node, std::function<void()> serve)
       : queue_(*node.getCallbackQueue()), serve_(std::move(serve)) {}
-  ~CallbackBell() { queue_.removeByID(id()); }
-  CallbackBell(const CallbackBell&) = delete;
-  CallbackBell& operator=(const CallbackBell&) = delete;
+  ~CallbackPoster() { queue_.removeByID(id()); }
+  CallbackPoster(const CallbackPoster&) = delete;
+  CallbackPoster& operator=(const CallbackPoster&) = delete;
 
-  void ring() { queue_.addCallback(boost::make_shared<Call>(serve_), id()); }
+  void post() { queue_.addCallback(boost::make_shared<Call>(serve_), id()); }
 
  private:
   class Call : public ros::CallbackInterface {
