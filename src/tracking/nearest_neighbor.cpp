@@ -104,6 +104,7 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
 
 std::vector<BestTarget> NearestNeighborTargets::best() const {
   std::vector<BestTarget> result;
+  result.reserve(targets_.size());
   for (const Target& target : targets_) {
     result.push_back({&target, 1.0});
   }

@@ -28,6 +28,7 @@ void PlannedCluster::add(const RankedHypothesis& source) {
     return;
   }
   GlobalHypothesis child{source.weight(), {}};
+  child.leaf_of_tree.reserve(trees_.size());
   for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
     const int leaf = source.parent().leaf_of_tree[tree];
     child.leaf_of_tree.push_back(leaf == kAbsent ? kAbsent
@@ -53,6 +54,7 @@ HypothesisCluster PlannedCluster::finish() {
   }
   HypothesisCluster result{{}, std::move(hypotheses_), std::move(old_.links), {}};
   linkSharers(result);
+  result.trees.reserve(trees_.size());
   for (const PlannedTree& plan : trees_) {
     result.trees.push_back(grow(plan));
   }
