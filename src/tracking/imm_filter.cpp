@@ -193,7 +193,7 @@ void ImmFilter::setTransitionPrior(const JumpCounts& prior) {
 }
 
 void ImmFilter::combine() {
-  combined_ = mixture(TrackState(combined_.mean), modes_, probabilities_);
+  mixture(combined_.mean, modes_, probabilities_, combined_);
 }
 
 }  // namespace datmo

@@ -7,27 +7,30 @@
 
 namespace datmo {
 
+static_assert(kTrackState == 6, "all columns are four doubles, and two");
+
 DATMO_FUSION_WIDE
 void momentsAbout(const TrackState& origin, const ModeEstimates& modes,
                   const ModeVector& probabilities, ModeMoments& moments) {
   for (int mode = 0; mode < kMotionModes; ++mode) {
-    double* __restrict column = moments.data() + kMoments * mode;
+    double* column = moments.data() + kMoments * mode;
     if (!(probabilities[mode] > 0.0)) {
       std::fill_n(column, kMoments, 0.0);
       continue;
     }
     const StateEstimate& estimate = modes[static_cast<std::size_t>(mode)];
+    const double* mean = estimate.mean.data();
     const double* covariance = estimate.covariance.data();
-    double offset[kTrackState];
-    for (int i = 0; i < kTrackState; ++i) {
-      offset[i] = estimate.mean[i] - origin[i];
-      column[i] = offset[i];
-    }
-    double* __restrict second = column + kTrackState;
+    const FourDoubles first = four(mean) - four(origin.data());
+    const TwoDoubles last = two(mean + 4) - two(origin.data() + 4);
+    four(column) = first;
+    two(column + 4) = last;
+    double* second = column + kTrackState;
+#pragma GCC unroll 6
     for (int j = 0; j < kTrackState; ++j) {
-      for (int i = 0; i < kTrackState; ++i) {
-        second[kTrackState * j + i] = covariance[kTrackState * j + i] + offset[i] * offset[j];
-      }
+      const double offset = j < 4 ? first[j & 3] : last[j & 1];
+      four(second + kTrackState * j) = four(covariance + kTrackState * j) + first * offset;
+      two(second + kTrackState * j + 4) = two(covariance + kTrackState * j + 4) + last * offset;
     }
   }
 }
@@ -54,55 +57,61 @@ void mix(const ModeMoments& moments, const ModeMatrix& weights, ModeMoments& mix
 DATMO_FUSION_WIDE
 void estimateOf(const TrackState& origin, const ModeMoments& moments, int mode,
                 StateEstimate& estimate) {
-  const double* __restrict offset = moments.data() + kMoments * mode;
-  const double* __restrict second = offset + kTrackState;
-  double* __restrict mean = estimate.mean.data();
-  double* __restrict covariance = estimate.covariance.data();
-  for (int i = 0; i < kTrackState; ++i) {
-    mean[i] = origin[i] + offset[i];
-  }
+  const double* offset = moments.data() + kMoments * mode;
+  const double* second = offset + kTrackState;
+  double* covariance = estimate.covariance.data();
+  const FourDoubles first = four(offset);
+  const TwoDoubles last = two(offset + 4);
+  four(estimate.mean.data()) = four(origin.data()) + first;
+  two(estimate.mean.data() + 4) = two(origin.data() + 4) + last;
+#pragma GCC unroll 6
   for (int j = 0; j < kTrackState; ++j) {
-    for (int i = 0; i < kTrackState; ++i) {
-      covariance[kTrackState * j + i] = second[kTrackState * j + i] - offset[i] * offset[j];
-    }
+    const int at = kTrackState * j;
+    four(covariance + at) = four(second + at) - first * offset[j];
+    two(covariance + at + 4) = two(second + at + 4) - last * offset[j];
   }
 }
 
 DATMO_FUSION_WIDE
-StateEstimate mixture(const TrackState& origin, const ModeEstimates& modes,
-                      const ModeVector& probabilities) {
-  double first[kTrackState] = {};
-  double second[kTrackState * kTrackState] = {};
+void mixture(const TrackState& origin, const ModeEstimates& modes, const ModeVector& probabilities,
+             StateEstimate& result) {
+  int possible[kMotionModes];  // modes
+  double offsets[kMotionModes][kTrackState];
+  int count = 0;
+  FourDoubles first = {};
+  TwoDoubles last = {};
   for (int mode = 0; mode < kMotionModes; ++mode) {
-    const double weight = probabilities[mode];
-    if (!(weight > 0.0)) {
-      continue;
-    }
-    const StateEstimate& estimate = modes[static_cast<std::size_t>(mode)];
-    const double* covariance = estimate.covariance.data();
-    double offset[kTrackState];
-    for (int i = 0; i < kTrackState; ++i) {
-      offset[i] = estimate.mean[i] - origin[i];
-      first[i] += offset[i] * weight;
-    }
-    for (int j = 0; j < kTrackState; ++j) {
-      for (int i = 0; i < kTrackState; ++i) {
-        const int at = kTrackState * j + i;
-        second[at] += (covariance[at] + offset[i] * offset[j]) * weight;
-      }
+    if (probabilities[mode] > 0.0) {
+      const double* mean = modes[static_cast<std::size_t>(mode)].mean.data();
+      double* offset = offsets[count];
+      four(offset) = four(mean) - four(origin.data());
+      two(offset + 4) = two(mean + 4) - two(origin.data() + 4);
+      first += four(offset) * probabilities[mode];
+      last += two(offset + 4) * probabilities[mode];
+      possible[count++] = mode;
     }
   }
-  StateEstimate result;
-  for (int i = 0; i < kTrackState; ++i) {
-    result.mean[i] = origin[i] + first[i];
-  }
+  double mean[kTrackState];  // about the origin
+  four(mean) = first;
+  two(mean + 4) = last;
+  double* covariance = result.covariance.data();
+#pragma GCC unroll 6
   for (int j = 0; j < kTrackState; ++j) {
-    for (int i = 0; i < kTrackState; ++i) {
-      const int at = kTrackState * j + i;
-      result.covariance.data()[at] = second[at] - first[i] * first[j];
+    const int at = kTrackState * j;
+    FourDoubles upper = {};
+    TwoDoubles lower = {};
+    for (int i = 0; i < count; ++i) {
+      const double* column = modes[static_cast<std::size_t>(possible[i])].covariance.data() + at;
+      const double* offset = offsets[i];
+      const double weight = probabilities[possible[i]];
+      upper += (four(column) + four(offset) * offset[j]) * weight;
+      lower += (two(column + 4) + two(offset + 4) * offset[j]) * weight;
     }
+    four(covariance + at) = upper - first * mean[j];
+    two(covariance + at + 4) = lower - last * mean[j];
   }
-  return result;
+  four(result.mean.data()) = four(origin.data()) + first;
+  two(result.mean.data() + 4) = two(origin.data() + 4) + last;
 }
 
 }  // namespace datmo

@@ -28,8 +28,8 @@ void mix(const ModeMoments& moments, const ModeMatrix& weights, ModeMoments& mix
 void estimateOf(const TrackState& origin, const ModeMoments& moments, int mode,
                 StateEstimate& estimate);
 
-/// Mean and covariance of all modes together.
-StateEstimate mixture(const TrackState& origin, const ModeEstimates& modes,
-                      const ModeVector& probabilities);
+/// Mean and covariance of all modes together. `result` may hold the origin.
+void mixture(const TrackState& origin, const ModeEstimates& modes, const ModeVector& probabilities,
+             StateEstimate& result);
 
 }  // namespace datmo

@@ -16,11 +16,6 @@ void symmetrize(TrackCovariance& covariance) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
-const FourDoubles& four(const double* values) {
-  return *reinterpret_cast<const FourDoubles*>(values);
-}
-FourDoubles& four(double* values) { return *reinterpret_cast<FourDoubles*>(values); }
-
 PositionMeasurement undelayed(PositionMeasurement measured) {
   measured.delay = 0.0;
   return measured;
@@ -64,15 +59,18 @@ void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEst
   const double* b[4];                 // columns
   const double* rest[4];
   FourDoubles turned[4];  // columns of B times the rest
+#pragma GCC unroll 4
   for (int j = 0; j < 4; ++j) {
     b[j] = motion.transition.data() + kTrackState * (2 + j) + 2;
     rest[j] = estimate.covariance.data() + kTrackState * (2 + j) + 2;
   }
+#pragma GCC unroll 4
   for (int j = 0; j < 4; ++j) {
     turned[j] = four(b[0]) * rest[j][0] + four(b[1]) * rest[j][1] + four(b[2]) * rest[j][2] +
                 four(b[3]) * rest[j][3];
   }
   TrackCovariance& covariance = result.covariance;
+#pragma GCC unroll 4
   for (int j = 0; j < 4; ++j) {
     double* column = covariance.data() + kTrackState * (2 + j) + 2;
     const double* noise = motion.noise.data() + kTrackState * (2 + j) + 2;
@@ -85,6 +83,7 @@ void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEst
 
   FourDoubles cross[2];  // of a component of the position with the rest
   FourDoubles moved[2];
+#pragma GCC unroll 2
   for (int i = 0; i < 2; ++i) {
     const auto before = estimate.covariance.row(i).tail<4>();
     const auto noise = motion.noise.row(i).tail<4>();
@@ -94,11 +93,13 @@ void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEst
     const FourDoubles after = four(b[0]) * moved[i][0] + four(b[1]) * moved[i][1] +
                               four(b[2]) * moved[i][2] + four(b[3]) * moved[i][3] +
                               FourDoubles{noise[0], noise[1], noise[2], noise[3]};
+#pragma GCC unroll 4
     for (int j = 0; j < 4; ++j) {
       covariance(i, 2 + j) = after[j];
     }
     result.mean[i] =
         estimate.mean[i] + (a(i, 2) * r[0] + a(i, 3) * r[1] + a(i, 4) * r[2] + a(i, 5) * r[3]);
+#pragma GCC unroll 2
     for (int j = 0; j <= i; ++j) {
       const double along = cross[j][0] * a(i, 2) + cross[j][1] * a(i, 3) + cross[j][2] * a(i, 4) +
                            cross[j][3] * a(i, 5);

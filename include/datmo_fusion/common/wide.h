@@ -14,8 +14,20 @@
 
 namespace datmo {
 
-/// Four doubles for arithmetic element by element; at any address.
+/// Doubles for arithmetic element by element; at any address.
+using TwoDoubles __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)),
+                                may_alias)) = double;
 using FourDoubles __attribute__((vector_size(4 * sizeof(double)), aligned(alignof(double)),
                                  may_alias)) = double;
+
+/// The doubles from this one on.
+inline const TwoDoubles& two(const double* values) {
+  return *reinterpret_cast<const TwoDoubles*>(values);
+}
+inline TwoDoubles& two(double* values) { return *reinterpret_cast<TwoDoubles*>(values); }
+inline const FourDoubles& four(const double* values) {
+  return *reinterpret_cast<const FourDoubles*>(values);
+}
+inline FourDoubles& four(double* values) { return *reinterpret_cast<FourDoubles*>(values); }
 
 }  // namespace datmo
