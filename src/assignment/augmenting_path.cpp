@@ -30,28 +30,14 @@ void giveCheapestFree(int row, const AssignmentCosts& costs, PricedAssignment& a
 
 AugmentingPath::AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory)
     : costs_(costs),
-      pairs_(memory),
-      first_pair_(memory),
       distance_(costs.columns(), kForbidden, memory),
       reached_from_(costs.columns(), kVoid, memory),
       is_left_(costs.columns(), 0, memory),
       reached_(memory),
       left_(memory),
       waiting_rows_(memory) {
-  pairs_.reserve((costs.pairs.array() < kForbidden).count());
-  first_pair_.reserve(costs.rows() + 1);
   reached_.reserve(costs.columns());
   left_.reserve(costs.columns());
-  for (int row = 0; row < costs.rows(); ++row) {
-    first_pair_.push_back(static_cast<int>(pairs_.size()));
-    const double* cost = costs.row(row).columns;
-    for (int column = 0; column < costs.columns(); ++column) {
-      if (cost[column] < kForbidden) {
-        pairs_.push_back(column);
-      }
-    }
-  }
-  first_pair_.push_back(static_cast<int>(pairs_.size()));
 }
 
 void AugmentingPath::add(int row, PricedAssignment& assignment) {
@@ -179,10 +165,10 @@ void AugmentingPath::reach(int column, double distance, int from) {
 /// Shortens the paths to all open columns, and to the void, by those over this row.
 void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
                               const PricedAssignment& assignment) {
-  work_ += first_pair_[row + 1] - first_pair_[row];
+  const PossibleColumns columns = costs_.possible(row);
+  work_ += columns.size();
   const double offset = distance - assignment.row_price[row];
-  for (int pair = first_pair_[row]; pair < first_pair_[row + 1]; ++pair) {
-    const int column = pairs_[pair];
+  for (const int column : columns) {
     const double candidate = offset + cost.columns[column] - assignment.column_price[column];
     if (candidate < distance_[column] && isOpen(column, assignment)) {
       reach(column, candidate, row);

@@ -65,11 +65,9 @@ class AugmentingPath {
   void updateAllPrices(const Search& search, double length, PricedAssignment& assignment) const;
   void apply(const Search& search, PricedAssignment& assignment) const;
 
-  AssignmentCosts costs_;
+  const AssignmentCosts& costs_;
   std::int64_t work_ = 0;
 
-  std::pmr::vector<int> pairs_;       ///< columns that each row may have, row after row
-  std::pmr::vector<int> first_pair_;  ///< of each row, and the end
 
   // Of the present search.
   std::pmr::vector<double> distance_;   ///< of each column; kForbidden: not reached

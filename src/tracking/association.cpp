@@ -39,6 +39,7 @@ class NearObjects {
  public:
   NearObjects(const Expected& target, const AssociationScan& scan,
               const AssociationOptions& options) {
+    heap_.reserve(kMany);
     const Box2& box = target.box;
     const Point2& position = box.center.position();
     const double sigma = std::sqrt(target.variance);
@@ -66,13 +67,15 @@ class NearObjects {
   }
 
  private:
-  /// Bytes on the stack: enough for about a hundred objects.
-  static constexpr std::size_t kScratch = 4096;
-
-  alignas(std::max_align_t) std::array<std::byte, kScratch> scratch_;
-  std::pmr::monotonic_buffer_resource memory_{scratch_.data(), scratch_.size()};
   /// Square of the distance (m^2), and index.
-  std::pmr::vector<std::pair<double, std::size_t>> heap_{&memory_};
+  using NearObject = std::pair<double, std::size_t>;
+
+  /// For so many the stack has room.
+  static constexpr std::size_t kMany = 128;
+
+  alignas(NearObject) std::array<std::byte, kMany * sizeof(NearObject)> scratch_;
+  std::pmr::monotonic_buffer_resource memory_{scratch_.data(), scratch_.size()};
+  std::pmr::vector<NearObject> heap_{&memory_};
 };
 
 }  // namespace

@@ -123,6 +123,15 @@ void PlannedCluster::startTarget(std::size_t observation, GlobalHypothesis& chil
 
 TrackTree PlannedCluster::grow(const PlannedTree& plan) {
   TrackTree tree;
+  if (plan.old_tree != kNoTree && plan.leaves.size() == 1 &&
+      old_.trees[plan.old_tree].leaves.size() == 1) {
+    tree = std::move(old_.trees[plan.old_tree]);  // most do not branch: the target stays in place
+    Leaf& leaf = tree.leaves.front();
+    leaf.nodes = plan.leaves.front().nodes;
+    continueTarget(leaf.target, plan.leaves.front().observation,
+                   leaf.scores.detection_probability);
+    return tree;
+  }
   tree.leaves.reserve(plan.leaves.size());
   for (auto leaf = plan.leaves.begin(); leaf != plan.leaves.end(); ++leaf) {
     if (leaf->parent == kAbsent) {
