@@ -68,7 +68,6 @@ class AugmentingPath {
   const AssignmentCosts& costs_;
   std::int64_t work_ = 0;
 
-
   // Of the present search.
   std::pmr::vector<double> distance_;   ///< of each column; kForbidden: not reached
   std::pmr::vector<int> reached_from_;  ///< row, or kVoid

@@ -74,9 +74,9 @@ ModeVector priorModeProbabilities(const ImmOptions& options) {
 
 ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities,
                      const std::optional<TransitionModel>& transitions)
-    : probabilities_(mode_probabilities),
+    : combined_(estimate),
+      probabilities_(mode_probabilities),
       probabilities_before_(mode_probabilities),
-      combined_(estimate),
       transitions_(transitions) {
   modes_.fill(estimate);
 }
