@@ -103,6 +103,14 @@ std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>
   return result;
 }
 
+/// The only hypothesis of another cluster holds in all of these: their order and weights stay.
+void append(const GlobalHypothesis& other, std::vector<GlobalHypothesis>& hypotheses) {
+  for (GlobalHypothesis& hypothesis : hypotheses) {
+    hypothesis.leaf_of_tree.insert(hypothesis.leaf_of_tree.end(), other.leaf_of_tree.begin(),
+                                   other.leaf_of_tree.end());
+  }
+}
+
 }  // namespace
 
 std::vector<double> HypothesisCluster::probabilities() const {
@@ -127,16 +135,18 @@ HypothesisCluster singleTarget(TrackTree tree) {
 }
 
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max) {
-  HypothesisCluster result;
-  result.hypotheses = likeliestPairs(a.hypotheses, b.hypotheses, max);
-  result.trees = std::move(a.trees);
-  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(result.trees));
-  result.links = std::move(a.links);
-  result.links.insert(result.links.end(), b.links.begin(), b.links.end());
-  if (result.hypotheses.size() < a.hypotheses.size() * b.hypotheses.size()) {
-    canonicalize(result);
+  const std::size_t pairs = a.hypotheses.size() * b.hypotheses.size();
+  if (b.hypotheses.size() == 1 && pairs <= max) {
+    append(b.hypotheses.front(), a.hypotheses);  // as of most: of one that nothing is to decide of
+  } else {
+    a.hypotheses = likeliestPairs(a.hypotheses, b.hypotheses, max);
   }
-  return result;
+  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(a.trees));
+  a.links.insert(a.links.end(), b.links.begin(), b.links.end());
+  if (a.hypotheses.size() < pairs) {
+    canonicalize(a);
+  }
+  return a;
 }
 
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost) {

@@ -12,7 +12,14 @@ namespace {
 
 /// See HypothesisCluster::objects.
 std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
+  std::size_t all = 0;
+  for (const TrackTree& tree : cluster.trees) {
+    for (const Leaf& leaf : tree.leaves) {
+      all += leaf.scores.candidates.size() + leaf.related.size();
+    }
+  }
   std::vector<std::size_t> result;
+  result.reserve(all);
   for (const TrackTree& tree : cluster.trees) {
     for (const Leaf& leaf : tree.leaves) {
       for (const Candidate& candidate : leaf.scores.candidates) {
