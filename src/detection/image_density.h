@@ -38,7 +38,7 @@ class ImageDensity {
  private:
   static constexpr int kTileBits = 4;
   static constexpr int kTileSize = 1 << kTileBits;  ///< cells
-  static constexpr float kMaxTangent = 1.0F;  ///< above and below the horizon
+  static constexpr float kMaxTangent = 1.0F;        ///< above and below the horizon
 
   // Cells are pixels, but in images larger than any.
   float left_ = 0.0F;         ///< tangent of the image's left border

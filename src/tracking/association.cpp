@@ -32,9 +32,9 @@ double detectionProbability(const Expected& target, const AssociationScan& scan)
   return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box), sigma);
 }
 
-/// The objects by themselves that may be within a target's gate, to be taken the nearest first: most
-/// pairs are so far apart that nothing more needs to be known of them, and of many near objects the
-/// first few are enough.
+/// The objects by themselves that may be within a target's gate, to be taken the nearest first:
+/// most pairs are so far apart that nothing more needs to be known of them, and of many near
+/// objects the first few are enough.
 class NearObjects {
  public:
   NearObjects(const Expected& target, const AssociationScan& scan,

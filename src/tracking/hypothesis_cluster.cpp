@@ -81,14 +81,13 @@ std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>
   }
   const std::size_t kept = std::min(pairs.size(), max);
   const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(kept);
-  std::partial_sort(pairs.begin(), end, pairs.end(),
-                    [&](const HypothesisPair& left, const HypothesisPair& right) {
-                      // As sortByWeight() does.
-                      return std::tie(right.log_weight, a[left.first].leaf_of_tree,
-                                      b[left.second].leaf_of_tree) <
-                             std::tie(left.log_weight, a[right.first].leaf_of_tree,
-                                      b[right.second].leaf_of_tree);
-                    });
+  std::partial_sort(
+      pairs.begin(), end, pairs.end(),
+      [&](const HypothesisPair& left, const HypothesisPair& right) {
+        // As sortByWeight() does.
+        return std::tie(right.log_weight, a[left.first].leaf_of_tree, b[left.second].leaf_of_tree) <
+               std::tie(left.log_weight, a[right.first].leaf_of_tree, b[right.second].leaf_of_tree);
+      });
   std::vector<GlobalHypothesis> result;
   result.reserve(kept);
   for (auto pair = pairs.begin(); pair != end; ++pair) {

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "imm_moments.h"
+#include <Eigen/LU>
 
 #include "datmo_fusion/common/square.h"
 
@@ -192,8 +191,6 @@ void ImmFilter::setTransitionPrior(const JumpCounts& prior) {
   }
 }
 
-void ImmFilter::combine() {
-  mixture(combined_.mean, modes_, probabilities_, combined_);
-}
+void ImmFilter::combine() { mixture(combined_.mean, modes_, probabilities_, combined_); }
 
 }  // namespace datmo

@@ -122,9 +122,10 @@ void NearestNeighborTargets::change(std::uint64_t number,
 }
 
 void NearestNeighborTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
-  targets_.erase(std::remove_if(targets_.begin(), targets_.end(),
-                                [&](const std::unique_ptr<Target>& target) { return isLost(*target); }),
-                 targets_.end());
+  targets_.erase(
+      std::remove_if(targets_.begin(), targets_.end(),
+                     [&](const std::unique_ptr<Target>& target) { return isLost(*target); }),
+      targets_.end());
 }
 
 }  // namespace datmo

@@ -128,8 +128,7 @@ TrackTree PlannedCluster::grow(const PlannedTree& plan) {
     tree = std::move(old_.trees[plan.old_tree]);  // most do not branch: the target stays in place
     Leaf& leaf = tree.leaves.front();
     leaf.nodes = plan.leaves.front().nodes;
-    continueTarget(leaf.target, plan.leaves.front().observation,
-                   leaf.scores.detection_probability);
+    continueTarget(leaf.target, plan.leaves.front().observation, leaf.scores.detection_probability);
     return tree;
   }
   tree.leaves.reserve(plan.leaves.size());

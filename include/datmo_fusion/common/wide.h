@@ -15,10 +15,10 @@
 namespace datmo {
 
 /// Doubles for arithmetic element by element; at any address.
-using TwoDoubles __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)),
-                                may_alias)) = double;
-using FourDoubles __attribute__((vector_size(4 * sizeof(double)), aligned(alignof(double)),
-                                 may_alias)) = double;
+using TwoDoubles
+    __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
+using FourDoubles
+    __attribute__((vector_size(4 * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
 
 /// The doubles from this one on.
 inline const TwoDoubles& two(const double* values) {

@@ -123,8 +123,8 @@ class Target {
   double falseMotion(const TargetOptions& options) const;
   double trackedVelocityEvidence(double false_motion, const TargetOptions& options) const;
 
-  // What is asked of all targets several times in a step comes first, side by side: many targets are
-  // more than the cache holds.
+  // What is asked of all targets several times in a step comes first, side by side: many targets
+  // are more than the cache holds.
   std::uint64_t number_;
   std::uint32_t id_ = 0;
   std::uint32_t hits_ = 1;
