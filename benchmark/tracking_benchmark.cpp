@@ -31,7 +31,7 @@ Object vehicleAt(const Point2& position) {
   object.position_covariance = kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity();
   object.dynamic_state = DynamicState::kMoving;
   object.moving_fraction = 1.0;
-  object.points.resize(4);
+  object.points.assign(4, position);
   return object;
 }
 

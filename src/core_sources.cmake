@@ -225,6 +225,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/hypothesis_expansion.cpp
   tracking/hypothesis_pruning.cpp
   tracking/imm_filter.cpp
+  tracking/imm_moments.cpp
   tracking/kalman_filter.cpp
   tracking/motion_by_class.cpp
   tracking/motion_likelihood.cpp

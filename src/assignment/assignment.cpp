@@ -22,7 +22,7 @@ Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassi
   checkSizes(cost, unassigned_cost);
   alignas(std::max_align_t) std::array<std::byte, kScratch> scratch;
   std::pmr::monotonic_buffer_resource memory(scratch.data(), scratch.size());
-  const AssignmentCosts costs{cost, unassigned_cost};
+  const AssignmentCosts costs(cost, unassigned_cost, &memory);
   AugmentingPath path(costs, &memory);
   PricedAssignment best(costs.rows(), costs.columns(), &memory);
   const bool all = assignAll(costs, max_work, path, best);

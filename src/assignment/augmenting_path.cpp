@@ -32,8 +32,13 @@ AugmentingPath::AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_re
     : costs_(costs),
       distance_(costs.columns(), kForbidden, memory),
       reached_from_(costs.columns(), kVoid, memory),
-      columns_(costs.columns(), 0, memory),
-      waiting_rows_(memory) {}
+      is_left_(costs.columns(), 0, memory),
+      reached_(memory),
+      left_(memory),
+      waiting_rows_(memory) {
+  reached_.reserve(costs.columns());
+  left_.reserve(costs.columns());
+}
 
 void AugmentingPath::add(int row, PricedAssignment& assignment) {
   assignment.open_rows.push_back(row);
@@ -54,15 +59,15 @@ bool AugmentingPath::run(const Search& search, PricedAssignment& assignment) {
   return true;
 }
 
-void AugmentingPath::start(const PricedAssignment& assignment) {
-  columns_in_search_ = 0;
-  for (int column = 0; column < costs_.columns(); ++column) {
-    if (assignment.row_of_column[column] != kFixed) {
-      columns_[columns_in_search_++] = column;
+void AugmentingPath::start() {
+  for (const std::pmr::vector<int>* columns : {&reached_, &left_}) {
+    for (const int column : *columns) {
       distance_[column] = kForbidden;
+      is_left_[column] = 0;
     }
   }
-  open_columns_ = columns_in_search_;
+  reached_.clear();
+  left_.clear();
   void_distance_ = kForbidden;
   void_left_ = false;
   waiting_rows_.clear();
@@ -70,7 +75,7 @@ void AugmentingPath::start(const PricedAssignment& assignment) {
 
 /// The length of the shortest path, or kForbidden.
 double AugmentingPath::find(const Search& search, const PricedAssignment& assignment) {
-  start(assignment);
+  start();
   leaveRow(search.root, search.root_cost, 0.0, assignment);
   while (true) {
     const Node node = nearest(assignment);
@@ -100,8 +105,8 @@ double AugmentingPath::find(const Search& search, const PricedAssignment& assign
 /// before rows.
 AugmentingPath::Node AugmentingPath::nearest(const PricedAssignment& assignment) const {
   Node result;
-  for (int position = 0; position < open_columns_; ++position) {
-    const int column = columns_[position];
+  for (int position = 0; position < static_cast<int>(reached_.size()); ++position) {
+    const int column = reached_[position];
     if (distance_[column] <= result.distance && comesFirst(column, result, assignment)) {
       result = {Node::Kind::kColumn, position, distance_[column]};
     }
@@ -129,30 +134,44 @@ bool AugmentingPath::comesFirst(int column, const Node& nearest,
   if (nearest.kind != Node::Kind::kColumn) {
     return false;
   }
-  const int other = columns_[nearest.position];
+  const int other = reached_[nearest.position];
   const bool free = assignment.row_of_column[column] == kUnassigned;
   const bool other_free = assignment.row_of_column[other] == kUnassigned;
   return free == other_free ? column < other : free;
 }
 
-/// Takes a column out of the open ones.
+/// Takes a column out of the reached ones.
 int AugmentingPath::close(int position) {
-  --open_columns_;
-  std::swap(columns_[position], columns_[open_columns_]);
-  return columns_[open_columns_];
+  const int column = reached_[position];
+  reached_[position] = reached_.back();
+  reached_.pop_back();
+  left_.push_back(column);
+  is_left_[column] = 1;
+  return column;
+}
+
+bool AugmentingPath::isOpen(int column, const PricedAssignment& assignment) const {
+  return is_left_[column] == 0 && assignment.row_of_column[column] != kFixed;
+}
+
+void AugmentingPath::reach(int column, double distance, int from) {
+  if (distance_[column] == kForbidden) {
+    reached_.push_back(column);
+  }
+  distance_[column] = distance;
+  reached_from_[column] = from;
 }
 
 /// Shortens the paths to all open columns, and to the void, by those over this row.
 void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
                               const PricedAssignment& assignment) {
-  work_ += open_columns_;
+  const PossibleColumns columns = costs_.possible(row);
+  work_ += columns.size();
   const double offset = distance - assignment.row_price[row];
-  for (int position = 0; position < open_columns_; ++position) {
-    const int column = columns_[position];
+  for (const int column : columns) {
     const double candidate = offset + cost.columns[column] - assignment.column_price[column];
-    if (candidate < distance_[column]) {
-      distance_[column] = candidate;
-      reached_from_[column] = row;
+    if (candidate < distance_[column] && isOpen(column, assignment)) {
+      reach(column, candidate, row);
     }
   }
   if (!void_left_ && offset + cost.unassigned < void_distance_) {
@@ -179,12 +198,11 @@ void AugmentingPath::reachVoid(double distance, int row, int column) {
 /// Columns may become free, and rows without column may come to one.
 void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& assignment) {
   void_left_ = true;
-  for (int position = 0; position < open_columns_; ++position) {
-    const int column = columns_[position];
+  for (int column = 0; column < costs_.columns(); ++column) {
     const double candidate = void_distance_ - assignment.column_price[column];
-    if (assignment.row_of_column[column] != kUnassigned && candidate < distance_[column]) {
-      distance_[column] = candidate;
-      reached_from_[column] = kVoid;
+    if (assignment.row_of_column[column] != kUnassigned && candidate < distance_[column] &&
+        isOpen(column, assignment)) {
+      reach(column, candidate, kVoid);
     }
   }
   for (const int row : assignment.open_rows) {
@@ -203,19 +221,38 @@ double AugmentingPath::distanceOf(int row, const PricedAssignment& assignment) c
   return column == kUnassigned ? throughVoid(row, assignment) : distance_[column];
 }
 
-/// What was reached is no farther than the end of the path; the void keeps its price of 0.
+/// What was left is no farther than the end of the path; the void keeps its price of 0. Where the
+/// path does not lead through the void, nothing else changes.
 void AugmentingPath::updatePrices(const Search& search, double length,
                                   PricedAssignment& assignment) const {
+  if (void_left_) {
+    updateAllPrices(search, length, assignment);
+    return;
+  }
+  // A new root has no price yet: its path may be shorter than 0.
+  assignment.row_price[search.root] += length;
+  for (const int column : left_) {
+    const double change = length - std::min(distance_[column], length);
+    const int row = assignment.row_of_column[column];
+    if (row != kUnassigned && row != search.root) {
+      assignment.row_price[row] += change;
+    }
+    assignment.column_price[column] -= change;
+  }
+}
+
+void AugmentingPath::updateAllPrices(const Search& search, double length,
+                                     PricedAssignment& assignment) const {
   const double void_distance = std::min(void_distance_, length);
   for (const int row : assignment.open_rows) {
-    // A new root has no price yet: its path may be shorter than 0.
     const double distance =
         row == search.root ? 0.0 : std::min(distanceOf(row, assignment), length);
     assignment.row_price[row] += void_distance - distance;
   }
-  for (int position = 0; position < columns_in_search_; ++position) {
-    const int column = columns_[position];
-    assignment.column_price[column] -= void_distance - std::min(distance_[column], length);
+  for (int column = 0; column < costs_.columns(); ++column) {
+    if (assignment.row_of_column[column] != kFixed) {
+      assignment.column_price[column] -= void_distance - std::min(distance_[column], length);
+    }
   }
 }
 

@@ -16,7 +16,8 @@ namespace datmo {
 /// one row gives its column up and another one comes to a column.
 ///
 /// Jonker and Volgenant 1987; Crouse, On implementing 2D rectangular assignment algorithms, 2016.
-/// The columns of staying unassigned, which every row has to itself, are never stored.
+/// The columns of staying unassigned, which every row has to itself, are never stored. Pairs that
+/// are forbidden, in most problems nearly all, are not looked at: a search costs what it reaches.
 class AugmentingPath {
  public:
   AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
@@ -28,14 +29,14 @@ class AugmentingPath {
   /// changed: there is no other column.
   bool replace(int row, const RowCost& row_cost, PricedAssignment& assignment);
 
-  /// Entries of the matrix that were looked at until now.
+  /// Possible pairs that were looked at until now.
   std::int64_t work() const { return work_; }
 
  private:
   struct Node {
     enum class Kind : std::uint8_t { kColumn, kRow, kVoid };
     Kind kind = Kind::kVoid;
-    int position = 0;  ///< in the list of open columns, or of waiting rows
+    int position = 0;  ///< in the list of reached columns, or of waiting rows
     double distance = kForbidden;
   };
 
@@ -47,11 +48,13 @@ class AugmentingPath {
   };
 
   bool run(const Search& search, PricedAssignment& assignment);
-  void start(const PricedAssignment& assignment);
+  void start();
   double find(const Search& search, const PricedAssignment& assignment);
   Node nearest(const PricedAssignment& assignment) const;
   bool comesFirst(int column, const Node& nearest, const PricedAssignment& assignment) const;
   int close(int position);
+  bool isOpen(int column, const PricedAssignment& assignment) const;
+  void reach(int column, double distance, int from);
   void reachVoid(double distance, int row, int column);
   void leaveRow(int row, const RowCost& cost, double distance, const PricedAssignment& assignment);
   void leaveColumn(int column, double distance, const PricedAssignment& assignment);
@@ -59,17 +62,18 @@ class AugmentingPath {
   double throughVoid(int row, const PricedAssignment& assignment) const;
   double distanceOf(int row, const PricedAssignment& assignment) const;
   void updatePrices(const Search& search, double length, PricedAssignment& assignment) const;
+  void updateAllPrices(const Search& search, double length, PricedAssignment& assignment) const;
   void apply(const Search& search, PricedAssignment& assignment) const;
 
-  AssignmentCosts costs_;
+  const AssignmentCosts& costs_;
   std::int64_t work_ = 0;
 
   // Of the present search.
-  std::pmr::vector<double> distance_;   ///< of each column
+  std::pmr::vector<double> distance_;   ///< of each column; kForbidden: not reached
   std::pmr::vector<int> reached_from_;  ///< row, or kVoid
-  std::pmr::vector<int> columns_;       ///< that take part: the open ones, then the left ones
-  int columns_in_search_ = 0;
-  int open_columns_ = 0;
+  std::pmr::vector<char> is_left_;      ///< by column: the shortest path to it is known
+  std::pmr::vector<int> reached_;       ///< columns that may be left next
+  std::pmr::vector<int> left_;          ///< columns
   double void_distance_ = kForbidden;
   int void_from_row_ = kUnassigned;     ///< that gave its column up, or
   int void_from_column_ = kUnassigned;  ///< that was free

@@ -9,9 +9,10 @@ namespace datmo {
 
 namespace {
 
-double minOut(int row, const RowCost& row_cost, const PricedAssignment& assignment) {
+double minOut(int row, const RowCost& row_cost, const AssignmentCosts& costs,
+              const PricedAssignment& assignment) {
   double min = row_cost.unassigned;
-  for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
+  for (const int column : costs.possible(row)) {
     if (assignment.row_of_column[column] != kFixed) {
       min = std::min(min, row_cost.columns[column] - assignment.column_price[column]);
     }
@@ -49,6 +50,24 @@ double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignm
 
 }  // namespace
 
+AssignmentCosts::AssignmentCosts(const CostMatrix& all_pairs,
+                                 const Eigen::VectorXd& unassigned_cost,
+                                 std::pmr::memory_resource* memory)
+    : pairs(all_pairs), unassigned(unassigned_cost), columns_(memory), first_(memory) {
+  first_.reserve(rows() + 1);
+  columns_.reserve((pairs.array() < kForbidden).count());
+  for (int row = 0; row < rows(); ++row) {
+    first_.push_back(static_cast<int>(columns_.size()));
+    const double* cost = pairs.row(row).data();
+    for (int column = 0; column < columns(); ++column) {
+      if (cost[column] < kForbidden) {
+        columns_.push_back(column);
+      }
+    }
+  }
+  first_.push_back(static_cast<int>(columns_.size()));
+}
+
 PricedAssignment::PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory)
     : row_price(rows, 0.0, memory),
       column_price(columns, 0.0, memory),
@@ -76,7 +95,7 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
 
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
                    const PricedAssignment& assignment) {
-  const double out = minOut(row, row_cost, assignment);
+  const double out = minOut(row, row_cost, costs, assignment);
   if (out == kForbidden) {
     return kForbidden;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <memory_resource>
 #include <vector>
 
@@ -14,14 +15,41 @@ struct RowCost {
   double unassigned = 0.0;
 };
 
-/// The costs of a problem, which are kept elsewhere.
-struct AssignmentCosts {
+/// The columns that a row may have, rising.
+class PossibleColumns {
+ public:
+  PossibleColumns(const int* begin, const int* end) : begin_(begin), end_(end) {}
+  const int* begin() const { return begin_; }
+  const int* end() const { return end_; }
+  std::ptrdiff_t size() const { return end_ - begin_; }
+
+ private:
+  const int* begin_;
+  const int* end_;
+};
+
+/// The costs of a problem, which are kept elsewhere, and which pairs are possible: in most problems
+/// few of all.
+class AssignmentCosts {
+ public:
+  AssignmentCosts(const CostMatrix& all_pairs, const Eigen::VectorXd& unassigned_cost,
+                  std::pmr::memory_resource* memory);
+
   const CostMatrix& pairs;
   const Eigen::VectorXd& unassigned;
 
   int rows() const { return static_cast<int>(pairs.rows()); }
   int columns() const { return static_cast<int>(pairs.cols()); }
   RowCost row(int row) const { return {pairs.row(row).data(), unassigned[row]}; }
+
+  /// Columns that a row may have.
+  PossibleColumns possible(int row) const {
+    return {columns_.data() + first_[row], columns_.data() + first_[row + 1]};
+  }
+
+ private:
+  std::pmr::vector<int> columns_;  ///< row after row
+  std::pmr::vector<int> first_;    ///< of each row, and the end
 };
 
 /// In place of the row that has a column.

@@ -99,7 +99,7 @@ class RankedAssignments::State {
   std::pmr::monotonic_buffer_resource memory_;
   CostMatrix cost_;
   Eigen::VectorXd unassigned_cost_;
-  AssignmentCosts costs_{cost_, unassigned_cost_};
+  AssignmentCosts costs_{cost_, unassigned_cost_, &memory_};
   std::int64_t max_work_;
   std::int64_t bounding_work_ = 0;  ///< entries that were looked at for bounds
   bool cut_ = false;
@@ -239,7 +239,7 @@ void RankedAssignments::State::search(const Candidate& candidate) {
 
 /// Of how much dearer the best of a part becomes where this row differs.
 double RankedAssignments::State::bound(int part, int row) {
-  bounding_work_ += costs_.columns();
+  bounding_work_ += costs_.possible(row).size();
   return minIncrease(row, allowed(part, row), costs_, present_);
 }
 

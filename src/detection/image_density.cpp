@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/wide.h"
 #include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
@@ -32,6 +33,53 @@ void ImageDensity::reset(const StereoCamera& camera) {
   in_column_.assign(static_cast<std::size_t>(columns_), 0);
   in_row_.assign(static_cast<std::size_t>(rows_), 0);
   tiles_.assign(rowMajorSize(tile_columns_, static_cast<int>(rows_) / kTileSize + 1), 0);
+}
+
+DATMO_FUSION_WIDE
+void ImageDensity::add(const Tangents& right, const Tangents& up, const Flags& is_seen,
+                       std::size_t count) {
+  Flags is_inside;
+  std::array<int, ViewedPoints::kMax> columns;
+  std::array<int, ViewedPoints::kMax> rows;
+  std::array<int, ViewedPoints::kMax> tiles;
+  const float left = left_;
+  const float per_tangent = per_tangent_;
+  const float end_column = columns_;
+  const float end_row = rows_;
+  const int tile_columns = tile_columns_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float column = (right[i] - left) * per_tangent;
+    const float row = (kMaxTangent - up[i]) * per_tangent;
+    const int inside =
+        (column >= 0.0F) & (column < end_column) & (row >= 0.0F) & (row < end_row) & is_seen[i];
+    is_inside[i] = inside;
+    columns[i] = static_cast<int>(inside != 0 ? column : 0.0F);
+    rows[i] = static_cast<int>(inside != 0 ? row : 0.0F);
+    tiles[i] = (rows[i] >> kTileBits) * tile_columns + (columns[i] >> kTileBits);
+  }
+  // Neighbors are mostly in one row and tile: counted one by one, each would wait for the one
+  // before.
+  int row = 0;
+  int tile = 0;
+  int run = 0;
+  const auto endRun = [&] {
+    in_row_[static_cast<std::size_t>(row)] += run;
+    tiles_[static_cast<std::size_t>(tile)] += run;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_inside[i] == 0) {
+      continue;
+    }
+    ++in_column_[static_cast<std::size_t>(columns[i])];
+    if (rows[i] != row || tiles[i] != tile) {
+      endRun();
+      row = rows[i];
+      tile = tiles[i];
+      run = 0;
+    }
+    ++run;
+  }
+  endRun();
 }
 
 double ImageDensity::pixelsPerPoint() const {

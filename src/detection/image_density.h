@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 
@@ -16,18 +18,13 @@ class ImageDensity {
   /// Forgets what it knew.
   void reset(const StereoCamera& camera);
 
-  /// A point at these tangents: to the right, and above the horizon.
-  void add(float right, float up) {
-    const float column = (right - left_) * per_tangent_;
-    const float row = (kMaxTangent - up) * per_tangent_;
-    if (column >= 0.0F && column < columns_ && row >= 0.0F && row < rows_) {
-      const int x = static_cast<int>(column);
-      const int y = static_cast<int>(row);
-      ++in_column_[static_cast<std::size_t>(x)];
-      ++in_row_[static_cast<std::size_t>(y)];
-      ++tiles_[rowMajorIndex(x / kTileSize, y / kTileSize, tile_columns_)];
-    }
-  }
+  /// Of points that are looked at together.
+  using Tangents = std::array<float, ViewedPoints::kMax>;
+  using Flags = std::array<int, ViewedPoints::kMax>;
+
+  /// Those of `count` points that are seen (not 0), at these tangents: to the right, and above the
+  /// horizon.
+  void add(const Tangents& right, const Tangents& up, const Flags& is_seen, std::size_t count);
 
   /// Pixels of the image for each point where it has no holes; at least 1.
   double pixelsPerPoint() const;
@@ -39,8 +36,9 @@ class ImageDensity {
   bool hasPoints(double from, double to) const;
 
  private:
-  static constexpr int kTileSize = 16;        ///< cells
-  static constexpr float kMaxTangent = 1.0F;  ///< above and below the horizon
+  static constexpr int kTileBits = 4;
+  static constexpr int kTileSize = 1 << kTileBits;  ///< cells
+  static constexpr float kMaxTangent = 1.0F;        ///< above and below the horizon
 
   // Cells are pixels, but in images larger than any.
   float left_ = 0.0F;         ///< tangent of the image's left border

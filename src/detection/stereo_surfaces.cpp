@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/wide.h"
+
 namespace datmo {
 
 namespace {
@@ -56,6 +58,7 @@ void StereoSurfaces::find(const StereoCloud& cloud, const StereoView& view,
   measure(options);
 }
 
+DATMO_FUSION_WIDE
 void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view,
                                 const StereoSurfaceOptions& options, double farthest) {
   density_.reset(cloud.camera);
@@ -68,24 +71,32 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   const float camera_height = view.cameraHeight();
   // A depth that is off by its noise lifts a point of the road by this much of height / depth.
   const InverseDepthMargin road_margin(cloud.camera.noise, kRoadSigmas);
-  const auto add = [&](const ViewedPoint& point, float inverse) {
-    if (!(point.forward > nearest && point.forward < kMaxDepth)) {
-      return;
-    }
-    ++points_;
-    const float right = point.right * inverse;
-    density_.add(right, (point.height - camera_height) * inverse);
-    if (point.height >= min && point.height < highest && point.forward < max_depth &&
-        point.height * inverse > road_margin.at(inverse) * camera_height) {
-      upright_.push_back({right, point.forward, point.height});
-    }
-  };
   ViewedPoints viewed;
+  ImageDensity::Tangents right;
+  ImageDensity::Tangents up;
+  ImageDensity::Flags is_seen;
+  ImageDensity::Flags stands;
   for (std::size_t begin = 0; begin < cloud.points.count; begin += ViewedPoints::kMax) {
     const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
     view.view(cloud.points, begin, count, viewed);
+    int seen = 0;
+    for (std::size_t i = 0; i < count; ++i) {  // no branches: compilers turn it into vectors
+      const float forward = viewed.forward[i];
+      const float height = viewed.height[i];
+      const float inverse = viewed.inverse[i];
+      right[i] = viewed.right[i] * inverse;
+      up[i] = (height - camera_height) * inverse;
+      is_seen[i] = (forward > nearest) & (forward < kMaxDepth);
+      stands[i] = is_seen[i] & (height >= min) & (height < highest) & (forward < max_depth) &
+                  (height * inverse > road_margin.at(inverse) * camera_height);
+      seen += is_seen[i];
+    }
+    points_ += static_cast<std::size_t>(seen);
+    density_.add(right, up, is_seen, count);
     for (std::size_t i = 0; i < count; ++i) {
-      add(viewed[i], viewed.inverse[i]);
+      if (stands[i] != 0) {
+        upright_.push_back({right[i], viewed.forward[i], viewed.height[i]});
+      }
     }
   }
 }

@@ -2,7 +2,12 @@
 #include "datmo_fusion/tracking/association.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory_resource>
+#include <utility>
 
 #include "datmo_fusion/tracking/kalman_filter.h"
 
@@ -27,31 +32,51 @@ double detectionProbability(const Expected& target, const AssociationScan& scan)
   return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box), sigma);
 }
 
-/// Square of the distance (m^2), and index.
-using NearObjects = std::vector<std::pair<double, std::size_t>>;
-
-/// The objects by themselves that may be within the gate, the nearest first: most pairs are so far
-/// apart that nothing more needs to be known of them.
-NearObjects nearObjects(const Expected& target, const AssociationScan& scan,
-                        const AssociationOptions& options) {
-  const Box2& box = target.box;
-  const Point2& position = box.center.position();
-  const double sigma = std::sqrt(target.variance);
-  const double reach =
-      std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
-  const auto end = scan.centers.end();
-  auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
-                                 [](const Point2& point, double min) { return point.x() < min; });
-  NearObjects near;
-  for (; center != end && center->x() <= position.x() + reach; ++center) {
-    const double distance2 = (*center - position).squaredNorm();
-    if (distance2 <= reach * reach) {
-      near.emplace_back(distance2, static_cast<std::size_t>(center - scan.centers.begin()));
+/// The objects by themselves that may be within a target's gate, to be taken the nearest first:
+/// most pairs are so far apart that nothing more needs to be known of them, and of many near
+/// objects the first few are enough.
+class NearObjects {
+ public:
+  NearObjects(const Expected& target, const AssociationScan& scan,
+              const AssociationOptions& options) {
+    heap_.reserve(kMany);
+    const Box2& box = target.box;
+    const Point2& position = box.center.position();
+    const double sigma = std::sqrt(target.variance);
+    const double reach =
+        std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
+    const auto end = scan.centers.end();
+    auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
+                                   [](const Point2& point, double min) { return point.x() < min; });
+    for (; center != end && center->x() <= position.x() + reach; ++center) {
+      const double distance2 = (*center - position).squaredNorm();
+      if (distance2 <= reach * reach) {
+        heap_.emplace_back(distance2, static_cast<std::size_t>(center - scan.centers.begin()));
+      }
     }
+    std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
-  std::sort(near.begin(), near.end());
-  return near;
-}
+
+  std::size_t left() const { return heap_.size(); }
+
+  std::size_t takeNearest() {
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    const std::size_t object = heap_.back().second;
+    heap_.pop_back();
+    return object;
+  }
+
+ private:
+  /// Square of the distance (m^2), and index.
+  using NearObject = std::pair<double, std::size_t>;
+
+  /// For so many the stack has room.
+  static constexpr std::size_t kMany = 128;
+
+  alignas(NearObject) std::array<std::byte, kMany * sizeof(NearObject)> scratch_;
+  std::pmr::monotonic_buffer_resource memory_{scratch_.data(), scratch_.size()};
+  std::pmr::vector<NearObject> heap_{&memory_};
+};
 
 }  // namespace
 
@@ -84,11 +109,11 @@ TargetScores scoresOf(const Target& target, const AssociationScan& scan, double 
   const double seen = existence * scores.detection_probability;
   scores.missed = std::log1p(-seen);
   scores.seen = std::log(seen) - scores.missed;
-  for (const auto& [distance2, object] : nearObjects(expected, scan, options)) {
-    if (scores.candidates.size() >= static_cast<std::size_t>(options.max_candidates)) {
-      break;
-    }
-    addCandidate(target, scan, object, options, scores);
+  const auto max = static_cast<std::size_t>(options.max_candidates);
+  NearObjects near(expected, scan, options);
+  scores.candidates.reserve(std::min(near.left(), max));
+  while (near.left() > 0 && scores.candidates.size() < max) {
+    addCandidate(target, scan, near.takeNearest(), options, scores);
   }
   std::sort(scores.candidates.begin(), scores.candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.observation < b.observation; });

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include "datmo_fusion/common/disjoint_sets.h"
@@ -17,11 +17,14 @@ namespace {
 /// Takes the trees of these indices out, with the weights that the hypotheses give them alone.
 HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t>& trees) {
   HypothesisCluster result;
+  result.trees.reserve(trees.size());
   for (const std::size_t tree : trees) {
     result.trees.push_back(std::move(cluster.trees[tree]));
   }
+  result.hypotheses.reserve(cluster.hypotheses.size());
   for (const GlobalHypothesis& whole : cluster.hypotheses) {
     GlobalHypothesis hypothesis{whole.log_weight, {}};
+    hypothesis.leaf_of_tree.reserve(trees.size());
     for (const std::size_t tree : trees) {
       hypothesis.leaf_of_tree.push_back(whole.leaf_of_tree[tree]);
     }
@@ -31,10 +34,87 @@ HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t
   return result;
 }
 
+/// Gives targets, by their numbers, indices from 0 on, in the order in which they come.
+class NumberIndex {
+ public:
+  /// Room for so many numbers.
+  explicit NumberIndex(std::size_t max) { entries_.reserve(max); }
+
+  void add(std::uint64_t number) {
+    const auto found = place(number);
+    if (found == entries_.end() || found->first != number) {
+      entries_.insert(found, {number, entries_.size()});
+    }
+  }
+
+  /// Of a number that was added.
+  std::size_t operator[](std::uint64_t number) { return place(number)->second; }
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  using Entry = std::pair<std::uint64_t, std::size_t>;
+
+  std::vector<Entry>::iterator place(std::uint64_t number) {
+    return std::lower_bound(entries_.begin(), entries_.end(), Entry{number, 0});
+  }
+
+  std::vector<Entry> entries_;  ///< by number
+};
+
+/// One hypothesis of each of two clusters, by their indices.
+struct HypothesisPair {
+  double log_weight;
+  std::size_t first;
+  std::size_t second;
+};
+
+/// All pairs are ordered, and only those that are kept are made: of ten hypotheses each, a tenth.
+std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>& a,
+                                             const std::vector<GlobalHypothesis>& b,
+                                             std::size_t max) {
+  std::vector<HypothesisPair> pairs;
+  pairs.reserve(a.size() * b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      pairs.push_back({a[i].log_weight + b[j].log_weight, i, j});
+    }
+  }
+  const std::size_t kept = std::min(pairs.size(), max);
+  const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(kept);
+  std::partial_sort(
+      pairs.begin(), end, pairs.end(),
+      [&](const HypothesisPair& left, const HypothesisPair& right) {
+        // As sortByWeight() does.
+        return std::tie(right.log_weight, a[left.first].leaf_of_tree, b[left.second].leaf_of_tree) <
+               std::tie(left.log_weight, a[right.first].leaf_of_tree, b[right.second].leaf_of_tree);
+      });
+  std::vector<GlobalHypothesis> result;
+  result.reserve(kept);
+  for (auto pair = pairs.begin(); pair != end; ++pair) {
+    const std::vector<int>& first = a[pair->first].leaf_of_tree;
+    const std::vector<int>& second = b[pair->second].leaf_of_tree;
+    GlobalHypothesis both{pair->log_weight - pairs.front().log_weight, {}};
+    both.leaf_of_tree.reserve(first.size() + second.size());
+    both.leaf_of_tree.insert(both.leaf_of_tree.end(), first.begin(), first.end());
+    both.leaf_of_tree.insert(both.leaf_of_tree.end(), second.begin(), second.end());
+    result.push_back(std::move(both));
+  }
+  return result;
+}
+
+/// The only hypothesis of another cluster holds in all of these: their order and weights stay.
+void append(const GlobalHypothesis& other, std::vector<GlobalHypothesis>& hypotheses) {
+  for (GlobalHypothesis& hypothesis : hypotheses) {
+    hypothesis.leaf_of_tree.insert(hypothesis.leaf_of_tree.end(), other.leaf_of_tree.begin(),
+                                   other.leaf_of_tree.end());
+  }
+}
+
 }  // namespace
 
 std::vector<double> HypothesisCluster::probabilities() const {
   std::vector<double> result;
+  result.reserve(hypotheses.size());
   double sum = 0.0;
   for (const GlobalHypothesis& hypothesis : hypotheses) {
     result.push_back(std::exp(hypothesis.log_weight));
@@ -54,26 +134,18 @@ HypothesisCluster singleTarget(TrackTree tree) {
 }
 
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max) {
-  HypothesisCluster result;
-  result.trees = std::move(a.trees);
-  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(result.trees));
-  result.links = std::move(a.links);
-  result.links.insert(result.links.end(), b.links.begin(), b.links.end());
-  for (const GlobalHypothesis& first : a.hypotheses) {
-    for (const GlobalHypothesis& second : b.hypotheses) {
-      GlobalHypothesis both = first;
-      both.log_weight += second.log_weight;
-      both.leaf_of_tree.insert(both.leaf_of_tree.end(), second.leaf_of_tree.begin(),
-                               second.leaf_of_tree.end());
-      result.hypotheses.push_back(std::move(both));
-    }
+  const std::size_t pairs = a.hypotheses.size() * b.hypotheses.size();
+  if (b.hypotheses.size() == 1 && pairs <= max) {
+    append(b.hypotheses.front(), a.hypotheses);  // as of most: of one that nothing is to decide of
+  } else {
+    a.hypotheses = likeliestPairs(a.hypotheses, b.hypotheses, max);
   }
-  sortByWeight(result.hypotheses);
-  if (result.hypotheses.size() > max) {
-    result.hypotheses.resize(max);
-    canonicalize(result);
+  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(a.trees));
+  a.links.insert(a.links.end(), b.links.begin(), b.links.end());
+  if (a.hypotheses.size() < pairs) {
+    canonicalize(a);
   }
-  return result;
+  return a;
 }
 
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost) {
@@ -104,13 +176,13 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
                              [&](const TreeLink& link) { return link.scan < oldest_scan; }),
               links.end());
   // Targets that are gone still link those that are left: they come after these.
-  std::map<std::uint64_t, std::size_t> index_of;
+  NumberIndex index_of(cluster.trees.size() + 2 * links.size());
   for (const TrackTree& tree : cluster.trees) {
-    index_of.emplace(tree.number(), index_of.size());
+    index_of.add(tree.number());
   }
   for (const TreeLink& link : links) {
-    index_of.emplace(link.first, index_of.size());
-    index_of.emplace(link.second, index_of.size());
+    index_of.add(link.first);
+    index_of.add(link.second);
   }
   DisjointSets groups(index_of.size());
   for (const TreeLink& link : links) {
@@ -121,7 +193,8 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
     const std::size_t first = group.front();
     group.erase(std::lower_bound(group.begin(), group.end(), cluster.trees.size()), group.end());
     if (group.size() == cluster.trees.size() && !group.empty()) {
-      return {std::move(cluster)};
+      result.push_back(std::move(cluster));  // no list in braces: it would be copied
+      return result;
     }
     if (group.empty()) {
       continue;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
+#include <numeric>
 #include <tuple>
 
 namespace datmo {
@@ -32,19 +32,32 @@ void sortByWeight(std::vector<GlobalHypothesis>& hypotheses) {
 }
 
 void mergeEqual(std::vector<GlobalHypothesis>& hypotheses) {
-  std::map<std::vector<int>, double> weights;
-  for (const GlobalHypothesis& hypothesis : hypotheses) {
-    const auto found = weights.emplace(hypothesis.leaf_of_tree, hypothesis.log_weight);
-    if (!found.second) {
-      found.first->second = logSum(found.first->second, hypothesis.log_weight);
+  if (hypotheses.size() < 2) {
+    return;
+  }
+  std::vector<std::size_t> order(hypotheses.size());  // equal ones beside each other
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const std::vector<int>& first = hypotheses[a].leaf_of_tree;
+    const std::vector<int>& second = hypotheses[b].leaf_of_tree;
+    return first < second || (first == second && a < b);
+  });
+  const auto isEqual = [&](std::size_t a, std::size_t b) {
+    return hypotheses[a].leaf_of_tree == hypotheses[b].leaf_of_tree;
+  };
+  if (std::adjacent_find(order.begin(), order.end(), isEqual) == order.end()) {
+    return;
+  }
+  std::vector<GlobalHypothesis> merged;
+  for (const std::size_t index : order) {
+    GlobalHypothesis& next = hypotheses[index];
+    if (!merged.empty() && merged.back().leaf_of_tree == next.leaf_of_tree) {
+      merged.back().log_weight = logSum(merged.back().log_weight, next.log_weight);
+    } else {
+      merged.push_back(std::move(next));
     }
   }
-  if (weights.size() < hypotheses.size()) {
-    hypotheses.clear();
-    for (const auto& entry : weights) {
-      hypotheses.push_back({entry.second, entry.first});
-    }
-  }
+  hypotheses = std::move(merged);
 }
 
 }  // namespace datmo

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "imm_moments.h"
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/square.h"
@@ -19,38 +20,6 @@ constexpr std::size_t kStanding = static_cast<std::size_t>(MotionMode::kStanding
 /// starts (1 m/s): as the filter knows it, which follows hard braking (8 m/s^2) within a third of a
 /// second.
 constexpr double kStopPerStart = 3.0;
-
-/// First and second moments, one below the other, so that mixtures are sums: one column per mode.
-constexpr int kMoments = kTrackState + kTrackState * kTrackState;
-using Moments = Eigen::Matrix<double, kMoments, 1>;
-using ModeMoments = Eigen::Matrix<double, kMoments, kMotionModes>;
-
-/// Of each mode, about an origin near all of them, so that no digits are lost. Modes of probability
-/// 0 have no say.
-ModeMoments momentsAbout(const TrackState& origin,
-                         const std::array<StateEstimate, kMotionModes>& modes,
-                         const ModeVector& probabilities) {
-  ModeMoments moments;
-  for (int mode = 0; mode < kMotionModes; ++mode) {
-    auto column = moments.col(mode);
-    if (probabilities[mode] > 0.0) {
-      const StateEstimate& estimate = modes[static_cast<std::size_t>(mode)];
-      const TrackState offset = estimate.mean - origin;
-      column.head<kTrackState>() = offset;
-      Eigen::Map<TrackCovariance>(column.data() + kTrackState) =
-          estimate.covariance + offset * offset.transpose();
-    } else {
-      column.setZero();
-    }
-  }
-  return moments;
-}
-
-StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
-  const TrackState offset = moments.head<kTrackState>();
-  return {origin + offset, Eigen::Map<const TrackCovariance>(moments.data() + kTrackState) -
-                               offset * offset.transpose()};
-}
 
 /// Mean over the velocity v of exp(-v^2 / (2 stop_variance)): of what would come to stand within
 /// the step, the share that is slow enough to.
@@ -104,9 +73,9 @@ ModeVector priorModeProbabilities(const ImmOptions& options) {
 
 ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities,
                      const std::optional<TransitionModel>& transitions)
-    : probabilities_(mode_probabilities),
+    : combined_(estimate),
+      probabilities_(mode_probabilities),
       probabilities_before_(mode_probabilities),
-      combined_(estimate),
       transitions_(transitions) {
   modes_.fill(estimate);
 }
@@ -114,23 +83,32 @@ ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_proba
 void ImmFilter::predict(const ImmStep& step) {
   const ModeMatrix& transition =
       transitions_ ? transitions_->predict(step.seconds) : step.transition;
-  const ModeMoments moments = momentsAbout(combined_.mean, modes_, probabilities_);
+  ModeMoments moments;
+  momentsAbout(combined_.mean, modes_, probabilities_, moments);
   stop_shares_ = stopShares(modes_, step);
-  ModeMatrix joint = probabilities_.asDiagonal() * transition;
-  const ModeVector too_fast = joint.col(kStanding).cwiseProduct(ModeVector::Ones() - stop_shares_);
-  joint.col(kStanding) -= too_fast;
-  joint.diagonal() += too_fast;
+  ModeMatrix weights = probabilities_.asDiagonal() * transition;  // of both modes together, as yet
+  const ModeVector too_fast =
+      weights.col(kStanding).cwiseProduct(ModeVector::Ones() - stop_shares_);
+  weights.col(kStanding) -= too_fast;
+  weights.diagonal() += too_fast;
   probabilities_before_ = probabilities_;
-  probabilities_ = joint.colwise().sum().transpose();
+  probabilities_ = weights.colwise().sum().transpose();
+  for (int to = 0; to < kMotionModes; ++to) {
+    if (probabilities_[to] > 0.0) {
+      weights.col(to) /= probabilities_[to];
+    }
+  }
+  ModeMoments mixed;
+  mix(moments, weights, mixed);
+  StateEstimate start;
   for (std::size_t to = 0; to < modes_.size(); ++to) {
     const int column = static_cast<int>(to);
     if (probabilities_[column] > 0.0) {
-      const ModeVector weights = joint.col(column) / probabilities_[column];
-      StateEstimate mixed = estimateOf(combined_.mean, moments * weights);
+      estimateOf(combined_.mean, mixed, column, start);
       if (to != kStanding) {
-        mixed.covariance.diagonal() += weights[kStanding] * step.start_variance;
+        start.covariance.diagonal() += weights(kStanding, column) * step.start_variance;
       }
-      modes_[to] = datmo::predict(mixed, step.motions[to]);
+      datmo::predict(start, step.motions[to], modes_[to]);
     }
   }
   combine();
@@ -213,9 +191,6 @@ void ImmFilter::setTransitionPrior(const JumpCounts& prior) {
   }
 }
 
-void ImmFilter::combine() {
-  const TrackState origin = combined_.mean;
-  combined_ = estimateOf(origin, momentsAbout(origin, modes_, probabilities_) * probabilities_);
-}
+void ImmFilter::combine() { mixture(combined_.mean, modes_, probabilities_, combined_); }
 
 }  // namespace datmo

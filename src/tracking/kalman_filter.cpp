@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/wide.h"
+
 namespace datmo {
 
 namespace {
@@ -48,24 +50,70 @@ Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& 
           predicted.covariance.block<2, 2>(2, 2) + measured.covariance};
 }
 
-StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion) {
-  // With the position p and the rest r of the state, a motion is p' = p + A r and r' = B r.
-  const Eigen::Matrix<double, 2, 4> a = motion.transition.topRightCorner<2, 4>();
-  const Eigen::Matrix4d b = motion.transition.bottomRightCorner<4, 4>();
-  const Eigen::Matrix2d position = estimate.covariance.topLeftCorner<2, 2>();
-  const Eigen::Matrix<double, 2, 4> cross = estimate.covariance.topRightCorner<2, 4>();
-  const Eigen::Matrix4d rest = estimate.covariance.bottomRightCorner<4, 4>();
-  const Eigen::Matrix<double, 2, 4> moved = cross + a * rest;
-
-  StateEstimate result;
-  result.mean.head<2>() = estimate.mean.head<2>() + a * estimate.mean.tail<4>();
-  result.mean.tail<4>() = b * estimate.mean.tail<4>();
+// With the position p and the rest r of the state, a motion is p' = p + A r and r' = B r. What is
+// of the rest comes in fours.
+DATMO_FUSION_WIDE
+void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEstimate& result) {
+  static_assert(kTrackState == 6, "position, and four others");
+  const auto& a = motion.transition;  // its upper right
+  const double* b[4];                 // columns
+  const double* rest[4];
+  FourDoubles turned[4];  // columns of B times the rest
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j) {
+    b[j] = motion.transition.data() + kTrackState * (2 + j) + 2;
+    rest[j] = estimate.covariance.data() + kTrackState * (2 + j) + 2;
+  }
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j) {
+    turned[j] = four(b[0]) * rest[j][0] + four(b[1]) * rest[j][1] + four(b[2]) * rest[j][2] +
+                four(b[3]) * rest[j][3];
+  }
   TrackCovariance& covariance = result.covariance;
-  covariance.topLeftCorner<2, 2>() = position + cross * a.transpose() + a * moved.transpose();
-  covariance.topRightCorner<2, 4>() = moved * b.transpose();
-  covariance.bottomRightCorner<4, 4>() = b * rest * b.transpose();
-  covariance += motion.noise;
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j) {
+    double* column = covariance.data() + kTrackState * (2 + j) + 2;
+    const double* noise = motion.noise.data() + kTrackState * (2 + j) + 2;
+    four(column) = turned[0] * b[0][j] + turned[1] * b[1][j] + turned[2] * b[2][j] +
+                   turned[3] * b[3][j] + four(noise);
+  }
+  const double* r = estimate.mean.data() + 2;
+  four(result.mean.data() + 2) =
+      four(b[0]) * r[0] + four(b[1]) * r[1] + four(b[2]) * r[2] + four(b[3]) * r[3];
+
+  FourDoubles cross[2];  // of a component of the position with the rest
+  FourDoubles moved[2];
+#pragma GCC unroll 2
+  for (int i = 0; i < 2; ++i) {
+    const auto before = estimate.covariance.row(i).tail<4>();
+    const auto noise = motion.noise.row(i).tail<4>();
+    cross[i] = FourDoubles{before[0], before[1], before[2], before[3]};
+    moved[i] = cross[i] + (four(rest[0]) * a(i, 2) + four(rest[1]) * a(i, 3) +
+                           four(rest[2]) * a(i, 4) + four(rest[3]) * a(i, 5));
+    const FourDoubles after = four(b[0]) * moved[i][0] + four(b[1]) * moved[i][1] +
+                              four(b[2]) * moved[i][2] + four(b[3]) * moved[i][3] +
+                              FourDoubles{noise[0], noise[1], noise[2], noise[3]};
+#pragma GCC unroll 4
+    for (int j = 0; j < 4; ++j) {
+      covariance(i, 2 + j) = after[j];
+    }
+    result.mean[i] =
+        estimate.mean[i] + (a(i, 2) * r[0] + a(i, 3) * r[1] + a(i, 4) * r[2] + a(i, 5) * r[3]);
+#pragma GCC unroll 2
+    for (int j = 0; j <= i; ++j) {
+      const double along = cross[j][0] * a(i, 2) + cross[j][1] * a(i, 3) + cross[j][2] * a(i, 4) +
+                           cross[j][3] * a(i, 5);
+      const double across = a(j, 2) * moved[i][0] + a(j, 3) * moved[i][1] + a(j, 4) * moved[i][2] +
+                            a(j, 5) * moved[i][3];
+      covariance(j, i) = estimate.covariance(j, i) + along + across + motion.noise(j, i);
+    }
+  }
   symmetrize(covariance);
+}
+
+StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion) {
+  StateEstimate result;
+  predict(estimate, motion, result);
   return result;
 }
 

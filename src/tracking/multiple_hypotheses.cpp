@@ -12,7 +12,14 @@ namespace {
 
 /// See HypothesisCluster::objects.
 std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
+  std::size_t all = 0;
+  for (const TrackTree& tree : cluster.trees) {
+    for (const Leaf& leaf : tree.leaves) {
+      all += leaf.scores.candidates.size() + leaf.related.size();
+    }
+  }
   std::vector<std::size_t> result;
+  result.reserve(all);
   for (const TrackTree& tree : cluster.trees) {
     for (const Leaf& leaf : tree.leaves) {
       for (const Candidate& candidate : leaf.scores.candidates) {
@@ -67,6 +74,7 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
 
   std::vector<bool> claimed(scan.objects, false);
   std::vector<HypothesisCluster> next;
+  next.reserve(clusters_.size() + scan.objects);
   for (HypothesisCluster& cluster : clusters_) {
     for (const std::size_t object : cluster.objects) {
       claimed[object] = true;
@@ -109,6 +117,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   }
   const auto max = static_cast<std::size_t>(hypothesis_options_.max_hypotheses);
   std::vector<HypothesisCluster> result;
+  result.reserve(clusters_.size());
   for (const std::vector<std::size_t>& group : groups.sets()) {
     HypothesisCluster cluster = std::move(clusters_[group.front()]);
     for (std::size_t i = 1; i < group.size(); ++i) {
@@ -194,7 +203,14 @@ std::vector<BestTarget> MultipleHypotheses::best() const {
 
 std::vector<BestTarget> MultipleHypotheses::findBest() const {
   std::vector<BestTarget> result;
+  result.reserve(targets());
   for (const HypothesisCluster& cluster : clusters_) {
+    if (cluster.hypotheses.size() == 1) {
+      for (const TrackTree& tree : cluster.trees) {
+        result.push_back({&tree.leaves.front().target, 1.0});
+      }
+      continue;
+    }
     const std::vector<double> probabilities = cluster.probabilities();
     for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
       const int leaf = cluster.best().leaf_of_tree[tree];

@@ -14,17 +14,17 @@ NearestNeighborTargets::NearestNeighborTargets(const TargetOptions& target,
 
 void NearestNeighborTargets::predict(double seconds) {
   const ImmSteps& steps = steps_.of(seconds);
-  for (Target& target : targets_) {
-    target.predict(seconds, steps, target_options_);
+  for (const std::unique_ptr<Target>& target : targets_) {
+    target->predict(seconds, steps, target_options_);
   }
 }
 
 void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
   std::vector<TargetScores> scores;
   scores.reserve(targets_.size());
-  for (const Target& target : targets_) {
+  for (const std::unique_ptr<Target>& target : targets_) {
     scores.push_back(
-        scoresOf(target, scan, target.existenceProbability(target_options_), options_));
+        scoresOf(*target, scan, target->existenceProbability(target_options_), options_));
   }
   const std::vector<int> object_of_target = assign(scores, scan.objects);
 
@@ -32,11 +32,11 @@ void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& 
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const double seen = scores[i].detection_probability;
     if (object_of_target[i] == kUnassigned) {
-      targets_[i].miss(seen, target_options_);
+      targets_[i]->miss(seen, target_options_);
       continue;
     }
     const auto object = static_cast<std::size_t>(object_of_target[i]);
-    targets_[i].update(scan.observations[object], object, seen, target_options_);
+    targets_[i]->update(scan.observations[object], object, seen, target_options_);
     explained[object] = true;
   }
   startTargets(scan, explained);
@@ -97,30 +97,35 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
       ++counts_.refused_births;
       continue;
     }
-    targets_.emplace_back(observation.object, object, next_number_ + object, target_options_,
-                          scan.transitionsOf(observation.object.object_class));
+    targets_.push_back(
+        std::make_unique<Target>(observation.object, object, next_number_ + object, target_options_,
+                                 scan.transitionsOf(observation.object.object_class)));
   }
 }
 
 std::vector<BestTarget> NearestNeighborTargets::best() const {
   std::vector<BestTarget> result;
-  for (const Target& target : targets_) {
-    result.push_back({&target, 1.0});
+  result.reserve(targets_.size());
+  for (const std::unique_ptr<Target>& target : targets_) {
+    result.push_back({target.get(), 1.0});
   }
   return result;
 }
 
 void NearestNeighborTargets::change(std::uint64_t number,
                                     const std::function<void(Target&)>& change) {
-  for (Target& target : targets_) {
-    if (target.number() == number) {
-      change(target);
+  for (const std::unique_ptr<Target>& target : targets_) {
+    if (target->number() == number) {
+      change(*target);
     }
   }
 }
 
 void NearestNeighborTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
-  targets_.erase(std::remove_if(targets_.begin(), targets_.end(), isLost), targets_.end());
+  targets_.erase(
+      std::remove_if(targets_.begin(), targets_.end(),
+                     [&](const std::unique_ptr<Target>& target) { return isLost(*target); }),
+      targets_.end());
 }
 
 }  // namespace datmo

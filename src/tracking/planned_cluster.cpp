@@ -28,6 +28,7 @@ void PlannedCluster::add(const RankedHypothesis& source) {
     return;
   }
   GlobalHypothesis child{source.weight(), {}};
+  child.leaf_of_tree.reserve(trees_.size());
   for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
     const int leaf = source.parent().leaf_of_tree[tree];
     child.leaf_of_tree.push_back(leaf == kAbsent ? kAbsent
@@ -53,6 +54,7 @@ HypothesisCluster PlannedCluster::finish() {
   }
   HypothesisCluster result{{}, std::move(hypotheses_), std::move(old_.links), {}};
   linkSharers(result);
+  result.trees.reserve(trees_.size());
   for (const PlannedTree& plan : trees_) {
     result.trees.push_back(grow(plan));
   }
@@ -121,6 +123,14 @@ void PlannedCluster::startTarget(std::size_t observation, GlobalHypothesis& chil
 
 TrackTree PlannedCluster::grow(const PlannedTree& plan) {
   TrackTree tree;
+  if (plan.old_tree != kNoTree && plan.leaves.size() == 1 &&
+      old_.trees[plan.old_tree].leaves.size() == 1) {
+    tree = std::move(old_.trees[plan.old_tree]);  // most do not branch: the target stays in place
+    Leaf& leaf = tree.leaves.front();
+    leaf.nodes = plan.leaves.front().nodes;
+    continueTarget(leaf.target, plan.leaves.front().observation, leaf.scores.detection_probability);
+    return tree;
+  }
   tree.leaves.reserve(plan.leaves.size());
   for (auto leaf = plan.leaves.begin(); leaf != plan.leaves.end(); ++leaf) {
     if (leaf->parent == kAbsent) {

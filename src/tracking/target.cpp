@@ -56,11 +56,11 @@ void TargetOptions::visit(OptionVisitor& visitor) {
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
                const TargetOptions& options, const std::optional<TransitionModel>& transitions)
-    : box_(object, options.box),
-      filter_(birth(object, box_.measurementOf(object), options, transitions)),
-      existence_(object.log_odds, options.existence),
-      number_(number),
+    : number_(number),
       measurement_index_(index),
+      existence_(object.log_odds, options.existence),
+      box_(object, options.box),
+      filter_(birth(object, box_.measurementOf(object), options, transitions)),
       height_(object.height),
       motion_log_odds_(object.motion_log_odds),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {

@@ -8,11 +8,8 @@ namespace datmo {
 void TrackPaths::extend(TrackList& list, double seconds) {
   std::map<std::uint32_t, std::deque<PathPoint>> next;
   for (Track& track : list.tracks) {
+    next.insert(paths_.extract(track.id));
     std::deque<PathPoint>& path = next[track.id];
-    const auto old = paths_.find(track.id);
-    if (old != paths_.end()) {
-      path = std::move(old->second);
-    }
     path.push_back({list.stamp, track.box.center});
     while (secondsBetween(path.front().stamp, list.stamp) > seconds) {
       path.pop_front();

@@ -125,6 +125,7 @@ void TrackedBoxOptions::visit(OptionVisitor& visitor) {
 
 TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
     : heading_(object.box.center.heading()),
+      axes_(axesOf(heading_)),
       heading_variance_(kUnknownHeadingVariance),
       size_(options.size) {
   anchor_share_ = sharesOf(seenFrom(heading_, object), size_, anchor_share_);
@@ -139,7 +140,6 @@ void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
 
 PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
   const SeenBox seen = seenFrom(heading_, object);
-  const Eigen::Matrix2d axes = axesOf(heading_);
   const Eigen::Matrix2d seen_axes = axesOf(seen.heading);
   Eigen::Vector2d share;
   Eigen::Vector2d extent;
@@ -155,7 +155,7 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
     variance[axis] = along.variance + change * change * size_variance;
   }
   return {object.box.center.position() - seen_axes * share.cwiseProduct(extent) +
-              axes * share.cwiseProduct(size_.mean()),
+              axes_ * share.cwiseProduct(size_.mean()),
           object.position_covariance + alongAxes(seen_axes, variance), object.delay};
 }
 
@@ -210,18 +210,17 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   takeFrontAhead(direction, speed, options);
   // Velocities of successive scans are no independent news of the heading: the surer one counts.
   if (variance < heading_variance_) {
-    heading_ = nearerDirection(direction, heading_);
+    setHeading(nearerDirection(direction, heading_));
     heading_variance_ = variance;
   }
   return offset() - before;
 }
 
 Eigen::Matrix2d TrackedBox::centerCovariance() const {
-  const Eigen::Matrix2d axes = axesOf(heading_);
-  const Eigen::Vector2d lever = axes * anchor_share_.cwiseProduct(size_.mean());
+  const Eigen::Vector2d lever = axes_ * anchor_share_.cwiseProduct(size_.mean());
   const Eigen::Vector2d swing(-lever.y(), lever.x());
   const double turn_variance = std::min(heading_variance_, kUnknownAxisVariance);
-  return alongAxes(axes, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
+  return alongAxes(axes_, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
          turn_variance * swing * swing.transpose();
 }
 
@@ -237,7 +236,7 @@ double TrackedBox::headingVariance() const {
 
 /// From the sides that were seen to the center, m, fixed frame.
 Eigen::Vector2d TrackedBox::offset() const {
-  return axesOf(heading_) * anchor_share_.cwiseProduct(size_.mean());
+  return axes_ * anchor_share_.cwiseProduct(size_.mean());
 }
 
 /// First motion is ahead, and so is fast motion; otherwise it may be reversing.
@@ -255,11 +254,16 @@ void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBox
 
 /// Takes another side for the front; nothing of the box moves.
 void TrackedBox::turnByQuarters(int quarters) {
-  heading_ = normalizeAngle(heading_ + quarters * kQuarterTurn);
+  setHeading(normalizeAngle(heading_ + quarters * kQuarterTurn));
   for (int i = 0; i < quarters; ++i) {
     anchor_share_ = Eigen::Vector2d(anchor_share_.y(), -anchor_share_.x());
     size_.swapAxes();
   }
+}
+
+void TrackedBox::setHeading(double heading) {
+  heading_ = heading;
+  axes_ = axesOf(heading);
 }
 
 void TrackedBox::updateHeading(double measured, double variance) {
@@ -268,7 +272,7 @@ void TrackedBox::updateHeading(double measured, double variance) {
     return;
   }
   const double gain = heading_variance_ / total;
-  heading_ = normalizeAngle(heading_ + gain * angleBetween(heading_, measured));
+  setHeading(normalizeAngle(heading_ + gain * angleBetween(heading_, measured)));
   heading_variance_ *= 1.0 - gain;
 }
 

@@ -33,6 +33,7 @@ void SeenPointHistory::add(const Object& object, double scan_time, double memory
   const double time = scan_time + object.delay;
   SeenPoints seen{time, scan_time, size == 1, {}};
   const std::size_t taken = std::min(size, kMaxPoints);
+  seen.points.reserve(taken);
   for (std::size_t i = 0; i < taken; ++i) {
     const std::size_t index = taken == 1 ? 0 : i * (size - 1) / (taken - 1);
     seen.points.push_back({object.points[index], directionAt(object.points, index)});

@@ -36,13 +36,17 @@ class DisjointSets {
 
   /// The members of each group, rising; groups by their least member.
   std::vector<std::vector<std::size_t>> sets() {
+    std::vector<std::size_t> sizes(parent_.size());  // where the least member is known
+    for (std::size_t member = 0; member < parent_.size(); ++member) {
+      ++sizes[find(member)];
+    }
     std::vector<std::vector<std::size_t>> result;
-    std::vector<std::size_t> group_of(parent_.size());  // where the least member is known
+    std::vector<std::size_t> group_of(parent_.size());  // the same
     for (std::size_t member = 0; member < parent_.size(); ++member) {
       const std::size_t least = find(member);
       if (least == member) {
         group_of[member] = result.size();
-        result.emplace_back();
+        result.emplace_back().reserve(sizes[member]);
       }
       result[group_of[least]].push_back(member);
     }

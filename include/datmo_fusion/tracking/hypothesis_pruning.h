@@ -21,10 +21,11 @@ void sortByWeight(std::vector<GlobalHypothesis>& hypotheses);
 void mergeEqual(std::vector<GlobalHypothesis>& hypotheses);
 
 /// Removes the leaves of a tree, the `index`-th, that are in no hypothesis. Returns whether any is
-/// left.
+/// left. `index_of`: memory for this.
 template <typename Tree>
-bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothesis>& hypotheses) {
-  std::vector<int> index_of(tree.leaves.size(), kAbsent);
+bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothesis>& hypotheses,
+                        std::vector<int>& index_of) {
+  index_of.assign(tree.leaves.size(), kAbsent);
   for (const GlobalHypothesis& hypothesis : hypotheses) {
     const int leaf = hypothesis.leaf_of_tree[index];
     if (leaf != kAbsent) {
@@ -41,6 +42,9 @@ bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothe
       ++kept;
     }
   }
+  if (static_cast<std::size_t>(kept) == tree.leaves.size()) {
+    return kept > 0;
+  }
   tree.leaves.erase(tree.leaves.begin() + kept, tree.leaves.end());
   for (GlobalHypothesis& hypothesis : hypotheses) {
     int& leaf = hypothesis.leaf_of_tree[index];
@@ -54,8 +58,9 @@ bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothe
 template <typename Tree>
 void canonicalize(std::vector<Tree>& trees, std::vector<GlobalHypothesis>& hypotheses) {
   std::size_t kept = 0;
+  std::vector<int> index_of;
   for (std::size_t tree = 0; tree < trees.size(); ++tree) {
-    if (!removeUnusedLeaves(trees[tree], tree, hypotheses)) {
+    if (!removeUnusedLeaves(trees[tree], tree, hypotheses, index_of)) {
       continue;
     }
     if (kept != tree) {

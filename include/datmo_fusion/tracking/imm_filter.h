@@ -97,12 +97,12 @@ class ImmFilter {
   double logOverModes(const ModeLikelihoods& likelihoods) const;
   void combine();
 
-  std::array<StateEstimate, kMotionModes> modes_;
+  StateEstimate combined_;
   ModeVector probabilities_;
+  std::array<StateEstimate, kMotionModes> modes_;
   ModeVector probabilities_before_;  ///< before the last prediction
   /// 0 to 1, of the jumps from each mode into standing: what the mode's speed allows.
   ModeVector stop_shares_ = ModeVector::Ones();
-  StateEstimate combined_;
   std::optional<TransitionModel> transitions_;
 };
 

@@ -44,6 +44,9 @@ Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& 
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
 
+/// The same, into `result`, which is not `estimate`.
+void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEstimate& result);
+
 /// The update of the Kalman filter. What it leaves of the covariance of the position is
 /// P - P (P + R)^-1 P, computed as R (P + R)^-1 P: no difference of nearly equal numbers is taken,
 /// and the result stays positive without the cost of Joseph's form (Bar-Shalom, Li, Kirubarajan

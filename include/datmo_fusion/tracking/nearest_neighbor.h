@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "datmo_fusion/tracking/imm_step_cache.h"
@@ -38,7 +39,7 @@ class NearestNeighborTargets : public TargetSet {
   TargetOptions target_options_;
   ImmStepCache steps_;
   AssociationOptions options_;
-  std::vector<Target> targets_;  ///< by rising number
+  std::vector<std::unique_ptr<Target>> targets_;  ///< by rising number; too large to be moved
   std::uint64_t next_number_ = 1;
   AssociationCounts counts_;
 };

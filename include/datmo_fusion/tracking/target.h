@@ -123,22 +123,24 @@ class Target {
   double falseMotion(const TargetOptions& options) const;
   double trackedVelocityEvidence(double false_motion, const TargetOptions& options) const;
 
-  TrackedBox box_;
-  ImmFilter filter_;
-  ExistenceScore existence_;
-  SeenPointHistory seen_points_;  ///< until it is confirmed
+  // What is asked of all targets several times in a step comes first, side by side: many targets
+  // are more than the cache holds.
   std::uint64_t number_;
   std::uint32_t id_ = 0;
-  std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
-  bool moving_ = false;
-  /// 0 to 1, how likely the velocity that tells most is if it stands, over how likely if it moves.
-  double standing_velocity_ratio_ = 1.0;
+  std::size_t measurement_index_;
   double age_ = 0.0;
   double since_update_ = 0.0;
+  ExistenceScore existence_;
+  ClassBelief class_;
+  bool moving_ = false;
+  TrackedBox box_;
+  ImmFilter filter_;
+  /// 0 to 1, how likely the velocity that tells most is if it stands, over how likely if it moves.
+  double standing_velocity_ratio_ = 1.0;
   double height_;
   double motion_log_odds_;
-  ClassBelief class_;
+  SeenPointHistory seen_points_;                             ///< until it is confirmed
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };
 

@@ -76,8 +76,10 @@ class TrackedBox {
   void turnByQuarters(int quarters);
   void takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options);
   void updateHeading(double measured, double variance);
+  void setHeading(double heading);
 
   double heading_;
+  Eigen::Matrix2d axes_;  ///< as columns: asked for with each object that may be of the target
   double heading_variance_;
   double since_velocity_ = 0.0;  ///< s
   /// s, how much longer it moved ahead than backward; below 0 it turns round.

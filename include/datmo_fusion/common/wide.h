@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loops for the wide registers that many processors have and not all: compiled for both, and chosen
+// when the program starts. Results do not depend on it: wider registers do the same additions and
+// multiplications for more elements at a time, and AVX2 does not fuse the two.
+#pragma once
+
+/// Before a function whose time goes into short loops over doubles.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define DATMO_FUSION_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define DATMO_FUSION_WIDE  // the choice is made before a sanitizer's own start
+#endif
+
+namespace datmo {
+
+/// Doubles for arithmetic element by element; at any address.
+using TwoDoubles
+    __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
+using FourDoubles
+    __attribute__((vector_size(4 * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
+
+/// The doubles from this one on.
+inline const TwoDoubles& two(const double* values) {
+  return *reinterpret_cast<const TwoDoubles*>(values);
+}
+inline TwoDoubles& two(double* values) { return *reinterpret_cast<TwoDoubles*>(values); }
+inline const FourDoubles& four(const double* values) {
+  return *reinterpret_cast<const FourDoubles*>(values);
+}
+inline FourDoubles& four(double* values) { return *reinterpret_cast<FourDoubles*>(values); }
+
+}  // namespace datmo
