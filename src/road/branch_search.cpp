@@ -15,45 +15,68 @@ constexpr double kSampleStep = 0.5;
 /// m, from the place to where a corridor begins: the vehicle itself.
 constexpr double kBranchBegin = 1.0;
 
+/// m, from the place to where the sides of a street begin: nearer ones may be those of the
+/// vehicle's own road, four lanes and a footpath wide.
+constexpr double kSidesBegin = 14.0;
+
+/// m, from the edge of a corridor to where its sides may stand: on a strip of parking and a
+/// footpath.
+constexpr double kSideReach = 5.0;
+
+/// m, not seen before a side: beams end before what they hit.
+constexpr double kUnseenBeforeSide = 1.0;
+
 int stepsIn(double length) { return static_cast<int>(std::lround(length / kSampleStep)); }
 
-std::vector<Point2> pointsOfRoad(const std::vector<RoadBorder>& borders) {
-  std::vector<Point2> points;
-  for (const RoadBorder& border : borders) {
-    for (const BorderPoint& point : border.points) {
-      points.push_back(point.position);
-    }
-  }
-  return points;
-}
-
-/// Headings in a row that are free, of a full turn in equal steps.
-std::vector<RoadBranch> runsOf(const std::vector<bool>& free, double step) {
-  const std::size_t count = free.size();
-  const auto closed = std::find(free.begin(), free.end(), false);
+/// Headings in a row that are free, of a full turn in equal steps; `sides` of each heading: none if
+/// it is not free.
+std::vector<RoadBranch> runsOf(const std::vector<std::optional<double>>& sides, double step) {
+  const std::size_t count = sides.size();
+  const auto closed = std::find(sides.begin(), sides.end(), std::nullopt);
   std::vector<RoadBranch> runs;
-  if (closed == free.end()) {
-    return {{0.0, kTurn}};
+  if (closed == sides.end()) {
+    return {{0.0, kTurn, 0.0}};
   }
-  const auto start = static_cast<std::size_t>(closed - free.begin());
+  const auto start = static_cast<std::size_t>(closed - sides.begin());
   std::size_t length = 0;
+  double most = 0.0;
   for (std::size_t i = 1; i <= count; ++i) {
-    if (free[(start + i) % count]) {
+    if (const auto& here = sides[(start + i) % count]) {
       ++length;
+      most = std::max(most, *here);
     } else if (length > 0) {
       const double middle = static_cast<double>(start + i) - 0.5 * static_cast<double>(length + 1);
-      runs.push_back({normalizeAngle(middle * step), static_cast<double>(length) * step});
+      runs.push_back({normalizeAngle(middle * step), static_cast<double>(length) * step, most});
       length = 0;
+      most = 0.0;
     }
   }
   return runs;
+}
+
+/// Whether something stands to one side (`outward` 1: left, -1: right) of a corridor's axis, with
+/// nothing unseen before it.
+bool hasSide(const PassageGrid& grid, const Pose2& axis, double along, double outward,
+             double reach) {
+  int unseen = 0;
+  for (int i = 0; i <= stepsIn(reach); ++i) {
+    const auto state = grid.at(axis * Point2(along, outward * i * kSampleStep));
+    if (state == PassageGrid::State::kOccupied) {
+      return true;
+    }
+    unseen += state == PassageGrid::State::kUnknown ? 1 : 0;
+    if (unseen > stepsIn(kUnseenBeforeSide)) {
+      return false;
+    }
+  }
+  return false;
 }
 
 }  // namespace
 
 void BranchSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number({"length", "m", "of a corridor that is a street: yards end before"}, length,
-                 {5.0, 40.0});
+                 {kSidesBegin + 2.0, 40.0});
   visitor.number({"width", "m", "of it: two lanes; driveways and gaps between cars are narrower"},
                  width, {1.0, 20.0});
   visitor.number(
@@ -68,16 +91,31 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
                   "share that has to have been passed beyond min_free for each share of the length "
                   "in which something stands: a vehicle that waits"},
                  blocked_weight, {0.0, 100.0});
-  visitor.number({"border_width", "m", "in the middle of a street, where no border runs"},
-                 border_width, {0.0, 20.0});
+  visitor.number(
+      {"min_sides", "1",
+       "share of a street's length beyond the vehicle's own road beside which something "
+       "is seen to stand, mean of both sides: open ground that is seen through a gap has "
+       "none"},
+      min_sides, {0.0, 1.0});
   visitor.number({"max_angle", "rad", "what is free in a wider one is open space"}, max_angle,
                  {degrees(10.0), kTurn});
   visitor.number({"min_separation", "rad", "of two streets' headings"}, min_separation,
                  {degrees(10.0), degrees(120.0)});
 }
 
-bool BranchSearch::isFree(const PassageGrid& grid, const std::vector<Point2>& borders,
-                          const Pose2& from) const {
+double BranchSearch::sidesOf(const PassageGrid& grid, const Pose2& axis) const {
+  const int slices = stepsIn(options_.length - kSidesBegin);
+  const double reach = 0.5 * options_.width + kSideReach;
+  int sides = 0;
+  for (int slice = 0; slice < slices; ++slice) {
+    const double along = kSidesBegin + slice * kSampleStep;
+    sides += hasSide(grid, axis, along, 1.0, reach) ? 1 : 0;
+    sides += hasSide(grid, axis, along, -1.0, reach) ? 1 : 0;
+  }
+  return 0.5 * sides / slices;
+}
+
+std::optional<double> BranchSearch::freeShift(const PassageGrid& grid, const Pose2& from) const {
   const int slices = stepsIn(options_.length - kBranchBegin);
   const int across = stepsIn(options_.width) + 1;
   const int shifts = stepsIn(2.0 * options_.max_shift) + 1;
@@ -102,37 +140,30 @@ bool BranchSearch::isFree(const PassageGrid& grid, const std::vector<Point2>& bo
       blocked[i] += occupied_before[end] > occupied_before[i] ? 1 : 0;
     }
   }
-  const Pose2 map_in_from = from.inverse();
+  double sum = 0.0;
+  int free = 0;
   for (std::size_t i = 0; i < passed.size(); ++i) {
     const double share = static_cast<double>(passed[i]) / (slices * across);
-    if (share - options_.blocked_weight * blocked[i] / slices < options_.min_free) {
-      continue;
-    }
-    const double shift = -options_.max_shift + static_cast<double>(i) * kSampleStep;
-    const bool closed = std::any_of(borders.begin(), borders.end(), [&](const Point2& point) {
-      const Point2 seen = map_in_from * point;
-      return seen.x() >= 0.0 && seen.x() <= options_.length &&
-             std::abs(seen.y() - shift) <= 0.5 * options_.border_width;
-    });
-    if (!closed) {
-      return true;
+    if (share - options_.blocked_weight * blocked[i] / slices >= options_.min_free) {
+      sum += -options_.max_shift + static_cast<double>(i) * kSampleStep;
+      ++free;
     }
   }
-  return false;
+  return free > 0 ? std::make_optional(sum / free) : std::nullopt;
 }
 
-std::vector<RoadBranch> BranchSearch::search(const PassageGrid& grid,
-                                             const std::vector<RoadBorder>& borders,
-                                             const Point2& from) const {
-  const std::vector<Point2> points = pointsOfRoad(borders);
+std::vector<RoadBranch> BranchSearch::search(const PassageGrid& grid, const Point2& from) const {
   const auto count = static_cast<std::size_t>(std::lround(kTurn / options_.heading_step));
   const double step = kTurn / static_cast<double>(count);
-  std::vector<bool> free;
-  free.reserve(count);
+  std::vector<std::optional<double>> sides;
+  sides.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    free.push_back(isFree(grid, points, {from, static_cast<double>(i) * step}));
+    const Pose2 along(from, static_cast<double>(i) * step);
+    const std::optional<double> shift = freeShift(grid, along);
+    sides.push_back(shift ? std::make_optional(sidesOf(grid, along * Pose2(0.0, *shift, 0.0)))
+                          : std::nullopt);
   }
-  std::vector<RoadBranch> runs = runsOf(free, step);
+  std::vector<RoadBranch> runs = runsOf(sides, step);
   std::stable_sort(runs.begin(), runs.end(), [](const RoadBranch& one, const RoadBranch& other) {
     return one.angle > other.angle;
   });
@@ -144,7 +175,7 @@ std::vector<RoadBranch> BranchSearch::search(const PassageGrid& grid,
     const bool apart = std::all_of(branches.begin(), branches.end(), [&](const RoadBranch& branch) {
       return std::abs(angleBetween(branch.heading, run.heading)) >= options_.min_separation;
     });
-    if (apart) {
+    if (apart && run.sides >= options_.min_sides) {
       branches.push_back(run);
     }
   }

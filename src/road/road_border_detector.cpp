@@ -149,7 +149,7 @@ void RoadBorderDetector::lookForIntersection() {
   if (intersection_.isDue(arc_length)) {
     // Independent of what users publish of them.
     const auto borders = publishedBorders(tracks_.borders(), *vehicle_, BorderPublishingOptions());
-    const auto branches = branch_search_.search(passages_, borders, vehicle_->position());
+    const auto branches = branch_search_.search(passages_, vehicle_->position());
     intersection_.update(
         {arc_length, hasBorderBeside(borders, *vehicle_), static_cast<int>(branches.size())});
   }

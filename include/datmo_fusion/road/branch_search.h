@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/road/passage_grid.h"
-#include "datmo_fusion/road/road_model.h"
 
 namespace datmo {
 
@@ -18,7 +18,7 @@ struct BranchSearchOptions {
   double heading_step = degrees(5.0);     ///< rad
   double min_free = 0.9;                  ///< 1
   double blocked_weight = 2.0;            ///< 1
-  double border_width = 4.0;              ///< m
+  double min_sides = 0.25;                ///< 1
   double max_angle = degrees(70.0);       ///< rad
   double min_separation = degrees(70.0);  ///< rad
 
@@ -29,24 +29,29 @@ struct BranchSearchOptions {
 struct RoadBranch {
   double heading = 0.0;  ///< rad, map frame, the middle of those in which it is free
   double angle = 0.0;    ///< rad, of all headings in which it is
+  double sides = 0.0;    ///< 0 to 1, share of its length beside which something stands
 };
 
 /// Finds the streets that lead away from a place: corridors as wide as a street and so long that
-/// neither a yard nor a driveway is, which beams have passed and in which nothing stands. That
-/// holds however the vehicle is turned. On a road there are two of them, at an intersection three
-/// or more; what is free in a wider angle is open space and no street.
+/// neither a yard nor a driveway is, which beams have passed and in which nothing stands, and
+/// beside which something does: what is seen through a gap between parked cars may be open ground,
+/// which has no sides. That holds however the vehicle is turned. On a road there are two of them,
+/// at an intersection three or more; what is free in a wider angle is open space and no street.
 class BranchSearch {
  public:
   /// Throws OptionError.
   explicit BranchSearch(const Checked<BranchSearchOptions>& options) : options_(*options) {}
 
-  /// Those that lead away from a point (m, map frame); a border (map frame) across a corridor
-  /// closes it. None at all in an open space.
-  std::vector<RoadBranch> search(const PassageGrid& grid, const std::vector<RoadBorder>& borders,
-                                 const Point2& from) const;
+  /// Those that lead away from a point (m, map frame); none at all in an open space.
+  std::vector<RoadBranch> search(const PassageGrid& grid, const Point2& from) const;
 
  private:
-  bool isFree(const PassageGrid& grid, const std::vector<Point2>& borders, const Pose2& from) const;
+  /// m to the left of a pose (map frame), the middle of those corridors along it that are free;
+  /// none: none is.
+  std::optional<double> freeShift(const PassageGrid& grid, const Pose2& from) const;
+
+  /// Share (0 to 1) of the length of a corridor beside which something stands; `axis`: map frame.
+  double sidesOf(const PassageGrid& grid, const Pose2& axis) const;
 
   BranchSearchOptions options_;
 };

@@ -10,7 +10,7 @@ namespace datmo {
 struct IntersectionDetectorOptions {
   double evidence_length = 2.0;        ///< m
   double seen_at_intersection = 0.75;  ///< 1
-  double seen_on_road = 0.12;          ///< 1
+  double seen_on_road = 0.05;          ///< 1
   double min_road = 15.0;              ///< m
   double enter_above = 0.9;            ///< 1
   double leave_below = 0.3;            ///< 1

@@ -47,13 +47,11 @@ class BranchSearchTest : public ::testing::Test {
     grid_.update(scan);
   }
 
-  std::vector<RoadBranch> branches(const std::vector<RoadBorder>& borders = {}) const {
-    return search_.search(grid_, borders, Point2::Zero());
-  }
+  std::vector<RoadBranch> branches() const { return search_.search(grid_, Point2::Zero()); }
 
-  bool leadsTo(double heading) const {
+  bool leadsTo(double heading, double tolerance = degrees(3.0)) const {
     for (const RoadBranch& branch : branches()) {
-      if (std::abs(angleBetween(branch.heading, heading)) < degrees(3.0)) {
+      if (std::abs(angleBetween(branch.heading, heading)) < tolerance) {
         return true;
       }
     }
@@ -63,15 +61,6 @@ class BranchSearchTest : public ::testing::Test {
   PassageGrid grid_{PassageGridOptions()};
   BranchSearch search_{BranchSearchOptions()};
 };
-
-/// A line of points across the street ahead, 8 m off.
-RoadBorder borderAcross() {
-  RoadBorder border;
-  for (int i = -6; i <= 6; ++i) {
-    border.points.push_back({{8.0, static_cast<double>(i)}, 0.1});
-  }
-  return border;
-}
 
 TEST_F(BranchSearchTest, ARoadLeadsAheadAndBack) {
   see(road);
@@ -118,9 +107,35 @@ TEST_F(BranchSearchTest, NoStreetLeadsAwayInAnOpenSpace) {
 
 TEST_F(BranchSearchTest, NoneLeadsWhereNothingWasSeen) { EXPECT_TRUE(branches().empty()); }
 
-TEST_F(BranchSearchTest, ABorderOfTheRoadClosesAStreet) {
-  see(crossroads);
-  EXPECT_EQ(branches({borderAcross()}).size(), 3U);
+constexpr double kHalfGap = 4.0;  ///< m
+
+/// A road between rows of 1 m depth, with a gap in that to the left.
+bool roadWithGap(const Point2& point) {
+  const bool in_gap = point.y() > 0.0 && std::abs(point.x()) < kHalfGap;
+  return road(point) && std::abs(point.y()) < kHalfStreet + 1.0 && !in_gap;
+}
+
+TEST_F(BranchSearchTest, OpenGroundBehindAGapIsNone) {
+  see(roadWithGap);
+  EXPECT_EQ(branches().size(), 2U);
+  EXPECT_FALSE(leadsTo(0.5 * kPi, degrees(20.0)));
+}
+
+TEST_F(BranchSearchTest, AStreetHasASideSomewhere) {
+  see([](const Point2& point) {
+    const bool on_wall =
+        point.y() > 0.0 && point.x() > kHalfStreet && point.x() < kHalfStreet + 1.0;
+    return roadWithGap(point) || on_wall;
+  });
+  EXPECT_EQ(branches().size(), 3U);
+  EXPECT_TRUE(leadsTo(0.5 * kPi, degrees(20.0)));
+}
+
+TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
+  see(road);
+  for (const RoadBranch& branch : branches()) {
+    EXPECT_NEAR(branch.sides, 1.0, 0.05);
+  }
 }
 
 }  // namespace
