@@ -247,20 +247,16 @@ SlamResult GridSlam::process(const SensorGrid& grid, const Scan& scan) {
 
 SlamResult GridSlam::process(const Measurement& measurement) {
   SlamResult result;
-  Scan scan;
+  const Stamp stamp = measurement.scan.stamp;
   if (stamp_) {
-    const Stamp stamp = measurement.scan.stamp;
     undoGapForOdometry(stamp);
     result.odometry_used = stamp > *stamp_ && predict(stamp);
     leaveMapAfterGap(stamp);
     map_.centerOn(filter_.pose().pose.position());
-    scan = locate(measurement, result);
-  } else {
-    scan = compensated(measurement.scan);
-    if (prior_map_) {
-      searchPriorMap(prior_map_->map, prior_map_->start, scan.stamp);
-    }
+  } else if (prior_map_) {
+    searchPriorMap(prior_map_->map, prior_map_->start, stamp);
   }
+  const Scan scan = stamp_ ? locate(measurement, result) : compensated(measurement.scan);
   const PoseWithCovariance base_in_map = poseInFirstMap();
   followDrift(base_in_map, scan, result);
   const GridMaskedScan view = viewOf(measurement, scan);
@@ -274,9 +270,9 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   } else {
     map_.update(scan, states, base_in_map.pose);
   }
-  stamp_ = std::max(scan.stamp, stamp_.value_or(scan.stamp));
+  stamp_ = std::max(stamp, stamp_.value_or(stamp));
   if (!recovery_) {  // else the pose is in the newer map's frame, and the anchor leads to the older
-    anchor_.keep(scan.stamp, filter_, odometry_);
+    anchor_.keep(stamp, filter_, odometry_);
   }
   result.odometry_errors = filter_.errors();
   result.localization = recovery_ ? recovery_->state() : Localization::kLocated;
@@ -287,7 +283,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   result.labeled_scan = label(own, states, base_in_map);
   rememberScan(scan);
-  recover(scan.stamp);
+  recover(stamp);
   result.maps_begun = maps_begun_;
   return result;
 }

@@ -65,8 +65,8 @@ class OutageTest : public testing::Test {
     return found == lists.rend() ? 0 : found->car;
   }
 
-  /// How long after `time` (s) the nodelets are loaded and tracks come, and whether the other car is
-  /// the same one in them.
+  /// How long after `time` (s) the nodelets are loaded and tracks come, and whether the other car
+  /// is the same one in them.
   nlohmann::json measured(const std::string& what, const std::vector<std::string>& nodelets,
                           double time, std::uint32_t id) {
     std::optional<double> loaded;
