@@ -54,6 +54,9 @@ bool AugmentingPath::run(const Search& search, PricedAssignment& assignment) {
   if (length == kForbidden) {
     return false;
   }
+  if (void_left_) {
+    work_ += static_cast<std::int64_t>(assignment.open_rows.size()) + costs_.columns();
+  }
   updatePrices(search, length, assignment);
   apply(search, assignment);
   return true;
@@ -78,6 +81,7 @@ double AugmentingPath::find(const Search& search, const PricedAssignment& assign
   start();
   leaveRow(search.root, search.root_cost, 0.0, assignment);
   while (true) {
+    work_ += static_cast<std::int64_t>(reached_.size() + waiting_rows_.size());
     const Node node = nearest(assignment);
     if (node.distance == kForbidden) {
       return kForbidden;
@@ -198,6 +202,7 @@ void AugmentingPath::reachVoid(double distance, int row, int column) {
 /// Columns may become free, and rows without column may come to one.
 void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& assignment) {
   void_left_ = true;
+  work_ += static_cast<std::int64_t>(assignment.open_rows.size()) + costs_.columns();
   for (int column = 0; column < costs_.columns(); ++column) {
     const double candidate = void_distance_ - assignment.column_price[column];
     if (assignment.row_of_column[column] != kUnassigned && candidate < distance_[column] &&

@@ -29,7 +29,7 @@ class AugmentingPath {
   /// changed: there is no other column.
   bool replace(int row, const RowCost& row_cost, PricedAssignment& assignment);
 
-  /// Possible pairs that were looked at until now.
+  /// Possible pairs, rows and columns that were looked at until now.
   std::int64_t work() const { return work_; }
 
  private:

@@ -88,6 +88,9 @@ class RankedAssignments::State {
   void push(double min_cost, int part, int position);
   Candidate pop();
 
+  /// What is kept of a part: prices of rows and columns, and the rows' columns.
+  std::int64_t entriesOfPart() const { return 2 * std::int64_t{costs_.rows()} + costs_.columns(); }
+
   const int* columnsOf(int part) const {
     return columns_.data() + std::ptrdiff_t{part} * costs_.rows();
   }
@@ -101,7 +104,7 @@ class RankedAssignments::State {
   Eigen::VectorXd unassigned_cost_;
   AssignmentCosts costs_{cost_, unassigned_cost_, &memory_};
   std::int64_t max_work_;
-  std::int64_t bounding_work_ = 0;  ///< entries that were looked at for bounds
+  std::int64_t own_work_ = 0;  ///< entries that were copied, or looked at for bounds
   bool cut_ = false;
   AugmentingPath path_;
 
@@ -132,7 +135,7 @@ std::optional<Assignment> RankedAssignments::State::next() {
     split(std::exchange(returned_, kNone));
   }
   while (!queue_.empty()) {
-    if (path_.work() + bounding_work_ > max_work_) {
+    if (path_.work() + own_work_ > max_work_) {
       cut_ = true;
       return std::nullopt;
     }
@@ -161,6 +164,7 @@ Assignment RankedAssignments::State::best(int part) const {
 
 /// Keeps the present assignment as the best of a new part.
 void RankedAssignments::State::keep(const Part& part) {
+  own_work_ += entriesOfPart();
   parts_.push_back(part);
   parts_.back().cost = totalCost(present_.column_of_row, costs_);
   prices_.insert(prices_.end(), present_.row_price.begin(), present_.row_price.end());
@@ -171,6 +175,7 @@ void RankedAssignments::State::keep(const Part& part) {
 /// Makes the best of a part the present assignment, with the rows open from a position on.
 void RankedAssignments::State::load(int part, int position) {
   const int rows = costs_.rows();
+  own_work_ += entriesOfPart();
   const double* prices = prices_.data() + std::ptrdiff_t{part} * (rows + costs_.columns());
   std::copy_n(prices, rows, present_.row_price.begin());
   std::copy_n(prices + rows, costs_.columns(), present_.column_price.begin());
@@ -239,7 +244,7 @@ void RankedAssignments::State::search(const Candidate& candidate) {
 
 /// Of how much dearer the best of a part becomes where this row differs.
 double RankedAssignments::State::bound(int part, int row) {
-  bounding_work_ += costs_.possible(row).size();
+  own_work_ += costs_.possible(row).size();
   return minIncrease(row, allowed(part, row), costs_, present_);
 }
 
@@ -247,6 +252,7 @@ double RankedAssignments::State::bound(int part, int row) {
 /// from the part before.
 RowCost RankedAssignments::State::allowed(int part, int row) {
   RowCost cost = costs_.row(row);
+  own_work_ += costs_.columns();
   allowed_.assign(cost.columns, cost.columns + costs_.columns());
   cost.columns = allowed_.data();
   while (true) {

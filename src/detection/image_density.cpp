@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/wide.h"
 #include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
@@ -35,7 +34,6 @@ void ImageDensity::reset(const StereoCamera& camera) {
   tiles_.assign(rowMajorSize(tile_columns_, static_cast<int>(rows_) / kTileSize + 1), 0);
 }
 
-DATMO_FUSION_WIDE
 void ImageDensity::add(const Tangents& right, const Tangents& up, const Flags& is_seen,
                        std::size_t count) {
   Flags is_inside;

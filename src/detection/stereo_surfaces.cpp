@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/wide.h"
-
 namespace datmo {
 
 namespace {
@@ -58,7 +56,6 @@ void StereoSurfaces::find(const StereoCloud& cloud, const StereoView& view,
   measure(options);
 }
 
-DATMO_FUSION_WIDE
 void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view,
                                 const StereoSurfaceOptions& options, double farthest) {
   density_.reset(cloud.camera);
@@ -80,7 +77,8 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
     const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
     view.view(cloud.points, begin, count, viewed);
     int seen = 0;
-    for (std::size_t i = 0; i < count; ++i) {  // no branches: compilers turn it into vectors
+    for (std::size_t i = 0; i < count;
+         ++i) {  // no branches: which points are seen cannot be predicted
       const float forward = viewed.forward[i];
       const float height = viewed.height[i];
       const float inverse = viewed.inverse[i];

@@ -35,7 +35,7 @@ std::vector<RoadBranch> runsOf(const std::vector<std::optional<double>>& sides, 
   const auto closed = std::find(sides.begin(), sides.end(), std::nullopt);
   std::vector<RoadBranch> runs;
   if (closed == sides.end()) {
-    return {{0.0, kTurn, 0.0}};
+    return {{0.0, kTurn, std::max_element(sides.begin(), sides.end())->value_or(0.0)}};
   }
   const auto start = static_cast<std::size_t>(closed - sides.begin());
   std::size_t length = 0;
@@ -54,20 +54,17 @@ std::vector<RoadBranch> runsOf(const std::vector<std::optional<double>>& sides, 
   return runs;
 }
 
-/// Whether something stands to one side (`outward` 1: left, -1: right) of a corridor's axis, with
-/// nothing unseen before it.
-bool hasSide(const PassageGrid& grid, const Pose2& axis, double along, double outward,
-             double reach) {
+/// Whether something stands beside a corridor, from its edge on (m, along and to the left of its
+/// axis): what is unseen just before it is at most kUnseenBeforeSide long.
+bool hasSide(const PassageGrid& grid, const Pose2& axis, const Point2& edge) {
+  const double outward = edge.y() < 0.0 ? -kSampleStep : kSampleStep;
   int unseen = 0;
-  for (int i = 0; i <= stepsIn(reach); ++i) {
-    const auto state = grid.at(axis * Point2(along, outward * i * kSampleStep));
+  for (int i = 0; i <= stepsIn(kSideReach); ++i) {
+    const auto state = grid.at(axis * Point2(edge.x(), edge.y() + i * outward));
     if (state == PassageGrid::State::kOccupied) {
-      return true;
+      return unseen <= stepsIn(kUnseenBeforeSide);
     }
-    unseen += state == PassageGrid::State::kUnknown ? 1 : 0;
-    if (unseen > stepsIn(kUnseenBeforeSide)) {
-      return false;
-    }
+    unseen = state == PassageGrid::State::kUnknown ? unseen + 1 : 0;
   }
   return false;
 }
@@ -105,12 +102,12 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
 
 double BranchSearch::sidesOf(const PassageGrid& grid, const Pose2& axis) const {
   const int slices = stepsIn(options_.length - kSidesBegin);
-  const double reach = 0.5 * options_.width + kSideReach;
   int sides = 0;
   for (int slice = 0; slice < slices; ++slice) {
     const double along = kSidesBegin + slice * kSampleStep;
-    sides += hasSide(grid, axis, along, 1.0, reach) ? 1 : 0;
-    sides += hasSide(grid, axis, along, -1.0, reach) ? 1 : 0;
+    for (const double edge : {0.5 * options_.width, -0.5 * options_.width}) {
+      sides += hasSide(grid, axis, {along, edge}) ? 1 : 0;
+    }
   }
   return 0.5 * sides / slices;
 }

@@ -6,9 +6,10 @@ namespace datmo {
 void ScannerOptions::visit(OptionVisitor& visitor) {
   scan.visit(visitor);
   visitor.number({"range_sigma", "m",
-                  "standard deviation of its range, as the match of scans and the boxes of objects "
-                  "take it; before its end a beam frees nothing for some of it (end_margin); 0: "
-                  "not known: 0.1 for boxes, 0.2 for the match, and free up to the end",
+                  "standard deviation of its range, for the match of scans, boxes of objects, "
+                  "borders of the road and the alignment of a stereo camera; before its end a beam "
+                  "frees nothing for some of it (end_margin); 0: not known: 0.1 for boxes, 0.2 for "
+                  "the match and borders, 0.03 for the alignment, and free up to the end",
                   Tier::kPublic},
                  range_sigma, {0.0, 2.0});
   visitor.number(

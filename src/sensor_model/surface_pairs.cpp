@@ -42,7 +42,7 @@ void SurfacePairOptions::visit(OptionVisitor& visitor) {
   visitor.number({"straightness", "m", "RMS of the beams' ends about their line"}, straightness,
                  {0.001, 1.0});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's ranges"}, range_sigma,
-                 {0.001, 1.0});
+                 {0.001, 2.0});
   visitor.number({"edge_pixels", "px", "at both ends of a surface, that are left out"}, edge_pixels,
                  {0.0, 50.0});
   visitor.integer({"min_points", "1", "of the camera on a surface"}, min_points, {3, 10000});

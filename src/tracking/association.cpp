@@ -96,7 +96,8 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"max_targets", "1", "targets followed at a time; bounds the time of a step"},
                   max_targets, {1, 5000});
   visitor.integer({"max_work", "1",
-                   "pairs looked at for one assignment (1 ns to 2 ns each) before the targets that "
+                   "pairs, rows and columns looked at for one assignment (1 ns to 2 ns each) "
+                   "before the targets that "
                    "are left take the nearest free object"},
                   max_work, {1000, 1e9});
 }

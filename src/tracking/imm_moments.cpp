@@ -38,6 +38,8 @@ void momentsAbout(const TrackState& origin, const ModeEstimates& modes,
 DATMO_FUSION_WIDE
 void mix(const ModeMoments& moments, const ModeMatrix& weights, ModeMoments& mixed) {
   static_assert(kMotionModes == 5, "all modes are written out: the sums stay in registers");
+  constexpr int kFours = kMoments - 2;
+  static_assert(kFours % 4 == 0, "a column is fours of doubles, and two");
   const double* __restrict of = moments.data();
   for (int to = 0; to < kMotionModes; ++to) {
     const double* weight = weights.data() + kMotionModes * to;
@@ -47,10 +49,14 @@ void mix(const ModeMoments& moments, const ModeMatrix& weights, ModeMoments& mix
     const double w2 = weight[2];
     const double w3 = weight[3];
     const double w4 = weight[4];
-    for (int i = 0; i < kMoments; ++i) {
-      sum[i] = of[i] * w0 + of[kMoments + i] * w1 + of[2 * kMoments + i] * w2 +
-               of[3 * kMoments + i] * w3 + of[4 * kMoments + i] * w4;
+    for (int i = 0; i < kFours; i += 4) {
+      four(sum + i) = four(of + i) * w0 + four(of + kMoments + i) * w1 +
+                      four(of + 2 * kMoments + i) * w2 + four(of + 3 * kMoments + i) * w3 +
+                      four(of + 4 * kMoments + i) * w4;
     }
+    two(sum + kFours) = two(of + kFours) * w0 + two(of + kMoments + kFours) * w1 +
+                        two(of + 2 * kMoments + kFours) * w2 +
+                        two(of + 3 * kMoments + kFours) * w3 + two(of + 4 * kMoments + kFours) * w4;
   }
 }
 

@@ -14,7 +14,18 @@ PACKAGE = Path(__file__).resolve().parents[2]
 # Of no stage of the thesis's; what its method of borders does not use.
 NOT_OF_THE_THESIS = (("loop_closing", ""), ("road_border", "side_streets/"))
 
-VALUE_IN_PARENTHESES = re.compile(r"\(thesis[^():;]*: (-?[\d.]+)[);]|\((-?[\w./]+): thesis\)")
+# Modes and switches whose description names the thesis without a value of its own, and where they stand in it.
+MODES = {
+    "grid_fusion/rule": "weighted_sum", "grid_slam/grid_ends": "cells", "mono_grid/color/components": 1,
+    "road_border/search/score": "hits", "road_border/search/take": "highest",
+    "object_fusion/association": "nearest_neighbor",
+    "tracker/require_motion": False, "tracker/target/filter/transitions/standing": False,
+    "stereo_tracker/require_motion": False, "stereo_tracker/target/filter/transitions/standing": False,
+    "track_fusion/scheme": "fused_plus_fallback", "track_fusion/association/test": "parallel",
+    "mono_classifier/method": "thesis", "risk/method": "thesis",
+}  # fmt: skip
+
+VALUE_IN_PARENTHESES = re.compile(r"\(thesis[^():;]*: (-?[\d.]+)[);,]|\((-?[\w./]+): thesis\)")
 VALUE_BEFORE = re.compile(r"(?:^|; )([\w./]+): [^;|]*\(thesis[^)]*\)")
 
 
@@ -48,22 +59,23 @@ def thesis_values(page):
                 yield section, key, value_of(default, allowed), value
 
 
-def preset_value(preset, section, key):
-    value = preset.get(section, {})
-    for part in key.split("/"):
-        value = value.get(part) if isinstance(value, dict) else None
-    return value
+def leaves(node, name=""):
+    """Each value of nested sections by its full key."""
+    if not isinstance(node, dict):
+        return {name: node}
+    return {key: value for part, inner in node.items() for key, value in leaves(inner, f"{name}/{part}").items()}
 
 
 class ThesisPreset(unittest.TestCase):
     def test_has_the_values_that_the_parameters_page_calls_the_thesiss(self):
         preset = yaml.safe_load((PACKAGE / "config/thesis.yaml").read_text(encoding="utf-8"))
+        preset = {key.lstrip("/"): value for key, value in leaves(preset).items()}
         rows = list(thesis_values((PACKAGE / "doc/parameters.md").read_text(encoding="utf-8")))
-        self.assertGreater(len(rows), 30)
+        self.assertEqual({key: preset.get(key) for key in MODES}, MODES)
+        self.assertEqual(set(preset) - set(MODES) - {f"{section}/{key}" for section, key, _, _ in rows}, set())
         for section, key, default, expected in rows:
-            said = preset_value(preset, section, key)
             with self.subTest(section=section, key=key):
-                value = default if said is None else said
+                value = preset.get(f"{section}/{key}", default)
                 if isinstance(expected, float):
                     self.assertAlmostEqual(float(value), expected, places=3)
                 else:

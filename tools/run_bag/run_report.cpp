@@ -86,9 +86,9 @@ double worstSigma(const geometry_msgs::PoseWithCovarianceStamped& pose) {
 }
 
 const char* nameOf(HealthLevel level) {
-  return level == HealthLevel::kNoOutput   ? "nothing"
-         : level == HealthLevel::kDegraded ? "less"
-                                           : "good";
+  return level == HealthLevel::kNoOutput   ? "no output"
+         : level == HealthLevel::kDegraded ? "degraded"
+                                           : "ok";
 }
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops for the wide registers that many processors have and not all: compiled for both, and chosen
-// when the program starts. Results do not depend on it: wider registers do the same additions and
-// multiplications for more elements at a time, and AVX2 does not fuse the two.
+// Arithmetic on four doubles at a time, for registers that many processors have and not all:
+// compiled for both, and chosen when the program starts. Results do not depend on it: the same
+// additions and multiplications are done for more elements at a time, and AVX2 does not fuse the
+// two. Where the compiler may (-march with FMA, AArch64), -ffp-contract=off keeps results the same.
 #pragma once
 
 /// Before a function whose time goes into short loops over doubles.
@@ -9,7 +10,8 @@
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define DATMO_FUSION_WIDE __attribute__((target_clones("avx2", "default")))
 #else
-#define DATMO_FUSION_WIDE  // the choice is made before a sanitizer's own start
+#define DATMO_FUSION_WIDE  // other processors and systems; sanitizers, which start after the choice
+                           // is made
 #endif
 
 namespace datmo {

@@ -29,7 +29,9 @@ struct BranchSearchOptions {
 struct RoadBranch {
   double heading = 0.0;  ///< rad, map frame, the middle of those in which it is free
   double angle = 0.0;    ///< rad, of all headings in which it is
-  double sides = 0.0;    ///< 0 to 1, share of its length beside which something stands
+  /// 0 to 1, share of its length beyond the vehicle's own road beside which something stands, mean
+  /// of both sides; the largest of those headings'.
+  double sides = 0.0;
 };
 
 /// Finds the streets that lead away from a place: corridors as wide as a street and so long that

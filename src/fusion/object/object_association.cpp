@@ -208,7 +208,8 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
                   "deviation: allowed where two sensors saw no side in common"},
                  unknown_size_std, {0.0, 20.0});
   visitor.integer({"max_work", "1",
-                   "optimal: pairs looked at (1 ns each) before the objects that are left take the "
+                   "optimal: pairs, rows and columns looked at (1 ns to 2 ns each) before the "
+                   "objects that are left take the "
                    "best one that is free"},
                   max_work, {1000, 1e9});
   visitor.number({"min_distance", "m",

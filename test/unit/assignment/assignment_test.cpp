@@ -159,9 +159,10 @@ TEST(Assignment, CutShortARowRatherHasNoneThanADearerColumn) {
   EXPECT_EQ(cut.column_of_row, (std::vector<int>{0, kUnassigned, 1}));
 }
 
-TEST(Assignment, AThousandEqualColumnsNeedOneLookForEachRow) {
+TEST(Assignment, AThousandEqualColumnsNeedNoSecondSearch) {
+  // For each row all columns are reached, and compared before the column and before the void.
   const Assignment result = solveAssignment(CostMatrix::Constant(300, 1000, 1.0),
-                                            Eigen::VectorXd::Constant(300, 5.0), 300 * 1000);
+                                            Eigen::VectorXd::Constant(300, 5.0), 3 * 300 * 1000);
   EXPECT_FALSE(result.cut);
   EXPECT_DOUBLE_EQ(result.cost, 300.0);
 }

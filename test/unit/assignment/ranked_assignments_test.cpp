@@ -2,6 +2,7 @@
 #include "datmo_fusion/assignment/ranked_assignments.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -207,6 +208,25 @@ TEST(RankedAssignments, StopWhereTheWorkAllowedEnds) {
   EXPECT_TRUE(ranked.cut());
   EXPECT_GT(count, 1);
   EXPECT_TRUE(all.next());
+}
+
+TEST(RankedAssignments, WorkAndMemoryAreBoundedWhereFewPairsArePossible) {
+  constexpr int kRows = 100;
+  constexpr int kColumns = 400;
+  constexpr std::int64_t kWork = 2'000'000;
+  CostMatrix cost = CostMatrix::Constant(kRows, kColumns, kForbidden);
+  for (int row = 0; row < kRows; ++row) {
+    cost(row, 4 * row) = -2.0;
+    cost(row, 4 * row + 1) = -1.0;
+  }
+  RankedAssignments ranked(cost, Eigen::VectorXd::Zero(kRows), kWork);
+  int assignments = 0;
+  while (ranked.next()) {
+    ++assignments;
+  }
+  EXPECT_TRUE(ranked.cut());
+  EXPECT_GT(assignments, 1);
+  EXPECT_LE(assignments, kWork / kColumns) << "each is kept with a price for each column";
 }
 
 TEST(RankedAssignments, WithHardlyAnyWorkTheFirstIsWhatTheSolverGives) {

@@ -133,9 +133,26 @@ TEST_F(BranchSearchTest, AStreetHasASideSomewhere) {
 
 TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
   see(road);
+  ASSERT_EQ(branches().size(), 2U);
   for (const RoadBranch& branch : branches()) {
     EXPECT_NEAR(branch.sides, 1.0, 0.05);
   }
+}
+
+TEST_F(BranchSearchTest, WhatStandsInItIsNoSide) {
+  see([](const Point2& point) {
+    const bool on_post = (point - Point2(0.0, 16.0)).norm() < 0.3;
+    return roadWithGap(point) || on_post;
+  });
+  EXPECT_EQ(branches().size(), 2U);
+}
+
+TEST_F(BranchSearchTest, AWallFartherThanItsReachIsNoSide) {
+  see([](const Point2& point) {
+    const bool on_wall = point.y() > 0.0 && point.x() > 14.0 && point.x() < 15.0;
+    return roadWithGap(point) || on_wall;
+  });
+  EXPECT_EQ(branches().size(), 2U);
 }
 
 }  // namespace
