@@ -47,7 +47,7 @@ class Pages(InFolder):
 
     def test_what_was_not_measured_is_not_there(self):
         pages = self.pages(people=PEOPLE)
-        self.assertIn("## People about a robot", pages["doc/results.md"])
+        self.assertIn("## People around a robot", pages["doc/results.md"])
         self.assertNotIn("Indoors", pages["doc/results.md"])
         self.assertIn("`0123abcd`", pages["doc/results.md"])
 

@@ -9,7 +9,7 @@ STEPS = (
          recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,)),
     Step("model_cars", "1:10 cars", "mocap_to_bag, run_bag, score_run", recordings.model_car_jobs,
          by_name, (recordings.MODEL_CARS,)),
-    Step("people", "people about a robot", "check_bag, run_bag, evaluate labels",
+    Step("people", "people around a robot", "check_bag, run_bag, evaluate labels",
          recordings.people_jobs, only, (recordings.PEOPLE,)),
     Step("slam", "pose indoors", "scripts/slam_benchmark", recordings.slam_jobs, only,
          (recordings.SLAM_LOGS,)),
