@@ -64,7 +64,7 @@ class RankedAssignments::State {
         max_work_(max_work),
         path_(costs_, &memory_),
         present_(costs_.rows(), costs_.columns(), &memory_),
-        allowed_(&memory_),
+        allowed_(costs_.columns(), kForbidden, &memory_),
         bounds_(&memory_),
         parts_(&memory_),
         prices_(&memory_),
@@ -110,7 +110,7 @@ class RankedAssignments::State {
 
   // Of one part at a time.
   PricedAssignment present_;
-  std::pmr::vector<double> allowed_;  ///< costs of one row
+  std::pmr::vector<double> allowed_;  ///< costs of one row, in its possible columns
   std::pmr::vector<RowBound> bounds_;
 
   // Of all parts, one after the other.
@@ -252,8 +252,11 @@ double RankedAssignments::State::bound(int part, int row) {
 /// from the part before.
 RowCost RankedAssignments::State::allowed(int part, int row) {
   RowCost cost = costs_.row(row);
-  own_work_ += costs_.columns();
-  allowed_.assign(cost.columns, cost.columns + costs_.columns());
+  const PossibleColumns possible = costs_.possible(row);
+  own_work_ += possible.size();
+  for (const int column : possible) {  // no other one is looked at
+    allowed_[column] = cost.columns[column];
+  }
   cost.columns = allowed_.data();
   while (true) {
     const int column = columnsOf(part)[row];

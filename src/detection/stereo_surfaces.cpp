@@ -77,8 +77,8 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
     const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
     view.view(cloud.points, begin, count, viewed);
     int seen = 0;
-    for (std::size_t i = 0; i < count;
-         ++i) {  // no branches: which points are seen cannot be predicted
+    // No branches: which points are seen cannot be predicted.
+    for (std::size_t i = 0; i < count; ++i) {
       const float forward = viewed.forward[i];
       const float height = viewed.height[i];
       const float inverse = viewed.inverse[i];

@@ -86,27 +86,36 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const G
   throw NoUsableInput(message);
 }
 
+/// What the command line says alone.
+GraphSwitches switchesOf(const Arguments& arguments) {
+  GraphSwitches switches;
+  switches.low_level_fusion = arguments.low_level_fusion;
+  switches.road_border = arguments.road_border;
+  switches.static_points = arguments.static_points;
+  switches.loop_closing = arguments.loop_closing;
+  switches.cloud_objects = arguments.cloud_objects;
+  switches.radar = arguments.radar;
+  switches.mono = arguments.mono;
+  switches.object_fusion = arguments.object_fusion;
+  switches.track_fusion = arguments.track_fusion;
+  switches.v2x = arguments.v2x;
+  switches.risk = arguments.risk;
+  switches.merge_scans = arguments.merge_scans;
+  switches.map_fusion = arguments.map_fusion;
+  return switches;
+}
+
 SensorSet readSensorsFor(const Arguments& arguments) {
   SensorSet sensors(arguments.config, arguments.presets);
   if (!arguments.grid_rule.empty()) {
     sensors.set("grid_fusion", "rule", arguments.grid_rule);
   }
-  if (arguments.mono) {
-    sensors.set("grid_fusion", "sources/mono/use", true);
-    sensors.set("map_fusion", "sources/mono/use", true);
-    sensors.set("object_fusion", "sources/mono/use", true);
-  }
-  if (arguments.radar) {
-    sensors.set("object_fusion", "sources/radar/use", true);
-  }
-  if (arguments.cloud_objects) {
-    sensors.set("object_fusion", "sources/cloud/use", true);
-  }
-  if (arguments.fusesObjects() && !arguments.object_fusion) {
-    sensors.set("object_fusion", "sources/stereo/use", false);
-  }
-  if (arguments.v2x) {
-    sensors.set("track_fusion", "sources/v2x/use", true);
+  for (const GraphStage& stage : stageGraph(switchesOf(arguments))) {
+    for (const auto& [key, value] : stage.parameters) {
+      if (key.rfind("sources/", 0) == 0) {  // which topics are needed depends on these
+        sensors.set(stage.name, key, value);
+      }
+    }
   }
   if (!arguments.map.empty()) {
     sensors.set("grid_slam", "prior_map/file", arguments.map);
@@ -127,22 +136,9 @@ bool usesStereo(const std::vector<std::string>& sources) {
 
 GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
                          const InputTopics& topics) {
-  GraphSwitches switches;
+  GraphSwitches switches = switchesOf(arguments);
   switches.scan_from_cloud = !topics.cloud.empty();
   switches.stereo = topics.stereo.input();
-  switches.low_level_fusion = arguments.low_level_fusion;
-  switches.road_border = arguments.road_border;
-  switches.static_points = arguments.static_points;
-  switches.loop_closing = arguments.loop_closing;
-  switches.cloud_objects = arguments.cloud_objects;
-  switches.radar = arguments.radar;
-  switches.mono = arguments.mono;
-  switches.object_fusion = arguments.object_fusion;
-  switches.track_fusion = arguments.track_fusion;
-  switches.v2x = arguments.v2x;
-  switches.risk = arguments.risk;
-  switches.merge_scans = arguments.merge_scans;
-  switches.map_fusion = arguments.map_fusion;
   switches.stereo_tracker =
       arguments.track_fusion &&
       usesStereo(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse());

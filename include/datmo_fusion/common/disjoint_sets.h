@@ -41,7 +41,7 @@ class DisjointSets {
       ++sizes[find(member)];
     }
     std::vector<std::vector<std::size_t>> result;
-    std::vector<std::size_t> group_of(parent_.size());  // the same
+    std::vector<std::size_t> group_of(parent_.size());  // where the least member is known
     for (std::size_t member = 0; member < parent_.size(); ++member) {
       const std::size_t least = find(member);
       if (least == member) {
