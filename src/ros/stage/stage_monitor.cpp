@@ -54,8 +54,8 @@ void StageMonitor::processed(const Processed& message) {
   pushBounded(times_, message.seconds, kTimingWindow);
 }
 
-void StageMonitor::dropped(const InputError& error) {
-  ++drops_[error.reason()];
+void StageMonitor::dropped(const InputError& error, std::uint64_t count) {
+  drops_[error.reason()] += count;
   last_drop_ = error.what();
   say(error);
 }

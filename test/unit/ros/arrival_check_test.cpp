@@ -43,6 +43,13 @@ TEST_F(ArrivalCheckTest, AGapInTheNumbersIsLostMessages) {
   EXPECT_NE(monitor_.lastDrop().find("1 messages on scan from /driver"), std::string::npos);
 }
 
+TEST_F(ArrivalCheckTest, WhatWasLostWhileAStageStoodStillCountsHoweverMuchItWas) {
+  take("/driver", 7);
+  take("/driver", 50008);
+  EXPECT_EQ(dropped("lost_message"), 50000U);
+  EXPECT_EQ(monitor_.figures().at("lost on scan"), 50000.0);
+}
+
 TEST_F(ArrivalCheckTest, EachPublisherCountsByItself) {
   take("/driver", 7);
   take("/other", 100);
@@ -52,7 +59,7 @@ TEST_F(ArrivalCheckTest, EachPublisherCountsByItself) {
 }
 
 TEST_F(ArrivalCheckTest, APublisherThatStartsOverOrDoesNotCountHasLostNothing) {
-  for (const std::uint32_t sequence : {5000U, 1U, 2U, 0U, 0U, 9000U, 9000U}) {
+  for (const std::uint32_t sequence : {5000U, 1U, 2U, 0U, 0U, 4000000000U, 4000000000U}) {
     EXPECT_TRUE(take("/driver", sequence));
   }
   EXPECT_EQ(monitor_.droppedCount(), 0U);

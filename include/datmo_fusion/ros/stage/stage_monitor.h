@@ -66,8 +66,8 @@ class StageMonitor {
   /// A message has led to a result.
   void processed(const Processed& message);
 
-  /// A message was dropped.
-  void dropped(const InputError& error);
+  /// So many messages were dropped for one cause.
+  void dropped(const InputError& error, std::uint64_t count = 1);
 
   /// Something is wrong with a message or missing, but the stage goes on with it.
   void warned(const InputError& error);
