@@ -43,6 +43,7 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
                  {{"tracked", RoadBorderMethod::kTracked}, {"thesis", RoadBorderMethod::kThesis}});
   visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
   visitor.group("search", [&] { search.visit(visitor); });
+  visitor.group("passing", [&] { passing.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
   visitor.group("presence", [&] { presence.visit(visitor); });
   visitor.group("passages", [&] { passages.visit(visitor); });
@@ -128,7 +129,9 @@ void RoadBorderDetector::search(const Pose2& scanner) {
 }
 
 void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
-  const BorderScan seen = borderScan(scan, hits_, seconds);
+  const double border_detection = options_.tracks.border.evidence.hit_probability;
+  const BorderScan seen = borderScan(
+      scan, hits_, standingProbabilities(scan, border_detection, options_.passing), seconds);
   passages_.update(seen);
   tracks_.update(seen, hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);

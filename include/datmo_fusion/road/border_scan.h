@@ -14,8 +14,9 @@ struct BorderScan {
   struct Beam {
     Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
     bool hit = false;
-    int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
-    bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
+    int hits_there = 0;     ///< smoothed (thesis eq. 3.5.1), of its end point
+    bool lasting = false;   ///< what it ends on has been there for longer than a mover stays
+    double standing = 1.0;  ///< 0 to 1, that it ends on what stands (standingProbabilities)
   };
 
   Pose2 scanner;
@@ -23,7 +24,9 @@ struct BorderScan {
   std::vector<Beam> beams;
 };
 
-/// Of a scan that `hits` has counted: all beams but those that are blind.
-BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds);
+/// Of a scan that `hits` has counted: all beams but those that are blind. `standing`: of each of
+/// its points, that it is of what stands.
+BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
+                      const std::vector<double>& standing, double seconds);
 
 }  // namespace datmo

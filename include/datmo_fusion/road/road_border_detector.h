@@ -13,6 +13,7 @@
 #include "datmo_fusion/road/branch_search.h"
 #include "datmo_fusion/road/intersection_detector.h"
 #include "datmo_fusion/road/passage_grid.h"
+#include "datmo_fusion/road/passing_objects.h"
 #include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/road/road_opening.h"
@@ -29,6 +30,7 @@ struct RoadBorderDetectorOptions {
   RoadBorderMethod method = RoadBorderMethod::kTracked;
   HitGridOptions hit_grid;
   BorderSearchOptions search;
+  PassingObjectOptions passing;
   BorderTrackSetOptions tracks;
   PresenceHistoryOptions presence;
   PassageGridOptions passages;
