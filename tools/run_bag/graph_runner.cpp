@@ -73,7 +73,7 @@ GraphRunner::GraphRunner(const SensorSet& sensors, const GraphSwitches& switches
 
 void GraphRunner::addStage(const GraphStage& row, const SensorSet& sensors) {
   Node node{row, std::make_unique<StageMonitor>(row.name), nullptr, {}, {}, nullptr};
-  node.stage = stageTypes().at(row.type).make(valuesOf(row, sensors), shared_,
+  node.stage = stageTypeNamed(row.type).make(valuesOf(row, sensors), shared_,
                                               {transforms_, *node.monitor, StepClock()});
   Ports ports(*this, node);
   node.stage->connect(ports);
