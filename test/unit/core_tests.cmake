@@ -51,8 +51,14 @@ datmo_fusion_add_core_test(tracking
   tracking/tracker_test.cpp
   tracking/transition_model_test.cpp
   tracking/transition_priors_test.cpp
+  tracking/wide_clone_avx2.cpp
+  tracking/wide_clone_default.cpp
+  tracking/wide_functions_test.cpp
   tracking/wrong_classes_test.cpp
 )
+# They include sources of tracking in a namespace of their own.
+set_source_files_properties(tracking/wide_clone_avx2.cpp tracking/wide_clone_default.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/src/tracking)
 target_include_directories(unit_tracking PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 datmo_fusion_run_in_parts(tracking 2)
 
