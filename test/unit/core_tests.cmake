@@ -17,6 +17,7 @@ datmo_fusion_add_core_test(common
 datmo_fusion_add_core_test(tracking
   tracking/association_scan_test.cpp
   tracking/association_test.cpp
+  tracking/beam_evidence_test.cpp
   tracking/box_size_test.cpp
   tracking/class_by_speed_test.cpp
   tracking/class_motion_test.cpp
@@ -26,6 +27,7 @@ datmo_fusion_add_core_test(tracking
   tracking/disjoint_sets_test.cpp
   tracking/fused_objects_test.cpp
   tracking/gnn_equality_test.cpp
+  tracking/grazing_test.cpp
   tracking/hypothesis_cluster_test.cpp
   tracking/imm_adaptation_test.cpp
   tracking/imm_filter_test.cpp
