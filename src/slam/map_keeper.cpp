@@ -55,7 +55,7 @@ PoseWithCovariance MapKeeper::searchPriorMap(OccupancyMap whole, const SearchReg
                                              Stamp stamp) {
   recovery_.emplace(recovery_options_, std::move(whole), region, stamp);
   map_ = OccupancyMap(map_options_);
-  const PoseWithCovariance start = startOf(recovery_->start().pose);
+  PoseWithCovariance start = startOf(recovery_->start().pose);
   map_.centerOn(start.pose.position());
   return start;
 }
