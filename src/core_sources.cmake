@@ -181,14 +181,13 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/gradual_correction.cpp
   slam/grid_masked_scan.cpp
   slam/grid_slam.cpp
-  slam/grid_slam_drift.cpp
-  slam/grid_slam_recovery.cpp
   slam/keyframe.cpp
   slam/keyframe_selector.cpp
   slam/loop_closer.cpp
   slam/loop_closer_judgement.cpp
   slam/loop_closer_results.cpp
   slam/map_drift.cpp
+  slam/map_keeper.cpp
   slam/map_recovery.cpp
   slam/map_search.cpp
   slam/map_search_cost.cpp
@@ -205,9 +204,12 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/pose_graph_covariance.cpp
   slam/pose_motion.cpp
   slam/pose_scorer.cpp
+  slam/pose_tracker.cpp
+  slam/scan_labeling.cpp
   slam/scan_matcher.cpp
   slam/search_region.cpp
   slam/searched_map.cpp
+  slam/slam_measurement.cpp
   slam/static_scan.cpp
   slam/submap.cpp
   slam/submap_matcher.cpp

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parameter_tables.h"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
+#include <type_traits>
 #include <vector>
+
+#include "stage_list.h"
 
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/device_options.h"
@@ -11,31 +17,8 @@
 #include "datmo_fusion/ros/display/markers.h"
 #include "datmo_fusion/ros/scanner_options.h"
 #include "datmo_fusion/ros/shared_options.h"
-#include "datmo_fusion/ros/stage/cloud_objects_stage.h"
-#include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
-#include "datmo_fusion/ros/stage/earth_frame_stage.h"
-#include "datmo_fusion/ros/stage/grid_fusion_stage.h"
-#include "datmo_fusion/ros/stage/grid_slam_stage.h"
-#include "datmo_fusion/ros/stage/lidar_grid_stage.h"
-#include "datmo_fusion/ros/stage/loop_closing_stage.h"
-#include "datmo_fusion/ros/stage/map_fusion_stage.h"
-#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
-#include "datmo_fusion/ros/stage/mono_grid_stage.h"
-#include "datmo_fusion/ros/stage/moving_objects_stage.h"
-#include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/part_clocks.h"
-#include "datmo_fusion/ros/stage/point_velocity_stage.h"
-#include "datmo_fusion/ros/stage/radar_objects_stage.h"
-#include "datmo_fusion/ros/stage/risk_stage.h"
-#include "datmo_fusion/ros/stage/road_border_stage.h"
-#include "datmo_fusion/ros/stage/scan_merge_stage.h"
-#include "datmo_fusion/ros/stage/static_points_stage.h"
-#include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
-#include "datmo_fusion/ros/stage/stereo_grid_stage.h"
-#include "datmo_fusion/ros/stage/stereo_objects_stage.h"
-#include "datmo_fusion/ros/stage/track_fusion_stage.h"
-#include "datmo_fusion/ros/stage/tracker_stage.h"
-#include "datmo_fusion/ros/stage/v2x_stage.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 #include "datmo_fusion/ros/station_wire.h"
 #include "datmo_fusion/ros/stereo_camera_options.h"
 #include "datmo_fusion/ros/vehicle_options.h"
@@ -78,43 +61,59 @@ constexpr const char* kHead =
 constexpr const char* kPublicHead = "# Public parameters\n\n";
 constexpr const char* kExpertHead = "# Expert parameters\n\n";
 
-std::vector<Section> sections() {
+/// Of all stages.
+std::vector<Section> commonSections() {
   return {section<FrameOptions>("`frames`, of all nodelets"),
           section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf"),
           section<MotionOptions>("`motion`, of all nodelets"),
           section<ScannerOptions>("`scanner`, of all nodelets"),
           section<StereoSceneOptions>("`stereo_camera`, of all nodelets"),
-          section<VehicleOptions>("`vehicle`, of all nodelets"),
-          section<CloudToScanStageOptions>("`cloud_to_scan`"),
-          section<ScanMergeStageOptions>("`scan_merge`"),
-          section<LidarGridStageOptions>("`lidar_grid`"),
-          section<StereoAlignmentStageOptions>("`stereo_alignment`"),
-          section<StereoGridStageOptions>("`stereo_grid`"),
-          section<MonoGridStageOptions>("`mono_grid`"),
-          section<GridFusionStageOptions>("`grid_fusion`"),
-          section<GridSlamStageOptions>("`grid_slam`"),
-          section<MapFusionStageOptions>("`map_fusion`"),
-          section<RoadBorderStageOptions>("`road_border`"),
-          section<MovingObjectsStageOptions>("`moving_objects`"),
-          section<LoopClosingStageOptions>("`loop_closing`"),
-          section<StaticPointsStageOptions>("`static_points`"),
-          section<PointVelocityStageOptions>("`point_velocity`"),
-          section<StereoObjectsStageOptions>("`stereo_objects`"),
-          section<CloudObjectsStageOptions>("`cloud_objects`"),
-          section<RadarObjectsStageOptions>("`radar_objects`"),
-          section<MonoClassifierStageOptions>("`mono_classifier`"),
-          section<ObjectFusionStageOptions>("`object_fusion`"),
-          section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),
-          section<TrackFusionStageOptions>("`track_fusion`"),
-          section<EarthFrameStageOptions>("`earth_frame`"),
-          section<V2xStageOptions>("`v2x`"),
-          section<RiskStageOptions>("`risk`"),
-          section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
+          section<VehicleOptions>("`vehicle`, of all nodelets")};
+}
+
+/// Of each stage that has one, in the order of the graph; those of one type share theirs.
+std::vector<Section> stageSections() {
+  std::map<std::string, Section> of_type;
+  forEachStage([&of_type](auto tag, const std::string& type) {
+    using Stage = typename decltype(tag)::Stage;
+    if constexpr (!std::is_same_v<Stage, MotionStage>) {  // `motion` is a section of all stages
+      of_type[type] = section<typename Stage::Options>("");
+    }
+  });
+  std::vector<std::string> order;
+  for (const GraphStage& stage : stageGraph(allSwitches())) {
+    const auto found = of_type.find(stage.type);
+    if (found == of_type.end()) {
+      continue;
+    }
+    std::string& nodelets = found->second.nodelets;
+    if (nodelets.empty()) {
+      order.push_back(stage.type);
+    }
+    nodelets += (nodelets.empty() ? "`" : ", `") + stage.name + "`";
+  }
+  std::vector<Section> sections;
+  std::transform(order.begin(), order.end(), std::back_inserter(sections),
+                 [&of_type](const std::string& type) { return of_type[type]; });
+  return sections;
+}
+
+/// Of nodelets that are no stages.
+std::vector<Section> otherSections() {
+  return {section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),
           section<CameraViewOptions>("`camera_view`"),
           section<DeviceOptions>("`device`"),
           section<StationWireOptions>("`v2x_wire`"),
           section<PartClocksOptions>("`stack`")};
+}
+
+std::vector<Section> sections() {
+  std::vector<Section> all = commonSections();
+  for (const std::vector<Section>& more : {stageSections(), otherSections()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 /// The sections that have such options.

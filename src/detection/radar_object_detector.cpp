@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/disjoint_sets.h"
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/range_bearing.h"
 #include "datmo_fusion/common/square.h"
 
@@ -20,8 +21,6 @@ constexpr double kBearingSigmas = 3.0;
 
 /// Of what shows no extent, m.
 constexpr double kMinExtent = 0.5;
-
-Point2 acrossOf(const Point2& along) { return {-along.y(), along.x()}; }
 
 }  // namespace
 
@@ -59,7 +58,7 @@ void RadarObjectDetectorOptions::visit(OptionVisitor& visitor) {
       wrong_velocity, {0.0, 1.0});
 }
 
-struct RadarObjectDetector::Echo {
+struct RadarObjectDetector::Detection {
   Point2 position = Point2::Zero();
   double range = 0.0;             ///< m, from the radar
   double speed = 0.0;             ///< m/s over the ground, away from the radar
@@ -69,27 +68,28 @@ struct RadarObjectDetector::Echo {
 RadarObjectDetector::RadarObjectDetector(const Checked<RadarObjectDetectorOptions>& options)
     : options_(*options) {}
 
-std::vector<RadarObjectDetector::Echo> RadarObjectDetector::echoesOf(const RadarCycle& cycle,
-                                                                     const Twist2& twist) const {
+std::vector<RadarObjectDetector::Detection> RadarObjectDetector::detectionsOf(
+    const RadarCycle& cycle, const Twist2& twist) const {
   const Point2 lever = cycle.radar_in_base.position();
-  const Point2 own = Point2(twist.forward_speed, 0.0) + twist.yaw_rate * acrossOf(lever);
-  std::vector<Echo> echoes;
+  const Point2 own = Point2(twist.forward_speed, 0.0) + twist.yaw_rate * perpendicular(lever);
+  std::vector<Detection> detections;
   for (const RadarReturn& one : cycle.returns) {
     const Point2 along =
         cycle.radar_in_base.rotate(Point2(std::cos(one.bearing), std::sin(one.bearing)));
-    Echo echo;
-    echo.position = lever + one.range * along;
-    echo.range = one.range;
-    echo.speed = one.range_rate + own.dot(along);
+    Detection detection;
+    detection.position = lever + one.range * along;
+    detection.range = one.range;
+    detection.speed = one.range_rate + own.dot(along);
     // A bearing that is off takes another part of both motions across for one along.
-    echo.bearing_variance = square(options_.bearing_sigma) *
-                            (square(own.dot(acrossOf(along))) + square(options_.tangential_sigma));
-    echoes.push_back(echo);
+    detection.bearing_variance =
+        square(options_.bearing_sigma) *
+        (square(own.dot(perpendicular(along))) + square(options_.tangential_sigma));
+    detections.push_back(detection);
   }
-  return echoes;
+  return detections;
 }
 
-bool RadarObjectDetector::areNear(const Echo& a, const Echo& b) const {
+bool RadarObjectDetector::areNear(const Detection& a, const Detection& b) const {
   const double apart = options_.cluster_distance +
                        kBearingSigmas * options_.bearing_sigma * std::max(a.range, b.range);
   return std::abs(a.speed - b.speed) <= options_.cluster_speed &&
@@ -97,11 +97,11 @@ bool RadarObjectDetector::areNear(const Echo& a, const Echo& b) const {
 }
 
 std::vector<std::vector<std::size_t>> RadarObjectDetector::clustersOf(
-    const std::vector<Echo>& echoes) const {
-  std::vector<std::vector<std::size_t>> near(echoes.size());
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
-    for (std::size_t j = 0; j < echoes.size(); ++j) {
-      if (areNear(echoes[i], echoes[j])) {
+    const std::vector<Detection>& detections) const {
+  std::vector<std::vector<std::size_t>> near(detections.size());
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      if (areNear(detections[i], detections[j])) {
         near[i].push_back(j);
       }
     }
@@ -109,8 +109,8 @@ std::vector<std::vector<std::size_t>> RadarObjectDetector::clustersOf(
   const auto is_core = [&](std::size_t i) {
     return near[i].size() >= static_cast<std::size_t>(options_.min_returns);
   };
-  DisjointSets sets(echoes.size());
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
+  DisjointSets sets(detections.size());
+  for (std::size_t i = 0; i < detections.size(); ++i) {
     // One at the edge is of the first core that is near to it.
     bool has_core = is_core(i);
     for (const std::size_t j : near[i]) {
@@ -129,7 +129,7 @@ std::vector<std::vector<std::size_t>> RadarObjectDetector::clustersOf(
   return clusters;
 }
 
-Object RadarObjectDetector::objectOf(const std::vector<Echo>& echoes,
+Object RadarObjectDetector::objectOf(const std::vector<Detection>& detections,
                                      const std::vector<std::size_t>& cluster,
                                      const Point2& radar) const {
   const auto count = static_cast<double>(cluster.size());
@@ -137,16 +137,16 @@ Object RadarObjectDetector::objectOf(const std::vector<Echo>& echoes,
   double speed = 0.0;
   double bearing_variance = 0.0;
   for (const std::size_t i : cluster) {
-    middle += echoes[i].position / count;
-    speed += echoes[i].speed / count;
-    bearing_variance += echoes[i].bearing_variance / count;
+    middle += detections[i].position / count;
+    speed += detections[i].speed / count;
+    bearing_variance += detections[i].bearing_variance / count;
   }
   const Point2 from_radar = middle - radar;
   const Point2 along = from_radar.normalized();
-  const Point2 across = acrossOf(along);
+  const Point2 across = perpendicular(along);
   Eigen::Array2d extent = Eigen::Array2d::Constant(0.5 * kMinExtent);
   for (const std::size_t i : cluster) {
-    const Point2 off = echoes[i].position - middle;
+    const Point2 off = detections[i].position - middle;
     extent = extent.max(Eigen::Array2d(std::abs(off.dot(along)), std::abs(off.dot(across))));
   }
   Object object;
@@ -169,13 +169,13 @@ Object RadarObjectDetector::objectOf(const std::vector<Echo>& echoes,
 }
 
 RadarObjects RadarObjectDetector::detect(const RadarCycle& cycle, const Twist2& twist) const {
-  const std::vector<Echo> echoes = echoesOf(cycle, twist);
+  const std::vector<Detection> detections = detectionsOf(cycle, twist);
   RadarObjects found;
   found.list.stamp = cycle.stamp;
-  found.lone = echoes.size();
-  for (const std::vector<std::size_t>& cluster : clustersOf(echoes)) {
-    found.lone -= cluster.size();
-    Object object = objectOf(echoes, cluster, cycle.radar_in_base.position());
+  found.unclustered = detections.size();
+  for (const std::vector<std::size_t>& cluster : clustersOf(detections)) {
+    found.unclustered -= cluster.size();
+    Object object = objectOf(detections, cluster, cycle.radar_in_base.position());
     if (object.velocity->velocity.norm() < options_.min_speed) {
       ++found.standing;
     } else {

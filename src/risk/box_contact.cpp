@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "datmo_fusion/common/perpendicular.h"
+
 namespace datmo {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr double kTouching = 0.01;
 
 double reachAlong(const Point2& axis, const BodyPose& pose, const BodySize& size) {
   return size.half_length * std::abs(axis.dot(pose.direction)) +
-         size.half_width * std::abs(axis.dot(leftOf(pose.direction)));
+         size.half_width * std::abs(axis.dot(perpendicular(pose.direction)));
 }
 
 BodyPose bodyPose(const Point2& center, double heading) {
@@ -32,8 +34,8 @@ BodySize bodySize(const Box2& box) { return {0.5 * box.length, 0.5 * box.width};
 Separation separation(const BodyPose& a, const BodySize& size_a, const BodyPose& b,
                       const BodySize& size_b) {
   const Point2 apart = b.center - a.center;
-  const std::array<Point2, 4> axes{a.direction, leftOf(a.direction), b.direction,
-                                   leftOf(b.direction)};
+  const std::array<Point2, 4> axes{a.direction, perpendicular(a.direction), b.direction,
+                                   perpendicular(b.direction)};
   Separation best;
   bool first = true;
   for (const Point2& axis : axes) {
@@ -114,11 +116,11 @@ StruckSide struckSide(const BodyPose& a, const BodySize& size_a, const BodyPose&
                       const BodySize& size_b) {
   const Point2 apart = b.center - a.center;
   const double ahead = a.direction.dot(apart);
-  const double aside = leftOf(a.direction).dot(apart);
+  const double aside = perpendicular(a.direction).dot(apart);
   const double gap_ahead =
       std::abs(ahead) - size_a.half_length - reachAlong(a.direction, b, size_b);
   const double gap_aside =
-      std::abs(aside) - size_a.half_width - reachAlong(leftOf(a.direction), b, size_b);
+      std::abs(aside) - size_a.half_width - reachAlong(perpendicular(a.direction), b, size_b);
   if (gap_ahead >= gap_aside) {
     return ahead >= 0.0 ? StruckSide::kFront : StruckSide::kRear;
   }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "datmo_fusion/common/perpendicular.h"
+
 namespace datmo {
 
 namespace {
@@ -95,8 +97,9 @@ BodyPath steered(const BodyPath& host, double lateral) {
       continue;
     }
     const BodyPose& own = host.poses[i];
-    path.poses[i] = bodyPose(own.center + 0.5 * lateral * time * time * leftOf(own.direction),
-                             own.heading + std::atan2(lateral * time, speed));
+    path.poses[i] =
+        bodyPose(own.center + 0.5 * lateral * time * time * perpendicular(own.direction),
+                 own.heading + std::atan2(lateral * time, speed));
   }
   return path;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/risk/object_futures.h"
 
@@ -192,7 +193,7 @@ ObjectRisk rssRisk(const Track& track, const BodyPath& host, const BodySize& hos
   const BodySize size = bodySize(track.box);
   const Point2 apart = other.center - pose.center;
   const auto reach = [&](const Point2& axis) { return reachAlong(axis, other, size); };
-  const Point2 left = leftOf(pose.direction);
+  const Point2 left = perpendicular(pose.direction);
   const Gap ahead = gapAlong(pose.direction, host_size.half_length + reach(pose.direction), apart,
                              host.velocity(0), velocityOf(track));
   const Gap aside = gapAlong(left, host_size.half_width + reach(left), apart, host.velocity(0),

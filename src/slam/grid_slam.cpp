@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "datmo_fusion/slam/motion_compensation.h"
+#include "datmo_fusion/slam/scan_labeling.h"
+#include "datmo_fusion/slam/slam_measurement.h"
 
 namespace datmo {
 
@@ -14,113 +16,15 @@ namespace {
 /// Each pass halves what is wrong with the yaw rate, where the beams go all round.
 constexpr int kPassesWithoutOdometry = 4;
 
-/// Without scans the pose follows the odometry before the buffer forgets it, this long (s) behind:
-/// for a scan that is still on its way.
-constexpr double kScanDelay = 0.4 * kOdometryMemory;
-
-/// Of a motion that counts as measured, the largest share that may be extrapolated.
-constexpr double kMaxExtrapolated = 0.5;
-
-/// State of each ray, in order; kUnknown for beams without a hit.
-std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
-  std::vector<PointState> states;
-  states.reserve(scan.rays.size());
+/// m, of the beams with a hit; 0 without any.
+double meanRange(const Scan& scan) {
+  double sum = 0.0;
+  int hits = 0;
   for (const Ray& ray : scan.rays) {
-    const Point2 half_footprint = 0.5 * stepAcross(ray, scan.field.beam_spacing);
-    states.push_back(ray.hit ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
-                             : PointState::kUnknown);
+    sum += ray.hit ? ray.range : 0.0;
+    hits += ray.hit ? 1 : 0;
   }
-  return states;
-}
-
-/// The scan with the scanner's own end points alone, where there are any: what others see is off by
-/// their depth's error, no point to match the pose with, and nothing that hides what is behind.
-Scan measuredScan(const GridMaskedScan& view) {
-  Scan scan = view.scan;
-  if (view.any_measured) {
-    for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-      scan.rays[i].hit = scan.rays[i].hit && view.measured[i];
-    }
-  }
-  return scan;
-}
-
-/// What the map takes of a grid: where beams end on what does not move, and occupied cells. What
-/// others alone have seen is no point to match scans with, and is excluded where it belongs to a
-/// mover, whose depth they blur, or lies in space that the map knows to be free.
-GridUpdate gridUpdateOf(const GridMaskedScan& view, const std::vector<PointState>& states,
-                        const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
-  GridUpdate grid_update;
-  std::vector<Point2> others = view.cells;
-  for (std::size_t i = 0; i < view.scan.rays.size(); ++i) {
-    const Ray& ray = view.scan.rays[i];
-    if (!ray.hit) {
-      continue;
-    }
-    if (view.any_measured && !view.measured[i]) {
-      others.push_back(ray.end);
-    } else {
-      (states[i] == PointState::kMoving ? grid_update.movers : grid_update.surfaces)
-          .push_back(ray.end);
-    }
-  }
-  std::vector<Point2>& target = view.any_measured ? grid_update.cells : grid_update.surfaces;
-  for (const Point2& position : excludeConnectedTo(grid_update.movers, grid, others)) {
-    if (map.judge(base_in_map * position) != PointState::kMoving) {
-      target.push_back(position);
-    }
-  }
-  grid_update.refuted = view.refuted;
-  grid_update.viewpoint = view.scan.scanner_in_base.position();
-  return grid_update;
-}
-
-/// Beams of the scan that have no ray.
-std::vector<std::uint32_t> blindBeams(const Scan& scan) {
-  std::vector<std::uint32_t> blind;
-  std::uint32_t beam = 0;
-  for (const Ray& ray : scan.rays) {
-    for (; beam < ray.beam; ++beam) {
-      blind.push_back(beam);
-    }
-    beam = ray.beam + 1;
-  }
-  for (; beam < scan.field.beams; ++beam) {
-    blind.push_back(beam);
-  }
-  return blind;
-}
-
-/// Removes the beams of `measured` whose ends the grid does not confirm, if there are others:
-/// sensors that contradict each other give no evidence, neither of occupied nor of free space.
-void removeConflictingBeams(const Scan& measured, const GridMaskedScan& view, Scan& scan,
-                            std::vector<PointState>& states) {
-  if (!view.any_measured) {
-    return;
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    if (!measured.rays[i].hit || view.measured[i]) {
-      scan.rays[kept] = scan.rays[i];
-      states[kept] = states[i];
-      ++kept;
-    }
-  }
-  scan.rays.resize(kept);
-  states.resize(kept);
-}
-
-LabeledScan label(const Scan& scan, const std::vector<PointState>& states,
-                  const PoseWithCovariance& base_in_map) {
-  LabeledScan result{scan.stamp, base_in_map,      scan.scanner_in_base,
-                     scan.field, blindBeams(scan), {}};
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    const Ray& ray = scan.rays[i];
-    if (ray.hit) {
-      result.points.push_back({ray.end, ray.range, ray.bearing, ray.beam, states[i]});
-    }
-  }
-  return result;
+  return hits > 0 ? sum / hits : 0.0;
 }
 
 }  // namespace
@@ -150,59 +54,76 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
 GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
     : options_(*options),
       matcher_(options->matcher),
-      map_(options->map),
-      odometry_(options->odometry_hold, kOdometryMemory),
       random_(static_cast<std::uint64_t>(options->seed)),
-      filter_(options->pose, options->motion),
-      drift_(noDrift()),
-      drift_of_left_map_(drift_) {}
+      tracker_(options->pose, options->motion, options->odometry_hold),
+      maps_(options->map, options->recovery, tracker_.filter().scalePrior()) {}
 
-void GridSlam::addOdometry(const OdometrySample& sample) {
-  odometry_.add(sample);
-  if (stamp_ && secondsBetween(*stamp_, sample.stamp) > 2.0 * kScanDelay) {
-    const Stamp behind = sample.stamp + -kScanDelay;
-    predict(behind);
-    stamp_ = behind;
+void GridSlam::addOdometry(const OdometrySample& sample) { follow(tracker_.addOdometry(sample)); }
+
+bool GridSlam::follow(const PoseTracker::Prediction& prediction) {
+  if (prediction.anchored && maps_.isSearching()) {
+    maps_.returnToLeftMap();
   }
+  return prediction.by_odometry;
+}
+
+SlamResult GridSlam::process(const Scan& scan) { return process(SlamMeasurement{scan}); }
+
+SlamResult GridSlam::process(const SensorGrid& grid, const Scan& scan) {
+  return process(SlamMeasurement{scan, &grid});
+}
+
+SlamResult GridSlam::process(const SlamMeasurement& measurement) {
+  SlamResult result;
+  const Stamp stamp = measurement.scan.stamp;
+  const bool is_first = !tracker_.hasBegun();
+  if (!is_first) {
+    result.odometry_used = predict(stamp);
+  } else if (maps_.hasPriorMap()) {
+    tracker_.restartAt(maps_.startInPriorMap(stamp));
+  }
+  const Scan scan = is_first ? compensated(measurement.scan) : locate(measurement, result);
+  const PoseWithCovariance base_in_map = maps_.inFirstMap(tracker_.pose());
+  followDrift(base_in_map, scan, result);
+  write(measurement, scan, base_in_map, result);
+  result.odometry_errors = tracker_.filter().errors();
+  result.localization = maps_.localization();
+  result.searches_prior_map = maps_.isSearchingPriorMap();
+  tracker_.keepScan(stamp, !scan.rays.empty(), !maps_.isSearching());
+  search(stamp);
+  result.maps_begun = maps_.mapsBegun();
+  return result;
 }
 
 bool GridSlam::predict(Stamp stamp) {
-  const double seconds = secondsBetween(*stamp_, stamp);
-  const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
-  const double extrapolated = std::min(odometry_.overdue(stamp), seconds);
-  if (!measured && isGap(seconds)) {
-    filter_.predictGap(seconds, odometry_.twistAt(stamp));
-  } else if (!measured) {
-    filter_.predictUnmeasured(seconds);
-  } else if (!odometry_.measuresSpeed()) {
-    filter_.predictTurn(*measured, seconds);
-  } else if (extrapolated > 0.0) {
-    extrapolate(stamp, extrapolated);
-  } else {
-    filter_.predictMeasured(*measured, seconds);
+  if (tracker_.undoGap(stamp, maps_.isSearching())) {
+    maps_.returnToLeftMap();
   }
-  if (const auto corrected = anchor_.correction(stamp, filter_, odometry_)) {
-    if (recovery_) {
-      returnToMap();
-    }
-    filter_ = *corrected;
-    return true;
+  const bool by_odometry = follow(tracker_.predictTo(stamp));
+  if (tracker_.isLostInGap(stamp, options_.recovery)) {
+    leaveMap(stamp);
   }
-  return measured && odometry_.measuresSpeed() && extrapolated <= kMaxExtrapolated * seconds;
+  maps_.map().centerOn(tracker_.pose().pose.position());
+  return by_odometry;
 }
 
-void GridSlam::extrapolate(Stamp stamp, double seconds) {
-  const Stamp due = stamp + -seconds;
-  const OdometrySample& newest = *odometry_.newest();
-  if (due > *stamp_) {
-    const auto measured = odometry_.motion(*stamp_, due, filter_.errors(), estimatedSpeed());
-    filter_.predictMeasured(measured.value_or(Pose2()), secondsBetween(*stamp_, due));
-  } else if (newest.stamp > late_odometry_ && newest.twist_measured) {
-    filter_.observeVelocity(filter_.errors().correct(newest.twist),
-                            std::max(0.0, secondsBetween(newest.stamp, *stamp_)));
+void GridSlam::leaveMap(Stamp stamp) {
+  if (maps_.isSearchingPriorMap()) {
+    tracker_.forgetAnchor();
+  } else if (!maps_.isSearching()) {
+    tracker_.awaitOdometryOfGap(stamp);
   }
-  late_odometry_ = newest.stamp;
-  filter_.predictUnmeasured(seconds);
+  tracker_.restartAt(maps_.leave(tracker_.pose(), stamp));
+}
+
+void GridSlam::search(Stamp stamp) {
+  const MapKeeper::SearchStep step = maps_.search(tracker_.pose(), stamp);
+  if (step.found) {
+    tracker_.restartAt(*step.found);
+  }
+  if (step.found || step.gave_up) {
+    tracker_.forgetAnchor();
+  }
 }
 
 Scan GridSlam::compensated(const Scan& scan) const {
@@ -210,87 +131,60 @@ Scan GridSlam::compensated(const Scan& scan) const {
   if (!options_.motion_compensation || duration == 0.0) {
     return scan;
   }
-  const auto measured =
-      odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors(), estimatedSpeed());
-  return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
+  return compensateMotion(scan, tracker_.twistDuring(scan.stamp, duration));
 }
 
-GridMaskedScan GridSlam::viewOf(const Measurement& measurement,
-                                const Scan& compensated_scan) const {
-  if (measurement.grid != nullptr) {
-    return maskScanWithGrid(*measurement.grid, compensated_scan, options_.grid_ends);
-  }
-  return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}, {}};
-}
-
-Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
-  const PoseFilter predicted = filter_;
+Scan GridSlam::locate(const SlamMeasurement& measurement, SlamResult& result) {
+  const PoseFilter predicted = tracker_.filter();
   const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
-    const Scan seen = measuredScan(viewOf(measurement, scan));
-    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
+    const Scan seen = measuredScan(maskedScan(measurement, scan, options_.grid_ends));
+    const MatchResult match = matcher_.match(maps_.map(), endPoints(seen, options_.max_step),
                                              {predicted.pose(), result.odometry_used}, random_);
-    filter_ = predicted;
-    filter_.correct(match.pose);
+    tracker_.correct(predicted, match.pose);
     result.match = match.quality;
     scan = guessed ? compensated(measurement.scan) : scan;
   }
   return scan;
 }
 
-SlamResult GridSlam::process(const Scan& scan) { return process(Measurement{scan}); }
-
-SlamResult GridSlam::process(const SensorGrid& grid, const Scan& scan) {
-  return process(Measurement{scan, &grid});
+void GridSlam::followDrift(const PoseWithCovariance& base_in_map, const Scan& scan,
+                           SlamResult& result) {
+  MapDrift& drift = maps_.drift();
+  drift.moveTo(base_in_map.pose, result.odometry_used);
+  if (result.match.accepted) {
+    drift.write({scan.stamp, tracker_.pose(), result.match.surface_age, meanRange(scan)});
+  } else {
+    drift.writeUnmatched(tracker_.pose().covariance);
+  }
+  result.drift = drift.covariance();
 }
 
-SlamResult GridSlam::process(const Measurement& measurement) {
-  SlamResult result;
-  const Stamp stamp = measurement.scan.stamp;
-  if (stamp_) {
-    undoGapForOdometry(stamp);
-    result.odometry_used = stamp > *stamp_ && predict(stamp);
-    leaveMapAfterGap(stamp);
-    map_.centerOn(filter_.pose().pose.position());
-  } else if (prior_map_) {
-    searchPriorMap(prior_map_->map, prior_map_->start, stamp);
-  }
-  const Scan scan = stamp_ ? locate(measurement, result) : compensated(measurement.scan);
-  const PoseWithCovariance base_in_map = poseInFirstMap();
-  followDrift(base_in_map, scan, result);
-  const GridMaskedScan view = viewOf(measurement, scan);
+void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
+                     const PoseWithCovariance& base_in_map, SlamResult& result) {
+  const GridMaskedScan view = maskedScan(measurement, scan, options_.grid_ends);
   Scan own = measuredScan(view);
-  std::vector<PointState> states = judge(own, map_, base_in_map.pose);
+  OccupancyMap& map = maps_.map();
+  std::vector<PointState> states = judgeRays(own, map, base_in_map.pose);
   if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
-    GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map_, base_in_map.pose);
+    GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map, base_in_map.pose);
     grid_update.grid = &free_cells;
-    map_.update(grid_update, base_in_map.pose);
+    map.update(grid_update, base_in_map.pose);
   } else {
-    map_.update(scan, states, base_in_map.pose);
+    map.update(scan, states, base_in_map.pose);
   }
-  stamp_ = std::max(stamp, stamp_.value_or(stamp));
-  if (!recovery_) {  // else the pose is in the newer map's frame, and the anchor leads to the older
-    anchor_.keep(stamp, filter_, odometry_);
-  }
-  result.odometry_errors = filter_.errors();
-  result.localization = recovery_ ? recovery_->state() : Localization::kLocated;
-  result.searches_prior_map = recovery_ && recovery_->isInPriorMap();
   removeConflictingBeams(scan, view, own, states);
-  if (recovery_) {
+  if (maps_.isSearching()) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   }
-  result.labeled_scan = label(own, states, base_in_map);
-  rememberScan(scan);
-  recover(stamp);
-  result.maps_begun = maps_begun_;
-  return result;
+  result.labeled_scan = labelScan(own, states, base_in_map);
 }
 
 void GridSlam::reset() {
   GridSlam anew(options_);
-  anew.prior_map_ = prior_map_;
+  anew.maps_.sharePriorMap(maps_);
   *this = std::move(anew);
 }
 

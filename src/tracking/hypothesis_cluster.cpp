@@ -2,6 +2,7 @@
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <tuple>
@@ -110,6 +111,21 @@ void append(const GlobalHypothesis& other, std::vector<GlobalHypothesis>& hypoth
   }
 }
 
+[[maybe_unused]] bool isSorted(const HypothesisCluster& cluster) {
+  return !cluster.hypotheses.empty() &&
+         std::is_sorted(cluster.hypotheses.begin(), cluster.hypotheses.end(),
+                        [](const GlobalHypothesis& better, const GlobalHypothesis& worse) {
+                          return better.log_weight > worse.log_weight;
+                        });
+}
+
+[[maybe_unused]] bool haveCommonTarget(const HypothesisCluster& a, const HypothesisCluster& b) {
+  return std::any_of(a.trees.begin(), a.trees.end(), [&b](const TrackTree& one) {
+    return std::any_of(b.trees.begin(), b.trees.end(),
+                       [&one](const TrackTree& other) { return one.number() == other.number(); });
+  });
+}
+
 }  // namespace
 
 std::vector<double> HypothesisCluster::probabilities() const {
@@ -134,6 +150,7 @@ HypothesisCluster singleTarget(TrackTree tree) {
 }
 
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max) {
+  assert(max > 0 && isSorted(a) && isSorted(b) && !haveCommonTarget(a, b));
   const std::size_t pairs = a.hypotheses.size() * b.hypotheses.size();
   if (b.hypotheses.size() == 1 && pairs <= max) {
     append(b.hypotheses.front(), a.hypotheses);  // as of most: of one that nothing is to decide of

@@ -50,15 +50,26 @@ Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& 
           predicted.covariance.block<2, 2>(2, 2) + measured.covariance};
 }
 
-// With the position p and the rest r of the state, a motion is p' = p + A r and r' = B r. What is
-// of the rest comes in fours.
+// With the position p and the rest r of the state x = (p, r), a motion is x' = F x + noise with
+//
+//     F = | I  A |    P = | Ppp  Ppr |    Q = | Qpp  Qpr |
+//         | 0  B |        | Prp  Prr |        | Qrp  Qrr |
+//
+// so that of P' = F P F^T + Q there are left, block by block and without what is 0 or 1 in F:
+//
+//     p' = p + A r                  r' = B r
+//     Prr' = B Prr B^T + Qrr
+//     Ppr' = M B^T + Qpr            with M = Ppr + A Prr
+//     Ppp' = Ppp + A Prp + M A^T + Qpp
+//
+// What is of the rest comes in fours: a column of B, Prr or Qrr, a row of Ppr, M or Qpr.
 DATMO_FUSION_WIDE
 void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEstimate& result) {
   static_assert(kTrackState == 6, "position, and four others");
-  const auto& a = motion.transition;  // its upper right
-  const double* b[4];                 // columns
-  const double* rest[4];
-  FourDoubles turned[4];  // columns of B times the rest
+  const auto& a = motion.transition;  // its upper right is A
+  const double* b[4];                 // columns of B
+  const double* rest[4];              // columns of Prr
+  FourDoubles b_rest[4];              // columns of B Prr
 #pragma GCC unroll 4
   for (int j = 0; j < 4; ++j) {
     b[j] = motion.transition.data() + kTrackState * (2 + j) + 2;
@@ -66,46 +77,46 @@ void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEst
   }
 #pragma GCC unroll 4
   for (int j = 0; j < 4; ++j) {
-    turned[j] = four(b[0]) * rest[j][0] + four(b[1]) * rest[j][1] + four(b[2]) * rest[j][2] +
+    b_rest[j] = four(b[0]) * rest[j][0] + four(b[1]) * rest[j][1] + four(b[2]) * rest[j][2] +
                 four(b[3]) * rest[j][3];
   }
   TrackCovariance& covariance = result.covariance;
 #pragma GCC unroll 4
-  for (int j = 0; j < 4; ++j) {
+  for (int j = 0; j < 4; ++j) {  // Prr' = (B Prr) B^T + Qrr
     double* column = covariance.data() + kTrackState * (2 + j) + 2;
     const double* noise = motion.noise.data() + kTrackState * (2 + j) + 2;
-    four(column) = turned[0] * b[0][j] + turned[1] * b[1][j] + turned[2] * b[2][j] +
-                   turned[3] * b[3][j] + four(noise);
+    four(column) = b_rest[0] * b[0][j] + b_rest[1] * b[1][j] + b_rest[2] * b[2][j] +
+                   b_rest[3] * b[3][j] + four(noise);
   }
   const double* r = estimate.mean.data() + 2;
-  four(result.mean.data() + 2) =
+  four(result.mean.data() + 2) =  // r' = B r
       four(b[0]) * r[0] + four(b[1]) * r[1] + four(b[2]) * r[2] + four(b[3]) * r[3];
 
-  FourDoubles cross[2];  // of a component of the position with the rest
-  FourDoubles moved[2];
+  FourDoubles cross[2];  // rows of Ppr
+  FourDoubles m[2];      // rows of M
 #pragma GCC unroll 2
   for (int i = 0; i < 2; ++i) {
     const auto before = estimate.covariance.row(i).tail<4>();
     const auto noise = motion.noise.row(i).tail<4>();
     cross[i] = FourDoubles{before[0], before[1], before[2], before[3]};
-    moved[i] = cross[i] + (four(rest[0]) * a(i, 2) + four(rest[1]) * a(i, 3) +
-                           four(rest[2]) * a(i, 4) + four(rest[3]) * a(i, 5));
-    const FourDoubles after = four(b[0]) * moved[i][0] + four(b[1]) * moved[i][1] +
-                              four(b[2]) * moved[i][2] + four(b[3]) * moved[i][3] +
+    m[i] = cross[i] + (four(rest[0]) * a(i, 2) + four(rest[1]) * a(i, 3) + four(rest[2]) * a(i, 4) +
+                       four(rest[3]) * a(i, 5));
+    const FourDoubles after = four(b[0]) * m[i][0] + four(b[1]) * m[i][1] + four(b[2]) * m[i][2] +
+                              four(b[3]) * m[i][3] +
                               FourDoubles{noise[0], noise[1], noise[2], noise[3]};
 #pragma GCC unroll 4
-    for (int j = 0; j < 4; ++j) {
+    for (int j = 0; j < 4; ++j) {  // Ppr' = M B^T + Qpr
       covariance(i, 2 + j) = after[j];
     }
-    result.mean[i] =
+    result.mean[i] =  // p' = p + A r
         estimate.mean[i] + (a(i, 2) * r[0] + a(i, 3) * r[1] + a(i, 4) * r[2] + a(i, 5) * r[3]);
 #pragma GCC unroll 2
-    for (int j = 0; j <= i; ++j) {
-      const double along = cross[j][0] * a(i, 2) + cross[j][1] * a(i, 3) + cross[j][2] * a(i, 4) +
-                           cross[j][3] * a(i, 5);
-      const double across = a(j, 2) * moved[i][0] + a(j, 3) * moved[i][1] + a(j, 4) * moved[i][2] +
-                            a(j, 5) * moved[i][3];
-      covariance(j, i) = estimate.covariance(j, i) + along + across + motion.noise(j, i);
+    for (int j = 0; j <= i; ++j) {  // Ppp' = Ppp + A Prp + M A^T + Qpp
+      const double a_cross = cross[j][0] * a(i, 2) + cross[j][1] * a(i, 3) + cross[j][2] * a(i, 4) +
+                             cross[j][3] * a(i, 5);
+      const double m_a =
+          a(j, 2) * m[i][0] + a(j, 3) * m[i][1] + a(j, 4) * m[i][2] + a(j, 5) * m[i][3];
+      covariance(j, i) = estimate.covariance(j, i) + a_cross + m_a + motion.noise(j, i);
     }
   }
   symmetrize(covariance);

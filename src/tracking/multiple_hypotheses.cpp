@@ -2,6 +2,7 @@
 #include "datmo_fusion/tracking/multiple_hypotheses.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "datmo_fusion/common/disjoint_sets.h"
@@ -207,6 +208,7 @@ std::vector<BestTarget> MultipleHypotheses::findBest() const {
   for (const HypothesisCluster& cluster : clusters_) {
     if (cluster.hypotheses.size() == 1) {
       for (const TrackTree& tree : cluster.trees) {
+        assert(tree.leaves.size() == 1);
         result.push_back({&tree.leaves.front().target, 1.0});
       }
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mutated messages at the doors of all stages, in one process and without a master:
+// Mutated messages at the inputs of all stages, in one process and without a master:
 //   mutate_messages CONFIG.yaml [--seed N] [--drives N] [--seconds S] [--out FILE.json]
 // Drive after drive, with the seeds N, N + 1, ...; each is said when something is wrong with it.
 // The exit code is 1 if there was any.
@@ -67,7 +67,7 @@ std::vector<std::string> run(const Arguments& arguments, datmo::campaign::Tally&
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Mutated messages at the doors of all stages.");
+  CLI::App app("Mutated messages at the inputs of all stages.");
   app.add_option("config", arguments.config, "the sensor set")->required();
   app.add_option("--seed", arguments.seed, "of the first drive");
   app.add_option("--drives", arguments.drives, "how many");

@@ -23,7 +23,7 @@ struct Tally {
   std::string slowest_on;
 };
 
-/// One drive through a World and one graph of stages, with mutated messages at its doors.
+/// One drive through a World and one graph of stages, with mutated messages at its inputs.
 class MutatedDrive {
  public:
   /// `seed`: of all that is drawn, the graph included.

@@ -32,13 +32,13 @@ constexpr double kAfter = 6.0;               // s, with the load gone
 constexpr double kMaxMemoryGrowth = 1000.0;  // MiB: full queues of clouds and lists, several times
 
 /// A stage and the topics that it takes of those that are sent, as its diagnostics call them.
-struct Door {
-  std::string stage;
+struct LoadedStage {
+  std::string name;
   std::vector<std::string> topics;
   std::vector<std::string> inputs;
 };
 
-const std::vector<Door> kDoors{
+const std::vector<LoadedStage> kLoadedStages{
     {"grid_slam", {"scan", "odometry"}, {"scan", "odometry"}},
     {"stereo_grid", {"stereo/points2"}, {"points2"}},
     {"stereo_tracker", {"objects/stereo"}, {"objects"}},
@@ -46,26 +46,26 @@ const std::vector<Door> kDoors{
 
 class LoadTest : public testing::Test {
  protected:
-  double received(const Door& door) const {
+  double received(const LoadedStage& stage) const {
     double sum = 0.0;
-    for (const std::string& input : door.inputs) {
-      sum += drive_.diagnostic(door.stage, input + " received");
+    for (const std::string& input : stage.inputs) {
+      sum += drive_.diagnostic(stage.name, input + " received");
     }
     return sum;
   }
 
-  double lost(const Door& door) const {
+  double lost(const LoadedStage& stage) const {
     double sum = 0.0;
-    for (const std::string& input : door.inputs) {
-      sum += drive_.diagnostic(door.stage, "lost on " + input);
+    for (const std::string& input : stage.inputs) {
+      sum += drive_.diagnostic(stage.name, "lost on " + input);
     }
     return sum;
   }
 
   /// prepareMotion has sent one before the drive began.
-  double sent(const Door& door) const {
-    double sum = door.stage == "grid_slam" ? 1.0 : 0.0;
-    for (const std::string& topic : door.topics) {
+  double sent(const LoadedStage& stage) const {
+    double sum = stage.name == "grid_slam" ? 1.0 : 0.0;
+    for (const std::string& topic : stage.topics) {
       sum += static_cast<double>(drive_.sent(topic));
     }
     return sum;
@@ -83,8 +83,8 @@ class LoadTest : public testing::Test {
 
   std::map<std::string, std::size_t> sentByTopic() const {
     std::map<std::string, std::size_t> result;
-    for (const Door& door : kDoors) {
-      for (const std::string& topic : door.topics) {
+    for (const LoadedStage& stage : kLoadedStages) {
+      for (const std::string& topic : stage.topics) {
         result[topic] = drive_.sent(topic);
       }
     }
@@ -137,16 +137,16 @@ class LoadTest : public testing::Test {
     return most;
   }
 
-  nlohmann::json doors() const {
+  nlohmann::json stages() const {
     nlohmann::json list = nlohmann::json::array();
-    for (const Door& door : kDoors) {
-      list.push_back({{"stage", door.stage},
-                      {"sent", sent(door)},
-                      {"received", received(door)},
-                      {"lost", lost(door)},
-                      {"stale", drive_.diagnostic(door.stage, "dropped: stale_message")},
-                      {"dropped", drive_.diagnostic(door.stage, "dropped")},
-                      {"processed", drive_.diagnostic(door.stage, "processed")}});
+    for (const LoadedStage& stage : kLoadedStages) {
+      list.push_back({{"stage", stage.name},
+                      {"sent", sent(stage)},
+                      {"received", received(stage)},
+                      {"lost", lost(stage)},
+                      {"stale", drive_.diagnostic(stage.name, "dropped: stale_message")},
+                      {"dropped", drive_.diagnostic(stage.name, "dropped")},
+                      {"processed", drive_.diagnostic(stage.name, "processed")}});
     }
     return list;
   }
@@ -164,26 +164,37 @@ class LoadTest : public testing::Test {
     return {{"tracks", lists}, {"memory_mib", memory}};
   }
 
+  /// To the console, and with the whole drive to the file that the parameter `out` names.
+  void write(nlohmann::json figures) const {
+    std::cout << figures.dump(1) << "\n";
+    const auto out = parameter<std::string>("~out", "");
+    if (!out.empty()) {
+      figures["samples"] = samples();
+      std::ofstream(out) << figures.dump() << "\n";
+    }
+  }
+
+  /// Of this test, or the default.
+  template <typename Value>
+  static Value parameter(const std::string& name, Value value) {
+    ros::param::get(name, value);
+    return value;
+  }
+
   PacedDrive drive_;
 };
 
 TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
-  double load_seconds = 3.0;
-  double nominal_seconds = 3.0;
-  std::string out;
-  ros::param::get("~seconds", load_seconds);
-  ros::param::get("~nominal_seconds", nominal_seconds);
-  ros::param::get("~out", out);
   PacedRates load = kLoad;
-  ros::param::get("~objects", load.objects);
+  load.objects = parameter("~objects", load.objects);
   ASSERT_TRUE(drive_.start({"stereo_grid", "grid_fusion", "tracker", "stereo_tracker",
                             "track_fusion", "road_border", "risk"}));
   ASSERT_TRUE(drive_.run(120.0, kNominal, [this] { return !drive_.received().empty(); }));
 
   const double begin = drive_.now();
-  drive_.run(nominal_seconds, kNominal);
+  drive_.run(parameter("~nominal_seconds", 3.0), kNominal);
   const double loaded = drive_.now();
-  drive_.run(load_seconds, load);
+  drive_.run(parameter("~seconds", 3.0), load);
   const double still = drive_.now();
   const pid_t process = processOf("/perception");
   ASSERT_GT(process, 0);
@@ -199,13 +210,13 @@ TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
 
   // Nothing more is sent, so that the diagnostics catch up.
   EXPECT_TRUE(drive_.run(120.0, {}, [this] {
-    return std::all_of(kDoors.begin(), kDoors.end(), [this](const Door& door) {
-      return received(door) + lost(door) == sent(door);
-    });
-  })) << doors().dump(1);
+    return std::all_of(
+        kLoadedStages.begin(), kLoadedStages.end(),
+        [this](const LoadedStage& stage) { return received(stage) + lost(stage) == sent(stage); });
+  })) << stages().dump(1);
 
-  for (const Door& door : kDoors) {
-    EXPECT_GT(lost(door), 0.0) << door.stage << ": more came than fits into its queue";
+  for (const LoadedStage& stage : kLoadedStages) {
+    EXPECT_GT(lost(stage), 0.0) << stage.name << ": more came than fits into its queue";
   }
   const std::vector<double> before = latencies(begin, loaded);
   ASSERT_FALSE(before.empty());
@@ -221,13 +232,8 @@ TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
       {"memory_mib",
        {mostMemory(0.0, loaded), mostMemory(loaded, end), drive_.memory().back().resident}},
       {"nominal_from_to_s", {begin, loaded}},
-      {"doors", doors()}};
-  std::cout << figures.dump(1) << "\n";
-  if (!out.empty()) {
-    nlohmann::json all = figures;
-    all["samples"] = samples();
-    std::ofstream(out) << all.dump() << "\n";
-  }
+      {"stages", stages()}};
+  write(figures);
 }
 
 }  // namespace

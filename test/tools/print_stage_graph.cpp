@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The graph of stages as JSON, for the test that holds perception.launch against it:
-// print_stage_graph [SWITCH...], e.g. low_level_fusion.
+// print_stage_graph [SWITCH...], e.g. low_level_fusion; print_stage_graph --switches: their names.
 #include <iostream>
 #include <map>
 #include <set>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "run_bag/stage_types.h"
 #include <nlohmann/json.hpp>
@@ -62,7 +63,7 @@ nlohmann::json toJson(const datmo::GraphStage& stage) {
   datmo::StageMonitor monitor(stage.name);
   const datmo::TransformBuffer transforms(datmo::StreamOptions().restart_after);
   const auto made =
-      datmo::stageTypes().at(stage.type).make(stage.parameters, {}, {transforms, monitor, {}});
+      datmo::stageTypeNamed(stage.type).make(stage.parameters, {}, {transforms, monitor, {}});
   TopicList topics(stage);
   made->connect(topics);
   return {{"type", stage.type},         {"remaps", remaps},      {"parameters", parameters},
@@ -73,26 +74,24 @@ nlohmann::json toJson(const datmo::GraphStage& stage) {
 
 int main(int count, char** words) {
   const std::set<std::string> on(words + 1, words + count);
-  const auto is_on = [&on](const char* name) { return on.count(name) > 0; };
+  const auto is_on = [&on](const std::string& name) { return on.count(name) > 0; };
+  if (is_on("--switches")) {
+    std::vector<std::string> names;
+    for (const datmo::NamedSwitch& each : datmo::stackSwitches()) {
+      names.push_back(each.name);
+    }
+    std::cout << nlohmann::json(names) << '\n';
+    return 0;
+  }
   datmo::GraphSwitches switches;
+  for (const datmo::NamedSwitch& each : datmo::stackSwitches()) {
+    switches.*each.value = is_on(each.name);
+  }
   switches.scan_from_cloud = is_on("cloud");
-  switches.merge_scans = is_on("merge_scans");
-  switches.map_fusion = is_on("map_fusion");
   switches.stereo = is_on("rectified_images") ? datmo::StereoPoints::kRectifiedImages
                                               : datmo::StereoPoints::kClouds;
-  switches.low_level_fusion = is_on("low_level_fusion");
-  switches.road_border = is_on("road_border");
-  switches.cloud_objects = is_on("cloud_objects");
-  switches.static_points = is_on("static_points");
-  switches.loop_closing = is_on("loop_closing");
   switches.stereo_objects = is_on("stereo_objects");
-  switches.radar = is_on("radar");
-  switches.mono = is_on("mono");
-  switches.object_fusion = is_on("object_fusion");
   switches.stereo_tracker = is_on("track_fusion");
-  switches.track_fusion = is_on("track_fusion");
-  switches.v2x = is_on("v2x");
-  switches.risk = is_on("risk");
   nlohmann::json stages = nlohmann::json::object();
   for (const datmo::GraphStage& stage : stageGraph(switches)) {
     stages[stage.name] = toJson(stage);

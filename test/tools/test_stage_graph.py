@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
 parameters, for every combination of levels, with and without all that goes with any of them; and each in
-the part of the stack that the graph says, where parts run on machines of their own."""
+the part of the stack that the graph says, where parts run on machines of their own. What a new stage lacks
+(doc/development.md) is said by name."""
 
 import collections
 import itertools
@@ -13,12 +14,20 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 from launch_files import PACKAGE, load
 
+
+def printed(*words):
+    """What print_stage_graph says."""
+    return json.loads(subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *words], check=True,
+                                     stdout=subprocess.PIPE).stdout)
+
+
+SWITCHES = printed("--switches")
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
-OTHERS = ("cloud", "road_border", "static_points", "loop_closing", "cloud_objects", "radar", "v2x", "risk",
-          "map_fusion")
+OTHERS = ("cloud", *(name for name in SWITCHES if name not in (*LEVELS, "merge_scans")))
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
 PARTS = ("sensors", "stereo", "perception", "risk")
 # Nodelets that are no stages of the graph, by part; stereo_points and those of raw images go with stereo_image_proc.
@@ -29,9 +38,7 @@ BESIDE = {"stack": "perception", "stereo_points": "stereo", "left_debayer": "ste
 
 def graph_stages(switches):
     """The stages of the graph: name -> type, remaps, parameters."""
-    text = subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *switches], check=True,
-                          stdout=subprocess.PIPE).stdout
-    return json.loads(text)
+    return printed(*switches)
 
 
 def launched_stages(switches):
@@ -97,6 +104,48 @@ class StageGraph(unittest.TestCase):
         page = (PACKAGE / "doc/live.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
         self.assertEqual({row[:3]: row[3] for row in rows}, crossing_topics())
+
+
+class NewStage(unittest.TestCase):
+    """All that a stage takes is there; a failure names what is missing, and no more."""
+    longMessage = False
+
+    @classmethod
+    def setUpClass(cls):
+        cls.classes = {each.get("name"): each.get("type")
+                       for each in ElementTree.parse(PACKAGE / "nodelets.xml").getroot().iter("class")}
+        cls.stages = sorted(path.name[:-len("_stage.cpp")] for path in (PACKAGE / "src/ros/stage").glob("*_stage.cpp"))
+        cls.graph = graph_stages(["cloud", "rectified_images", "merge_scans", *LEVELS, *OTHERS])
+        cls.launch = ElementTree.parse(PACKAGE / "launch/perception.launch").getroot()
+
+    def test_each_stage_has_an_entry_in_nodelets_xml(self):
+        for name in self.stages:
+            self.assertIn(f"datmo_fusion/{name}", self.classes,
+                          f'src/ros/stage/{name}_stage.cpp: nodelets.xml lacks <class name="datmo_fusion/{name}" ...>')
+
+    def test_each_entry_names_the_class_of_its_stage(self):
+        for name in self.stages:
+            if f"datmo_fusion/{name}" not in self.classes:
+                continue  # the test before says so
+            stage = self.classes[f"datmo_fusion/{name}"].replace("datmo::", "").replace("Nodelet", "Stage")
+            header = f"include/datmo_fusion/ros/stage/{name}_stage.h"
+            self.assertRegex((PACKAGE / header).read_text(encoding="utf-8"), rf"\nclass {stage} ",
+                             f"{header}: lacks class {stage}, which nodelets.xml hosts as datmo_fusion/{name}")
+
+    def test_each_stage_has_a_row_in_the_graph(self):
+        types = {stage["type"] for stage in self.graph.values()}
+        for name in self.stages:
+            self.assertIn(name, types, f"src/ros/stage/stage_graph.cpp lacks a row '{name}'")
+
+    def test_each_row_has_a_node_in_the_launch_file(self):
+        nodes = {node.get("name") for node in self.launch.iter("node")}
+        for name in set(self.graph) - {"stereo_image_proc"}:  # of stereo_images.launch
+            self.assertIn(name, nodes, f'launch/perception.launch lacks <node name="{name}" ...>')
+
+    def test_each_switch_is_one_of_the_launch_file(self):
+        arguments = {each.get("name") for each in self.launch.findall("arg")}
+        for name in SWITCHES:
+            self.assertIn(name, arguments, f'launch/perception.launch lacks <arg name="{name}" ...>')
 
 
 class Parts(unittest.TestCase):

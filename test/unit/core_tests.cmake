@@ -17,6 +17,7 @@ datmo_fusion_add_core_test(common
 datmo_fusion_add_core_test(tracking
   tracking/association_scan_test.cpp
   tracking/association_test.cpp
+  tracking/beam_evidence_test.cpp
   tracking/box_size_test.cpp
   tracking/class_by_speed_test.cpp
   tracking/class_motion_test.cpp
@@ -26,6 +27,7 @@ datmo_fusion_add_core_test(tracking
   tracking/disjoint_sets_test.cpp
   tracking/fused_objects_test.cpp
   tracking/gnn_equality_test.cpp
+  tracking/grazing_test.cpp
   tracking/hypothesis_cluster_test.cpp
   tracking/imm_adaptation_test.cpp
   tracking/imm_filter_test.cpp
@@ -51,8 +53,14 @@ datmo_fusion_add_core_test(tracking
   tracking/tracker_test.cpp
   tracking/transition_model_test.cpp
   tracking/transition_priors_test.cpp
+  tracking/wide_clone_avx2.cpp
+  tracking/wide_clone_default.cpp
+  tracking/wide_functions_test.cpp
   tracking/wrong_classes_test.cpp
 )
+# They include sources of tracking in a namespace of their own.
+set_source_files_properties(tracking/wide_clone_avx2.cpp tracking/wide_clone_default.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/src/tracking)
 target_include_directories(unit_tracking PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 datmo_fusion_run_in_parts(tracking 2)
 

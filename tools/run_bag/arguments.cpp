@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "arguments.h"
 
+#include <algorithm>
+
 #include "argument_checks.h"
 
 #include "datmo_fusion/ros/map_files.h"
@@ -64,11 +66,16 @@ constexpr char kFooter[] =
 
 /// What is on by itself stays on.
 void switchOn(FusionLevel level, Arguments& arguments) {
-  const FusionSwitches switches = fusionSwitches(level);
-  arguments.low_level_fusion |= switches.low_level_fusion;
-  arguments.object_fusion |= switches.object_fusion;
-  arguments.track_fusion |= switches.track_fusion;
-  arguments.road_border |= switches.road_border;
+  const StackSwitches of_level = fusionSwitches(level);
+  for (const NamedSwitch& each : stackSwitches()) {
+    arguments.*each.value |= of_level.*each.value;
+  }
+}
+
+/// `road_border` -> --road-border.
+std::string optionOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "--" + name;
 }
 
 void addFiles(CommandLine& line, Arguments& arguments) {
@@ -110,9 +117,15 @@ void addStages(CommandLine& line, Arguments& arguments) {
                  "goes no further than grid_fusion, grid_slam, loop_closing, road_border,\n"
                  "moving_objects, object_fusion, tracker, track_fusion or risk",
                  "STAGE");
-  CLI::Option* low_level =
-      line.add_flag("--low-level-fusion", arguments.low_level_fusion,
-                    "fuses the grids of scanner and stereo camera before grid_slam");
+  line.addChoice(
+      "--fusion", arguments.fusion, kFusionLevels,
+      "none, low, object or track: the level of fusion, as the single options below have\n"
+      "it; recommended: what measurements recommend, with the road's borders",
+      "LEVEL");
+  for (const NamedSwitch& each : stackSwitches()) {
+    line.add_flag(optionOf(each.name), arguments.*each.value, each.help);
+  }
+  CLI::Option* low_level = line.get_option(optionOf("low_level_fusion"));
   line.add_option("--grid-rule", arguments.grid_rule,
                   "weighted_sum, priority, maximum, log_odds or dempster_shafer")
       ->option_text("RULE")
@@ -120,51 +133,6 @@ void addStages(CommandLine& line, Arguments& arguments) {
   line.add_flag("--write-grids", arguments.write_grids,
                 "writes /grids/lidar, /grids/stereo, /grids/fused and /grids/conflict")
       ->needs(low_level);
-  line.add_flag(
-      "--map-fusion", arguments.map_fusion,
-      "a map of each sensor, and of --map, fused: writes /map/fused, /map/conflicts and,\n"
-      "with --map, /map/changes");
-  line.add_flag(
-      "--road-border", arguments.road_border,
-      "finds the borders of the road, on and beyond which objects are less likely to move,\n"
-      "and writes /road_borders and /objects/dropped");
-  line.add_flag(
-      "--merge-scans", arguments.merge_scans,
-      "makes the scan of those of several scanners (scan_merge/sources), of which `front`\n"
-      "is on front_scan and `rear` on rear_scan, and writes /merged_scan");
-  line.add_flag("--cloud-objects", arguments.cloud_objects,
-                "finds objects in a 3D lidar's clouds and fuses them with the scanner's before\n"
-                "tracker, and writes /objects/cloud and /objects/fused");
-  line.add_flag("--radar", arguments.radar,
-                "finds objects in a radar's detections (radar) and fuses them with the scanner's\n"
-                "before tracker, and writes /objects/radar and /objects/fused");
-  line.add_flag("--mono", arguments.mono,
-                "names the scanner's objects by the images of the left camera before tracker, and\n"
-                "writes /objects/mono and /objects/fused; with --low-level-fusion they tell the\n"
-                "road by its colors, too, and --write-grids writes /grids/mono");
-  line.add_flag("--static-points", arguments.static_points,
-                "writes what stands still: /static_points and /static_scan");
-  line.add_flag(
-      "--loop-closing", arguments.loop_closing,
-      "closes loops behind the SLAM, and writes /map/optimized, /trajectory/optimized and\n"
-      "map -> global_map; --save-map then saves the optimized map");
-  line.addChoice(
-      "--fusion", arguments.fusion, kFusionLevels,
-      "none, low, object or track: the level of fusion, as the single options below and\n"
-      "above have it; recommended: what measurements recommend, with the road's borders",
-      "LEVEL");
-  line.add_flag("--object-fusion", arguments.object_fusion,
-                "fuses the objects of scanner and stereo camera before tracker, and writes\n"
-                "/objects/stereo and /objects/fused");
-  line.add_flag("--track-fusion", arguments.track_fusion,
-                "follows the stereo camera's objects too and fuses the tracks, and writes\n"
-                "/tracks/lidar, /tracks/stereo and /objects/stereo");
-  line.add_flag(
-      "--v2x", arguments.v2x,
-      "takes the tracks of other stations as source v2x of track_fusion, by the map's place\n"
-      "on the earth (gnss), and writes /earth_frame, /tracks/v2x and /stations/own");
-  line.add_flag("--risk", arguments.risk,
-                "assesses the risk of contact with tracks and with what stands, and writes /risks");
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 namespace datmo {
 
-/// What `run_bag` is asked to do.
-struct Arguments {
+/// What `run_bag` is asked to do; the switches of the stack are among it.
+struct Arguments : StackSwitches {
   std::string input;                 ///< bag
   std::string output;                ///< bag
   std::string config;                ///< yaml file of a sensor set
@@ -22,21 +22,8 @@ struct Arguments {
   bool with_truth = false;
   bool quiet = false;
   LastStage last_stage = LastStage::kEnd;
-  FusionLevel fusion = FusionLevel::kNone;  ///< its switches are among those below
-  bool low_level_fusion = false;
-  bool road_border = false;
-  bool static_points = false;
-  bool loop_closing = false;
-  bool cloud_objects = false;
-  bool radar = false;
-  bool mono = false;
-  bool object_fusion = false;
-  bool track_fusion = false;
-  bool v2x = false;
-  bool risk = false;
-  bool merge_scans = false;
-  bool map_fusion = false;
-  bool stereo_from_images = false;  ///< also where the bag has clouds
+  FusionLevel fusion = FusionLevel::kNone;  ///< its switches are among those of the stack
+  bool stereo_from_images = false;          ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;      ///< of fusion, in place of the yaml file's; empty: that one
   std::string map;            ///< file to start in; empty: none

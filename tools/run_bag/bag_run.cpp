@@ -89,19 +89,7 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const G
 /// What the command line says alone.
 GraphSwitches switchesOf(const Arguments& arguments) {
   GraphSwitches switches;
-  switches.low_level_fusion = arguments.low_level_fusion;
-  switches.road_border = arguments.road_border;
-  switches.static_points = arguments.static_points;
-  switches.loop_closing = arguments.loop_closing;
-  switches.cloud_objects = arguments.cloud_objects;
-  switches.radar = arguments.radar;
-  switches.mono = arguments.mono;
-  switches.object_fusion = arguments.object_fusion;
-  switches.track_fusion = arguments.track_fusion;
-  switches.v2x = arguments.v2x;
-  switches.risk = arguments.risk;
-  switches.merge_scans = arguments.merge_scans;
-  switches.map_fusion = arguments.map_fusion;
+  static_cast<StackSwitches&>(switches) = arguments;
   return switches;
 }
 

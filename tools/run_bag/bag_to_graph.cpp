@@ -31,7 +31,7 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
       drive_(drive),
       output_(output),
       write_grids_(arguments.write_grids),
-      refusals_(graph.doors()),
+      refusals_(graph.inputMonitors()),
       text_(arguments.text) {
   readMotion(topics);
   readScans(topics);

@@ -73,8 +73,8 @@ GraphRunner::GraphRunner(const SensorSet& sensors, const GraphSwitches& switches
 
 void GraphRunner::addStage(const GraphStage& row, const SensorSet& sensors) {
   Node node{row, std::make_unique<StageMonitor>(row.name), nullptr, {}, {}, nullptr};
-  node.stage = stageTypes().at(row.type).make(valuesOf(row, sensors), shared_,
-                                              {transforms_, *node.monitor, StepClock()});
+  node.stage = stageTypeNamed(row.type).make(valuesOf(row, sensors), shared_,
+                                             {transforms_, *node.monitor, StepClock()});
   Ports ports(*this, node);
   node.stage->connect(ports);
   node.health = std::make_unique<StageHealth>(
@@ -211,14 +211,14 @@ std::vector<const StageMonitor*> GraphRunner::monitors() const {
   return monitors;
 }
 
-std::vector<const StageMonitor*> GraphRunner::doors() const {
-  std::vector<const StageMonitor*> doors{&inputs_monitor_};
+std::vector<const StageMonitor*> GraphRunner::inputMonitors() const {
+  std::vector<const StageMonitor*> monitors{&inputs_monitor_};
   for (const Node& node : nodes_) {
     if (node.row.type != "tracker") {
-      doors.push_back(node.monitor.get());
+      monitors.push_back(node.monitor.get());
     }
   }
-  return doors;
+  return monitors;
 }
 
 }  // namespace datmo

@@ -83,7 +83,7 @@ class GraphRunner {
 
   /// Those of them that drop a message when it comes, if at all; a tracker does it when it has
   /// waited for too long.
-  std::vector<const StageMonitor*> doors() const;
+  std::vector<const StageMonitor*> inputMonitors() const;
 
   /// How each stage does (stackHealth tells why there are no tracks). Faults are those since the
   /// last call; "nobody publishes it" is said of all that is silent. `now`: when the last message

@@ -26,12 +26,12 @@ void InputRefusals::book(const std::string& topic) {
   Topic& entry = topics_[topic];
   ++entry.received;
   std::set<std::string> reasons;  // several stages may have taken the same message
-  for (const StageMonitor* door : doors_) {
-    for (const auto& [reason, count] : door->drops()) {
-      std::uint64_t& seen = seen_[door][reason];
+  for (const StageMonitor* monitor : monitors_) {
+    for (const auto& [reason, count] : monitor->drops()) {
+      std::uint64_t& seen = seen_[monitor][reason];
       if (count > seen) {
         seen = count;
-        entry.reasons[reason].last = door->lastError();
+        entry.reasons[reason].last = monitor->lastError();
         reasons.insert(reason);
       }
     }

@@ -25,8 +25,9 @@ class InputRefusals {
     std::map<std::string, Reason> reasons;
   };
 
-  /// `doors`: of the stages that messages come to first; they must outlive this.
-  explicit InputRefusals(std::vector<const StageMonitor*> doors) : doors_(std::move(doors)) {}
+  /// `monitors`: of the stages that messages come to first; they must outlive this.
+  explicit InputRefusals(std::vector<const StageMonitor*> monitors)
+      : monitors_(std::move(monitors)) {}
 
   /// A message of this topic has been taken; what its stages dropped since the last one was it.
   void book(const std::string& topic);
@@ -37,7 +38,7 @@ class InputRefusals {
   void check() const;
 
  private:
-  std::vector<const StageMonitor*> doors_;
+  std::vector<const StageMonitor*> monitors_;
   std::map<const StageMonitor*, std::map<std::string, std::uint64_t>> seen_;  ///< drops by reason
   std::map<std::string, Topic> topics_;
 };

@@ -21,20 +21,7 @@ const std::vector<std::string> kLiveNodes = {"markers",    "lidar_markers", "ste
                                              "v2x_wire",   "stack"};
 
 /// All stages that there may be.
-std::vector<GraphStage> wholeGraph() {
-  GraphSwitches all;
-  all.stereo = StereoPoints::kRectifiedImages;
-  for (bool GraphSwitches::*const one :
-       {&GraphSwitches::scan_from_cloud, &GraphSwitches::low_level_fusion,
-        &GraphSwitches::road_border, &GraphSwitches::static_points, &GraphSwitches::stereo_objects,
-        &GraphSwitches::cloud_objects, &GraphSwitches::radar, &GraphSwitches::mono,
-        &GraphSwitches::object_fusion, &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion,
-        &GraphSwitches::v2x, &GraphSwitches::risk, &GraphSwitches::merge_scans,
-        &GraphSwitches::map_fusion, &GraphSwitches::loop_closing}) {
-    all.*one = true;
-  }
-  return stageGraph(all);
-}
+std::vector<GraphStage> wholeGraph() { return stageGraph(allSwitches()); }
 
 /// The type of the stage that a section is of; empty for one of no stage.
 std::string typeOf(const std::string& section) {
@@ -124,7 +111,7 @@ void SensorSet::check(const std::string& section) const {
     return;
   }
   try {
-    stageTypes().at(type).check(values(section), shared_);
+    stageTypeNamed(type).check(values(section), shared_);
   } catch (const OptionError& error) {
     throw OptionError(file_ + ": " + section + ": " + error.what());
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -19,7 +18,7 @@ struct StageType {
       make;
 };
 
-/// By the types of the graph's stages.
-const std::map<std::string, StageType>& stageTypes();
+/// By the type of a stage of the graph. Throws std::logic_error for one that nodelets.xml lacks.
+const StageType& stageTypeNamed(const std::string& type);
 
 }  // namespace datmo

@@ -5,8 +5,10 @@
 // two. Where the compiler may (-march with FMA, AArch64), -ffp-contract=off keeps results the same.
 #pragma once
 
-/// Before a function whose time goes into short loops over doubles.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
+/// Before a function whose time goes into short loops over doubles. A test that compares the two
+/// defines it before.
+#if defined(DATMO_FUSION_WIDE)
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define DATMO_FUSION_WIDE __attribute__((target_clones("avx2", "default")))
 #else

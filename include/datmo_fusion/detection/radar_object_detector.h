@@ -43,9 +43,9 @@ struct RadarObjectDetectorOptions {
 
 /// What was found in one cycle.
 struct RadarObjects {
-  ObjectList list;           ///< base_link at the cycle's stamp
-  std::size_t standing = 0;  ///< clusters without motion along the line of sight: left out
-  std::size_t lone = 0;      ///< returns in no cluster
+  ObjectList list;              ///< base_link at the cycle's stamp
+  std::size_t standing = 0;     ///< clusters without motion along the line of sight: left out
+  std::size_t unclustered = 0;  ///< returns in no cluster: noise
 };
 
 /// Objects that move toward or away from a radar: clusters of returns that are near to each other,
@@ -65,12 +65,12 @@ class RadarObjectDetector {
 
  private:
   /// A return in the vehicle's frame.
-  struct Echo;
+  struct Detection;
 
-  std::vector<Echo> echoesOf(const RadarCycle& cycle, const Twist2& twist) const;
-  bool areNear(const Echo& a, const Echo& b) const;
-  std::vector<std::vector<std::size_t>> clustersOf(const std::vector<Echo>& echoes) const;
-  Object objectOf(const std::vector<Echo>& echoes, const std::vector<std::size_t>& cluster,
+  std::vector<Detection> detectionsOf(const RadarCycle& cycle, const Twist2& twist) const;
+  bool areNear(const Detection& a, const Detection& b) const;
+  std::vector<std::vector<std::size_t>> clustersOf(const std::vector<Detection>& detections) const;
+  Object objectOf(const std::vector<Detection>& detections, const std::vector<std::size_t>& cluster,
                   const Point2& radar) const;
 
   RadarObjectDetectorOptions options_;

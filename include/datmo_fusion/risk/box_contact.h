@@ -28,9 +28,6 @@ struct BodySize {
 
 BodySize bodySize(const Box2& box);
 
-/// A direction, a quarter turn to the left.
-inline Point2 leftOf(const Point2& direction) { return {-direction.y(), direction.x()}; }
-
 /// How far a rectangle reaches from its middle along an axis of length 1, m.
 double reachAlong(const Point2& axis, const BodyPose& pose, const BodySize& size);
 

@@ -34,7 +34,10 @@ struct HypothesisCluster {
 /// A cluster of one target that has just been seen for the first time.
 HypothesisCluster singleTarget(TrackTree tree);
 
-/// Both clusters as one, with the `max` likeliest pairs of their hypotheses.
+/// Both clusters as one, with the `max` (1 or more) likeliest pairs of their hypotheses. The
+/// clusters have no target in common, and at least one hypothesis each, sorted and without leaves
+/// that are in none (canonicalize). Their `objects` are to be found anew: those of the first one
+/// stay.
 HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max);
 
 /// Removes leaves of which this is true, in all hypotheses.

@@ -45,6 +45,8 @@ class MultipleHypotheses : public TargetSet {
   void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
                     std::vector<HypothesisCluster>& next);
   std::size_t targets() const;
+  /// The targets of each cluster's best hypothesis, by number. Leaves that are in no hypothesis are
+  /// gone (canonicalize): where there is but one hypothesis, each tree has one leaf.
   std::vector<BestTarget> findBest() const;
 
   TargetOptions target_options_;

@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "rotation_derivative.h"
 #include <Eigen/LU>
+
+#include "datmo_fusion/common/perpendicular.h"
 
 namespace datmo {
 
@@ -18,7 +19,8 @@ Point2 antennaInMap(const EarthFix& fix) { return fix.base_in_map.pose * fix.ant
 /// Of the antenna in the map, m^2: what the pose does not know.
 Eigen::Matrix2d antennaCovariance(const EarthFix& fix) {
   Eigen::Matrix<double, 2, 3> jacobian;
-  jacobian << Eigen::Matrix2d::Identity(), turned(fix.base_in_map.pose.rotate(fix.antenna_in_base));
+  jacobian << Eigen::Matrix2d::Identity(),
+      perpendicular(fix.base_in_map.pose.rotate(fix.antenna_in_base));
   return jacobian * fix.base_in_map.covariance * jacobian.transpose();
 }
 
@@ -134,7 +136,7 @@ void EarthFrameFilter::start() {
   const Pose2 turned_map(0.0, 0.0, heading);
   const double mean_variance = count / weights;  // m^2, of one fix along one axis
   const double shared = options_.correlated_share * mean_variance;
-  const Point2 arm = turned(turned_map.rotate(mean_in_map));
+  const Point2 arm = perpendicular(turned_map.rotate(mean_in_map));
   state_.setZero();
   state_.head<2>() = mean_in_plane - turned_map.rotate(mean_in_map);
   state_(2) = heading;
@@ -170,7 +172,7 @@ void EarthFrameFilter::predict(const EarthFix& fix) {
       shared * (1.0 - kept * kept) * Eigen::Matrix2d::Identity();
   const Pose2 map(state_(0), state_(1), state_(2));
   Eigen::Vector3d turn;  // about the vehicle
-  turn << -turned(map.rotate(fix.base_in_map.pose.position())), 1.0;
+  turn << -perpendicular(map.rotate(fix.base_in_map.pose.position())), 1.0;
   covariance_.topLeftCorner<3, 3>() +=
       distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
   covariance_.topLeftCorner<2, 2>() +=
@@ -182,7 +184,8 @@ bool EarthFrameFilter::update(const EarthFix& fix) {
   const Pose2 map(state_(0), state_(1), state_(2));
   const Point2 antenna = antennaInMap(fix);
   Eigen::Matrix<double, 2, kState> jacobian;
-  jacobian << Eigen::Matrix2d::Identity(), turned(map.rotate(antenna)), Eigen::Matrix2d::Identity();
+  jacobian << Eigen::Matrix2d::Identity(), perpendicular(map.rotate(antenna)),
+      Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d noise =
       (1.0 - options_.correlated_share) * fix.covariance +
       map.rotation() * antennaCovariance(fix) * map.rotation().transpose();

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <string>
 
-#include "rotation_derivative.h"
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -162,9 +162,9 @@ Track StationTracks::inMap(const StationTrackList& list, const StationTrack& the
   const double clock = list.clock_sigma > 0.0 ? list.clock_sigma : options_.clock_sigma;
   const Point2 position = plane_in_map * theirs.position;
   const Point2 velocity = to_map * theirs.velocity;
-  Eigen::Matrix<double, 4, 3> by_frame;    // of the map's x, y and heading in the plane
-  by_frame << -to_map, -turned(position),  //
-      Eigen::Matrix2d::Zero(), -turned(velocity);
+  Eigen::Matrix<double, 4, 3> by_frame;           // of the map's x, y and heading in the plane
+  by_frame << -to_map, -perpendicular(position),  //
+      Eigen::Matrix2d::Zero(), -perpendicular(velocity);
   Eigen::Vector4d by_clock;
   by_clock << velocity, Point2::Zero();
   Eigen::Matrix4d covariance =
@@ -276,8 +276,9 @@ StationTrack toStation(const Track& track, const PoseWithCovariance& map_in_plan
   ours.position = map_in_plane.pose * track.box.center.position();
   ours.velocity = to_plane * track.state.segment<2>(2);
   Eigen::Matrix<double, 4, 3> by_frame;
-  by_frame << Eigen::Matrix2d::Identity(), turned(to_plane * track.box.center.position()),  //
-      Eigen::Matrix2d::Zero(), turned(ours.velocity);
+  by_frame << Eigen::Matrix2d::Identity(),
+      perpendicular(to_plane * track.box.center.position()),  //
+      Eigen::Matrix2d::Zero(), perpendicular(ours.velocity);
   const Eigen::Matrix4d covariance = rotationOfBoth(to_plane) *
                                          track.covariance.topLeftCorner<4, 4>() *
                                          rotationOfBoth(to_plane).transpose() +

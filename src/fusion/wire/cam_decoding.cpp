@@ -54,14 +54,14 @@ void moveToCenter(const std::optional<ItsDirection>& heading, StationTrack& trac
 }  // namespace
 
 StationMessage decode(const Cam& cam, Stamp now, const StationMessageOptions& options) {
-  const Place place = placeOf(cam.position, options);
+  const ReferencePosition reference = referencePositionOf(cam.position, options);
   if (!cam.is_vehicle) {
     throw WireError("no_track", "a CAM of a unit beside the road, which is no track: left out");
   }
   const std::optional<ItsDirection> heading = fromNorth(cam.heading, options.heading_sigma);
   StationTrack track;
   track.covariance.setZero();
-  track.covariance.topLeftCorner<2, 2>() = place.covariance;
+  track.covariance.topLeftCorner<2, 2>() = reference.covariance;
   Velocity velocity = velocityOf(cam.speed, heading, options);
   velocity.velocity *= cam.direction == Cam::kBackward ? -1.0 : 1.0;
   setVelocity(velocity, track);
@@ -79,7 +79,7 @@ StationMessage decode(const Cam& cam, Stamp now, const StationMessageOptions& op
   if (cam.station_type >= kItsMoped && cam.station_type <= kItsTram) {
     moveToCenter(heading, track);
   }
-  StationMessage message{place.plane, {}, 0};
+  StationMessage message{reference.plane, {}, 0};
   message.list.stamp = fromGenerationTime(cam.generation_time, now, options.leap_seconds);
   message.list.station = static_cast<std::uint32_t>(cam.header.station);
   message.list.tracks = {track};

@@ -68,7 +68,7 @@ double dimensionOf(const std::optional<std::int64_t>& dimension) {
              : kItsDecimeter * static_cast<double>(*dimension);
 }
 
-/// Heading as it is told; else that of the motion, as far as that is known.
+/// The heading of the message; else that of the motion, as far as that is known.
 void setHeading(const CpmObject& object, const StationMessageOptions& options,
                 StationTrack& track) {
   std::optional<ItsDirection> heading;
@@ -108,7 +108,7 @@ std::optional<Eigen::Matrix2d> setPosition(const CpmObject& object,
 }
 
 /// None without number or position. At the reference time.
-std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix2d& place,
+std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix2d& reference,
                                     const StationMessageOptions& options) {
   StationTrack track;
   track.covariance.setZero();
@@ -122,7 +122,7 @@ std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix
   const double delay = kMillisecond * static_cast<double>(object.delay);
   const Eigen::Matrix2d velocity = track.covariance.bottomRightCorner<2, 2>();
   track.position -= delay * track.velocity;
-  track.covariance.topLeftCorner<2, 2>() = place + *position + square(delay) * velocity;
+  track.covariance.topLeftCorner<2, 2>() = reference + *position + square(delay) * velocity;
   track.covariance.topRightCorner<2, 2>() = -delay * velocity;
   track.covariance.bottomLeftCorner<2, 2>() = -delay * velocity;
   setHeading(object, options, track);
@@ -143,13 +143,13 @@ std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix
 }  // namespace
 
 StationMessage decode(const Cpm& cpm, const StationMessageOptions& options) {
-  const Place place = placeOf(cpm.position, options);
-  StationMessage message{place.plane, {}, 0};
+  const ReferencePosition reference = referencePositionOf(cpm.position, options);
+  StationMessage message{reference.plane, {}, 0};
   message.list.stamp = fromItsTime(cpm.reference_time, options.leap_seconds);
   message.list.station = static_cast<std::uint32_t>(cpm.header.station);
   message.list.part = static_cast<std::uint32_t>(cpm.segment);
   for (const CpmObject& object : cpm.objects) {
-    if (const std::optional<StationTrack> track = trackOf(object, place.covariance, options)) {
+    if (const std::optional<StationTrack> track = trackOf(object, reference.covariance, options)) {
       message.list.tracks.push_back(*track);
     } else {
       ++message.left_out;

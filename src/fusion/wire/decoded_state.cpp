@@ -33,18 +33,19 @@ UsualSize usualSize(ObjectClass object_class) {
 
 }  // namespace
 
-Place placeOf(const ItsPosition& position, const StationMessageOptions& options) {
+ReferencePosition referencePositionOf(const ItsPosition& position,
+                                      const StationMessageOptions& options) {
   const std::optional<Eigen::Matrix2d> covariance = fromEllipse(position, options.position_sigma);
   if (position.latitude == ItsPosition::kNoLatitude ||
       position.longitude == ItsPosition::kNoLongitude || !covariance) {
     throw WireError("no_position",
                     "a station that does not know where it is, or only to 41 m: left out");
   }
-  GeodeticPosition place = geodeticOf(position.latitude, position.longitude);
-  place.altitude = position.altitude == ItsPosition::kNoAltitude
-                       ? 0.0
-                       : kItsCentimeter * static_cast<double>(position.altitude);
-  return {LocalPlane(place), *covariance};
+  GeodeticPosition geodetic = geodeticOf(position.latitude, position.longitude);
+  geodetic.altitude = position.altitude == ItsPosition::kNoAltitude
+                          ? 0.0
+                          : kItsCentimeter * static_cast<double>(position.altitude);
+  return {LocalPlane(geodetic), *covariance};
 }
 
 Velocity unknownVelocity(const StationMessageOptions& options) {

@@ -11,16 +11,17 @@
 
 namespace datmo {
 
-// What CAM and CPM say of places, motion and size, in our units.
+// What CAM and CPM say of position, motion and size, in our units.
 
 /// Where a station is, and how sure that is.
-struct Place {
+struct ReferencePosition {
   LocalPlane plane;
   Eigen::Matrix2d covariance;  ///< m^2
 };
 
 /// Throws WireError (`no_position`).
-Place placeOf(const ItsPosition& position, const StationMessageOptions& options);
+ReferencePosition referencePositionOf(const ItsPosition& position,
+                                      const StationMessageOptions& options);
 
 struct Velocity {
   Point2 velocity = Point2::Zero();                          ///< m/s, east and north

@@ -18,15 +18,15 @@ namespace {
 /// 36 bytes each at most: below 1,400 bytes, what a datagram may have on Ethernet and ITS-G5.
 constexpr std::size_t kObjectsPerMessage = 35;
 
-/// Less likely classes are not told.
+/// Less likely classes are left out.
 constexpr double kMinClass = 0.01;
 
 ItsPosition positionOf(const StationTrack& own, const Point2& front, const LocalPlane& plane) {
-  const GeodeticPosition place = plane.toGeodetic(front);
+  const GeodeticPosition geodetic = plane.toGeodetic(front);
   ItsPosition position;
-  position.latitude =
-      toItsUnits(toDegrees(place.latitude), kItsGeodetic, -900000000, ItsPosition::kNoLatitude - 1);
-  position.longitude = toItsUnits(toDegrees(normalizeAngle(place.longitude)), kItsGeodetic,
+  position.latitude = toItsUnits(toDegrees(geodetic.latitude), kItsGeodetic, -900000000,
+                                 ItsPosition::kNoLatitude - 1);
+  position.longitude = toItsUnits(toDegrees(normalizeAngle(geodetic.longitude)), kItsGeodetic,
                                   -1800000000, ItsPosition::kNoLongitude - 1);
   setEllipse(own.covariance.topLeftCorner<2, 2>(), position);
   return position;
@@ -53,7 +53,7 @@ Cam camOf(const StationTrackList& list, const StationTrack& own, const ItsPositi
 }
 
 /// A class of the standard's and how likely it is.
-struct ToldClass {
+struct PossibleClass {
   CpmClass::Kind kind;
   CpmClass::Profile profile;
   double probability;
@@ -61,14 +61,14 @@ struct ToldClass {
 
 std::vector<CpmClass> classesOf(const ClassProbabilities& probabilities) {
   const auto of = [&](ObjectClass one) { return probabilities[static_cast<std::size_t>(one)]; };
-  const std::array<ToldClass, 4> told{{
+  const std::array<PossibleClass, 4> possible{{
       {CpmClass::kVehicle, CpmClass::kPedestrian, of(ObjectClass::kVehicle)},
       {CpmClass::kVulnerable, CpmClass::kPedestrian, of(ObjectClass::kPedestrian)},
       {CpmClass::kVulnerable, CpmClass::kBicyclist, of(ObjectClass::kCyclist)},
       {CpmClass::kOther, CpmClass::kPedestrian, of(ObjectClass::kPole) + of(ObjectClass::kUnknown)},
   }};
   std::vector<CpmClass> classes;
-  for (const ToldClass& one : told) {
+  for (const PossibleClass& one : possible) {
     if (one.probability >= kMinClass) {
       classes.push_back({one.kind, one.profile, toItsUnits(one.probability, kItsPercent, 1, 100)});
     }

@@ -26,8 +26,9 @@ void StationMessageOptions::visit(OptionVisitor& visitor) {
                  {0.001, 1.5});
   visitor.number({"unknown_speed_sigma", "m/s", "along each axis, of what tells no speed"},
                  unknown_speed_sigma, {0.1, 100.0});
-  visitor.number({"existence", "1", "probability that an object of no told quality exists"},
-                 existence, {0.0, 1.0});
+  visitor.number(
+      {"existence", "1", "probability that an object exists whose message has no quality"},
+      existence, {0.0, 1.0});
 }
 
 StationMessage decodeStation(std::string_view bytes, Stamp now,

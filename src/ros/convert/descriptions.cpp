@@ -38,6 +38,10 @@ std::string descriptionOf(const sensor_msgs::PointCloud2& cloud) {
          cloud.header.frame_id;
 }
 
+std::string descriptionOf(const datmo_fusion::RadarScan& scan) {
+  return std::to_string(scan.returns.size()) + " returns in frame " + scan.header.frame_id;
+}
+
 std::string descriptionOf(const TrackMessage& track, const std::string& frame) {
   std::ostringstream text;
   text << "id " << track.id << ", " << nameOf(static_cast<ObjectClass>(track.classification))

@@ -2,12 +2,9 @@
 #include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 
 #include <algorithm>
+#include <utility>
 
-#include <boost/make_shared.hpp>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/frames.h"
-#include "datmo_fusion/ros/stage/stage_inputs.h"
 
 namespace datmo {
 
@@ -23,30 +20,22 @@ SharedKeys CloudObjectsStageOptions::sharedKeys() {
 
 CloudObjectsStage::CloudObjectsStage(const Checked<CloudObjectsStageOptions>& options,
                                      const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(*options),
-      transforms_(transforms),
-      monitor_(monitor),
-      detector_(options->detector),
-      runner_(monitor, options->input, "starts over", [this] { motion_.reset(); }),
-      motion_(options->motion, options->frames, runner_) {}
+    : ObjectSource("cloud", *options, transforms, monitor),
+      options_(*options),
+      detector_(options->detector) {}
 
-ObjectArrayPtr CloudObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
-  return runner_.serve("cloud", message, [&] {
-    ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
-    converted.cloud.lidar_in_base =
-        sensorMount(transforms_.core(), options_.frames.base, message.header.frame_id);
-    runner_.check("cloud", message.header.stamp);
-    if (converted.unusable_times) {
-      monitor_.warned(*converted.unusable_times);
-    }
-    const Stamp stamp = toStamp(message.header.stamp);
-    const CloudObjects objects =
-        detector_.detect(converted.cloud, stamp, twistDuring(converted, stamp));
-    show(objects, converted);
-    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
-    runner_.processed(stamp);
-    return array;
-  });
+ObjectList CloudObjectsStage::detect(const sensor_msgs::PointCloud2& message) {
+  ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
+  converted.cloud.lidar_in_base =
+      sensorMount(transforms_.core(), options_.frames.base, message.header.frame_id);
+  checkStamp(message);
+  if (converted.unusable_times) {
+    monitor_.warned(*converted.unusable_times);
+  }
+  const Stamp stamp = toStamp(message.header.stamp);
+  CloudObjects objects = detector_.detect(converted.cloud, stamp, twistDuring(converted, stamp));
+  show(objects, converted);
+  return std::move(objects.list);
 }
 
 std::optional<Twist2> CloudObjectsStage::twistDuring(const ConvertedCloud& converted,
@@ -77,14 +66,6 @@ void CloudObjectsStage::show(const CloudObjects& objects, const ConvertedCloud& 
         InputError("no_ground", "no plane of the ground in the cloud: takes it as z = 0 of '" +
                                     options_.frames.base + "'"));
   }
-}
-
-void CloudObjectsStage::connect(StagePorts& ports) {
-  const auto objects = ports.out<ObjectArray>("objects/cloud");
-  connectMotion(ports, options_.motion, *this);
-  ports.in<sensor_msgs::PointCloud2>("cloud", [this, objects](const auto& cloud, Stamp /*now*/) {
-    objects.publish(takeCloud(*cloud));
-  });
 }
 
 }  // namespace datmo

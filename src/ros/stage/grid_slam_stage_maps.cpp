@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What GridSlamStage does with maps, their files, and their frame.
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/map_saving.h"
 

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
-#include <boost/make_shared.hpp>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/frames.h"
-#include "datmo_fusion/ros/stage/stage_inputs.h"
 
 namespace datmo {
 
@@ -38,12 +35,9 @@ void RadarObjectsStageOptions::visit(OptionVisitor& visitor) {
 
 RadarObjectsStage::RadarObjectsStage(const Checked<RadarObjectsStageOptions>& options,
                                      const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(*options),
-      transforms_(transforms),
-      monitor_(monitor),
-      detector_(options->detector),
-      runner_(monitor, options->input, "starts over", [this] { motion_.reset(); }),
-      motion_(options->motion, options->frames, runner_) {}
+    : ObjectSource("radar", *options, transforms, monitor),
+      options_(*options),
+      detector_(options->detector) {}
 
 RadarCycle RadarObjectsStage::cycleOf(const RadarScanMessage& message) {
   RadarCycle cycle;
@@ -88,31 +82,15 @@ Twist2 RadarObjectsStage::twistAt(Stamp stamp) const {
   return twistOf(*motion, kTwistTime);
 }
 
-ObjectArrayPtr RadarObjectsStage::takeScan(const RadarScanMessage& message) {
-  return runner_.serve([&] {
-    monitor_.describe("radar", [&] {
-      return std::to_string(message.returns.size()) + " returns in frame " +
-             message.header.frame_id;
-    });
-    const RadarCycle cycle = cycleOf(message);
-    runner_.check("radar", message.header.stamp);
-    const RadarObjects objects = detector_.detect(cycle, twistAt(cycle.stamp));
-    monitor_.figure("objects", static_cast<double>(objects.list.objects.size()));
-    monitor_.figure("clusters that stand", static_cast<double>(objects.standing));
-    monitor_.figure("returns in no cluster", static_cast<double>(objects.lone));
-    monitor_.figure("bad returns", static_cast<double>(bad_returns_));
-    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
-    runner_.processed(cycle.stamp);
-    return array;
-  });
-}
-
-void RadarObjectsStage::connect(StagePorts& ports) {
-  const auto objects = ports.out<ObjectArray>("objects/radar");
-  connectMotion(ports, options_.motion, *this);
-  ports.in<RadarScanMessage>("radar", [this, objects](const auto& scan, Stamp /*now*/) {
-    objects.publish(takeScan(*scan));
-  });
+ObjectList RadarObjectsStage::detect(const RadarScanMessage& message) {
+  const RadarCycle cycle = cycleOf(message);
+  checkStamp(message);
+  RadarObjects objects = detector_.detect(cycle, twistAt(cycle.stamp));
+  monitor_.figure("objects", static_cast<double>(objects.list.objects.size()));
+  monitor_.figure("clusters that stand", static_cast<double>(objects.standing));
+  monitor_.figure("returns in no cluster", static_cast<double>(objects.unclustered));
+  monitor_.figure("bad returns", static_cast<double>(bad_returns_));
+  return std::move(objects.list);
 }
 
 }  // namespace datmo

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stage_graph.h"
 
-#include <utility>
-
 namespace datmo {
 
 namespace {
@@ -12,23 +10,17 @@ constexpr double kMonoLateBy = 0.4;
 
 using Remaps = std::map<std::string, std::string>;
 
-StackPart partOf(const std::string& type) {
-  static const std::map<std::string, StackPart> parts{{"cloud_objects", StackPart::kSensors},
-                                                      {"cloud_to_scan", StackPart::kSensors},
-                                                      {"motion", StackPart::kSensors},
-                                                      {"scan_merge", StackPart::kSensors},
-                                                      {"radar_objects", StackPart::kSensors},
-                                                      {"mono_classifier", StackPart::kStereo},
-                                                      {"mono_grid", StackPart::kStereo},
-                                                      {"point_velocity", StackPart::kStereo},
-                                                      {"stereo_alignment", StackPart::kStereo},
-                                                      {"stereo_grid", StackPart::kStereo},
-                                                      {"stereo_image_proc", StackPart::kStereo},
-                                                      {"stereo_objects", StackPart::kStereo},
-                                                      {"risk", StackPart::kRisk}};
-  const auto part = parts.find(type);
-  return part == parts.end() ? StackPart::kPerception : part->second;
-}
+/// A row of the graph: when there is the stage, and what it is.
+struct Row {
+  bool present = false;
+  StackPart part = StackPart::kPerception;
+  std::string name;
+  Remaps remaps = {};
+  OptionValues parameters = {};
+  std::string type = {};  ///< empty: as the name
+};
+
+using Rows = std::vector<Row>;
 
 /// The stereo camera's clouds.
 Remaps cameraRemaps() {
@@ -79,10 +71,117 @@ OptionValues fusedTracks(const GraphSwitches& switches) {
   return switches.v2x ? OptionValues{{"sources/v2x/use", true}} : OptionValues();
 }
 
+/// The topic of the scans that SLAM takes.
+std::string scanOf(const GraphSwitches& switches) {
+  return switches.scan_from_cloud ? "cloud_scan" : switches.merge_scans ? "merged_scan" : "scan";
+}
+
+bool fusesObjects(const GraphSwitches& switches) {
+  return switches.object_fusion || switches.mono || switches.radar || switches.cloud_objects;
+}
+
+Remaps monoImages() {
+  return {{"image", "stereo/left/image_rect"}, {"camera_info", "stereo/left/camera_info"}};
+}
+
+/// From what sensors send to scans, points and odometry.
+Rows inputRows(const GraphSwitches& switches) {
+  const Remaps scan{{"scan", scanOf(switches)}};
+  const bool has_images = switches.stereo != StereoPoints::kClouds;
+  const OptionValues rectified{{"rectified", switches.stereo == StereoPoints::kRectifiedImages}};
+  return {
+      {switches.scan_from_cloud, StackPart::kSensors, "cloud_to_scan", scan},
+      {true, StackPart::kSensors, "motion"},
+      {switches.merge_scans, StackPart::kSensors, "scan_merge", scan},
+      // Before the points of the same images: what they are of gets its velocity.
+      {has_images && switches.stereo_objects, StackPart::kStereo, "point_velocity", imageRemaps(),
+       rectified},
+      {has_images, StackPart::kStereo, "stereo_image_proc", imageRemaps(), rectified},
+  };
+}
+
+/// Grids, SLAM, and what is made of the scans that it labels.
+Rows mapRows(const GraphSwitches& switches) {
+  const Remaps scan{{"scan", scanOf(switches)}};
+  const Remaps camera = cameraRemaps();
+  const bool low_level = switches.low_level_fusion;
+  const bool grids = low_level || switches.map_fusion;
+  return {
+      // Before those that take the same clouds.
+      {grids || switches.stereo_objects, StackPart::kStereo, "stereo_alignment",
+       with(camera, "scan", scanOf(switches))},
+      {grids, StackPart::kPerception, "lidar_grid", scan},
+      {grids, StackPart::kStereo, "stereo_grid", camera},
+      {grids && switches.mono, StackPart::kStereo, "mono_grid",
+       with(monoImages(), "scan", scanOf(switches))},
+      {low_level, StackPart::kPerception, "grid_fusion", {}, fusedGrids(switches)},
+      {true, StackPart::kPerception, "grid_slam", scan, {{"fused_grid", low_level}}},
+      {switches.map_fusion, StackPart::kPerception, "map_fusion", {}, fusedGrids(switches)},
+      {switches.static_points, StackPart::kPerception, "static_points"},
+      {switches.loop_closing, StackPart::kPerception, "loop_closing"},
+      {switches.road_border, StackPart::kPerception, "road_border"},
+  };
+}
+
+/// From labeled scans, points, clouds and images to objects.
+Rows objectRows(const GraphSwitches& switches) {
+  return {
+      {true,
+       StackPart::kPerception,
+       "moving_objects",
+       {},
+       {{"road_borders", switches.road_border}}},
+      {switches.stereo_objects, StackPart::kStereo, "stereo_objects",
+       with(cameraRemaps(), "point_velocities", "stereo/point_velocities")},
+      {switches.cloud_objects, StackPart::kSensors, "cloud_objects"},
+      {switches.radar, StackPart::kSensors, "radar_objects"},
+      {switches.mono, StackPart::kStereo, "mono_classifier", monoImages()},
+      {fusesObjects(switches),
+       StackPart::kPerception,
+       "object_fusion",
+       {{"objects/lidar", "objects"}},
+       fusedSources(switches)},
+  };
+}
+
+/// From objects to tracks, and what is made of these.
+Rows trackRows(const GraphSwitches& switches) {
+  const std::string objects = fusesObjects(switches) ? "objects/fused" : "objects";
+  const std::string tracks = switches.track_fusion ? "tracks/lidar" : "tracks";
+  return {
+      {true, StackPart::kPerception, "tracker", {{"objects", objects}, {"tracks", tracks}}},
+      // What the scanner saw is not what the camera could see.
+      {switches.stereo_tracker,
+       StackPart::kPerception,
+       "stereo_tracker",
+       {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
+       {{"scan_view", false}},
+       "tracker"},
+      {switches.v2x, StackPart::kPerception, "earth_frame"},
+      {switches.v2x, StackPart::kPerception, "v2x", {{"tracks/own", tracks}}},
+      {switches.track_fusion,
+       StackPart::kPerception,
+       "track_fusion",
+       {{"tracks/fused", "tracks"}},
+       fusedTracks(switches)},
+      {switches.risk, StackPart::kRisk, "risk", {}, {{"road_borders", switches.road_border}}},
+  };
+}
+
 }  // namespace
 
-FusionSwitches fusionSwitches(FusionLevel level) {
-  FusionSwitches switches;
+GraphSwitches allSwitches() {
+  GraphSwitches all;
+  for (const NamedSwitch& each : stackSwitches()) {
+    all.*each.value = true;
+  }
+  all.scan_from_cloud = all.stereo_objects = all.stereo_tracker = true;
+  all.stereo = StereoPoints::kRectifiedImages;
+  return all;
+}
+
+StackSwitches fusionSwitches(FusionLevel level) {
+  StackSwitches switches;
   switches.low_level_fusion = level == FusionLevel::kLow;
   switches.object_fusion = level == FusionLevel::kObject;
   switches.track_fusion = level == FusionLevel::kTrack || level == FusionLevel::kRecommended;
@@ -96,69 +195,16 @@ std::string GraphStage::resolved(const std::string& topic) const {
 }
 
 std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
-  const std::string scan = switches.scan_from_cloud ? "cloud_scan"
-                           : switches.merge_scans   ? "merged_scan"
-                                                    : "scan";
-  const bool fuses_objects =
-      switches.object_fusion || switches.mono || switches.radar || switches.cloud_objects;
-  const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
-  const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
-  const Remaps camera = cameraRemaps();
-  const Remaps images = imageRemaps();
-  const bool has_images = switches.stereo != StereoPoints::kClouds;
-  const OptionValues rectified{{"rectified", switches.stereo == StereoPoints::kRectifiedImages}};
-  const Remaps mono_images{{"image", "stereo/left/image_rect"},
-                           {"camera_info", "stereo/left/camera_info"}};
   std::vector<GraphStage> graph;
-  const auto add = [&graph](bool present, GraphStage stage) {
-    if (present) {
-      stage.part = partOf(stage.type);
-      graph.push_back(std::move(stage));
+  for (const Rows& rows :
+       {inputRows(switches), mapRows(switches), objectRows(switches), trackRows(switches)}) {
+    for (const Row& row : rows) {
+      if (row.present) {
+        graph.push_back({row.name, row.type.empty() ? row.name : row.type, row.remaps,
+                         row.parameters, row.part});
+      }
     }
-  };
-  const bool low_level = switches.low_level_fusion;
-  const bool grids = low_level || switches.map_fusion;
-  add(switches.scan_from_cloud, {"cloud_to_scan", "cloud_to_scan", {{"scan", scan}}, {}});
-  add(true, {"motion", "motion", {}, {}});
-  add(switches.merge_scans, {"scan_merge", "scan_merge", {{"scan", scan}}, {}});
-  // Before the points of the same images: what they are of gets its velocity.
-  add(has_images && switches.stereo_objects,
-      {"point_velocity", "point_velocity", images, rectified});
-  add(has_images, {"stereo_image_proc", "stereo_image_proc", images, rectified});
-  // Before those that take the same clouds.
-  add(grids || switches.stereo_objects,
-      {"stereo_alignment", "stereo_alignment", with(camera, "scan", scan), {}});
-  add(grids, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
-  add(grids, {"stereo_grid", "stereo_grid", camera, {}});
-  add(grids && switches.mono, {"mono_grid", "mono_grid", with(mono_images, "scan", scan), {}});
-  add(low_level, {"grid_fusion", "grid_fusion", {}, fusedGrids(switches)});
-  add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
-  add(switches.map_fusion, {"map_fusion", "map_fusion", {}, fusedGrids(switches)});
-  add(switches.static_points, {"static_points", "static_points", {}, {}});
-  add(switches.loop_closing, {"loop_closing", "loop_closing", {}, {}});
-  add(switches.road_border, {"road_border", "road_border", {}, {}});
-  add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
-  add(switches.stereo_objects, {"stereo_objects",
-                                "stereo_objects",
-                                with(camera, "point_velocities", "stereo/point_velocities"),
-                                {}});
-  add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
-  add(switches.radar, {"radar_objects", "radar_objects", {}, {}});
-  add(switches.mono, {"mono_classifier", "mono_classifier", mono_images, {}});
-  add(fuses_objects,
-      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, fusedSources(switches)});
-  add(true,
-      {"tracker", "tracker", {{"objects", tracked_objects}, {"tracks", tracks_of_tracker}}, {}});
-  // What the scanner saw is not what the camera could see.
-  add(switches.stereo_tracker, {"stereo_tracker",
-                                "tracker",
-                                {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
-                                {{"scan_view", false}}});
-  add(switches.v2x, {"earth_frame", "earth_frame", {}, {}});
-  add(switches.v2x, {"v2x", "v2x", {{"tracks/own", tracks_of_tracker}}, {}});
-  add(switches.track_fusion,
-      {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, fusedTracks(switches)});
-  add(switches.risk, {"risk", "risk", {}, {{"road_borders", switches.road_border}}});
+  }
   return graph;
 }
 

@@ -100,7 +100,7 @@ TEST(RadarObjects, OfTooFewReturnsAreNone) {
   const RadarObjects found = detect(returns, Pose2(), {}, options);
   ASSERT_EQ(found.list.objects.size(), 1U);
   EXPECT_NEAR(found.list.objects[0].box.center.x(), 21.0, 1e-9);
-  EXPECT_EQ(found.lone, 2U);
+  EXPECT_EQ(found.unclustered, 2U);
   EXPECT_TRUE(detect({}).list.objects.empty());
 }
 

@@ -99,8 +99,8 @@ def _load_lines(load):
         "",
         "| stage | sent | received | lost in queues | too old | processed |",
         "|---|---|---|---|---|---|",
-        *(f"| {door['stage']} | {' | '.join(f'{door[key]:.0f}' for key in ('sent', 'received', 'lost', 'stale', 'processed'))} |"
-          for door in load["doors"]),
+        *(f"| {stage['stage']} | {' | '.join(f'{stage[key]:.0f}' for key in ('sent', 'received', 'lost', 'stale', 'processed'))} |"
+          for stage in load["stages"]),
         *_live_lines(load["samples"], load["nominal_from_to_s"][1]),
     ]  # fmt: skip
 
@@ -168,7 +168,7 @@ def _mutated_lines(mutated):
         "",
         f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages as they should be and",
         f"{mutated['mutated']} with one to three fields spoiled (NaN, infinity, bounds of the type, other lengths, names and",
-        "stamps), at the doors of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
+        "stamps), at the inputs of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
         "with 3 s without mutations, in which tracks have to come again.",
         "",
         f"- faults found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),

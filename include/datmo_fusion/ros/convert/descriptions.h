@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <datmo_fusion/RadarScan.h>
+
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -24,6 +26,9 @@ std::string descriptionOf(const nav_msgs::Odometry& odometry);
 
 /// "640 x 480 points in frame camera"
 std::string descriptionOf(const sensor_msgs::PointCloud2& cloud);
+
+/// "64 returns in frame radar"
+std::string descriptionOf(const datmo_fusion::RadarScan& scan);
 
 /// "id 3, pedestrian, at (4.1, -0.3) m in map"
 std::string descriptionOf(const TrackMessage& track, const std::string& frame);

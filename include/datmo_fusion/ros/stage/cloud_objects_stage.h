@@ -3,18 +3,14 @@
 
 #include <optional>
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/detection/cloud_object_detector.h"
 #include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
-#include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
-#include "datmo_fusion/ros/stage/motion_input.h"
-#include "datmo_fusion/ros/stage/stage.h"
-#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/stage/object_source.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
@@ -30,11 +26,10 @@ struct CloudObjectsStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// CloudObjectDetector between messages: one more source of objects. Bad input is dropped or warned
-/// of through the monitor, never thrown. Points that have times are brought to the cloud's stamp by
+/// CloudObjectDetector between messages. Points that have times are brought to the cloud's stamp by
 /// odometry, where the vehicle has none by the poses of the SLAM; where neither has come, all are
 /// taken as measured at once.
-class CloudObjectsStage : public Stage {
+class CloudObjectsStage : public ObjectSource<sensor_msgs::PointCloud2> {
  public:
   using Options = CloudObjectsStageOptions;
 
@@ -42,30 +37,14 @@ class CloudObjectsStage : public Stage {
   CloudObjectsStage(const Checked<CloudObjectsStageOptions>& options,
                     const TransformBuffer& transforms, StageMonitor& monitor);
 
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
-
-  /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped.
-  ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
-
-  void connect(StagePorts& ports) override;
-
  private:
-  template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.take(message); });
-  }
-
+  ObjectList detect(const sensor_msgs::PointCloud2& message) override;
   /// Of the vehicle during the sweep; none if the points have no times, or it is not known.
   std::optional<Twist2> twistDuring(const ConvertedCloud& converted, Stamp stamp) const;
   void show(const CloudObjects& objects, const ConvertedCloud& converted);
 
   CloudObjectsStageOptions options_;
-  const TransformBuffer& transforms_;
-  StageMonitor& monitor_;
   CloudObjectDetector detector_;
-  StageRunner runner_;
-  MotionInput motion_;
 };
 
 }  // namespace datmo

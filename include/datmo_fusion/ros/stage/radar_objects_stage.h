@@ -5,15 +5,10 @@
 
 #include <datmo_fusion/RadarScan.h>
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <nav_msgs/Odometry.h>
-
 #include "datmo_fusion/detection/radar_object_detector.h"
-#include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
-#include "datmo_fusion/ros/stage/motion_input.h"
-#include "datmo_fusion/ros/stage/stage.h"
-#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/object_source.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
@@ -34,10 +29,9 @@ struct RadarObjectsStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// RadarObjectDetector between messages: one more source of objects. Bad input is dropped or warned
-/// of through the monitor, never thrown. A cycle at which the vehicle's motion is not known is
+/// RadarObjectDetector between messages. A cycle at which the vehicle's motion is not known is
 /// dropped: what stands would drive.
-class RadarObjectsStage : public Stage {
+class RadarObjectsStage : public ObjectSource<RadarScanMessage> {
  public:
   using Options = RadarObjectsStageOptions;
 
@@ -45,31 +39,15 @@ class RadarObjectsStage : public Stage {
   RadarObjectsStage(const Checked<RadarObjectsStageOptions>& options,
                     const TransformBuffer& transforms, StageMonitor& monitor);
 
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
-
-  /// Objects in the vehicle's frame at the cycle's stamp; null if the cycle was dropped.
-  ObjectArrayPtr takeScan(const RadarScanMessage& message);
-
-  void connect(StagePorts& ports) override;
-
  private:
-  template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.take(message); });
-  }
-
+  ObjectList detect(const RadarScanMessage& message) override;
   /// Without the returns that are none, which are warned of.
   RadarCycle cycleOf(const RadarScanMessage& message);
   /// Throws InputError (`no_motion`).
   Twist2 twistAt(Stamp stamp) const;
 
   RadarObjectsStageOptions options_;
-  const TransformBuffer& transforms_;
-  StageMonitor& monitor_;
   RadarObjectDetector detector_;
-  StageRunner runner_;
-  MotionInput motion_;
   std::uint64_t bad_returns_ = 0;
 };
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/map_keeper.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "datmo_fusion/slam/pose_covariance.h"
+
+namespace datmo {
+
+namespace {
+
+/// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
+constexpr double kStartVariance = 1e-6;
+
+/// Of the window in which a prior map is searched: about 250 MB for each copy of it.
+constexpr std::size_t kMaxSearchedCells = 4'000'000;
+
+bool isSearchable(const GridWindow& window) {
+  return rowMajorSize(window.columns, window.rows) <= kMaxSearchedCells;
+}
+
+PoseWithCovariance startOf(const Pose2& pose) {
+  return {pose, Eigen::Vector3d::Constant(kStartVariance).asDiagonal()};
+}
+
+}  // namespace
+
+MapKeeper::MapKeeper(const Checked<OccupancyMapOptions>& map,
+                     const Checked<MapRecoveryOptions>& recovery, const ScalePrior& scale)
+    : map_options_(*map),
+      recovery_options_(*recovery),
+      scale_(scale),
+      map_(map),
+      drift_(noDrift()),
+      drift_of_left_map_(drift_) {}
+
+void MapKeeper::setPriorMap(PriorMap prior_map) {
+  const GridWindow all = prior_map.map.extent();
+  if (!isSearchable(all)) {
+    throw std::invalid_argument("a map of " + std::to_string(all.columns) + " x " +
+                                std::to_string(all.rows) + " cells: expected " +
+                                std::to_string(kMaxSearchedCells) + " cells at most");
+  }
+  prior_map.map.setWindow(all);
+  prior_map_ = std::make_shared<const PriorMap>(std::move(prior_map));
+}
+
+PoseWithCovariance MapKeeper::startInPriorMap(Stamp stamp) {
+  return searchPriorMap(prior_map_->map, prior_map_->start, stamp);
+}
+
+PoseWithCovariance MapKeeper::searchPriorMap(OccupancyMap whole, const SearchRegion& region,
+                                             Stamp stamp) {
+  recovery_.emplace(recovery_options_, std::move(whole), region, stamp);
+  map_ = OccupancyMap(map_options_);
+  PoseWithCovariance start = startOf(recovery_->start().pose);
+  map_.centerOn(start.pose.position());
+  return start;
+}
+
+PoseWithCovariance MapKeeper::leave(const PoseWithCovariance& pose, Stamp stamp) {
+  if (isSearchingPriorMap()) {
+    const SearchRegion region = recovery_->regionOf(pose);
+    return searchPriorMap(recovery_->takeOlder(), region, stamp);
+  }
+  if (recovery_) {
+    recovery_.emplace(recovery_options_, recovery_->takeOlder(), recovery_->inOlder(pose), stamp);
+  } else {
+    recovery_.emplace(recovery_options_, std::move(map_), pose, stamp);
+    drift_of_left_map_ = drift_;
+  }
+  map_ = OccupancyMap(map_options_);
+  return startOf(pose.pose);
+}
+
+void MapKeeper::returnToLeftMap() {
+  map_ = recovery_->takeOlder();
+  drift_ = recovery_->isInPriorMap() ? noDrift() : drift_of_left_map_;
+  if (recovery_->isInPriorMap()) {
+    map_.setWindow(map_options_.window.window());
+  }
+  recovery_.reset();
+}
+
+MapKeeper::SearchStep MapKeeper::search(const PoseWithCovariance& pose, Stamp stamp) {
+  if (!recovery_) {
+    return {};
+  }
+  if (const auto found = recovery_->advance(map_, pose, stamp)) {
+    returnToLeftMap();
+    map_.centerOn(found->pose.position());
+    return {found, false};
+  }
+  if (!recovery_->isOver(stamp)) {
+    return {};
+  }
+  if (prior_map_ && isSearchable(recovery_->older().extent())) {
+    OccupancyMap whole = recovery_->takeOlder();
+    whole.setWindow(whole.extent());
+    recovery_.emplace(recovery_options_, std::move(whole), SearchRegion{{}, true}, stamp);
+    return {};
+  }
+  const PoseWithCovariance origin = recovery_->inOlder({Pose2(), Eigen::Matrix3d::Zero()});
+  frame_covariance_ += origin.covariance;
+  recovery_.reset();
+  ++maps_begun_;
+  return {std::nullopt, true};
+}
+
+PoseWithCovariance MapKeeper::inFirstMap(PoseWithCovariance pose) const {
+  if (recovery_) {
+    pose = recovery_->inOlder(pose);
+  }
+  pose.covariance += carried(frame_covariance_, pose.pose.position());
+  return pose;
+}
+
+}  // namespace datmo

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+// All that the wide functions (common/wide.h) make of random numbers, by each of the two that the
+// compiler makes of them: for AVX2, and for a processor without.
+namespace datmo_avx2 {
+std::vector<double> wideResults(std::uint32_t seed);
+}
+namespace datmo_default {
+std::vector<double> wideResults(std::uint32_t seed);
+}
