@@ -182,6 +182,7 @@ TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
 
   const double begin = drive_.now();
   drive_.run(nominal_seconds, kNominal);
+  ASSERT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at >= begin; }));
   const double loaded = drive_.now();
   drive_.run(load_seconds, load);
   const double still = drive_.now();

@@ -69,7 +69,8 @@ def write(master, before):
     # Whoever registers a publisher has the master tell the subscribers of all: also of those that came meanwhile.
     after = read(master)
     for topic, node in dict(after.publishers).items():
-        rosgraph.Master(node, master.master_uri).registerPublisher(topic, after.types.get(topic, ANY_TYPE), after.nodes[node])
+        kind = after.types.get(topic, ANY_TYPE)
+        rosgraph.Master(node, master.master_uri).registerPublisher(topic, kind, after.nodes[node])
     return sorted(nodes)
 
 
