@@ -2,6 +2,7 @@
 #include "datmo_fusion/road/border_scan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@ namespace datmo {
 
 BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
                       const std::vector<double>& standing, double seconds) {
+  assert(standing.size() == scan.points.size());
   const Pose2& vehicle = scan.base_in_map.pose;
   BorderScan result;
   result.scanner = vehicle * scan.scanner_in_base;

@@ -171,7 +171,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
     const BorderScan::Beam& beam = scan.beams[i];
     const CurvePoint& position = places_[i];
     if (!beam.hit || !beam.lasting || beam.hits_there < kVouchingHits ||
-        beam.standing < kProbable || !is_nearest[i] ||
+        beam.standing_probability < kProbable || !is_nearest[i] ||
         std::abs(position.aside) > options_.tolerance || !reaches(position.along, unfitted)) {
       continue;
     }
@@ -195,8 +195,8 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
-        evidence_.addHit(track_.arcLength() + end.along, beam.standing);
-        if (beam.standing >= kProbable) {
+        evidence_.addHit(track_.arcLength() + end.along, beam.standing_probability);
+        if (beam.standing_probability >= kProbable) {
           evidence_.addDepth(track_.arcLength() + end.along, false);
           seen = true;
         }
@@ -210,8 +210,11 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
           evidence_.addPassage(track_.arcLength() + along);
         }
         const bool deep = end_outward > kStreetDepth;
-        // What a slanting beam hits far along the line does not bound it where it went through.
-        if (deep || std::abs(end.along - along) < options_.growth) {
+        // What a slanting beam hits far along the line does not bound it where it went through, nor
+        // does what passes by.
+        const bool bounds =
+            beam.standing_probability >= kProbable && std::abs(end.along - along) < options_.growth;
+        if (deep || bounds) {
           evidence_.addDepth(track_.arcLength() + along, deep);
         }
       }

@@ -4,23 +4,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 namespace datmo {
 
 namespace {
 
-/// Adjacent beams end on one surface where it faces them by at least 18 degrees: the step between
-/// their end points is at most three times that across them,
+/// Step between the end points of adjacent beams on one surface over the distance of the beams
+/// there: of a surface that they meet at 19 degrees.
 constexpr double kMaxSlant = 3.0;
 
-/// and the noise of both ranges, m.
+/// Allowance for the noise of both ranges, m.
 constexpr double kRangeNoise = 0.5;
 
 bool isOnNewObject(const ScanPoint& point) { return point.state == PointState::kMoving; }
 
 bool areOnOneSurface(const ScanPoint& one, const ScanPoint& next, double beam_spacing) {
-  return isOnNewObject(one) && isOnNewObject(next) && next.beam <= one.beam + 1 &&
+  return isOnNewObject(one) && isOnNewObject(next) &&
+         (next.beam == one.beam || next.beam == one.beam + 1) &&
          (next.position - one.position).norm() <=
              kMaxSlant * std::abs(beam_spacing) * one.range + kRangeNoise;
 }
@@ -49,10 +49,10 @@ std::vector<double> standingProbabilities(const LabeledScan& scan, double border
       beams += points[end].beam == points[end - 1].beam ? 0 : 1;  // of several echoes one counts
     }
     if (isOnNewObject(points[first])) {
-      const double odds = options.share / (1.0 - options.share) *
-                          std::pow(options.detection / border_detection, beams);
+      const double log_odds = std::log(options.share / (1.0 - options.share)) +
+                              beams * std::log(options.detection / border_detection);
       std::fill_n(standing.begin() + static_cast<std::ptrdiff_t>(first), end - first,
-                  1.0 / (1.0 + odds));
+                  1.0 / (1.0 + std::exp(log_odds)));
     }
     first = end;
   }

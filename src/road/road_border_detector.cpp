@@ -67,6 +67,11 @@ void RoadBorderDetectorOptions::check() const {
         "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
         ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
   }
+  if (passing.detection <= evidence.hit_probability) {
+    throw OptionError("passing/detection = " + std::to_string(passing.detection) +
+                      ": expected more than tracks/border/evidence/hit_probability (" +
+                      std::to_string(evidence.hit_probability) + ")");
+  }
   const double min_window = 2.0 * (branches.length + branches.max_shift);
   const double window = std::min(passages.window.length, passages.window.width);
   if (window < min_window) {

@@ -163,7 +163,7 @@ bool Chain::waitForNodelets() {
   return Listener::waitForNodelets() && waitFor([this] {
            // All nodelets of a process share one connection for tf; the other one is this test's.
            return scan_.getNumSubscribers() >= 1 && odometry_.getNumSubscribers() >= 1 &&
-                  tf_.getNumSubscribers() >= 2;
+                  tf_.getNumSubscribers() >= 2 && tf_static_.getNumSubscribers() >= 1;
          });
 }
 

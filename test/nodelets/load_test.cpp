@@ -193,6 +193,7 @@ TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
 
   const double begin = drive_.now();
   drive_.run(parameter("~nominal_seconds", 3.0), kNominal);
+  ASSERT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at >= begin; }));
   const double loaded = drive_.now();
   drive_.run(parameter("~seconds", 3.0), load);
   const double still = drive_.now();

@@ -97,7 +97,8 @@ TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
   std::string out;
   ros::param::get("~out", out);
   ASSERT_TRUE(drive_.start({"tracker", "stereo_tracker", "track_fusion"}));
-  ASSERT_TRUE(drive_.run(kPatience, kRates, [this] { return carId() != 0; }));
+  ASSERT_TRUE(
+      drive_.run(kPatience, kRates, [this] { return carId() != 0 && areLoaded(kNodelets); }));
   drive_.run(kSettle, kRates);
   nlohmann::json outages = nlohmann::json::array();
   outages.push_back(measured("nothing", {}, drive_.now(), carId()));

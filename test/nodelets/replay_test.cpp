@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The small bag through replay.launch, faster than it was recorded: no scan is lost on the way, and
-// moving objects are tracked.
+// moving objects are tracked. The player waits where this machine is too slow for that.
 #include <set>
 
 #include "chain.h"
@@ -9,6 +9,7 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 
 namespace datmo::replay_test {
 namespace {
@@ -21,20 +22,61 @@ int scansIn(const std::string& file) {
   return static_cast<int>(rosbag::View(bag, rosbag::TopicQuery("/echoes")).size());
 }
 
+/// Plays the bag.
+class Replay : public Listener {
+ public:
+  bool waitForNodelets() {
+    return Listener::waitForNodelets() &&
+           waitFor([this] { return echoes_.getNumPublishers() >= 1; }) &&
+           ros::service::waitForService(kPause, ros::Duration(120.0));
+  }
+
+  /// Until so many scans have led to tracks; false if no further one does.
+  bool play(int scans) {
+    for (int done = 0; done < scans; done = timings["tracker"]) {
+      const auto goes_on = [&] {
+        hold(sent_ - timings["tracker"] > kAhead);
+        return timings["tracker"] > done;
+      };
+      if (!waitFor(goes_on)) {
+        return false;
+      }
+    }
+    hold(false);
+    return true;
+  }
+
+ private:
+  static constexpr char kPause[] = "/player/pause_playback";
+  static constexpr std::uint32_t kQueue = 1000;
+  static constexpr int kAhead = 5;  ///< scans, by far less than a queue has room for
+
+  /// It is held until it is told to play. Ends with the bag, and does not answer then.
+  void hold(bool pause) {
+    if (pause != is_held_) {
+      is_held_ = pause;
+      std_srvs::SetBool call;
+      call.request.data = static_cast<std::uint8_t>(pause);
+      ros::service::call(kPause, call);
+    }
+  }
+
+  ros::NodeHandle node_;
+  int sent_ = 0;
+  bool is_held_ = true;
+  ros::Subscriber echoes_ = node_.subscribe<sensor_msgs::MultiEchoLaserScan>(
+      "/echoes", kQueue, [this](const sensor_msgs::MultiEchoLaserScanConstPtr&) { ++sent_; });
+};
+
 TEST(ReplayTest, EveryScanOfTheBagLeadsToTracks) {
   std::string file;
   ASSERT_TRUE(ros::param::get("~bag", file));
   const int scans = scansIn(file);
   ASSERT_GT(scans, 100);
 
-  Listener chain;
+  Replay chain;
   ASSERT_TRUE(chain.waitForNodelets());
-  std_srvs::SetBool resume;
-  resume.request.data = false;
-  ASSERT_TRUE(ros::service::waitForService("/player/pause_playback", ros::Duration(120.0)));
-  ASSERT_TRUE(ros::service::call("/player/pause_playback", resume));
-
-  EXPECT_TRUE(chain.waitFor([&] { return chain.timings["tracker"] >= scans - kStartUp; }));
+  EXPECT_TRUE(chain.play(scans - kStartUp)) << chain.diagnosticMessage("stack");
   EXPECT_TRUE(
       chain.waitFor([&] { return chain.diagnostic("grid_slam", "scan received") == scans; }));
   EXPECT_GE(chain.timings["grid_slam"], scans - kStartUp);

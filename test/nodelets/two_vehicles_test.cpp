@@ -97,7 +97,8 @@ TEST(TwoVehicles, TopicsAndFramesDoNotMix) {
   listener.setClock(ros::Time(World::kStart));
   ASSERT_TRUE(listener.waitFor([&] {
     // One connection of each process, and this test's own.
-    return driving.isConnected() && standing.isConnected() && tf.getNumSubscribers() >= 3;
+    return driving.isConnected() && standing.isConnected() && tf.getNumSubscribers() >= 3 &&
+           tf_static.getNumSubscribers() >= 2;
   }));
   tf2_msgs::TFMessage mounts;
   mounts.transforms = {driving.mount(), standing.mount()};

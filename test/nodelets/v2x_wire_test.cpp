@@ -48,9 +48,9 @@ class Stations : public Listener {
            own_.getNumSubscribers() > 0 && poses_.getNumSubscribers() > 0;
   }
 
-  /// Where the map and the vehicle are, now. `x`: m, in the map.
-  void publishPlace(double x = 0.0) {
-    const Stamp now = toStamp(ros::Time::now());
+  /// Where the map and the vehicle are at a time. `x`: m, in the map.
+  void publishPlace(const ros::Time& time, double x) {
+    const Stamp now = toStamp(time);
     EarthFrame frame{now, kPlane, {kMap, 1e-4 * Eigen::Matrix3d::Identity()}};
     frames_.publish(toMessage(frame, "map"));
     geometry_msgs::PoseWithCovarianceStamped pose;
@@ -119,7 +119,7 @@ TEST(V2xWireTest, StationsHearEachOther) {
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
   // Both a CAM and its CPM have to come through; each time newer ones are sent.
   ASSERT_TRUE(stations.waitFor([&] {
-    stations.publishPlace();
+    stations.publishPlace(ros::Time::now(), 0.0);
     stations.sendOther();
     return stations.foreign && stations.foreign->tracks.size() == 2;
   }));
@@ -139,7 +139,7 @@ TEST(V2xWireTest, StationsHearEachOther) {
   }));
 
   ASSERT_TRUE(stations.waitFor([&] {
-    stations.publishPlace();
+    stations.publishPlace(ros::Time::now(), 0.0);
     stations.publishOwn();
     return !stations.datagrams.isEmpty();
   }));
@@ -195,9 +195,10 @@ TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
   const ros::Duration period(0.05);
   ros::Time next = start;
   ASSERT_TRUE(stations.waitFor([&] {
-    if (ros::Time::now() >= next) {
+    const ros::Time now = ros::Time::now();
+    if (now >= next) {
       next += period;
-      stations.publishPlace(driven(ros::Time::now()));
+      stations.publishPlace(now, driven(now));
       stations.publishOwn();
       stations.send(mapOfLane());
       stations.send(greenLight());

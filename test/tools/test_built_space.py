@@ -17,7 +17,7 @@ SPACE = Path(os.environ["DATMO_FUSION_SPACE"])
 BUILD = Path(os.environ["DATMO_FUSION_BUILD"])
 SOURCE = Path(__file__).resolve().parents[2]
 INSTALLED = not (SPACE / ".catkin").read_text()  # a devel space names its sources there
-TIMEOUT = 60  # s for one command
+TIMEOUT = 600  # s for one command that hangs; on a busy machine one takes half a minute
 INSTALL_RULE = re.compile(
     r'INSTALL DESTINATION "\$\{CMAKE_INSTALL_PREFIX\}/lib/datmo_fusion" TYPE (?:EXECUTABLE|PROGRAM)'
     r' FILES((?:\s+"[^"]+")+)'

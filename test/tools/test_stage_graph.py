@@ -198,7 +198,7 @@ class Parts(unittest.TestCase):
     def check(self, node, parts, expected, seen):
         """A nodelet is loaded into the process of its part, on the same machine."""
         words = node.args.split()
-        if words[0] != "load" or "part_clock" in words[1]:
+        if words[:1] != ["load"] or "part_clock" in words[1]:
             return
         seen.add(node.name)
         part = expected[node.name]

@@ -27,7 +27,9 @@ INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
 }
-TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
+# s, for an answer of a node; one that has ended is known at once. Long enough for a busy machine: a stack that does
+# not answer in time counts as none.
+TIMEOUT = 10.0
 
 
 def is_argument(word):

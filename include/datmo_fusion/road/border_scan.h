@@ -14,9 +14,10 @@ struct BorderScan {
   struct Beam {
     Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
     bool hit = false;
-    int hits_there = 0;     ///< smoothed (thesis eq. 3.5.1), of its end point
-    bool lasting = false;   ///< what it ends on has been there for longer than a mover stays
-    double standing = 1.0;  ///< 0 to 1, that it ends on what stands (standingProbabilities)
+    int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
+    bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
+    double standing_probability =
+        1.0;  ///< 0 to 1, that it ends on what stands (standingProbabilities)
   };
 
   Pose2 scanner;
@@ -24,8 +25,8 @@ struct BorderScan {
   std::vector<Beam> beams;
 };
 
-/// Of a scan that `hits` has counted: all beams but those that are blind. `standing`: of each of
-/// its points, that it is of what stands.
+/// Of a scan that `hits` has counted: all beams but those that are blind. `standing`: one for
+/// each of its points, the probability that it is of what stands.
 BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
                       const std::vector<double>& standing, double seconds);
 

@@ -47,14 +47,15 @@ std::string causeIn(const std::string& message) {
 
 }  // namespace
 
-std::optional<std::string> RepeatFilter::lineOf(const InputError& error, double now) {
+std::optional<std::string> RepeatFilter::lineOf(const InputError& error, double now,
+                                                std::uint64_t count) {
   Reason& reason = reasons_[error.reason()];
-  ++reason.count;
+  reason.count += count;
   if (!isNews(reason, causeIn(error.what()), now)) {
     return std::nullopt;
   }
   const std::string line = error.what();
-  if (reason.count == 1) {
+  if (reason.count == count) {
     return line;
   }
   return line + " (" + error.reason() + ": " + std::to_string(reason.count) + " so far)";

@@ -57,7 +57,7 @@ void StageMonitor::processed(const Processed& message) {
 void StageMonitor::dropped(const InputError& error, std::uint64_t count) {
   drops_[error.reason()] += count;
   last_drop_ = error.what();
-  say(error);
+  say(error, count);
 }
 
 void StageMonitor::condition(HealthLevel health, const std::string& why) {
@@ -76,10 +76,10 @@ void StageMonitor::warned(const InputError& error) {
   say(error);
 }
 
-void StageMonitor::say(const InputError& error) {
+void StageMonitor::say(const InputError& error, std::uint64_t count) {
   last_error_ = error.what();
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  if (const auto line = repeats_.lineOf(error, now.count())) {
+  if (const auto line = repeats_.lineOf(error, now.count(), count)) {
     ROS_WARN("%s: %s", stage_.c_str(), line->c_str());
   }
 }

@@ -39,9 +39,9 @@ TEST(BorderScanTest, EachHitHasTheProbabilityOfItsPoint) {
   std::vector<double> of_hits;
   for (const BorderScan::Beam& beam : beams.beams) {
     if (beam.hit) {
-      of_hits.push_back(beam.standing);
+      of_hits.push_back(beam.standing_probability);
     } else {
-      EXPECT_EQ(beam.standing, 1.0);
+      EXPECT_EQ(beam.standing_probability, 1.0);
     }
   }
   EXPECT_EQ(of_hits, (std::vector<double>{0.3, 0.6}));

@@ -2,6 +2,8 @@
 #include "datmo_fusion/road/passing_objects.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scan_history_samples.h"
@@ -95,6 +97,12 @@ TEST_F(PassingObjectsTest, EchoesOfOneBeamCountOnce) {
 TEST_F(PassingObjectsTest, WhereNothingPassesAllStandsAndAnEmptyScanHasNothing) {
   options_.share = 0.0;
   EXPECT_EQ(of(wallOf(5)), std::vector<double>(5, 1.0));
+  LabeledScan long_one = wallOf(1);
+  long_one.points.resize(2000, long_one.points.front());
+  for (std::size_t i = 0; i < long_one.points.size(); ++i) {
+    long_one.points[i].beam = static_cast<std::uint32_t>(i);
+  }
+  EXPECT_EQ(of(long_one), std::vector<double>(2000, 1.0));
   EXPECT_TRUE(of(wallOf(0)).empty());
 }
 

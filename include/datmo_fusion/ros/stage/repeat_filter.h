@@ -18,8 +18,9 @@ namespace datmo {
 class RepeatFilter {
  public:
   /// The line to write for `error`, with the number of its reason so far from the second one on;
-  /// none for a repetition. `now`: s, on any clock that does not go back.
-  std::optional<std::string> lineOf(const InputError& error, double now);
+  /// none for a repetition. `now`: s, on any clock that does not go back; `count`: of messages that
+  /// have it.
+  std::optional<std::string> lineOf(const InputError& error, double now, std::uint64_t count = 1);
 
  private:
   struct Reason {

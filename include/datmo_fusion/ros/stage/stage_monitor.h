@@ -138,7 +138,7 @@ class StageMonitor {
     std::deque<Stamp> arrivals;  ///< the last ones
   };
 
-  void say(const InputError& error);
+  void say(const InputError& error, std::uint64_t count = 1);
 
   std::string stage_;
   std::map<std::string, Input> inputs_;

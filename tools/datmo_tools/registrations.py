@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a ROS master knows, read from one and told to another by the master's own API.
+
+Nodes register when they start, and never again: a master that was started anew knows none of those that
+run. They are connected with each other and go on, but nobody new finds them, and their parameters are gone.
+"""
+
+import socket
+from typing import NamedTuple
+from urllib.parse import urlsplit
+
+import rosgraph
+
+ANY_TYPE = "*"  # of a topic whose type nobody has said
+PATIENCE = 1.0  # s, for a node on the network to take a connection
+
+
+class Registrations(NamedTuple):
+    """What a master knows at one time."""
+
+    nodes: dict  # URI of each, by name
+    publishers: list  # (topic, node)
+    subscribers: list  # (topic, node)
+    services: dict  # URI, by (service, node)
+    types: dict  # of topics
+    parameters: dict  # the tree from / on
+
+
+NOTHING = Registrations({}, [], [], {}, {}, {})
+
+
+def read(master, before=NOTHING):
+    """The Registrations of a rosgraph.Master; what it said `before` saves it most questions.
+
+    Raises OSError if it does not answer, MasterError if a node went away meanwhile.
+    """
+    publishers, subscribers, services = (
+        [(name, node) for name, nodes in part for node in nodes] for part in master.getSystemState())
+    nodes = {node: master.lookupNode(node) for node in {node for _, node in publishers + subscribers + services}}
+
+    def service_uri(service, node):
+        is_known = (service, node) in before.services and before.nodes[node] == nodes[node]
+        return before.services[service, node] if is_known else master.lookupService(service)
+
+    return Registrations(
+        nodes, publishers, subscribers, {(service, node): service_uri(service, node) for service, node in services},
+        dict(master.getTopicTypes()), master.getParam("/"))
+
+
+def write(master, before):
+    """Tells a new rosgraph.Master what the one `before` knew, but for what is newer there and nodes that are gone.
+
+    Returns the names of the nodes that are registered again.
+    """
+    now = read(master)
+    for key, value in missing(before.parameters, now.parameters):
+        master.setParam(key, value)
+    nodes = {node: api for node, api in before.nodes.items() if now.nodes.get(node, api) == api and answers(api)}
+    publishers, subscribers, services = ([each for each in part if each[1] in nodes]
+                                         for part in (before.publishers, before.subscribers, before.services))
+    as_node = {node: rosgraph.Master(node, master.master_uri) for node in nodes}
+    # Publishers come first: a subscriber that is told of a part of them would leave the others.
+    for topic, node in publishers:
+        as_node[node].registerPublisher(topic, before.types.get(topic, ANY_TYPE), nodes[node])
+    for topic, node in subscribers:
+        as_node[node].registerSubscriber(topic, before.types.get(topic, ANY_TYPE), nodes[node])
+    for service, node in services:
+        as_node[node].registerService(service, before.services[service, node], nodes[node])
+    # Whoever registers a publisher has the master tell the subscribers of all: also of those that came meanwhile.
+    after = read(master)
+    for topic, node in dict(after.publishers).items():
+        kind = after.types.get(topic, ANY_TYPE)
+        rosgraph.Master(node, master.master_uri).registerPublisher(topic, kind, after.nodes[node])
+    return sorted(nodes)
+
+
+def missing(before, now, name=""):
+    """(key, value) of each parameter, or tree of them, that is not there any more."""
+    for key, value in before.items():
+        if key not in now:
+            yield f"{name}/{key}", value
+        elif isinstance(value, dict) and isinstance(now[key], dict):
+            yield from missing(value, now[key], f"{name}/{key}")
+
+
+def answers(uri):
+    """Whether a node takes a connection; one that stands still does."""
+    place = urlsplit(uri)
+    try:
+        socket.create_connection((place.hostname, place.port), PATIENCE).close()
+    except OSError:
+        return False
+    return True
