@@ -154,7 +154,6 @@ set(DATMO_FUSION_CORE_SOURCES
   road/followed_border.cpp
   road/intersection_detector.cpp
   road/passage_grid.cpp
-  road/passing_objects.cpp
   road/presence_history.cpp
   road/road_border_detector.cpp
   road/road_extension.cpp

@@ -2,16 +2,12 @@
 #include "datmo_fusion/road/border_scan.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace datmo {
 
-BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
-                      const std::vector<double>& standing, double seconds) {
-  assert(standing.size() == scan.points.size());
+BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds) {
   const Pose2& vehicle = scan.base_in_map.pose;
   BorderScan result;
   result.scanner = vehicle * scan.scanner_in_base;
@@ -20,8 +16,7 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
   const auto addHit = [&](const ScanPoint& point) {
     const Point2 end = vehicle * point.position;
     const CellIndex cell = hits.window().cellAt(end);
-    const auto index = static_cast<std::size_t>(&point - scan.points.data());
-    result.beams.push_back({end, true, hits.smoothed(cell), hits.isLasting(cell), standing[index]});
+    result.beams.push_back({end, true, hits.smoothed(cell), hits.isLasting(cell)});
   };
   auto point = scan.points.begin();
   auto blind = scan.blind_beams.begin();
@@ -39,7 +34,7 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
       const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
       const Point2 end(scan.field.free_range * std::cos(bearing),
                        scan.field.free_range * std::sin(bearing));
-      result.beams.push_back({result.scanner * end, false, 0, false, 1.0});
+      result.beams.push_back({result.scanner * end, false, 0, false});
     }
   }
   // Of a scan whose field is not known, all.

@@ -15,9 +15,6 @@ namespace {
 /// has fewer.
 constexpr int kVouchingHits = 3;
 
-/// That the end of a beam is of what stands: then it corrects a line and shows that it is there.
-constexpr double kProbable = 0.5;
-
 /// Seen stations that make a line a border, m.
 constexpr double kConfirmedLength = 6.0;
 
@@ -170,8 +167,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
     const CurvePoint& position = places_[i];
-    if (!beam.hit || !beam.lasting || beam.hits_there < kVouchingHits ||
-        beam.standing_probability < kProbable || !is_nearest[i] ||
+    if (!beam.hit || !beam.lasting || beam.hits_there < kVouchingHits || !is_nearest[i] ||
         std::abs(position.aside) > options_.tolerance || !reaches(position.along, unfitted)) {
       continue;
     }
@@ -195,11 +191,9 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
-        evidence_.addHit(track_.arcLength() + end.along, beam.standing_probability);
-        if (beam.standing_probability >= kProbable) {
-          evidence_.addDepth(track_.arcLength() + end.along, false);
-          seen = true;
-        }
+        evidence_.addHit(track_.arcLength() + end.along);
+        evidence_.addDepth(track_.arcLength() + end.along, false);
+        seen = true;
       }
     } else if (end_outward > options_.tolerance && from_outward < 0.0) {
       const double share = from_outward / (from_outward - end_outward);
@@ -210,11 +204,8 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
           evidence_.addPassage(track_.arcLength() + along);
         }
         const bool deep = end_outward > kStreetDepth;
-        // What a slanting beam hits far along the line does not bound it where it went through, nor
-        // does what passes by.
-        const bool bounds =
-            beam.standing_probability >= kProbable && std::abs(end.along - along) < options_.growth;
-        if (deep || bounds) {
+        // What a slanting beam hits far along the line does not bound it where it went through.
+        if (deep || std::abs(end.along - along) < options_.growth) {
           evidence_.addDepth(track_.arcLength() + along, deep);
         }
       }

@@ -43,7 +43,6 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
                  {{"tracked", RoadBorderMethod::kTracked}, {"thesis", RoadBorderMethod::kThesis}});
   visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
   visitor.group("search", [&] { search.visit(visitor); });
-  visitor.group("passing", [&] { passing.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
   visitor.group("presence", [&] { presence.visit(visitor); });
   visitor.group("passages", [&] { passages.visit(visitor); });
@@ -66,11 +65,6 @@ void RoadBorderDetectorOptions::check() const {
     throw OptionError(
         "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
         ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
-  }
-  if (passing.detection <= evidence.hit_probability) {
-    throw OptionError("passing/detection = " + std::to_string(passing.detection) +
-                      ": expected more than tracks/border/evidence/hit_probability (" +
-                      std::to_string(evidence.hit_probability) + ")");
   }
   const double min_window = 2.0 * (branches.length + branches.max_shift);
   const double window = std::min(passages.window.length, passages.window.width);
@@ -134,9 +128,7 @@ void RoadBorderDetector::search(const Pose2& scanner) {
 }
 
 void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
-  const double border_detection = options_.tracks.border.evidence.hit_probability;
-  const BorderScan seen = borderScan(
-      scan, hits_, standingProbabilities(scan, border_detection, options_.passing), seconds);
+  const BorderScan seen = borderScan(scan, hits_, seconds);
   passages_.update(seen);
   tracks_.update(seen, hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);

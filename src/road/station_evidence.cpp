@@ -43,7 +43,7 @@ void StationEvidenceOptions::visit(OptionVisitor& visitor) {
 
 StationEvidence::StationEvidence(const StationEvidenceOptions& options)
     : options_(options),
-      hit_ratio_(options.hit_probability / options.clutter),
+      hit_(std::log(options.hit_probability / options.clutter)),
       passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))),
       depth_(std::log(kDepthProbability / (1.0 - kDepthProbability))) {}
 
@@ -82,9 +82,9 @@ StationEvidence::Station* StationEvidence::stationAt(double along) {
   return slot < stations_.size() ? &stations_[slot] : nullptr;
 }
 
-void StationEvidence::addHit(double along, double standing) {
+void StationEvidence::addHit(double along) {
   if (Station* station = stationAt(along)) {
-    station->update += std::log(standing * hit_ratio_ + 1.0 - standing);
+    station->update += hit_;
   }
 }
 

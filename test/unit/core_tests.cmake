@@ -90,7 +90,6 @@ datmo_fusion_add_core_test(road
   road/branch_search_test.cpp
   road/intersection_detector_test.cpp
   road/passage_grid_test.cpp
-  road/passing_objects_test.cpp
   road/presence_history_test.cpp
   road/road_border_detector_test.cpp
   road/road_extension_test.cpp

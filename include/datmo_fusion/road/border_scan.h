@@ -16,8 +16,6 @@ struct BorderScan {
     bool hit = false;
     int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
     bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
-    double standing_probability =
-        1.0;  ///< 0 to 1, that it ends on what stands (standingProbabilities)
   };
 
   Pose2 scanner;
@@ -25,9 +23,7 @@ struct BorderScan {
   std::vector<Beam> beams;
 };
 
-/// Of a scan that `hits` has counted: all beams but those that are blind. `standing`: one for
-/// each of its points, the probability that it is of what stands.
-BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits,
-                      const std::vector<double>& standing, double seconds);
+/// Of a scan that `hits` has counted: all beams but those that are blind.
+BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds);
 
 }  // namespace datmo

@@ -13,7 +13,6 @@
 #include "datmo_fusion/road/branch_search.h"
 #include "datmo_fusion/road/intersection_detector.h"
 #include "datmo_fusion/road/passage_grid.h"
-#include "datmo_fusion/road/passing_objects.h"
 #include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/road/road_opening.h"
@@ -30,7 +29,6 @@ struct RoadBorderDetectorOptions {
   RoadBorderMethod method = RoadBorderMethod::kTracked;
   HitGridOptions hit_grid;
   BorderSearchOptions search;
-  PassingObjectOptions passing;
   BorderTrackSetOptions tracks;
   PresenceHistoryOptions presence;
   PassageGridOptions passages;

@@ -37,9 +37,8 @@ class StationEvidence {
   /// what lies inside.
   void keepWithin(const ArcLengthInterval& interval);
 
-  /// One beam of the scan that ended on the line there (m along it), or went through. `standing`,
-  /// 0 to 1: that it ended on what stands; on what passes by it says nothing of the line.
-  void addHit(double along, double standing = 1.0);
+  /// One beam of the scan that ended on the line there (m along it), or went through.
+  void addHit(double along);
   void addPassage(double along);
 
   /// How far a beam that went through there saw what is behind: so deep as only a street is, or
@@ -80,7 +79,7 @@ class StationEvidence {
   const Station* stationAt(double along) const;
 
   StationEvidenceOptions options_;
-  double hit_ratio_;  ///< how much likelier a beam ends at a border than elsewhere
+  double hit_;
   double passage_;
   double depth_;
   int first_ = 0;  ///< index of the first station

@@ -27,18 +27,6 @@ struct CrossWall {
   double last = 100.0;
 };
 
-double rangeToWalls(const std::vector<Wall>& walls, const Pose2& scanner, double direction) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls) {
-    const double range = (wall.y - scanner.y()) / std::sin(direction);
-    const double x = scanner.x() + range * std::cos(direction);
-    if (range > 0.0 && x >= wall.first && x <= wall.last) {
-      nearest = std::min(nearest, range);
-    }
-  }
-  return nearest;
-}
-
 /// A vehicle that drives along x between walls.
 class RoadBorderDetectorTest : public testing::Test {
  protected:
@@ -55,14 +43,12 @@ class RoadBorderDetectorTest : public testing::Test {
     const Pose2 scanner = pose * scan.scanner_in_base;
     for (std::uint32_t beam = 0; beam < scan.field.beams; ++beam) {
       const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
-      const double direction = scanner.heading() + bearing;
-      const double to_passing = rangeToWalls(passing_, scanner, direction);
-      const double range = std::min(rangeOf(scanner, direction), to_passing);
-      const PointState state = range == to_passing ? PointState::kMoving : PointState::kUnknown;
+      const double range = rangeOf(scanner, scanner.heading() + bearing);
       if (range <= scan.field.range) {
         const double seen = range + random_.normal(kSigma);
         const Point2 end(seen * std::cos(bearing), seen * std::sin(bearing));
-        scan.points.push_back({scan.scanner_in_base * end, seen, bearing, beam, state});
+        scan.points.push_back(
+            {scan.scanner_in_base * end, seen, bearing, beam, PointState::kMoving});
       }
     }
     stamp_ = stamp_ + kPeriod;
@@ -77,21 +63,6 @@ class RoadBorderDetectorTest : public testing::Test {
       road = detector_.update(scanFrom(Pose2(x_, 0.0, 0.0)));
     }
     return road;
-  }
-
-  /// Stands while others pass along a line that was a border, one after the other: 1 s each, and 1
-  /// s between two. Whether it is a border still at its end.
-  bool standsAndKeeps(const Wall& lane) {
-    RoadModel road;
-    for (int scan = 0; scan < 300; ++scan) {
-      passing_ =
-          std::fmod(scan * kPeriod, 2.0) < 1.0 ? std::vector<Wall>{lane} : std::vector<Wall>();
-      road = detector_.update(scanFrom(Pose2(x_, 0.0, 0.0)));
-    }
-    return std::any_of(road.borders.begin(), road.borders.end(), [&](const RoadBorder& border) {
-      const double x = border.points[border.points.size() / 2].position.x();
-      return border.side == RoadSide::kRight && x > lane.first && x < lane.last;
-    });
   }
 
   /// m, largest distance of points up to 20 m ahead to the line at y; infinite without any.
@@ -109,14 +80,20 @@ class RoadBorderDetectorTest : public testing::Test {
 
   std::vector<Wall> walls_{{4.0}, {-3.0}};
   std::vector<CrossWall> cross_walls_;
-  std::vector<Wall> passing_;  ///< sides of others that pass, where the map has seen free space
   RoadBorderDetector detector_{RoadBorderDetectorOptions()};
   double x_ = 0.0;
   Stamp stamp_ = Stamp::fromSeconds(100.0);
 
  private:
   double rangeOf(const Pose2& scanner, double direction) const {
-    double nearest = rangeToWalls(walls_, scanner, direction);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Wall& wall : walls_) {
+      const double range = (wall.y - scanner.y()) / std::sin(direction);
+      const double x = scanner.x() + range * std::cos(direction);
+      if (range > 0.0 && x >= wall.first && x <= wall.last) {
+        nearest = std::min(nearest, range);
+      }
+    }
     for (const CrossWall& wall : cross_walls_) {
       const double range = (wall.x - scanner.x()) / std::cos(direction);
       const double y = scanner.y() + range * std::sin(direction);
@@ -198,23 +175,6 @@ TEST_F(RoadBorderDetectorTest, KeepsABorderThatIsHiddenForAShortTime) {
   walls_ = {{4.0}, {-2.0, x_ + 4.0, x_ + 16.0}};  // a lorry, as long as it goes along
   const RoadModel road = drive(1.0);
   EXPECT_LT(worstError(road, RoadSide::kRight, -3.0), 1.2);
-}
-
-TEST_F(RoadBorderDetectorTest, WhatPassesByKeepsNoBorder) {
-  walls_ = {{4.0}, {-6.0}};
-  drive(30.0);
-  walls_ = {{4.0}, {-6.0, -100.0, x_ + 10.0}, {-6.0, x_ + 20.0, 300.0}};
-  EXPECT_FALSE(standsAndKeeps({-6.0, x_ + 11.0, x_ + 19.0}));
-}
-
-TEST_F(RoadBorderDetectorTest, WithoutPassingObjectsTheSameEndPointsKeepIt) {
-  RoadBorderDetectorOptions options;
-  options.passing.share = 0.0;
-  detector_ = RoadBorderDetector(options);
-  walls_ = {{4.0}, {-6.0}};
-  drive(30.0);
-  walls_ = {{4.0}, {-6.0, -100.0, x_ + 10.0}, {-6.0, x_ + 20.0, 300.0}};
-  EXPECT_TRUE(standsAndKeeps({-6.0, x_ + 11.0, x_ + 19.0}));
 }
 
 TEST_F(RoadBorderDetectorTest, NothingReflects) {
