@@ -37,19 +37,13 @@ class ArrivalCheck {
   bool passes(const Arrived& message, const ros::Time& now);
 
  private:
-  /// The last message of a publisher.
-  struct Last {
-    std::uint32_t sequence = 0;
-    ros::Time at;  ///< when it was served
-  };
-
   /// How many were lost before this one of its publisher.
-  std::uint32_t lostBefore(const Arrived& message, const ros::Time& now);
+  std::uint32_t lostBefore(const Arrived& message);
 
   std::string topic_;
   double max_wait_;
   StageMonitor& monitor_;
-  std::map<std::string, Last> last_;  ///< by publisher
+  std::map<std::string, std::uint32_t> last_;  ///< number by publisher
 };
 
 /// The number of a message in the order of its publisher; 0 where it has no header.
