@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/common/range_bearing.h"
 
+#include "datmo_fusion/common/perpendicular.h"
+
 namespace datmo {
 
 namespace {
@@ -17,7 +19,7 @@ Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_v
     return range_variance * Eigen::Matrix2d::Identity();
   }
   const Point2 along = from_sensor / range;
-  const Point2 across(-along.y(), along.x());
+  const Point2 across = perpendicular(along);
   return range_variance * along * along.transpose() +
          range * range * bearing_variance * across * across.transpose();
 }

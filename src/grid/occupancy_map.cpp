@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/grid/beam_walk.h"
 #include "datmo_fusion/grid/grid_resampling.h"
 #include "datmo_fusion/grid/neighborhood.h"
@@ -230,7 +231,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
   HitSums sums;
   sums.add(cell.hits, Point2::Zero(), maturity(cell), now_ - cell.mean_hit);
   const HitDistribution surface = sums.about(window().centerOf(index));
-  const Point2 across(-direction.y(), direction.x());
+  const Point2 across = perpendicular(direction);
   const double distance = across.dot(surface.mean - from);
   // The spread of hits at one point may be rounded to below 0.
   const double variance = std::max(0.0, across.dot(surface.covariance * across)) +

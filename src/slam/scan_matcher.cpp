@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/common/uniform.h"
 #include "datmo_fusion/slam/pose_scorer.h"
@@ -78,7 +79,7 @@ struct ScanMatcher::Normal {
   /// Adds an end point's information (1/m^2) and error (m), both in the map frame; `arm`: from the
   /// pose to the point, m.
   void add(const Eigen::Matrix2d& of_point, const Point2& arm, const Point2& error) {
-    const Point2 per_turn(-arm.y(), arm.x());  // m/rad
+    const Point2 per_turn = perpendicular(arm);  // m/rad
     const Point2 turning = of_point * per_turn;
     const Point2 pull = of_point * error;
     information.topLeftCorner<2, 2>() += of_point;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/perpendicular.h"
+
 namespace datmo {
 
 namespace {
@@ -218,7 +220,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
 
 Eigen::Matrix2d TrackedBox::centerCovariance() const {
   const Eigen::Vector2d lever = axes_ * anchor_share_.cwiseProduct(size_.mean());
-  const Eigen::Vector2d swing(-lever.y(), lever.x());
+  const Eigen::Vector2d swing = perpendicular(lever);
   const double turn_variance = std::min(heading_variance_, kUnknownAxisVariance);
   return alongAxes(axes_, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
          turn_variance * swing * swing.transpose();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/visibility/beam_fan.h"
 
@@ -111,7 +112,7 @@ BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location
   }
   const Point2 along_beam(std::cos(bearing), std::sin(bearing));
   const Point2 direction = location.direction.isZero()
-                               ? Point2(-along_beam.y(), along_beam.x())
+                               ? perpendicular(along_beam)
                                : scan.map_in_scanner.rotate(location.direction);
   const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
   if (std::abs(incidence) < std::sin(options_.min_incidence)) {

@@ -9,6 +9,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "datmo_fusion/common/perpendicular.h"
+
 namespace datmo {
 
 namespace {
@@ -115,7 +117,7 @@ std::optional<cv::Point> GroundView::pixel(const Eigen::Vector3d& point) const {
 
 std::optional<cv::Rect> GroundView::patch(const Point2& center, double size, double height) const {
   const Point2 along = 0.5 * size * (center - position_).normalized();
-  const Point2 across(-along.y(), along.x());
+  const Point2 across = perpendicular(along);
   const std::array<Eigen::Vector3d, 5> points = {
       Eigen::Vector3d(center.x() + along.x(), center.y() + along.y(), 0.0),
       Eigen::Vector3d(center.x() - along.x(), center.y() - along.y(), 0.0),

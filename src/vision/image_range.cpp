@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/detection/object_classifier.h"
 
@@ -160,7 +161,7 @@ std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection
   object.box = {Pose2(camera.in_base.translation().head<2>() + (near->range + behind) * ahead,
                       std::atan2(ahead.y(), ahead.x())),
                 size.length, size.width};
-  const Point2 aside(-ahead.y(), ahead.x());
+  const Point2 aside = perpendicular(ahead);
   object.position_covariance = square(depth_sigma) * ahead * ahead.transpose() +
                                square(side_sigma) * aside * aside.transpose();
   const double across = square(0.5 * size.width_sigma);

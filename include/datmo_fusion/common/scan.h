@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/common/stamp.h"
 
@@ -49,7 +50,7 @@ struct Scan {
 /// the beams.
 inline Point2 stepAcross(const Ray& ray, double beam_spacing) {
   const Point2 along = ray.end - ray.origin;
-  return beam_spacing * Point2(-along.y(), along.x());
+  return beam_spacing * perpendicular(along);
 }
 
 /// State of the end point of a beam in the map (thesis 3.1.2, 3.3.1).

@@ -3,6 +3,7 @@
 
 #include "decoded_state.h"
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/wire/wire_error.h"
 
@@ -44,7 +45,7 @@ void moveToCenter(const std::optional<ItsDirection>& heading, StationTrack& trac
   Eigen::Matrix2d covariance = square(half) / 3.0 * Eigen::Matrix2d::Identity();
   if (heading) {
     const Point2 ahead(std::cos(heading->angle), std::sin(heading->angle));
-    const Point2 left(-ahead.y(), ahead.x());
+    const Point2 left = perpendicular(ahead);
     track.position -= half * ahead;
     covariance = square(half * heading->sigma) * left * left.transpose();
   }

@@ -9,6 +9,7 @@
 #include "class_shapes.h"
 #include "marker_parts.h"
 
+#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/road_conversion.h"
 #include "datmo_fusion/ros/display/marker_colors.h"
@@ -59,7 +60,7 @@ Point2 halfBandAt(const std::vector<BorderPoint>& points, std::size_t i) {
   const Point2& before = points[i == 0 ? 0 : i - 1].position;
   const Point2& after = points[std::min(i + 1, points.size() - 1)].position;
   const Point2 along = (after - before).normalized();
-  return kBandSigmas * points[i].sigma * Point2(-along.y(), along.x());
+  return kBandSigmas * points[i].sigma * perpendicular(along);
 }
 
 /// Both lines beside a border, as one list of pieces.

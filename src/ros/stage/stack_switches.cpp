@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-#include <cstddef>
-#include <vector>
+#include <iterator>
 
 #include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace datmo {
 
-namespace {
-
-/// All members of StackSwitches are switches, so that one without a row does not compile.
-constexpr std::size_t kSwitches = 13;
-static_assert(sizeof(StackSwitches) == kSwitches * sizeof(bool), "a switch without a row");
-
-}  // namespace
-
 const std::vector<NamedSwitch>& stackSwitches() {
-  static const std::array<NamedSwitch, kSwitches> rows{{
+  static const NamedSwitch rows[] = {
       {"low_level_fusion", &StackSwitches::low_level_fusion,
        "fuses the grids of scanner and stereo camera before grid_slam"},
       {"map_fusion", &StackSwitches::map_fusion,
@@ -54,8 +44,9 @@ const std::vector<NamedSwitch>& stackSwitches() {
        "on the earth (gnss), and writes /earth_frame, /tracks/v2x and /stations/own"},
       {"risk", &StackSwitches::risk,
        "assesses the risk of contact with tracks and with what stands, and writes /risks"},
-  }};
-  static const std::vector<NamedSwitch> switches(rows.begin(), rows.end());
+  };
+  static_assert(std::size(rows) * sizeof(bool) == sizeof(StackSwitches), "a switch without a row");
+  static const std::vector<NamedSwitch> switches(std::begin(rows), std::end(rows));
   return switches;
 }
 

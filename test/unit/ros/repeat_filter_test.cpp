@@ -34,6 +34,14 @@ TEST(RepeatFilter, AnotherCauseIsSaidWithTheCountSoFar) {
       << "another reason has its own count";
 }
 
+TEST(RepeatFilter, MessagesThatShareAnErrorCountEachByItself) {
+  RepeatFilter filter;
+  EXPECT_EQ(filter.lineOf(InputError("lost", "3 on /scan"), 0.0, 3), "3 on /scan");
+  EXPECT_FALSE(filter.lineOf(InputError("lost", "5 on /scan"), 0.1, 5));
+  EXPECT_EQ(filter.lineOf(InputError("lost", "2 on /odom"), 0.2, 2),
+            "2 on /odom (lost: 10 so far)");
+}
+
 TEST(RepeatFilter, WhatComesBackAfterALongQuietIsSaidAgain) {
   RepeatFilter filter;
   EXPECT_TRUE(filter.lineOf(InputError("late", "too late"), 0.0));
