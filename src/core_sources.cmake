@@ -159,6 +159,7 @@ set(DATMO_FUSION_CORE_SOURCES
   road/road_extension.cpp
   road/road_model.cpp
   road/road_opening.cpp
+  road/scan_novelty.cpp
   road/side_streets.cpp
   road/station_evidence.cpp
   sensor_model/cell_objects.cpp

@@ -163,6 +163,9 @@ void FollowedBorder::moveAnchor(const BorderScan& scan) {
 
 void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   taken_.clear();
+  if (scan.novelty <= 0.0) {
+    return;
+  }
   const double unfitted = std::max(0.0, options_.growth - kFittedGrowth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
@@ -175,7 +178,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
     const double across = line.x() * ray.y() - line.y() * ray.x();
     const double variance = square(options_.range_sigma * across) + square(kRoughness);
-    taken_.push_back({position, options_.correlation * variance});
+    taken_.push_back({position, options_.correlation * variance / scan.novelty});
   }
   track_.correct(taken_);
 }
@@ -191,7 +194,8 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
-        evidence_.addHit(track_.arcLength() + end.along);
+        evidence_.addHit(track_.arcLength() + end.along,
+                         beam.in_free_space ? scan.novelty : 1.0);
         evidence_.addDepth(track_.arcLength() + end.along, false);
         seen = true;
       }

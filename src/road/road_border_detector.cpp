@@ -42,6 +42,7 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
                  method,
                  {{"tracked", RoadBorderMethod::kTracked}, {"thesis", RoadBorderMethod::kThesis}});
   visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
+  visitor.group("novelty", [&] { novelty.visit(visitor); });
   visitor.group("search", [&] { search.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
   visitor.group("presence", [&] { presence.visit(visitor); });
@@ -78,6 +79,7 @@ void RoadBorderDetectorOptions::check() const {
 RoadBorderDetector::RoadBorderDetector(const Checked<RoadBorderDetectorOptions>& options)
     : options_(*options),
       hits_(options->hit_grid),
+      novelty_(options->novelty),
       search_(options->search),
       tracks_(options->tracks),
       presence_(options->presence),
@@ -128,7 +130,8 @@ void RoadBorderDetector::search(const Pose2& scanner) {
 }
 
 void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
-  const BorderScan seen = borderScan(scan, hits_, seconds);
+  BorderScan seen = borderScan(scan, hits_, seconds);
+  seen.novelty = novelty_.update(seen.scanner.position(), seconds);
   passages_.update(seen);
   tracks_.update(seen, hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);
@@ -157,6 +160,7 @@ void RoadBorderDetector::lookForIntersection() {
 
 void RoadBorderDetector::reset() {
   hits_.reset();
+  novelty_.reset();
   tracks_.clear();
   presence_.reset();
   passages_.reset();

@@ -82,9 +82,9 @@ StationEvidence::Station* StationEvidence::stationAt(double along) {
   return slot < stations_.size() ? &stations_[slot] : nullptr;
 }
 
-void StationEvidence::addHit(double along) {
+void StationEvidence::addHit(double along, double weight) {
   if (Station* station = stationAt(along)) {
-    station->update += hit_;
+    station->update += weight * hit_;
   }
 }
 

@@ -94,6 +94,7 @@ datmo_fusion_add_core_test(road
   road/road_border_detector_test.cpp
   road/road_extension_test.cpp
   road/road_opening_test.cpp
+  road/scan_novelty_test.cpp
   road/side_streets_test.cpp
   road/station_evidence_test.cpp
 )

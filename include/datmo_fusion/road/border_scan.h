@@ -16,10 +16,12 @@ struct BorderScan {
     bool hit = false;
     int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
     bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
+    bool in_free_space = false;  ///< the map has its end as free: something came, or is hit rarely
   };
 
   Pose2 scanner;
   double seconds = 0.0;  ///< since the last scan
+  double novelty = 1.0;  ///< 0 to 1, of what it sees (ScanNovelty)
   std::vector<Beam> beams;
 };
 

@@ -16,6 +16,7 @@
 #include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/road/road_opening.h"
+#include "datmo_fusion/road/scan_novelty.h"
 #include "datmo_fusion/road/side_streets.h"
 
 namespace datmo {
@@ -28,6 +29,7 @@ struct RoadBorderDetectorOptions {
 
   RoadBorderMethod method = RoadBorderMethod::kTracked;
   HitGridOptions hit_grid;
+  ScanNoveltyOptions novelty;
   BorderSearchOptions search;
   BorderTrackSetOptions tracks;
   PresenceHistoryOptions presence;
@@ -70,6 +72,7 @@ class RoadBorderDetector {
 
   RoadBorderDetectorOptions options_;
   HitGrid hits_;
+  ScanNovelty novelty_;
   BorderSearch search_;
   BorderTrackSet tracks_;
   PresenceHistory presence_;
