@@ -2,24 +2,37 @@
 #include "datmo_fusion/road/side_streets.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "datmo_fusion/common/angle.h"
 
 namespace datmo {
 
 namespace {
 
-/// Two borders nearer to each other are one, m.
-constexpr double kSameStreetDistance = 1.5;
-
-/// Two borders are one only if turned by no more than this, rad.
-constexpr double kSameHeading = 0.3;
+/// No street for vehicles is narrower, m: left borders that begin nearer to each other are of one
+/// street, and so are right ones.
+constexpr double kMinStreetWidth = 5.5;
 
 /// m, from a point of a published border to the next.
 constexpr double kPointStep = 1.0;
 /// At a time: four streets have half as many.
 constexpr std::size_t kMaxStreets = 16;
+
+bool cross(const FoundBorder& one, const FoundBorder& other) {
+  const Pose2 map_in_one = one.line.inverse();
+  const Point2 begin = map_in_one * other.line.position();
+  const Point2 end = map_in_one * (other.line * Point2(other.length, 0.0));
+  if (begin.y() * end.y() >= 0.0) {
+    return false;
+  }
+  const double x = begin.x() + begin.y() / (begin.y() - end.y()) * (end.x() - begin.x());
+  return x >= 0.0 && x <= one.length;
+}
+
+/// Whether at most one of two is a border of a street: each has one on either side, and they do not
+/// cross.
+bool exclude(const FoundBorder& one, const FoundBorder& other) {
+  const double apart = (one.line.position() - other.line.position()).norm();
+  return (one.side == other.side && apart < kMinStreetWidth) || cross(one, other);
+}
 
 }  // namespace
 
@@ -67,21 +80,15 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
     if (!found) {
       continue;
     }
-    const auto known = std::find_if(known_.begin(), known_.end(),
-                                    [&](const Known& other) { return isSame(other, *found); });
-    if (known != known_.end()) {
-      *known = {*found, opening.side, stamp};
-    } else if (known_.size() < kMaxStreets) {
+    // The last look is from nearest by.
+    known_.erase(
+        std::remove_if(known_.begin(), known_.end(),
+                       [&](const Known& known) { return exclude(known.border, *found); }),
+        known_.end());
+    if (known_.size() < kMaxStreets) {
       known_.push_back({*found, opening.side, stamp});
     }
   }
-}
-
-bool SideStreets::isSame(const Known& known, const FoundBorder& found) const {
-  const Point2 offset = known.border.line.inverse() * found.line.position();
-  return known.border.side == found.side && std::abs(offset.y()) < kSameStreetDistance &&
-         std::abs(offset.x()) < known.border.length &&
-         std::abs(angleBetween(known.border.line.heading(), found.line.heading())) < kSameHeading;
 }
 
 std::vector<RoadBorder> SideStreets::borders(Stamp stamp) const {

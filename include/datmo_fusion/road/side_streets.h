@@ -25,7 +25,8 @@ struct SideStreetOptions {
 };
 
 /// The borders of streets that open into the vehicle's: the search for borders of the thesis (3.5)
-/// from the middle of each opening, as from a vehicle that looks into the street.
+/// from the middle of each opening, as from a vehicle that looks into the street. What it finds last
+/// takes the place of what contradicts it.
 class SideStreets {
  public:
   /// Throws OptionError.
@@ -48,7 +49,6 @@ class SideStreets {
   };
 
   void lookInto(const HitGrid& hits, const RoadOpening& opening, Stamp stamp);
-  bool isSame(const Known& known, const FoundBorder& found) const;
 
   SideStreetOptions options_;
   BorderSearch search_;

@@ -67,6 +67,38 @@ TEST_F(SideStreetsTest, FindsNoneTwice) {
   EXPECT_EQ(streets_.borders(at(1.2)).size(), 2U);
 }
 
+TEST_F(SideStreetsTest, WhatIsFoundLastTakesThePlaceOfWhatContradictsIt) {
+  // From a turning vehicle: the opening seems to lie elsewhere, and another line is found.
+  HitGrid slanted{HitGridOptions{}};
+  for (int i = 0; i < 60; ++i) {
+    for (int hits = 0; hits < 4; ++hits) {
+      slanted.add({14.0 + 0.05 * i, 6.0 + 0.25 * i}, at(hits));
+    }
+  }
+  streets_.update(slanted, {opening_}, at(0.0));
+  ASSERT_EQ(streets_.borders(at(0.0)).size(), 1U) << "the left one";
+  streets_.update(hits_, {opening_}, at(0.5));
+  const auto borders = streets_.borders(at(0.5));
+  ASSERT_EQ(borders.size(), 2U);
+  for (const RoadBorder& border : borders) {
+    EXPECT_NEAR(border.points.front().position.x(), border.points.back().position.x(), 0.2);
+  }
+}
+
+TEST_F(SideStreetsTest, TwoStreetsSideBySideHaveFourBorders) {
+  for (int i = 0; i < 60; ++i) {
+    for (const double x : {33.0, 43.0}) {
+      for (int hits = 0; hits < 4; ++hits) {
+        hits_.add({x, 6.0 + 0.25 * i}, at(hits));
+      }
+    }
+  }
+  RoadOpening second = opening_;
+  second.middle = Pose2(38.0, 5.0, 0.5 * kPi);
+  streets_.update(hits_, {opening_, second}, at(0.0));
+  EXPECT_EQ(streets_.borders(at(0.0)).size(), 4U);
+}
+
 TEST_F(SideStreetsTest, LooksFromTimeToTime) {
   streets_.update(hits_, {}, at(0.0));
   streets_.update(hits_, {opening_}, at(0.1));
