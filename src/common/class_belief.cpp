@@ -2,6 +2,7 @@
 #include "datmo_fusion/common/class_belief.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace datmo {
@@ -29,12 +30,21 @@ ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
 
 }  // namespace
 
-ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabilities& b) {
-  ClassProbabilities product{};
-  for (std::size_t i = 0; i < kObjectClasses; ++i) {
-    product[i] = a[i] * b[i];
+ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs) {
+  if (beliefs.size() == 1) {
+    return beliefs.front();
+  }
+  ClassProbabilities product;
+  product.fill(1.0);
+  for (const ClassProbabilities& belief : beliefs) {
+    std::transform(belief.begin(), belief.end(), product.begin(), product.begin(),
+                   std::multiplies<>());
   }
   return normalizedWithDoubt(product);
+}
+
+bool tellsAnything(const ClassProbabilities& belief) {
+  return *std::max_element(belief.begin(), belief.end()) > kChance + kDoubt;
 }
 
 ClassBelief::ClassBelief() { probabilities_.fill(kChance); }

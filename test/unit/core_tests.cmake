@@ -211,6 +211,7 @@ datmo_fusion_add_core_test(fusion
   fusion/track_comparison_test.cpp
   fusion/track_consistency_test.cpp
   fusion/track_extents_test.cpp
+  fusion/three_sources_test.cpp
   fusion/track_fuser_test.cpp
   fusion/track_prediction_test.cpp
   fusion/windowed_evidence_test.cpp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "datmo_fusion/common/object.h"
 
@@ -10,10 +11,14 @@ namespace datmo {
 /// Probability of each ObjectClass, in the order of its values; they sum to 1.
 using ClassProbabilities = std::array<double, kObjectClasses>;
 
-/// What two independent beliefs say together (Bayes): both started from equal probabilities, so
-/// that their product is the posterior. As in ClassBelief no class becomes impossible. Of one that
-/// contradicts all that the other says nothing is left: all are equally likely.
-ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabilities& b);
+/// What independent beliefs say together (Bayes), in any order: all started from equal
+/// probabilities, so that their product is the posterior. As in ClassBelief no class becomes
+/// impossible. Of those that contradict all that the others say nothing is left: all are equally
+/// likely, as of none. One alone stays as it is.
+ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs);
+
+/// Whether one class is likelier than by chance, by more than the doubt that ClassBelief keeps.
+bool tellsAnything(const ClassProbabilities& belief);
 
 /// What an object is, from all class reports so far (Bayes). Before anything was
 /// said all classes are equally likely.

@@ -32,6 +32,12 @@ struct ScalePrior {
 /// was matched with: an error of its own in each renewal of what is seen, a random walk over
 /// distance. At rest nothing comes into view, and nothing drifts.
 ///
+/// The mean of ages is what counts, not that of rates: with the share p(a) of what is matched of
+/// age a, the map's error is d(t) = sum p(a) d(t - a) + m(t), and by the renewal theorem (Feller
+/// 1971, XI.1) a match's error m stays in it for good with the weight 1 / sum a p(a). That some
+/// surfaces are renewed quickly makes d wander about what the old ones hold, no farther: a share
+/// that never ages (a prior map) bounds it. The mean of 1 / a would count this as drift.
+///
 /// Along the way odometry lays out the map: its scale (PoseFilter) is only known as well as one
 /// renewal of the map shows it, two matches over the distance in between. Its error is the same all
 /// along, so that what it leads to grows with distance, not with its root.

@@ -1,22 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/track/class_memory.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace datmo {
-
-namespace {
-
-/// Above chance, of the likeliest class: less is nothing but the doubt of ClassBelief.
-constexpr double kTelling = 0.05;
-
-bool tellsAnything(const ClassProbabilities& belief) {
-  const double chance = 1.0 / static_cast<double>(belief.size());
-  return *std::max_element(belief.begin(), belief.end()) > chance + kTelling;
-}
-
-}  // namespace
 
 void ClassMemory::update(const Beliefs& own, const Beliefs& all) {
   for (const auto& [member, belief] : present_) {
@@ -40,14 +27,7 @@ ClassProbabilities ClassMemory::belief() const {
   for (const auto& [source, belief] : ended_) {
     beliefs.push_back(belief);
   }
-  if (beliefs.empty()) {
-    return ClassBelief().probabilities();
-  }
-  ClassProbabilities joint = beliefs.front();
-  for (std::size_t i = 1; i < beliefs.size(); ++i) {
-    joint = jointBelief(joint, beliefs[i]);
-  }
-  return joint;
+  return jointBelief(beliefs);
 }
 
 }  // namespace datmo

@@ -117,10 +117,31 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                     is_intersection ? intersection(joint.share) : independent(joint.share));
 }
 
-StateEstimate mixtureOf(const StateEstimate& a, const StateEstimate& b) {
-  const TrackState half_apart = 0.5 * (b.mean - a.mean);
-  return {a.mean + half_apart,
-          0.5 * (a.covariance + b.covariance) + half_apart * half_apart.transpose()};
+StateEstimate fusedState(const std::vector<StateEstimate>& estimates,
+                         const CrossCovarianceOf& cross, const TrackCombinationOptions& options) {
+  const bool is_correlated = options.method == TrackCombinationMethod::kBarShalomCampo;
+  StateEstimate whole = estimates.front();
+  for (std::size_t i = 1; i < estimates.size(); ++i) {
+    CrossCovariance sum = CrossCovariance::Zero();
+    for (std::size_t before = 0; is_correlated && before < i; ++before) {
+      sum += cross(before, i);
+    }
+    whole = fusedState(whole, estimates[i], sum / static_cast<double>(i), options);
+  }
+  return whole;
+}
+
+StateEstimate mixtureOf(const std::vector<StateEstimate>& estimates) {
+  const double share = 1.0 / static_cast<double>(estimates.size());
+  StateEstimate mixture{TrackState::Zero(), TrackCovariance::Zero()};
+  for (const StateEstimate& one : estimates) {
+    mixture.mean += share * one.mean;
+  }
+  for (const StateEstimate& one : estimates) {
+    const TrackState apart = one.mean - mixture.mean;
+    mixture.covariance += share * (one.covariance + apart * apart.transpose());
+  }
+  return mixture;
 }
 
 }  // namespace datmo

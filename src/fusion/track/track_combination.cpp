@@ -28,17 +28,15 @@ double headingVarianceOf(const Track& track) {
   return std::clamp(track.heading_variance, kMinHeadingVariance, kUnknownHeadingVariance);
 }
 
-/// Whether the front is where a takes it to be, and not at the other end as b says. Who moves knows
-/// it; if both do, their information on the velocity decides.
-bool aKnowsFront(const Track& a, const Track& b, const TrackState& fused) {
-  if (a.moving != b.moving) {
-    return a.moving;
-  }
+/// Who knows best where the front is: who moves; of several their information on the velocity
+/// decides.
+const Track& whoKnowsFront(const std::vector<Track>& tracks, const TrackState& fused) {
   const auto order = [&](const Track& track) {
     const double ahead = Point2(fused.segment<2>(2)).dot(track.box.center.rotation().col(0));
-    return std::make_tuple(ahead < 0.0, headingVarianceOf(track), headingOf(track));
+    return std::make_tuple(!track.moving, ahead < 0.0, headingVarianceOf(track), headingOf(track));
   };
-  return order(a) <= order(b);
+  return *std::min_element(tracks.begin(), tracks.end(),
+                           [&](const Track& a, const Track& b) { return order(a) < order(b); });
 }
 
 struct Heading {
@@ -46,29 +44,32 @@ struct Heading {
   double variance;  ///< rad^2
 };
 
-/// Modulo pi by the variances, then the front. Both follow the same motion, so that the result is
-/// weighted as by covariance intersection: it is never surer than the surer one.
-Heading fusedHeading(const Track& a, const Track& b, const TrackState& fused) {
-  const double of_a = headingVarianceOf(a);
-  const double of_b = headingVarianceOf(b);
-  const double turn = angleBetween(headingOf(a), headingOf(b));
-  const bool opposite = std::abs(turn) > kQuarterTurn;
-  // Of the axes, whichever end of them is the front.
-  const double apart = opposite ? normalizeAngle(turn + kPi) : turn;
-  double share_of_b = of_a / (of_a + of_b);
-  Heading heading{};
-  if (std::abs(apart) > kMaxTurn) {
-    const bool a_is_surer =
-        std::make_tuple(of_a, headingOf(a)) <= std::make_tuple(of_b, headingOf(b));
-    share_of_b = a_is_surer ? 0.0 : 1.0;
-    heading.variance = std::min(of_a, of_b);
-  } else {
-    const double share_of_a = 1.0 - share_of_b;
-    heading.variance = 1.0 / (share_of_a / of_a + share_of_b / of_b);
-    share_of_b = share_of_b / of_b * heading.variance;
+/// Modulo pi by the variances, of those that agree with the surest one; then the front. All follow
+/// the same motion, so that the result is weighted as by covariance intersection: it is never surer
+/// than the surest one.
+Heading fusedHeading(const std::vector<Track>& tracks, const TrackState& fused) {
+  const Track& surest =
+      *std::min_element(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
+        return std::make_tuple(headingVarianceOf(a), headingOf(a)) <
+               std::make_tuple(headingVarianceOf(b), headingOf(b));
+      });
+  double weights = 0.0;
+  double information = 0.0;
+  double pull = 0.0;
+  for (const Track& track : tracks) {
+    const double turn = angleBetween(headingOf(surest), headingOf(track));
+    // Of the axes, whichever end of them is the front.
+    const double apart = std::abs(turn) > kQuarterTurn ? normalizeAngle(turn + kPi) : turn;
+    if (std::abs(apart) <= kMaxTurn) {
+      const double weight = 1.0 / headingVarianceOf(track);
+      weights += weight;
+      information += weight * weight;
+      pull += weight * weight * apart;
+    }
   }
-  heading.value = headingOf(a) + share_of_b * apart;
-  if (opposite && !aKnowsFront(a, b, fused)) {
+  Heading heading{headingOf(surest) + pull / information, weights / information};
+  const double front = headingOf(whoKnowsFront(tracks, fused));
+  if (std::abs(angleBetween(heading.value, front)) > kQuarterTurn) {
     heading.value += kPi;
   }
   heading.value = normalizeAngle(heading.value);
@@ -91,12 +92,15 @@ AxisSizes sizesAlong(double heading, const Track& track) {
           along.diagonal().cwiseMax(kMinCenterVariance)};
 }
 
-Box2 fusedBox(const Track& a, const Track& b, const Pose2& center) {
-  const AxisSizes of_a = sizesAlong(center.heading(), a);
-  const AxisSizes of_b = sizesAlong(center.heading(), b);
-  const Eigen::Vector2d size =
-      (of_a.size.cwiseProduct(of_b.variance) + of_b.size.cwiseProduct(of_a.variance))
-          .cwiseQuotient(of_a.variance + of_b.variance);
+Box2 fusedBox(const std::vector<Track>& tracks, const Pose2& center) {
+  Eigen::Vector2d weights = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sizes = Eigen::Vector2d::Zero();
+  for (const Track& track : tracks) {
+    const AxisSizes own = sizesAlong(center.heading(), track);
+    weights += own.variance.cwiseInverse();
+    sizes += own.size.cwiseQuotient(own.variance);
+  }
+  const Eigen::Vector2d size = sizes.cwiseQuotient(weights);
   return {center, size.x(), size.y()};
 }
 
@@ -113,18 +117,38 @@ std::uint32_t saturatedSum(std::uint32_t a, std::uint32_t b) {
   return a + std::min(b, std::numeric_limits<std::uint32_t>::max() - a);
 }
 
-/// Each with as much say as the other; who knows nothing of it has none.
-std::array<double, kMotionModes> averagedModes(const std::array<double, kMotionModes>& a,
-                                               const std::array<double, kMotionModes>& b) {
-  const double of_a = std::accumulate(a.begin(), a.end(), 0.0);
-  const double of_b = std::accumulate(b.begin(), b.end(), 0.0);
-  const double parts = (of_a > 0.0 ? 1.0 : 0.0) + (of_b > 0.0 ? 1.0 : 0.0);
+/// Each with as much say as the others; who knows nothing of it has none.
+std::array<double, kMotionModes> averagedModes(const std::vector<Track>& tracks) {
   std::array<double, kMotionModes> modes{};
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    modes[i] = ((of_a > 0.0 ? a[i] / of_a : 0.0) + (of_b > 0.0 ? b[i] / of_b : 0.0)) /
-               std::max(parts, 1.0);
+  double parts = 0.0;
+  for (const Track& track : tracks) {
+    const auto& own = track.mode_probabilities;
+    const double sum = std::accumulate(own.begin(), own.end(), 0.0);
+    if (sum > 0.0) {
+      parts += 1.0;
+      std::transform(own.begin(), own.end(), modes.begin(), modes.begin(),
+                     [sum](double one, double before) { return before + one / sum; });
+    }
+  }
+  for (double& mode : modes) {
+    mode /= std::max(parts, 1.0);
   }
   return modes;
+}
+
+ClassProbabilities jointClass(const std::vector<Track>& tracks) {
+  std::vector<ClassProbabilities> beliefs;
+  for (const Track& track : tracks) {
+    beliefs.push_back(track.class_probabilities);
+  }
+  return jointBelief(beliefs);
+}
+
+double averagedYawRate(const std::vector<Track>& tracks) {
+  const double sum =
+      std::accumulate(tracks.begin(), tracks.end(), 0.0,
+                      [](double before, const Track& one) { return before + one.yaw_rate; });
+  return sum / static_cast<double>(tracks.size());
 }
 
 std::vector<SourceTrack> mergedSources(const Track& a, const Track& b) {
@@ -142,30 +166,40 @@ std::vector<SourceTrack> mergedSources(const Track& a, const Track& b) {
   return all;
 }
 
+/// All of it that grows with each track.
+void addEvidence(Track& whole, const Track& track) {
+  whole.height = std::max(whole.height, track.height);
+  whole.moving = whole.moving || track.moving;
+  whole.since_update = std::min(whole.since_update, track.since_update);
+  whole.hits = saturatedSum(whole.hits, track.hits);
+  whole.sensors = sortedUnion(whole.sensors, track.sensors);
+  whole.sources = mergedSources(whole, track);
+}
+
 }  // namespace
 
-Track combined(Track a, const Track& b, bool contradict, const CrossCovariance& cross,
+Track combined(const std::vector<Track>& tracks, bool contradict, const CrossCovarianceOf& cross,
                const TrackCombinationOptions& options) {
-  const StateEstimate of_a{a.state, a.covariance};
-  const StateEstimate of_b{b.state, b.covariance};
+  std::vector<StateEstimate> estimates;
+  for (const Track& track : tracks) {
+    estimates.push_back({track.state, track.covariance});
+  }
   const StateEstimate estimate =
-      contradict ? mixtureOf(of_a, of_b) : fusedState(of_a, of_b, cross, options);
-  const Heading heading = fusedHeading(a, b, estimate.mean);
-  a.box = fusedBox(a, b, Pose2(estimate.mean.head<2>(), heading.value));
-  a.heading_variance = heading.variance;
-  a.state = estimate.mean;
-  a.covariance = estimate.covariance;
-  a.height = std::max(a.height, b.height);
-  a.mode_probabilities = averagedModes(a.mode_probabilities, b.mode_probabilities);
-  a.yaw_rate = 0.5 * (a.yaw_rate + b.yaw_rate);
-  a.moving = a.moving || b.moving;
-  a.class_probabilities = jointBelief(a.class_probabilities, b.class_probabilities);
-  a.since_update = std::min(a.since_update, b.since_update);
-  a.hits = saturatedSum(a.hits, b.hits);
-  a.sensors = sortedUnion(a.sensors, b.sensors);
-  a.sources = mergedSources(a, b);
-  a.objects.clear();
-  return a;
+      contradict ? mixtureOf(estimates) : fusedState(estimates, cross, options);
+  const Heading heading = fusedHeading(tracks, estimate.mean);
+  Track whole = tracks.front();
+  whole.box = fusedBox(tracks, Pose2(estimate.mean.head<2>(), heading.value));
+  whole.heading_variance = heading.variance;
+  whole.state = estimate.mean;
+  whole.covariance = estimate.covariance;
+  whole.mode_probabilities = averagedModes(tracks);
+  whole.yaw_rate = averagedYawRate(tracks);
+  whole.class_probabilities = jointClass(tracks);
+  for (auto track = tracks.begin() + 1; track != tracks.end(); ++track) {
+    addEvidence(whole, *track);
+  }
+  whole.objects.clear();
+  return whole;
 }
 
 }  // namespace datmo

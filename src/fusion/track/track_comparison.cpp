@@ -115,6 +115,12 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
                  unrelated_density, {1e-6, 1.0});
 }
 
+TrackComparisonOptions TrackComparisonOptions::withoutBody() const {
+  TrackComparisonOptions options = *this;
+  options.body_std = 0.0;
+  return options;
+}
+
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options) {
   const Compared difference = a.state.head<kCompared>() - b.state.head<kCompared>();
   const double variance = positionVariance(a, options) + positionVariance(b, options);

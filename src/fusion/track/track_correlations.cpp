@@ -9,6 +9,11 @@ namespace {
 /// they have done for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4).
 constexpr double kFirstCorrelation = 0.4;
 
+/// Which of the two knows the motion better is not known.
+LinearMotion meanMotion(const LinearMotion& a, const LinearMotion& b) {
+  return {0.5 * (a.transition + b.transition), 0.5 * (a.noise + b.noise)};
+}
+
 }  // namespace
 
 void TrackCorrelations::step(double seconds) {
@@ -23,14 +28,19 @@ CrossCovariance TrackCorrelations::between(const Track& a, const Track& b,
   const auto member = [](const Track& track) {
     return Member(track.sources.front().source, track.sources.front().id);
   };
+  if (member(b) < member(a)) {
+    return between(b, a, prediction, options).transpose();
+  }
   const auto key = std::make_pair(member(a), member(b));
   const CovariancePair now{a.covariance, b.covariance};
   const auto known = before_.find(key);
   CrossCovariance cross =
       known == before_.end()
           ? evenCrossCovariance(now, kFirstCorrelation)
-          : steppedCrossCovariance(known->second.cross, known->second.covariances, now,
-                                   motionOf(a, seconds_, prediction), options.max_correlation);
+          : steppedCrossCovariance(
+                known->second.cross, known->second.covariances, now,
+                meanMotion(motionOf(a, seconds_, prediction), motionOf(b, seconds_, prediction)),
+                options.max_correlation);
   present_[key] = {cross, now};
   return cross;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "datmo_fusion/common/square.h"
@@ -30,6 +31,27 @@ void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
   tracks.resize(max);
   std::sort(tracks.begin(), tracks.end(),
             [](const Track& a, const Track& b) { return a.id < b.id; });
+}
+
+/// An order of tracks that does not hang on that of their sources.
+bool isSurer(const Track& a, const Track& b) {
+  const auto rank = [](const Track& track) {
+    return std::make_tuple(track.covariance.topLeftCorner<2, 2>().determinant(), track.state.x(),
+                           track.state.y());
+  };
+  return rank(a) < rank(b);
+}
+
+/// Any of them any other.
+bool contradictEachOther(const std::vector<Track>& tracks, const TrackComparisonOptions& options) {
+  for (auto a = tracks.begin(); a != tracks.end(); ++a) {
+    if (std::any_of(a + 1, tracks.end(), [&](const Track& b) {
+          return compare(*a, b, options).squared_distance > options.gate;
+        })) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Where the tracks of each list are seen from.
@@ -131,53 +153,46 @@ std::vector<Track> TrackFuser::fused(const std::vector<TrackGroup>& groups,
                                      TrackFusionCounts& counts) {
   std::vector<Track> tracks;
   for (const TrackGroup& group : groups) {
-    if (group.size() > 1) {
-      tracks.push_back(joined(group, present, sensors));
-      ++counts.fused;
-    } else {
-      tracks.push_back(present[group[0].list].tracks[group[0].track]);
-    }
+    tracks.push_back(joined(group, present, sensors));
+    counts.fused += group.size() > 1 ? 1 : 0;
   }
   return tracks;
 }
 
-Track TrackFuser::joined(const TrackGroup& group, const std::vector<PresentTracks>& present,
+Track TrackFuser::joined(TrackGroup group, const std::vector<PresentTracks>& present,
                          const std::vector<std::optional<Point2>>& sensors) {
-  TrackComparisonOptions comparison = options_.association.comparison;
-  const double body_variance = square(comparison.body_std);
-  comparison.body_std = 0.0;  // it is in the covariances of the members
-  const auto member = [&](std::size_t i) {
-    Track track = present[group[i].list].tracks[group[i].track];
-    track.covariance.diagonal().head<2>().array() += body_variance;
-    return track;
+  const auto trackAt = [&](const TrackPosition& position) -> const Track& {
+    return present[position.list].tracks[position.track];
   };
-  Track whole = member(0);
-  for (std::size_t i = 1; i < group.size(); ++i) {
-    Track track = member(i);
-    const bool contradict = compare(whole, track, comparison).squared_distance > comparison.gate;
-    reconcileExtents(whole, sensors[group[0].list], track, sensors[group[i].list]);
-    const double age = std::max(whole.age, track.age);
-    whole = combined(std::move(whole), track, contradict, crossCovariance(group, i, present),
-                     options_.combination);
-    whole.age = age;
+  std::sort(group.begin(), group.end(), [&](const TrackPosition& a, const TrackPosition& b) {
+    return isSurer(trackAt(a), trackAt(b));
+  });
+  const TrackComparisonOptions& comparison = options_.association.comparison;
+  std::vector<Track> tracks;
+  double age = 0.0;
+  for (const TrackPosition& position : group) {
+    tracks.push_back(trackAt(position));
+    tracks.back().covariance.diagonal().head<2>().array() += square(comparison.body_std);
+    age = std::max(age, tracks.back().age);
   }
+  if (tracks.size() == 1) {
+    return tracks.front();
+  }
+  const bool contradict = contradictEachOther(tracks, comparison.withoutBody());
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    for (std::size_t j = i + 1; j < group.size(); ++j) {
+      reconcileExtents(tracks[i], sensors[group[i].list], tracks[j], sensors[group[j].list]);
+    }
+  }
+  Track whole = combined(
+      tracks, contradict,
+      [&](std::size_t a, std::size_t b) {
+        return correlations_.between(trackAt(group[a]), trackAt(group[b]), options_.prediction,
+                                     options_.combination);
+      },
+      options_.combination);
+  whole.age = age;
   return whole;
-}
-
-CrossCovariance TrackFuser::crossCovariance(const TrackGroup& group, std::size_t index,
-                                            const std::vector<PresentTracks>& present) {
-  CrossCovariance sum = CrossCovariance::Zero();
-  if (options_.combination.method != TrackCombinationMethod::kBarShalomCampo) {
-    return sum;
-  }
-  const auto trackAt = [&](std::size_t i) -> const Track& {
-    return present[group[i].list].tracks[group[i].track];
-  };
-  for (std::size_t i = 0; i < index; ++i) {
-    sum += correlations_.between(trackAt(i), trackAt(index), options_.prediction,
-                                 options_.combination);
-  }
-  return sum / static_cast<double>(index);
 }
 
 void TrackFuser::publish(TrackFusionResult& result) {

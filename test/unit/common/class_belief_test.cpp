@@ -82,18 +82,38 @@ TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
   EXPECT_TRUE(belief.compatible(ObjectClass::kPedestrian));
 }
 
+TEST(ClassBelief, TellsAnythingWhereOneClassIsAboveChanceByMoreThanTheDoubt) {
+  EXPECT_FALSE(tellsAnything(ClassBelief().probabilities()));
+  EXPECT_FALSE(tellsAnything({0.19, 0.19, 0.19, 0.24, 0.19}));
+  EXPECT_TRUE(tellsAnything({0.18, 0.18, 0.18, 0.28, 0.18}));
+}
+
 TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
   const ClassProbabilities a = {0.1, 0.1, 0.1, 0.6, 0.1};
   const ClassProbabilities b = {0.1, 0.1, 0.4, 0.3, 0.1};
   // Products 0.01, 0.01, 0.04, 0.18, 0.01, of 0.25; 0.95 of them, and 0.01 for each class.
-  const ClassProbabilities both = jointBelief(a, b);
+  const ClassProbabilities both = jointBelief({a, b});
   EXPECT_NEAR(both[3], 0.694, kTolerance);
   EXPECT_NEAR(both[2], 0.162, kTolerance);
-  EXPECT_EQ(both, jointBelief(b, a));
+  EXPECT_EQ(both, jointBelief({b, a}));
   // Nothing is known from contradictions.
-  for (const double value : jointBelief({1.0, 0.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0, 0.0})) {
+  for (const double value : jointBelief({ClassProbabilities{1.0}, ClassProbabilities{0.0, 1.0}})) {
     EXPECT_DOUBLE_EQ(value, 0.2);
   }
+}
+
+TEST(ClassBelief, SeveralBeliefsAreJoinedInAnyOrderWithTheDoubtOfOneObservation) {
+  const ClassProbabilities a = {0.1, 0.1, 0.1, 0.6, 0.1};
+  const ClassProbabilities b = {0.1, 0.1, 0.4, 0.3, 0.1};
+  const ClassProbabilities c = {0.1, 0.1, 0.5, 0.2, 0.1};
+  // Products 1, 1, 20, 36, 1 of 59.
+  for (const auto& all : {std::vector<ClassProbabilities>{a, b, c}, {c, a, b}, {b, c, a}}) {
+    const ClassProbabilities joint = jointBelief(all);
+    EXPECT_NEAR(joint[3], 0.95 * 36.0 / 59.0 + 0.01, kTolerance);
+    EXPECT_NEAR(joint[0], 0.95 / 59.0 + 0.01, kTolerance);
+  }
+  EXPECT_EQ(jointBelief({a}), a);
+  EXPECT_EQ(jointBelief({}), ClassBelief().probabilities());
 }
 
 }  // namespace

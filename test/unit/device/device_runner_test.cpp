@@ -2,6 +2,8 @@
 // What all devices have in common: where nobody listens, and options that are out of range.
 #include "datmo_fusion/device/device_runner.h"
 
+#include <chrono>
+
 #include "device/device_probe.h"
 #include "device/fake_server.h"
 #include <gtest/gtest.h>
@@ -38,8 +40,10 @@ TEST_P(DeviceRunnerTest, ItEndsAtOnceWhileItWaits) {
   DeviceProbe probe(GetParam());
   probe.start(fake.port());
   fake.accept();
+  const auto begin = std::chrono::steady_clock::now();
   probe.stop();
-  EXPECT_TRUE(probe.faults.isEmpty()) << "it has waited for the device's timeout";
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(took.count(), 0.5 * probe.setup.timeout) << "it has waited for the device's timeout";
 }
 
 INSTANTIATE_TEST_SUITE_P(Makes, DeviceRunnerTest,

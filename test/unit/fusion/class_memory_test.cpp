@@ -30,7 +30,7 @@ TEST(ClassMemoryTest, SourcesAreJoinedByBayes) {
   ClassMemory memory;
   const Beliefs both{{kLidar, kCyclist}, {kStereo, kPedestrian}};
   memory.update(both, both);
-  EXPECT_EQ(memory.belief(), jointBelief(kCyclist, kPedestrian));
+  EXPECT_EQ(memory.belief(), jointBelief({kCyclist, kPedestrian}));
 }
 
 TEST(ClassMemoryTest, WhatATrackThatEndedSaidCountsOn) {
@@ -40,7 +40,7 @@ TEST(ClassMemoryTest, WhatATrackThatEndedSaidCountsOn) {
   const Beliefs alone{{kLidar, kUnknown}};
   for (int i = 0; i < 5; ++i) {
     memory.update(alone, alone);
-    EXPECT_EQ(memory.belief(), jointBelief(kUnknown, kPedestrian));
+    EXPECT_EQ(memory.belief(), jointBelief({kUnknown, kPedestrian}));
   }
 }
 
@@ -61,7 +61,7 @@ TEST(ClassMemoryTest, TheNextTrackOfTheSourceReplacesItOnceItTellsSomething) {
   memory.update({{kStereo, kPedestrian}}, {{kStereo, kPedestrian}});
   memory.update({}, {});
   memory.update({{kNextStereo, kUnknown}}, {{kNextStereo, kUnknown}});
-  EXPECT_EQ(memory.belief(), jointBelief(kUnknown, kPedestrian));
+  EXPECT_EQ(memory.belief(), jointBelief({kUnknown, kPedestrian}));
   memory.update({{kNextStereo, kCyclist}}, {{kNextStereo, kCyclist}});
   EXPECT_EQ(memory.belief(), kCyclist);
 }

@@ -55,11 +55,40 @@ TEST(FusedStateTest, IndependentEstimatesAreWeightedByTheirVariances) {
 
 TEST(FusedStateTest, AMixtureCoversBothOfTwoThatContradictEachOther) {
   // Mean 2, variance (1 + 3) / 2 + 2^2, and all components go along with each other.
-  const StateEstimate mixture = mixtureOf(estimateAt(0.0, 1.0), estimateAt(4.0, 3.0));
+  const StateEstimate mixture = mixtureOf({estimateAt(0.0, 1.0), estimateAt(4.0, 3.0)});
   EXPECT_TRUE(mixture.mean.isApproxToConstant(2.0, 1e-12));
   EXPECT_TRUE(mixture.covariance.isApprox(
       TrackCovariance::Identity() * 2.0 + TrackCovariance::Constant(4.0), 1e-12));
   EXPECT_TRUE(isPositive(mixture.covariance));
+}
+
+TEST(FusedStateTest, AMixtureOfThreeIsThatOfAllWhateverTheirOrder) {
+  // Mean (0 + 0 + 6) / 3, variance (1 + 2 + 3) / 3 + (4 + 4 + 16) / 3.
+  std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(0.0, 2.0),
+                                    estimateAt(6.0, 3.0)};
+  for (int i = 0; i < 3; ++i) {
+    const StateEstimate mixture = mixtureOf(all);
+    EXPECT_TRUE(mixture.mean.isApproxToConstant(2.0, 1e-12));
+    EXPECT_TRUE(mixture.covariance.isApprox(
+        TrackCovariance::Identity() * 2.0 + TrackCovariance::Constant(8.0), 1e-12));
+    std::rotate(all.begin(), all.begin() + 1, all.end());
+  }
+}
+
+TEST(FusedStateTest, OfThreeTheThirdIsFusedWithWhatTheOthersAreTogether) {
+  const std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(6.0, 3.0),
+                                          estimateAt(3.0, 2.0)};
+  TrackCombinationOptions options;
+  options.method = kCampo;
+  const auto cross = [](std::size_t a, std::size_t b) -> CrossCovariance {
+    return CrossCovariance::Identity() * (a == 0 && b == 1 ? 0.5 : b == 2 && a == 0 ? 0.2 : 0.4);
+  };
+  const StateEstimate fused = fusedState(all, cross, options);
+  // Of the first two 1 and 11/12 (as by hand above); of the third the cross-covariance 0.3.
+  const double gain = (11.0 / 12.0 - 0.3) / (11.0 / 12.0 + 2.0 - 0.6);
+  EXPECT_TRUE(fused.mean.isApproxToConstant(1.0 + gain * 2.0, 1e-9));
+  EXPECT_TRUE(fused.covariance.isApprox(
+      TrackCovariance::Identity() * (11.0 / 12.0 - gain * (11.0 / 12.0 - 0.3)), 1e-9));
 }
 
 TEST(FusedStateTest, BarShalomCampoIsByHand) {

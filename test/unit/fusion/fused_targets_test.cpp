@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/track/fused_targets.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -7,6 +9,8 @@
 #include "track_sources.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/fusion/track/track_comparison.h"
 #include "datmo_fusion/fusion/track/track_fuser.h"
 
 namespace datmo::fused_targets_test {
@@ -88,6 +92,31 @@ TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
       EXPECT_GT(belief[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.5) << t;
     }
   }
+}
+
+TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
+  // What sensors take for the body's center is in the covariance of both already: where it would
+  // make them one if it counted twice, they are two.
+  const TrackFuserOptions options;
+  const TrackComparisonOptions& twice = options.association.comparison;
+  const auto ofBody = [&](double y, std::uint32_t id) {
+    Track track = carTrack(20.0, y, 5.0, 0.0, "lidar", id);
+    track.covariance.diagonal().head<2>().array() += square(twice.body_std);
+    return track;
+  };
+  const auto isOneAt = [&](double y, const TrackComparisonOptions& comparison) {
+    return compare(ofBody(0.0, 1), ofBody(y, 2), comparison).log_likelihood_ratio > 0.0;
+  };
+  int borderline = 0;
+  for (double y = 2.5; y < 5.0; y += 0.1) {
+    FusedTargets targets(1);
+    targets.follow(at(0.0), 0.0, {ofBody(0.0, 1)}, options);
+    targets.follow(at(0.0), 0.0, {ofBody(y, 2)}, options);
+    const bool is_one = isOneAt(y, twice.withoutBody());
+    EXPECT_EQ(targets.all().size(), is_one ? 1U : 2U) << y;
+    borderline += isOneAt(y, twice) != is_one ? 1 : 0;
+  }
+  EXPECT_GT(borderline, 0) << "or this shows nothing";
 }
 
 TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {

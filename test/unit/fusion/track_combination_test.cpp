@@ -14,8 +14,11 @@
 namespace datmo::track_combination_test {
 namespace {
 
-const CrossCovariance kNoCross = CrossCovariance::Zero();
-const TrackCombinationOptions kOptions;
+CrossCovariance none(std::size_t /*a*/, std::size_t /*b*/) { return CrossCovariance::Zero(); }
+
+Track combined(const std::vector<Track>& tracks, bool contradict = false) {
+  return datmo::combined(tracks, contradict, none, TrackCombinationOptions());
+}
 
 Track lidarCar() { return carTrack(10.0, 2.0, 5.0, 0.0, "lidar", 3); }
 Track stereoCar() { return carTrack(10.4, 2.2, 5.2, 0.0, "stereo", 8); }
@@ -25,14 +28,14 @@ void turnTo(Track& track, double heading) {
 }
 
 double fusedHeading(const Track& a, const Track& b) {
-  const double heading = combined(a, b, false, kNoCross, kOptions).box.center.heading();
-  const double other = combined(b, a, false, kNoCross, kOptions).box.center.heading();
+  const double heading = combined({a, b}).box.center.heading();
+  const double other = combined({b, a}).box.center.heading();
   EXPECT_NEAR(std::cos(heading - other), 1.0, 1e-9) << heading << " or " << other;
   return heading;
 }
 
 TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
-  const Track fused = combined(lidarCar(), stereoCar(), false, kNoCross, kOptions);
+  const Track fused = combined({lidarCar(), stereoCar()});
   EXPECT_NEAR(fused.state[0], 10.2, 1e-9);
   EXPECT_NEAR(fused.state[2], 5.1, 1e-9);
   EXPECT_NEAR((fused.box.center.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
@@ -42,7 +45,7 @@ TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
 TEST(TrackCombinationTest, OfTwoThatContradictEachOtherTheCovarianceCoversBoth) {
   Track stands = stereoCar();
   stands.state.segment<2>(2).setZero();
-  const Track fused = combined(lidarCar(), stands, true, kNoCross, kOptions);
+  const Track fused = combined({lidarCar(), stands}, true);
   EXPECT_NEAR(fused.state[2], 2.5, 1e-9);
   EXPECT_GT(fused.covariance(2, 2), 2.5 * 2.5);
   EXPECT_NEAR((fused.box.center.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
@@ -54,11 +57,11 @@ TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
   turnTo(b, 0.2);
   EXPECT_NEAR(fusedHeading(a, b), 0.1, 1e-9);
   // No surer than one of them: both follow the same motion.
-  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).heading_variance, 0.01, 1e-9);
+  EXPECT_NEAR(combined({a, b}).heading_variance, 0.01, 1e-9);
   // Weights 3/4 and 1/4 of the informations 100 and 100/3: 75 and 8.33.
   b.heading_variance = 0.03;
   EXPECT_NEAR(fusedHeading(a, b), 0.02, 1e-9);
-  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).heading_variance, 0.012, 1e-9);
+  EXPECT_NEAR(combined({a, b}).heading_variance, 0.012, 1e-9);
 }
 
 TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
@@ -96,7 +99,7 @@ TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
   b.box.width = 2.8;
   b.covariance(0, 0) = 0.25;
   b.covariance(1, 1) = 0.09;
-  const Box2 box = combined(a, b, false, kNoCross, kOptions).box;
+  const Box2 box = combined({a, b}).box;
   EXPECT_NEAR(box.length, (3.0 * 0.25 + 5.0 * 1.0) / 1.25, 1e-9);
   EXPECT_NEAR(box.width, (1.8 * 0.09 + 2.8 * 0.01) / 0.10, 1e-9);
 }
@@ -108,7 +111,7 @@ TEST(TrackCombinationTest, SizesAreThoseAlongTheCommonAxes) {
   a.box.width = 4.5;
   turnTo(a, kQuarterTurn);
   a.heading_variance = 0.005;
-  const Box2 box = combined(a, stereoCar(), false, kNoCross, kOptions).box;
+  const Box2 box = combined({a, stereoCar()}).box;
   EXPECT_NEAR(box.center.heading(), kQuarterTurn, 1e-9);
   EXPECT_NEAR(box.length, 1.8, 1e-9);
   EXPECT_NEAR(box.width, 4.5, 1e-9);
@@ -120,12 +123,12 @@ TEST(TrackCombinationTest, ClassesAreFusedByBayes) {
   // Of even odds of 1: 4 and 1: 2, the others never above.
   a.class_probabilities = {0.1, 0.1, 0.4, 0.3, 0.1};
   b.class_probabilities = {0.1, 0.1, 0.1, 0.6, 0.1};
-  const Track fused = combined(a, b, false, kNoCross, kOptions);
+  const Track fused = combined({a, b});
   // Products 0.01, 0.01, 0.04, 0.18, 0.01 of 0.25; 0.95 of them, and 0.01.
   EXPECT_NEAR(fused.class_probabilities[3], 0.95 * 0.72 + 0.01, 1e-9);
   EXPECT_NEAR(fused.class_probabilities[2], 0.95 * 0.16 + 0.01, 1e-9);
   b.class_probabilities = {};
-  EXPECT_NEAR(combined(a, b, false, kNoCross, kOptions).class_probabilities[3], 0.2, 1e-9);
+  EXPECT_NEAR(combined({a, b}).class_probabilities[3], 0.2, 1e-9);
 }
 
 TEST(TrackCombinationTest, TheMotionModesAreAveraged) {
@@ -134,12 +137,12 @@ TEST(TrackCombinationTest, TheMotionModesAreAveraged) {
   a.mode_probabilities = {1.0, 0.0, 0.0, 0.0, 0.0};
   b.mode_probabilities = {0.5, 0.0, 0.5, 0.0, 0.0};
   b.yaw_rate = 0.2;
-  const Track fused = combined(a, b, false, kNoCross, kOptions);
+  const Track fused = combined({a, b});
   EXPECT_NEAR(fused.mode_probabilities[0], 0.75, 1e-12);
   EXPECT_NEAR(fused.mode_probabilities[2], 0.25, 1e-12);
   EXPECT_NEAR(fused.yaw_rate, 0.1, 1e-12);
   b.mode_probabilities = {};
-  EXPECT_EQ(combined(a, b, false, kNoCross, kOptions).mode_probabilities, a.mode_probabilities);
+  EXPECT_EQ(combined({a, b}).mode_probabilities, a.mode_probabilities);
 }
 
 TEST(TrackCombinationTest, TheRestOfBothIsKept) {
@@ -152,7 +155,7 @@ TEST(TrackCombinationTest, TheRestOfBothIsKept) {
   b.height = 1.5;
   a.since_update = 0.3;
   a.hits = std::numeric_limits<std::uint32_t>::max() - 5;
-  const Track fused = combined(a, b, false, kNoCross, kOptions);
+  const Track fused = combined({a, b});
   EXPECT_EQ(fused.sensors, (std::vector<std::string>{"lidar", "stereo"}));
   ASSERT_EQ(fused.sources.size(), 3U);
   EXPECT_EQ(fused.sources[0].source, "lidar");
@@ -171,11 +174,43 @@ TEST(TrackCombinationTest, IdExistenceAgeAndHistoryAreThoseOfTheFirst) {
   a.history = {{Stamp{1}, Pose2()}};
   b.existence_probability = 0.1;
   b.age = 9.0;
-  const Track fused = combined(a, b, false, kNoCross, kOptions);
+  const Track fused = combined({a, b});
   EXPECT_EQ(fused.id, a.id);
   EXPECT_EQ(fused.existence_probability, a.existence_probability);
   EXPECT_EQ(fused.age, a.age);
   EXPECT_EQ(fused.history.size(), 1U);
+}
+
+TEST(TrackCombinationTest, OfThreeEachCountsAsMuchAsTheOthers) {
+  Track turning = carTrack(10.2, 1.9, 5.1, 0.0, "radar", 4);
+  turning.yaw_rate = 0.3;
+  turning.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
+  turning.box.length = 6.0;
+  turnTo(turning, 0.15);
+  Track other = stereoCar();
+  other.moving = false;
+  turnTo(other, kPi);
+  for (const std::vector<Track>& tracks :
+       {std::vector<Track>{lidarCar(), other, turning}, {turning, lidarCar(), other}}) {
+    const Track whole = combined(tracks);
+    EXPECT_NEAR(whole.yaw_rate, 0.1, 1e-12);
+    EXPECT_NEAR(whole.mode_probabilities[2], (0.03 + 0.03 + 1.0) / 3.0, 1e-12);
+    EXPECT_NEAR(whole.box.length, (4.5 + 4.5 + 6.0) / 3.0, 1e-2);
+    EXPECT_NEAR(whole.box.center.heading(), 0.05, 1e-9);
+    EXPECT_EQ(whole.sources.size(), 3U);
+    EXPECT_EQ(whole.hits, 60U);
+  }
+}
+
+TEST(TrackCombinationTest, OfThreeHeadingsOneThatContradictsTheSurestHasNoSay) {
+  Track surest = lidarCar();
+  surest.heading_variance = 0.005;
+  Track near = stereoCar();
+  turnTo(near, 0.09);
+  Track off = stereoCar();
+  turnTo(off, 1.0);
+  // Weights 2/3 and 1/3 of the informations 200 and 100: 133 and 33.
+  EXPECT_NEAR(combined({off, near, surest}).box.center.heading(), 0.09 * 0.2, 1e-9);
 }
 
 TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
@@ -197,9 +232,9 @@ TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
       track.box.length = random.uniform(1.0, 6.0);
       turnTo(track, random.uniform(-kPi, kPi));
     }
-    const Track one = combined(tracks[0], tracks[1], false, kNoCross, kOptions);
-    const Track swapped = combined(tracks[1], tracks[0], false, kNoCross, kOptions);
-    const Track other = combined(turned(tracks[0]), turned(tracks[1]), false, kNoCross, kOptions);
+    const Track one = combined({tracks[0], tracks[1]});
+    const Track swapped = combined({tracks[1], tracks[0]});
+    const Track other = combined({turned(tracks[0]), turned(tracks[1])});
     for (const auto& [expected, actual] :
          {std::pair(one, swapped), std::pair(turned(one), other)}) {
       EXPECT_TRUE(actual.state.isApprox(expected.state, 1e-6));

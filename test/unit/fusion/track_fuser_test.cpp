@@ -12,6 +12,7 @@
 #include "track_sources.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
 namespace datmo::track_fuser_test {
@@ -69,19 +70,27 @@ TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
   EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
 }
 
-TEST(TrackFuserTest, WhereEachSensorTakesTheBodysCenterToBeIsUncertain) {
+TEST(TrackFuserTest, WhereASensorTakesTheBodysCenterToBeIsUncertainHoweverManyHaveIt) {
   const TrackFuserOptions options = withScheme(TrackScheme::kByExistence);
+  const double body_variance = square(options.association.comparison.body_std);
   TrackFuser fuser(options);
-  TrackFusionResult result;
-  for (int i = 0; i <= 20; ++i) {
+  for (int i = 0; i <= 40; ++i) {
     const double t = 0.1 * i;
-    result = fuser.fuse(at(t), {lidar(t, {driving(-20.0, t, "lidar", 1)}),
-                                stereo(t, {driving(-20.0, t, "stereo", 1)})});
+    const bool alone = i > 20;
+    const Track by_lidar = driving(-20.0, t, "lidar", 1);
+    std::vector<Track> by_stereo;
+    if (!alone) {
+      by_stereo = {driving(-20.0, t, "stereo", 1)};
+    }
+    const auto result = fuser.fuse(at(t), {lidar(t, {by_lidar}), stereo(t, by_stereo)});
+    if (i > 10) {
+      ASSERT_EQ(result.list.tracks.size(), 1U);
+      const Track& track = result.list.tracks[0];
+      ASSERT_EQ(track.sources.size(), alone ? 1U : 2U);
+      // Intersection of two that are alike is as sure as either.
+      EXPECT_NEAR(track.covariance(0, 0), by_lidar.covariance(0, 0) + body_variance, 1e-6) << t;
+    }
   }
-  ASSERT_EQ(result.list.tracks.size(), 1U);
-  ASSERT_EQ(result.list.tracks[0].sources.size(), 2U);
-  const double body_std = options.association.comparison.body_std;
-  EXPECT_GT(result.list.tracks[0].covariance(0, 0), body_std * body_std);
 }
 
 TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {

@@ -2,10 +2,12 @@
 #include "datmo_fusion/slam/map_drift.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo::map_drift_test {
@@ -63,6 +65,31 @@ TEST(MapDriftTest, TheMapTakesOverOneErrorOfTheMatchInEachRenewal) {
               0.1 * 10.0 * square(kHeadingSigma));
   EXPECT_NEAR(after(0, 0) - before(0, 0), 10.0 * square(kPositionSigma),
               0.1 * 10.0 * square(kPositionSigma));
+}
+
+TEST(MapDriftTest, OfSurfacesOfTwoAgesItDriftsAsTheMeanOfTheirAgesSays) {
+  // Nine tenths of what is matched are one scan old, a tenth 101: 11 on average. Each error of a
+  // match, one a scan, is in the map as it is; how far is it off after 3000?
+  constexpr int kOld = 101;
+  constexpr int kScans = 3000;
+  constexpr int kRuns = 200;
+  Random random(7);
+  double squares = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<double> error(kOld, 0.0);
+    for (int i = 0; i < kScans; ++i) {
+      error.push_back(0.9 * error.back() + 0.1 * error[error.size() - kOld] +
+                      random.normal(kPositionSigma));
+    }
+    squares += square(error.back()) / kRuns;
+  }
+  Drive drive(false, ScalePrior{0.0, false});
+  drive.straight(kScans, 11.0 * kPeriod);
+  const double by_mean_age = drive.drift.covariance()(0, 0);
+  EXPECT_GT(by_mean_age, squares) << "it covers errors that are alike for as long as a renewal";
+  Drive by_rate(false, ScalePrior{0.0, false});
+  by_rate.straight(kScans, kPeriod / (0.9 + 0.1 / kOld));
+  EXPECT_GT(by_rate.drift.covariance()(0, 0), 20.0 * squares) << "the rates' mean is far off";
 }
 
 TEST(MapDriftTest, AnErrorOfTheHeadingLeadsAside) {

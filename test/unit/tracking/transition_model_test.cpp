@@ -120,6 +120,28 @@ TEST(TransitionModel, TheMeanIsThatOfJilkovAndLi) {
   }
 }
 
+TEST(TransitionModel, OfAModeThatIsTooFastToStopAJumpIntoStandingIsAsIfItHadKeptItsMode) {
+  const TransitionLearningOptions options = plainLearning(2.0);
+  TransitionModel model(priorCounts(options), options);
+  const ModeMatrix p = model.predict(kPeriod);
+  const ModeVector m = vector(0.4, 0.2, 0.2, 0.15, 0.05);
+  const ModeVector likelihoods = vector(0.2, 0.5, 1.0, 0.1, 3.0);
+  const ModeVector shares = vector(0.0, 0.25, 1.0, 0.5, 1.0);
+  model.update(m, likelihoods, shares);
+  const ModeMatrix after = transitionMatrix(model.counts(), kPeriod);
+  ModeMatrix by_row = ModeVector::Ones() * likelihoods.transpose();
+  by_row.col(kStanding) << 0.2, 0.25 * 3.0 + 0.75 * 0.5, 3.0, 0.5 * 3.0 + 0.5 * 0.1, 3.0;
+  const double evidence = m.dot(p.cwiseProduct(by_row).rowwise().sum());
+  for (int i = 0; i < kMotionModes; ++i) {
+    const ModeVector row = p.row(i).transpose();
+    const ModeVector alpha = 20.0 * row;
+    const ModeVector own = by_row.row(i).transpose();
+    const ModeVector g = 1.0 + m[i] / evidence * (own.array() - row.dot(own));
+    const ModeVector expand = alpha + alpha.cwiseProduct(g) / alpha.dot(g);
+    EXPECT_TRUE(after.row(i).transpose().isApprox(expand / expand.sum(), 1e-9)) << i;
+  }
+}
+
 TEST(TransitionModel, MeanAndTotalVarianceAreThoseOfTheExactPosterior) {
   const TransitionLearningOptions options = plainLearning(1.0);
   TransitionModel model(priorCounts(options), options);

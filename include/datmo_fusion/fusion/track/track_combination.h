@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/fusion/track/cross_covariance.h"
@@ -35,25 +38,36 @@ struct TrackCombinationOptions {
 StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                          const CrossCovariance& cross, const TrackCombinationOptions& options);
 
-/// Two estimates that contradict each other: one of them is wrong, and which one is not known. The
-/// mixture of both, each as likely, by its mean and covariance (Bar-Shalom, Li, Kirubarajan 2001,
-/// 1.4.16; as covariance union, Uhlmann 2003, it covers both).
-StateEstimate mixtureOf(const StateEstimate& a, const StateEstimate& b);
+/// E[(a - x) (b - x)'] of the estimates a and b of these indices.
+using CrossCovarianceOf = std::function<CrossCovariance(std::size_t a, std::size_t b)>;
 
-/// Two tracks at one time, taken for one object.
+/// Of several (one or more), one after the other: each with what those before it are together,
+/// whose cross-covariance with it is the mean of theirs. So of three or more the result depends on
+/// their order. `cross` is asked by bar_shalom_campo alone.
+StateEstimate fusedState(const std::vector<StateEstimate>& estimates,
+                         const CrossCovarianceOf& cross, const TrackCombinationOptions& options);
+
+/// Estimates (one or more) that contradict each other: which of them are wrong is not known. The
+/// mixture of all, each as likely, by its mean and covariance (Bar-Shalom, Li, Kirubarajan 2001,
+/// 1.4.16; as covariance union, Uhlmann 2003, it covers all). Symmetric.
+StateEstimate mixtureOf(const std::vector<StateEstimate>& estimates);
+
+/// Tracks at one time (one or more), taken for one object.
 ///
 /// State by fusedState, or, if they `contradict` each other, by mixtureOf; the box's center is its
 /// position. The heading is known modulo pi by its
 /// variance, and by the motion where the front is. A tracker infers the center from the sides that
 /// it saw and the size that it thinks of, so the one whose center is surer along an axis of the box
 /// also knows better how far the box reaches along it: so are the sizes weighted. Height: the
-/// greater one, for what is seen in part looks lower than it is. Class by Bayes from even odds.
-/// What both know of the motion mode and the yaw rate is the same motion seen twice, no more
-/// evidence than one, so these are averaged. It moves if one says so. Hits, `sensors` and `sources`
-/// are those of both, the time since the last object the shorter one; `objects` there are none.
+/// greatest one, for what is seen in part looks lower than it is. Class by Bayes from even odds.
+/// What all know of the motion mode and the yaw rate is the same motion seen several times, no more
+/// evidence than once, so these are averaged. It moves if one says so. Hits, `sensors` and
+/// `sources` are those of all, the time since the last object the shortest one; `objects` there are
+/// none.
 ///
-/// Id, existence, age and history are a's; all else is symmetric. Both must be valid.
-Track combined(Track a, const Track& b, bool contradict, const CrossCovariance& cross,
+/// Id, existence, age and history are the first one's; of all else the order matters where
+/// fusedState says so. All must be valid.
+Track combined(const std::vector<Track>& tracks, bool contradict, const CrossCovarianceOf& cross,
                const TrackCombinationOptions& options);
 
 }  // namespace datmo

@@ -14,6 +14,9 @@ struct TrackComparisonOptions {
   double unrelated_density = 0.002;  ///< 1/m^2
 
   void visit(OptionVisitor& visitor);
+
+  /// For tracks whose covariances have body_std in them.
+  TrackComparisonOptions withoutBody() const;
 };
 
 /// Whether two tracks are of one object.

@@ -23,7 +23,7 @@ class TrackCorrelations {
   void step(double seconds);
 
   /// Of two tracks as their trackers made them, at the present: `sources` of each is itself. Each
-  /// pair is requested once at each time.
+  /// pair is requested once at each time, in either order: of b and a it is the transpose.
   CrossCovariance between(const Track& a, const Track& b, const TrackPredictionOptions& prediction,
                           const TrackCombinationOptions& options);
 

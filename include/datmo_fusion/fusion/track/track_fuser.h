@@ -96,15 +96,11 @@ class TrackFuser {
                            const std::vector<std::optional<Point2>>& sensors,
                            TrackFusionCounts& counts);
 
-  /// The tracks of a group, at least two, as one. What each sensor takes to be the body's center
-  /// (comparison/body_std) no tracker's covariance has, and it does not average away.
-  Track joined(const TrackGroup& group, const std::vector<PresentTracks>& present,
+  /// The tracks of a group as one, surest first, whatever the order of the sources is. What each
+  /// sensor takes to be the body's center (comparison/body_std) no tracker's covariance has, and it
+  /// does not average away.
+  Track joined(TrackGroup group, const std::vector<PresentTracks>& present,
                const std::vector<std::optional<Point2>>& sensors);
-
-  /// Of what the tracks before this one of a group are together, and it: of more than one, their
-  /// mean. The method that has no use for it does not pay for it.
-  CrossCovariance crossCovariance(const TrackGroup& group, std::size_t index,
-                                  const std::vector<PresentTracks>& present);
 
   /// How much each source would have detected each target lately. Who has a track of it is not
   /// evaluated: when it loses that, it takes a while until it is missed.

@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""False tracks where the input is bad: none of it may bring a burst of them."""
+
+import math
+import random
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+from evaluated_run import evaluated
+from scene_runs import computed, simulated
+
+SCENE = "intersection"
+SEEDS = (1, 2, 3, 4)
+DURATION = ("duration=12",)
+ASKED = ("truth/min_time_seen=0",)
+
+FROM = 4.0  # s since the drive's begin, where what does not hold for all of the drive begins
+SILENCE = 2.0  # s
+NAN_SHARE = 0.2  # of the beams
+MOUNT_ERROR = 2.0  # degrees
+START = 1.0  # s, in which a map has only begun
+
+# Three times what the demonstrator's scanner is shaken by (simulate).
+SHAKEN = ("scanner/azimuth_shake=0.6", "scanner/pitch_shake=0.9")
+
+# False tracks in one drive. Of seeds 1 to 8 the most are 6 without a fault, and 4 to 6 with one.
+MAX_IN_ONE = 7
+
+# More in all drives together than without the fault: two more than measured. Of seeds 1 to 8, a drive has
+# 2.4 without (standard deviation 1.7), 1.9 with NaN, 2.3 with a gap, 2.8 with a wrong mount, 2.4 without
+# odometry; shaken, where beams meet the road (doc/limits.md), 4.3.
+MAX_MORE = {"nan": 2, "gap": 3, "mount": 6, "silent odometry": 4, "shaken": 13}
+
+
+def with_nan_beams(_, message, _since):
+    """Some beams of each scan, others each time, without a number."""
+    if hasattr(message, "range_min"):
+        draw = random.Random(message.header.seq)
+        for beam in message.ranges:
+            if beam.echoes and draw.random() < NAN_SHARE:
+                beam.echoes = [math.nan]
+    return message
+
+
+def without_scans(_, message, since):
+    return None if hasattr(message, "range_min") and FROM <= since < FROM + SILENCE else message
+
+
+def without_odometry(_, message, since):
+    return None if message._type == "nav_msgs/Odometry" and FROM <= since < FROM + SILENCE else message
+
+
+def mounted_wrong(topic, message, _):
+    """The scanner is turned against what the transform says."""
+    if topic == "/tf_static":
+        half = math.radians(0.5 * MOUNT_ERROR)
+        for mount in message.transforms:
+            if "laser" in mount.child_frame_id or "scanner" in mount.child_frame_id:
+                turn = mount.transform.rotation
+                z, w = turn.z, turn.w
+                turn.z = z * math.cos(half) + w * math.sin(half)
+                turn.w = w * math.cos(half) - z * math.sin(half)
+    return message
+
+
+def changed(recorded, name, change):
+    """The drive with its messages as change(topic, message, seconds since the begin) has them."""
+    result = recorded.with_name(f"{recorded.stem}_{name}.bag")
+    changes = 0
+    with rosbag.Bag(str(recorded)) as bag, rosbag.Bag(str(result), "w") as out:
+        begin = bag.get_start_time()
+        for topic, message, stamp in bag.read_messages():
+            before = repr(message)
+            after = change(topic, message, stamp.to_sec() - begin)
+            changes += after is None or repr(after) != before
+            if after is not None:
+                out.write(topic, after, stamp)
+    if changes == 0:
+        raise RuntimeError(f"{name}: nothing was changed in {recorded}")
+    return result
+
+
+CHANGES = {
+    "nan": with_nan_beams,
+    "gap": without_scans,
+    "mount": mounted_wrong,
+    "silent odometry": without_odometry,
+}
+
+
+def drives_with_faults(folder, seed):
+    """The drive without a fault, and by name of the fault what is played and what holds the truth."""
+    drive = simulated(folder, SCENE, seed, *DURATION)
+    drives = {name: (changed(drive, name, change), drive) for name, change in CHANGES.items()}
+    apart = Path(folder) / "shaken"
+    apart.mkdir()
+    shaken = simulated(apart, SCENE, seed, *DURATION, *SHAKEN)
+    return drive, {**drives, "shaken": (shaken, shaken)}
+
+
+class BadInput(unittest.TestCase):
+    def check_start(self, score):
+        """That nothing moves is not known before the map is: then nothing may be said to."""
+        series = score["series"]
+        early = [n for t, n in zip(series["time_s"], series["false"]) if t < START]
+        self.assertGreater(len(early), 0)
+        self.assertEqual(sum(early), 0)
+
+    def test_no_burst_of_false_tracks(self):
+        more = dict.fromkeys(MAX_MORE, 0)
+        for seed in SEEDS:
+            with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
+                drive, faulty = drives_with_faults(folder, seed)
+                score = evaluated(computed(drive), drive, ASKED)
+                self.check_start(score)
+                without = score["thesis"]["false_tracks"]
+                for name, (played, truth) in faulty.items():
+                    score = evaluated(computed(played), truth, ASKED)
+                    count = score["thesis"]["false_tracks"]
+                    print(f"\nseed {seed} {name}: {count} false tracks, {without} without", flush=True)
+                    self.assertLessEqual(count, MAX_IN_ONE, name)
+                    more[name] += count - without
+        for name, count in more.items():
+            with self.subTest(fault=name):
+                self.assertLessEqual(count, MAX_MORE[name])
+
+
+if __name__ == "__main__":
+    unittest.main()
