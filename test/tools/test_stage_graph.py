@@ -104,8 +104,8 @@ class StageGraph(unittest.TestCase):
                         self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
 
     def test_what_crosses_from_part_to_part_is_in_the_documents(self):
-        """The table of doc/live.md: topic, type, who publishes it, which parts take it."""
-        page = (PACKAGE / "doc/live.md").read_text(encoding="utf-8")
+        """The table of doc/machines.md: topic, type, who publishes it, which parts take it."""
+        page = (PACKAGE / "doc/machines.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
         self.assertEqual({row[:3]: row[3] for row in rows}, crossing_topics())
 
