@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "labeled_scan_door.h"
+#include "labeled_scan_harness.h"
 #include "ros/track_fusion_sample.h"
 #include <gtest/gtest.h>
 
@@ -21,12 +21,12 @@ constexpr double kCarAt = 30.0;     // m, along the drive
 /// s; a clock that is late by a step must not look like a jump of the stamps.
 constexpr double kLongStep = 0.4;
 
-class RiskDoor : public LabeledScanDoor {
+class RiskHarness : public LabeledScanHarness {
  public:
-  RiskDoor() : LabeledScanDoor("risk") {}
+  RiskHarness() : LabeledScanHarness("risk") {}
 
   bool waitForNodelet() {
-    return LabeledScanDoor::waitForNodelet() && waitFor([this] {
+    return LabeledScanHarness::waitForNodelet() && waitFor([this] {
              return risks_.getNumPublishers() >= 1 && tracks_.getNumSubscribers() >= 1 &&
                     odometry_.getNumSubscribers() >= 1;
            });
@@ -70,40 +70,41 @@ TrackArray carAhead(double seconds) {
 class RiskTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    door_ = new RiskDoor();
-    ASSERT_TRUE(door_->waitForNodelet());
+    harness_ = new RiskHarness();
+    ASSERT_TRUE(harness_->waitForNodelet());
   }
 
-  static void TearDownTestSuite() { delete door_; }
+  static void TearDownTestSuite() { delete harness_; }
 
   /// Odometry and scan of now; waits until the nodelet has them.
   static void sendHost() {
-    door_->setClock(now_);
-    door_->sendOdometry(now_);
-    door_->send(samples::scanBetweenWalls(now_));
+    harness_->setClock(now_);
+    harness_->sendOdometry(now_);
+    harness_->send(samples::scanBetweenWalls(now_));
     ++steps_;
-    ASSERT_TRUE(door_->waitForCount("odometry received", steps_));
-    ASSERT_TRUE(door_->waitForCount("labeled_scan received", steps_));
+    ASSERT_TRUE(harness_->waitForCount("odometry received", steps_));
+    ASSERT_TRUE(harness_->waitForCount("labeled_scan received", steps_));
   }
 
   /// One step of the drive; waits for its risks.
   static void step() {
     ASSERT_NO_FATAL_FAILURE(sendHost());
     const TrackArray tracks = carAhead(now_);
-    door_->sendTracks(tracks);
-    ASSERT_TRUE(door_->waitFor([&] {
-      return !door_->risks.empty() && door_->risks.back()->header.stamp == tracks.header.stamp;
+    harness_->sendTracks(tracks);
+    ASSERT_TRUE(harness_->waitFor([&] {
+      return !harness_->risks.empty() &&
+             harness_->risks.back()->header.stamp == tracks.header.stamp;
     })) << now_
-        << " s: " << door_->diagnosticMessage();
+        << " s: " << harness_->diagnosticMessage();
     now_ += kLongStep;
   }
 
-  static RiskDoor* door_;
+  static RiskHarness* harness_;
   static double now_;    // s, of the drive
   static double steps_;  // so far
 };
 
-RiskDoor* RiskTest::door_ = nullptr;
+RiskHarness* RiskTest::harness_ = nullptr;
 double RiskTest::now_ = 0.0;
 double RiskTest::steps_ = 0.0;
 
@@ -111,33 +112,33 @@ TEST_F(RiskTest, WarnsBeforeTheCarAhead) {
   for (int i = 0; i < 11; ++i) {
     ASSERT_NO_FATAL_FAILURE(step());
   }
-  EXPECT_EQ(door_->risks.front()->level, RiskArray::LEVEL_NONE);
-  const RiskArray& last = *door_->risks.back();
+  EXPECT_EQ(harness_->risks.front()->level, RiskArray::LEVEL_NONE);
+  const RiskArray& last = *harness_->risks.back();
   EXPECT_GE(last.level, RiskArray::LEVEL_WARNING);
   EXPECT_EQ(last.cause, 7U);
   EXPECT_NE(last.reason.find("vehicle 7"), std::string::npos) << last.reason;
 }
 
 TEST_F(RiskTest, DiagnosticsReportTheLevel) {
-  EXPECT_TRUE(door_->waitFor([] {
-    return door_->diagnostic("level, 0 (none) to 3 (imminent)") >= RiskArray::LEVEL_WARNING;
+  EXPECT_TRUE(harness_->waitFor([] {
+    return harness_->diagnostic("level, 0 (none) to 3 (imminent)") >= RiskArray::LEVEL_WARNING;
   }));
-  EXPECT_EQ(door_->diagnostic("dropped"), 0.0);
+  EXPECT_EQ(harness_->diagnostic("dropped"), 0.0);
 }
 
 TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
   ASSERT_NO_FATAL_FAILURE(sendHost());
   TrackArray tracks = carAhead(now_);
   tracks.tracks.front().covariance[0] = std::numeric_limits<double>::quiet_NaN();
-  door_->sendTracks(tracks);
-  EXPECT_TRUE(door_->waitForCount("warned: bad_track", 1.0));
+  harness_->sendTracks(tracks);
+  EXPECT_TRUE(harness_->waitForCount("warned: bad_track", 1.0));
   now_ += kLongStep;
 }
 
 TEST_F(RiskTest, ALoopedBagBeginsAnew) {
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(step());
-  EXPECT_EQ(door_->risks.back()->level, RiskArray::LEVEL_NONE);
+  EXPECT_EQ(harness_->risks.back()->level, RiskArray::LEVEL_NONE);
 }
 
 }  // namespace
