@@ -108,7 +108,7 @@ TEST_F(RiskStageTest, WithoutPoseOrMotionThereIsNoRisk) {
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(RiskStageTest, TracksThatAreNoneAreSaid) {
+TEST_F(RiskStageTest, TracksThatAreNoneAreReported) {
   odometryAt(0.0);
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
