@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "labeled_scan_harness.h"
-#include "ros/track_fusion_sample.h"
+#include "ros/risk_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/risk_conversion.h"
@@ -15,8 +15,7 @@
 namespace datmo::risk_test {
 namespace {
 
-constexpr double kHostSpeed = 5.0;  // m/s, of samples::scanBetweenWalls
-constexpr double kCarAt = 30.0;     // m, along the drive
+constexpr double kCarAt = 30.0;  // m, along the drive
 
 /// s; a clock that is late by a step must not look like a jump of the stamps.
 constexpr double kLongStep = 0.4;
@@ -33,13 +32,7 @@ class RiskHarness : public LabeledScanHarness {
   }
 
   void sendOdometry(double seconds) {
-    nav_msgs::Odometry odometry;
-    odometry.header.frame_id = "odom";
-    odometry.header.stamp = ros::Time(samples::kStart + seconds);
-    odometry.child_frame_id = "base_link";
-    odometry.pose.pose.orientation.w = 1.0;
-    odometry.twist.twist.linear.x = kHostSpeed;
-    odometry_.publish(odometry);
+    odometry_.publish(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
   }
 
   void sendTracks(const TrackArray& list) { tracks_.publish(list); }
@@ -53,19 +46,7 @@ class RiskHarness : public LabeledScanHarness {
       "risks", kQueue, [this](const RiskArrayConstPtr& risk) { risks.push_back(risk); });
 };
 
-TrackArray carAhead(double seconds) {
-  TrackList list;
-  list.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-  Track track = carTrack("lidar", 7, samples::kStart + seconds);
-  track.state.setZero();
-  track.state[0] = kCarAt;
-  track.covariance = 0.01 * TrackCovariance::Identity();
-  track.moving = false;
-  track.mode_probabilities = {0.0, 0.0, 0.0, 0.0, 1.0};
-  track.box.center = Pose2(kCarAt, 0.0, 0.0);
-  list.tracks = {track};
-  return toMessage(list, "map");
-}
+TrackArray carAhead(double seconds) { return samples::standingCar(seconds, kCarAt); }
 
 class RiskTest : public testing::Test {
  protected:
