@@ -64,8 +64,7 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   EXPECT_NEAR(box.center.y() - 0.5 * box.width, -1.0, 0.01);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRight)]));
-  // The right side is known by the other one's size, which the left side ties to the surer
-  // position.
+  // The right side is known by the other one's size, tied by the left side to the surer position.
   const double right =
       fused.side_variance[sideIndex(BoxSide::kRight)] + fused.position_covariance(1, 1);
   const double left =
