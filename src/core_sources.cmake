@@ -62,7 +62,7 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/radar_object_detector.cpp
   detection/segment_end.cpp
   detection/segmentation.cpp
-  detection/side_box.cpp
+  detection/side_model.cpp
   detection/stereo_object_detector.cpp
   detection/stereo_object_detector_options.cpp
   detection/stereo_object_maker.cpp

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cloud_outline.h"
-#include "side_box.h"
+#include "side_model.h"
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/extract_clusters.h>
@@ -96,31 +96,22 @@ std::vector<std::vector<int>> clusters(const TimedPoints::ConstPtr& points,
 void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
             const CloudObjectDetectorOptions& options) {
   const BoxFit fit = fitBox(object.points, lidar, {options.range_sigma});
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
-  SideBox sides(fit);
-  for (std::size_t side = 0; side < kBoxSides; ++side) {
-    object.side_variance[side] = kHiddenSide;
-    if (sides.isSeen(side)) {
-      object.side_variance[side] =
-          square(fit.noise) / static_cast<double>(fit.points_on_side[side]);
-    } else if (sides.isEndOfSeen(side, heading_std)) {
-      const bool is_first =
-          sides.normal(side).dot(object.points.front() - object.points.back()) > 0.0;
-      const OutlineEnd& end = is_first ? outline.first : outline.last;
-      // A single column has both ends.
-      const bool hidden =
-          object.points.size() == 1 ? outline.first.hidden || outline.last.hidden : end.hidden;
-      if (!hidden) {
-        // The side ends anywhere before the next column.
-        sides.extend(side, 0.5 * end.gap);
-        object.side_variance[side] =
-            kUniformVariance * square(end.gap) + square(heading_std * sides.across(side));
-      }
+  const auto seen_variance = [&fit](std::size_t points) {
+    return square(fit.noise) / static_cast<double>(points);
+  };
+  const auto end_beyond = [&](const Point2& normal, double) -> std::optional<SurfaceEnd> {
+    const bool is_first = normal.dot(object.points.front() - object.points.back()) > 0.0;
+    const OutlineEnd& end = is_first ? outline.first : outline.last;
+    // A single column has both ends.
+    const bool hidden =
+        object.points.size() == 1 ? outline.first.hidden || outline.last.hidden : end.hidden;
+    if (hidden) {
+      return std::nullopt;
     }
-  }
-  object.box = sides.box();
-  object.heading_variance = fit.heading_variance;
-  turnToLongerSide(object);
+    // The side ends anywhere before the next column.
+    return SurfaceEnd{0.5 * end.gap, kUniformVariance * square(end.gap)};
+  };
+  setSides(object, fit, {kMaxSlant, seen_variance, end_beyond});
 }
 
 void setClass(Object& object, const SeenSize& size, const ObjectClassifier& classifier,

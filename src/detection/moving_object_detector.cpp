@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "side_box.h"
+#include "side_model.h"
 
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/detection/box_fit.h"
@@ -118,26 +118,14 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
                                   const LabeledScan& scan) const {
   const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), {options_.range_sigma});
   const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.max_gap);
-  const double heading_std =
-      std::sqrt(std::min(fit.heading_variance, kMaxScannerSlant * kMaxScannerSlant));
-  SideBox sides(fit);
-  for (std::size_t side = 0; side < kBoxSides; ++side) {
-    object.side_variance[side] = kHiddenSide;
-    if (sides.isSeen(side)) {
-      object.side_variance[side] =
-          square(fit.noise) / static_cast<double>(fit.points_on_side[side]);
-    } else if (sides.isEndOfSeen(side, heading_std)) {
-      const Point2 normal = sides.normal(side);
-      const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
-      if (const std::optional<SurfaceEnd> end = ends.beyond(outermost, normal, heading_std)) {
-        sides.extend(side, end->beyond);
-        object.side_variance[side] = end->variance + square(heading_std * sides.across(side));
-      }
-    }
-  }
-  object.box = sides.box();
-  object.heading_variance = fit.heading_variance;
-  turnToLongerSide(object);
+  const auto seen_variance = [&fit](std::size_t points) {
+    return square(fit.noise) / static_cast<double>(points);
+  };
+  const auto end_beyond = [&](const Point2& normal, double heading_std) {
+    const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
+    return ends.beyond(outermost, normal, heading_std);
+  };
+  setSides(object, fit, {kMaxScannerSlant, seen_variance, end_beyond});
 }
 
 }  // namespace datmo

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "side_box.h"
+#include "side_model.h"
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/square.h"
@@ -105,31 +105,18 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
   if (fit.heading_variance >= kUnknownAxisVariance) {
     fit = boxAcross(object.points, view_.position(), fit.noise);
   }
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxCameraSlant)));
-  SideBox sides(fit);
-  for (std::size_t side = 0; side < kBoxSides; ++side) {
-    object.side_variance[side] = kHiddenSide;
-    if (sides.isSeen(side)) {
-      object.side_variance[side] =
-          square(fit.noise) * std::min(1.0, alike / static_cast<double>(fit.points_on_side[side]));
-    } else if (sides.isEndOfSeen(side, heading_std)) {
-      const EndOnSide end = endOn(sides.normal(side), outline);
-      if (end.seen) {
-        sides.extend(side, end.beyond);
-        object.side_variance[side] = end.variance + square(heading_std * sides.across(side));
-      }
-    }
-  }
-  object.box = sides.box();
-  object.heading_variance = fit.heading_variance;
-  turnToLongerSide(object);
+  const auto seen_variance = [&](std::size_t points) {
+    return square(fit.noise) * std::min(1.0, alike / static_cast<double>(points));
+  };
+  const auto end_beyond = [&](const Point2& normal, double) { return endOn(normal, outline); };
+  setSides(object, fit, {kMaxCameraSlant, seen_variance, end_beyond});
 }
 
 /// Where it ends in the image is known well, where on the line of sight as well as the depth of
 /// its last column is.
-StereoObjectMaker::EndOnSide StereoObjectMaker::endOn(const Point2& normal,
-                                                      const GroupOutline& outline) const {
-  EndOnSide result;
+std::optional<SurfaceEnd> StereoObjectMaker::endOn(const Point2& normal,
+                                                   const GroupOutline& outline) const {
+  std::optional<SurfaceEnd> result;
   for (const bool to_right : {false, true}) {
     const GroupEnd& end = to_right ? outline.right : outline.left;
     const ColumnSurface& last = to_right ? outline.columns.back() : outline.columns.front();
@@ -139,9 +126,10 @@ StereoObjectMaker::EndOnSide StereoObjectMaker::endOn(const Point2& normal,
         normal.dot(to_right ? Point2(ray.y(), -ray.x()) : Point2(-ray.y(), ray.x()));
     if (aside > kSideways) {
       const double in_depth = normal.dot(ray) * columnNoise(static_cast<double>(last.depth));
-      result.seen = end.seen;
-      result.beyond = aside * end.beyond;
-      result.variance = square(aside * end.sigma) + square(in_depth);
+      result.reset();
+      if (end.seen) {
+        result = {aside * end.beyond, square(aside * end.sigma) + square(in_depth)};
+      }
     }
   }
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "group_outline.h"
@@ -8,6 +9,7 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/detection/object_classifier.h"
+#include "datmo_fusion/detection/segment_end.h"
 #include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/sensor_model/stereo_view.h"
 
@@ -27,15 +29,9 @@ class StereoObjectMaker {
   Object objectOf(const GroupOutline& outline) const;
 
  private:
-  /// Where one side of a box ends, along that side's normal.
-  struct EndOnSide {
-    bool seen = false;
-    double beyond = 0.0;    ///< m, from the middle of the last column
-    double variance = 0.0;  ///< m^2
-  };
-
-  /// `normal`: of a side that the seen ones end at, out of the box.
-  EndOnSide endOn(const Point2& normal, const GroupOutline& outline) const;
+  /// Where the sides that were seen end along `normal`, of a side that they end at, out of the box:
+  /// beyond the middle of the last column.
+  std::optional<SurfaceEnd> endOn(const Point2& normal, const GroupOutline& outline) const;
   std::vector<Point2> pointsOf(const GroupOutline& outline) const;
   void setBox(Object& object, const GroupOutline& outline) const;
   SeenSize sizeOf(const GroupOutline& outline) const;

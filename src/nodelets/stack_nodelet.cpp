@@ -79,9 +79,10 @@ class StackNodelet : public nodelet::Nodelet {
     for (const auto& [process, description] : clocks_->descriptions(now)) {
       status.add("clock of " + process, description);
     }
-    const bool may_come_yet = !said_ && health.level != HealthLevel::kOk && ++beats_ < kPatience;
-    if (health.level != said_ && !may_come_yet) {
-      said_ = health.level;
+    const bool may_come_yet =
+        !reported_ && health.level != HealthLevel::kOk && ++beats_ < kPatience;
+    if (health.level != reported_ && !may_come_yet) {
+      reported_ = health.level;
       const bool is_good = health.level == HealthLevel::kOk;
       ROS_LOG(is_good ? ros::console::levels::Info : ros::console::levels::Warn,
               ROSCONSOLE_DEFAULT_NAME, "stack: %s", health.sentence.c_str());
@@ -96,7 +97,7 @@ class StackNodelet : public nodelet::Nodelet {
   ReportingStages stages_;
   std::unique_ptr<PartClocks> clocks_;
   Stopwatch since_start_;
-  std::optional<HealthLevel> said_;
+  std::optional<HealthLevel> reported_;
   int beats_ = 0;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::Subscriber diagnostics_;

@@ -82,12 +82,12 @@ void HostFutureOptions::visit(OptionVisitor& visitor) {
                  acceleration_spread, {0.0, 5.0});
   visitor.number({"acceleration_time", "s", "time constant with which a driver varies it"},
                  acceleration_time, {0.1, 100.0});
-  visitor.number(
-      {"lane_deviation", "m",
-       "standard deviation of a driver's place in his lane: 0.2 to 0.3 on straight roads "
-       "(Verster, Roth, Standard operation procedures for conducting the on-the-road "
-       "driving test, 2011), more in towns"},
-      lane_deviation, {0.0, 5.0});
+  visitor.number({"lane_deviation", "m",
+                  "standard deviation of a driver's lateral position in the lane: 0.2 to 0.3 on "
+                  "straight roads "
+                  "(Verster, Roth, Standard operation procedures for conducting the on-the-road "
+                  "driving test, 2011), more in towns"},
+                 lane_deviation, {0.0, 5.0});
   visitor.number({"lane_time", "s", "time constant with which a driver comes back to it"},
                  lane_time, {0.3, 10.0});
   visitor.number(

@@ -108,9 +108,9 @@ void FollowedBorder::advance(const BorderScan& scan) {
   }
   moveAnchor(scan);
   findReach();
-  places_.clear();
+  curve_points_.clear();
   for (const BorderScan::Beam& beam : scan.beams) {
-    places_.push_back(table_->locate(beam.end));
+    curve_points_.push_back(table_->locate(beam.end));
   }
 }
 
@@ -133,8 +133,8 @@ bool FollowedBorder::reaches(double along, double inside) const {
 }
 
 double FollowedBorder::distanceOf(std::size_t beam) const {
-  const bool here = state_ != State::kRefuted && reaches(places_[beam].along);
-  return here ? std::abs(places_[beam].aside) : std::numeric_limits<double>::infinity();
+  const bool here = state_ != State::kRefuted && reaches(curve_points_[beam].along);
+  return here ? std::abs(curve_points_[beam].aside) : std::numeric_limits<double>::infinity();
 }
 
 bool FollowedBorder::explains(const Point2& position, double distance) const {
@@ -169,7 +169,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
   const double unfitted = std::max(0.0, options_.growth - kFittedGrowth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
-    const CurvePoint& position = places_[i];
+    const CurvePoint& position = curve_points_[i];
     if (!beam.hit || !beam.lasting || beam.hits_there < kVouchingHits || !is_nearest[i] ||
         std::abs(position.aside) > options_.tolerance || !reaches(position.along, unfitted)) {
       continue;
@@ -190,7 +190,7 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
   bool seen = false;
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
-    const CurvePoint& end = places_[i];
+    const CurvePoint& end = curve_points_[i];
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {

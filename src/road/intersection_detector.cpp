@@ -24,7 +24,7 @@ constexpr int kMinBranches = 3;
 
 void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"evidence_length", "m",
-                  "between two places at which the streets that lead away are independent of each "
+                  "between two points at which the streets that lead away are independent of each "
                   "other"},
                  evidence_length, {0.1, 50.0});
   visitor.number({"seen_at_intersection", "1",

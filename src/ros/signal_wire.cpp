@@ -149,15 +149,15 @@ void SignalWire::keep(const Spatem& message, const SpatIntersection& intersectio
 }
 
 void SignalWire::forgetOld(Stamp now) {
-  const auto forget = [now](auto& heard, double max_age) {
-    for (auto one = heard.begin(); one != heard.end();) {
+  const auto forget = [now](auto& received, double max_age) {
+    for (auto one = received.begin(); one != received.end();) {
       const bool is_old = secondsBetween(one->second.stamp, now) > max_age;
-      one = is_old ? heard.erase(one) : std::next(one);
+      one = is_old ? received.erase(one) : std::next(one);
     }
-    while (heard.size() > kMaxIntersections) {
-      heard.erase(std::min_element(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
-        return a.second.stamp < b.second.stamp;
-      }));
+    while (received.size() > kMaxIntersections) {
+      received.erase(std::min_element(
+          received.begin(), received.end(),
+          [](const auto& a, const auto& b) { return a.second.stamp < b.second.stamp; }));
     }
   };
   forget(maps_, options_.map_age);

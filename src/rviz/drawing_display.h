@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <string>
 
+#include "display_status.h"
 #include "scene_drawing.h"
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
@@ -15,11 +18,11 @@
 
 namespace datmo {
 
-/// What the master says is published on a topic, if it is not `expected`; else empty.
-std::string otherType(const std::string& topic, const std::string& expected);
-
 /// A display that draws the newest message of a topic, by the markers that it makes of it, and
 /// draws it again when a property changes.
+///
+/// Its status has rviz's lines "Topic" (publisher, type, messages) and "Transform", and "Message"
+/// (the newest one: drawn, or why not) and "Refused" (how many, and why the last one).
 ///
 /// Properties belong to the display (Qt) and report by lambdas: no class needs Qt's compiler.
 /// Messages come in the window's thread alone.
@@ -31,8 +34,18 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   void reset() override {
     Base::reset();
     last_.reset();
+    messages_ = {};
     if (scene_) {
       scene_->clear();
+    }
+  }
+
+  void update(float wall_step, float ros_step) override {
+    Base::update(wall_step, ros_step);
+    since_status_ += wall_step;
+    if (since_status_ >= kStatusPeriod) {
+      since_status_ = 0.0F;
+      showStatus();
     }
   }
 
@@ -45,19 +58,9 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
     scene_ = std::make_unique<SceneDrawing>(*this->context_->getSceneManager(), *this->scene_node_);
   }
 
-  void subscribe() override {
-    Base::subscribe();
-    const std::string topic = this->topic_property_->getTopicStd();
-    const std::string expected = ros::message_traits::datatype<Message>();
-    const std::string other = this->isEnabled() ? otherType(topic, expected) : "";
-    if (!other.empty()) {
-      this->setStatusStd(rviz::StatusProperty::Error, "Topic",
-                         topic + " is " + other + ": expected " + expected);
-    }
-  }
-
   void processMessage(const typename Message::ConstPtr& message) override {
     last_ = message;
+    messages_.addReceived();
     redraw();
   }
 
@@ -66,26 +69,11 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
     if (!last_ || !scene_) {
       return;
     }
-    Ogre::Vector3 position;
-    Ogre::Quaternion orientation;
-    const std_msgs::Header& header = last_->header;
-    if (!this->context_->getFrameManager()->getTransform(header.frame_id, header.stamp, position,
-                                                         orientation)) {
-      this->setStatusStd(rviz::StatusProperty::Error, "Transform",
-                         "no transform from '" + header.frame_id + "' to '" +
-                             this->fixed_frame_.toStdString() + "' at the message's time");
-      return;
+    if (placeScene()) {
+      drawLast();
     }
-    this->setStatusStd(rviz::StatusProperty::Ok, "Transform", "OK");
-    this->scene_node_->setPosition(position);
-    this->scene_node_->setOrientation(orientation);
-    try {
-      scene_->show(drawingOf(draw(*last_)));
-      this->setStatusStd(rviz::StatusProperty::Ok, "Message", "OK");
-    } catch (const std::exception& error) {
-      scene_->clear();
-      this->setStatusStd(rviz::StatusProperty::Error, "Message", error.what());
-    }
+    set("Message", messages_.newest());
+    set("Refused", messages_.refused());
     this->context_->queueRender();
   }
 
@@ -114,7 +102,55 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   }
 
  private:
+  /// s, between looks at who publishes; connecting takes less.
+  static constexpr float kStatusPeriod = 1.0F;
+
+  void set(const char* name, const StatusLine& line) {
+    this->setStatusStd(line.level, name, line.text);
+  }
+
+  void showStatus() {
+    set("Topic",
+        TopicStatus{this->topic_property_->getTopicStd(), ros::message_traits::datatype<Message>(),
+                    this->sub_.getSubscriber().getNumPublishers(), this->messages_received_}
+            .line());
+    set("Message", messages_.newest());
+  }
+
+  /// Where the last message's frame is at its time; false: not known, which the status says.
+  bool placeScene() {
+    rviz::FrameManager& frames = *this->context_->getFrameManager();
+    const std_msgs::Header& header = last_->header;
+    Ogre::Vector3 position;
+    Ogre::Quaternion orientation;
+    if (!frames.getTransform(header, position, orientation)) {
+      std::string reason;
+      frames.transformHasProblems(header.frame_id, header.stamp, reason);
+      set("Transform",
+          {rviz::StatusProperty::Error, "no transform from '" + header.frame_id + "' to '" +
+                                            this->fixed_frame_.toStdString() + "': " + reason});
+      return false;
+    }
+    set("Transform", {rviz::StatusProperty::Ok, "OK"});
+    this->scene_node_->setPosition(position);
+    this->scene_node_->setOrientation(orientation);
+    return true;
+  }
+
+  void drawLast() {
+    try {
+      const Drawing drawing = drawingOf(draw(*last_));
+      scene_->show(drawing);
+      messages_.setDrawn(drawing.left_out);
+    } catch (const std::exception& error) {
+      scene_->clear();
+      messages_.setRefused(error.what());
+    }
+  }
+
   typename Message::ConstPtr last_;
+  MessageStatus messages_;
+  float since_status_ = 0.0F;  ///< s
   std::unique_ptr<SceneDrawing> scene_;
 };
 

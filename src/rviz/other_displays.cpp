@@ -6,23 +6,11 @@
 #include "drawing_display.h"
 
 #include <pluginlib/class_list_macros.hpp>
-#include <ros/master.h>
 
 #include "datmo_fusion/ros/display/markers.h"
 #include "datmo_fusion/ros/display/risk_style.h"
 
 namespace datmo {
-
-std::string otherType(const std::string& topic, const std::string& expected) {
-  ros::master::V_TopicInfo topics;
-  ros::master::getTopics(topics);
-  for (const ros::master::TopicInfo& each : topics) {
-    if (each.name == topic && each.datatype != expected && each.datatype != "*") {
-      return each.datatype;
-    }
-  }
-  return "";
-}
 
 /// Objects of one measurement: outlines by sensor, bodies by class.
 class ObjectsDisplay : public DrawingDisplay<ObjectArray> {

@@ -73,7 +73,7 @@ class DriverPanel : public rviz::Panel {
  protected:
   void paintEvent(QPaintEvent* /*event*/) override {
     QPainter painter(this);
-    const bool fresh = view_ && secondsNow() - heard_ <= kFresh;
+    const bool fresh = view_ && secondsNow() - received_at_ <= kFresh;
     paintDriverView(painter, size(), fresh ? &*view_ : nullptr);
   }
 
@@ -92,7 +92,7 @@ class DriverPanel : public rviz::Panel {
 
   void takeRisks(const RiskArrayConstPtr& message) {
     view_ = driverViewOf(*message, last_tracks_.get());
-    heard_ = secondsNow();
+    received_at_ = secondsNow();
     update();
   }
 
@@ -100,7 +100,7 @@ class DriverPanel : public rviz::Panel {
   QString tracks_topic_ = "/tracks";
   TrackArrayConstPtr last_tracks_;
   std::optional<DriverView> view_;
-  double heard_ = 0.0;  ///< s, when the risks came
+  double received_at_ = 0.0;  ///< s, when the risks came
   ros::Subscriber risks_;
   ros::Subscriber tracks_;
 };

@@ -88,7 +88,7 @@ StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cl
   const GridWindow& window = grid.window();
   const RollingGrid<int> counts = countPoints(options, cloud, view, field, window, result);
   std::vector<CellIndex> occupied;
-  forEachCellInView(window, view, field, [&](CellIndex cell, const PointInView& /*place*/) {
+  forEachCellInView(window, view, field, [&](CellIndex cell, const PointInView& /*point*/) {
     if (sumAround(counts, cell) > options.cones.threshold) {
       grid.at(cell) = toPercent(options.occupied_probability);
       occupied.push_back(cell);

@@ -125,7 +125,7 @@ void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
 }
 
 inline bool StereoEvidence::locate(const ViewedPoint& point, float inverse, const Scales& scales,
-                                   ColumnPoint& placed) {
+                                   ColumnPoint& located) {
   if (!(point.forward > scales.nearest && point.forward < kMaxDepth)) {
     return false;
   }
@@ -137,13 +137,13 @@ inline bool StereoEvidence::locate(const ViewedPoint& point, float inverse, cons
   if (!(column >= 0.0F && column < scales.columns)) {
     return false;
   }
-  placed.forward = point.forward;
-  placed.inverse = inverse;
-  placed.height = point.height;
-  placed.column = static_cast<int>(column);
+  located.forward = point.forward;
+  located.inverse = inverse;
+  located.height = point.height;
+  located.column = static_cast<int>(column);
   // On the line of sight to the point, the road is at the inverse depth
   // inverse * (1 - height / camera_height).
-  placed.on_road = point.height * inverse <= scales.road_margin.at(inverse) * scales.camera_height;
+  located.on_road = point.height * inverse <= scales.road_margin.at(inverse) * scales.camera_height;
   return true;
 }
 

@@ -79,7 +79,7 @@ class StereoEvidence {
   };
 
   /// Whether a point is one, in a column, and carries information. `inverse`: of its depth, 1/m.
-  bool locate(const ViewedPoint& point, float inverse, const Scales& scales, ColumnPoint& placed);
+  bool locate(const ViewedPoint& point, float inverse, const Scales& scales, ColumnPoint& located);
   void addObstacle(const ColumnPoint& point, const Scales& scales);
   void addLine(const ColumnPoint& point, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);

@@ -11,8 +11,8 @@ void addStatic(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map) {
 
 double Submap::radius() const {
   double radius = 0.0;
-  for (const PlacedScan& placed : placed_) {
-    radius = std::max(radius, placed.pose.position().norm());
+  for (const PosedScan& posed : scans_) {
+    radius = std::max(radius, posed.pose.position().norm());
   }
   return radius;
 }
@@ -20,18 +20,18 @@ double Submap::radius() const {
 OccupancyMap Submap::map(OccupancyMapOptions options, double reach) const {
   options.window.length = options.window.width = 2.0 * (radius() + reach);
   OccupancyMap map(options);
-  for (const PlacedScan& placed : placed_) {
-    addStatic(map, placed.scan, placed.pose);
+  for (const PosedScan& posed : scans_) {
+    addStatic(map, posed.scan, posed.pose);
   }
   return map;
 }
 
 std::vector<EndPoint> Submap::ends(double max_step) const {
   std::vector<EndPoint> all;
-  for (const PlacedScan& placed : placed_) {
-    const Eigen::Matrix2d rotation = placed.pose.rotation();
-    for (const EndPoint& end : endPoints(placed.scan, max_step)) {
-      all.push_back({placed.pose * end.position, rotation * end.sampling * rotation.transpose()});
+  for (const PosedScan& posed : scans_) {
+    const Eigen::Matrix2d rotation = posed.pose.rotation();
+    for (const EndPoint& end : endPoints(posed.scan, max_step)) {
+      all.push_back({posed.pose * end.position, rotation * end.sampling * rotation.transpose()});
     }
   }
   return all;

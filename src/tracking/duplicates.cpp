@@ -14,15 +14,17 @@ namespace {
 constexpr double kSlack = 1e-6;
 
 /// A target with its box, which takes longer to ask for than most pairs need.
-struct Placed {
+struct BoxedTarget {
   const Target* target;
   Box2 box;
   double reach;  ///< m, from its center; reaches() reaches no farther
 };
 
-bool hasLowerX(const Placed& a, const Placed& b) { return a.box.center.x() < b.box.center.x(); }
+bool hasLowerX(const BoxedTarget& a, const BoxedTarget& b) {
+  return a.box.center.x() < b.box.center.x();
+}
 
-bool isPartOf(const Placed& part, const Placed& whole, const DuplicateOptions& options) {
+bool isPartOf(const BoxedTarget& part, const BoxedTarget& whole, const DuplicateOptions& options) {
   const Point2 offset = part.box.center.position() - whole.box.center.position();
   const double reach = std::max(part.reach, whole.reach);
   if (offset.squaredNorm() > reach * reach) {
@@ -66,8 +68,8 @@ void DuplicateOptions::visit(OptionVisitor& visitor) {
 
 std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets,
                                        const DuplicateOptions& options) {
-  std::vector<Placed> all;
-  std::vector<Placed> confirmed;
+  std::vector<BoxedTarget> all;
+  std::vector<BoxedTarget> confirmed;
   double max_reach = 0.0;
   for (const Target* target : targets) {
     const Box2 box = target->box();
@@ -82,12 +84,12 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
   }
   std::sort(confirmed.begin(), confirmed.end(), hasLowerX);
   std::set<std::uint64_t> result;
-  for (const Placed& part : all) {
+  for (const BoxedTarget& part : all) {
     const double reach = std::max(max_reach, part.reach);
     const double x = part.box.center.x();
     const auto begin = std::lower_bound(
         confirmed.begin(), confirmed.end(), x - reach,
-        [](const Placed& placed, double min) { return placed.box.center.x() < min; });
+        [](const BoxedTarget& target, double min) { return target.box.center.x() < min; });
     for (auto whole = begin; whole != confirmed.end() && whole->box.center.x() <= x + reach;
          ++whole) {
       if (isPartOf(part, *whole, options)) {

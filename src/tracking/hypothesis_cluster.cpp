@@ -42,20 +42,20 @@ class NumberIndex {
   explicit NumberIndex(std::size_t max) { entries_.reserve(max); }
 
   void add(std::uint64_t number) {
-    const auto found = place(number);
+    const auto found = lowerBound(number);
     if (found == entries_.end() || found->first != number) {
       entries_.insert(found, {number, entries_.size()});
     }
   }
 
   /// Of a number that was added.
-  std::size_t operator[](std::uint64_t number) { return place(number)->second; }
+  std::size_t operator[](std::uint64_t number) { return lowerBound(number)->second; }
   std::size_t size() const { return entries_.size(); }
 
  private:
   using Entry = std::pair<std::uint64_t, std::size_t>;
 
-  std::vector<Entry>::iterator place(std::uint64_t number) {
+  std::vector<Entry>::iterator lowerBound(std::uint64_t number) {
     return std::lower_bound(entries_.begin(), entries_.end(), Entry{number, 0});
   }
 

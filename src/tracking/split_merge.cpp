@@ -58,7 +58,7 @@ class Reader {
 
   std::vector<Alternative> alternatives() {
     std::vector<Alternative> result;
-    for (const Placed& target : confirmed_) {
+    for (const ExpectedTarget& target : confirmed_) {
       addUnion(target, result);
     }
     for (const std::size_t object : objects_) {
@@ -69,12 +69,12 @@ class Reader {
 
  private:
   /// A confirmed target, by its tree, where the best hypothesis expects it.
-  struct Placed {
+  struct ExpectedTarget {
     std::size_t tree;
     Box2 box;
   };
 
-  void addUnion(const Placed& target, std::vector<Alternative>& result) {
+  void addUnion(const ExpectedTarget& target, std::vector<Alternative>& result) {
     std::vector<std::size_t> inside;
     std::vector<const Object*> parts;
     for (const std::size_t index : objects_) {
@@ -99,8 +99,8 @@ class Reader {
 
   void addParts(std::size_t index, std::vector<Alternative>& result) {
     const Object object = scan_.observations[index].object;
-    std::vector<Placed> covered;
-    for (const Placed& target : confirmed_) {
+    std::vector<ExpectedTarget> covered;
+    for (const ExpectedTarget& target : confirmed_) {
       if (mayCover(object, target.box, options_)) {
         covered.push_back(target);
       }
@@ -145,7 +145,7 @@ class Reader {
   const AssociationOptions& association_;
   const SplitMergeOptions& options_;
   const Interpretation objects_;
-  std::vector<Placed> confirmed_;
+  std::vector<ExpectedTarget> confirmed_;
 };
 
 bool overlap(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {

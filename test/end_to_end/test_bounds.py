@@ -80,7 +80,7 @@ class Check(unittest.TestCase):
     def test_beyond(self):
         self.assertEqual(self.failures(1, mota=0.4, pose_error=0.005)[0], 2)
 
-    def test_an_expected_failure_is_said_and_fails_nothing_else(self):
+    def test_an_expected_failure_is_reported_and_fails_nothing_else(self):
         count, said = self.failures(3, missed=1, mota=0.4)
         self.assertEqual(count, 1)
         self.assertIn("seed 3, missed: 1, an expected failure", said)

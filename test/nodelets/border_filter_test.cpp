@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "labeled_scan_door.h"
+#include "labeled_scan_harness.h"
 #include "ros/road_samples.h"
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@
 namespace datmo::border_filter_test {
 namespace {
 
-class BorderFilterDoor : public LabeledScanDoor {
+class BorderFilterHarness : public LabeledScanHarness {
  public:
-  BorderFilterDoor() : LabeledScanDoor("moving_objects") {}
+  BorderFilterHarness() : LabeledScanHarness("moving_objects") {}
 
   bool waitForNodelet() {
-    return LabeledScanDoor::waitForNodelet() && waitFor([this] {
+    return LabeledScanHarness::waitForNodelet() && waitFor([this] {
              return road_borders_.getNumSubscribers() >= 1 && dropped_.getNumPublishers() >= 1;
            });
   }
@@ -44,11 +44,11 @@ class BorderFilterDoor : public LabeledScanDoor {
 class BorderFilterTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    door_ = new BorderFilterDoor();
-    ASSERT_TRUE(door_->waitForNodelet());
+    harness_ = new BorderFilterHarness();
+    ASSERT_TRUE(harness_->waitForNodelet());
   }
 
-  static void TearDownTestSuite() { delete door_; }
+  static void TearDownTestSuite() { delete harness_; }
 
   static RoadBorders roadNow(const std::string& frame = "map") {
     RoadModel road = samples::straightRoad();
@@ -58,41 +58,41 @@ class BorderFilterTest : public testing::Test {
 
   /// What seems to move on the left border, and what comes of it: one list of each kind.
   static void scan() {
-    const std::size_t before = door_->objects.size();
-    door_->setClock(now_);
-    door_->send(samples::scanWithMover({10.0, 3.1}, now_));
-    ASSERT_TRUE(door_->waitFor([&] {
-      return door_->objects.size() == before + 1 && door_->dropped.size() == before + 1;
-    })) << door_->diagnosticMessage();
-    EXPECT_EQ(door_->objects.back()->header.stamp, door_->dropped.back()->header.stamp);
+    const std::size_t before = harness_->objects.size();
+    harness_->setClock(now_);
+    harness_->send(samples::scanWithMover({10.0, 3.1}, now_));
+    ASSERT_TRUE(harness_->waitFor([&] {
+      return harness_->objects.size() == before + 1 && harness_->dropped.size() == before + 1;
+    })) << harness_->diagnosticMessage();
+    EXPECT_EQ(harness_->objects.back()->header.stamp, harness_->dropped.back()->header.stamp);
   }
 
-  static std::size_t passed() { return door_->objects.back()->objects.size(); }
-  static std::size_t dropped() { return door_->dropped.back()->objects.size(); }
+  static std::size_t passed() { return harness_->objects.back()->objects.size(); }
+  static std::size_t dropped() { return harness_->dropped.back()->objects.size(); }
 
-  static BorderFilterDoor* door_;
+  static BorderFilterHarness* harness_;
   static double now_;  // s, of the drive
 };
 
-BorderFilterDoor* BorderFilterTest::door_ = nullptr;
+BorderFilterHarness* BorderFilterTest::harness_ = nullptr;
 double BorderFilterTest::now_ = 0.0;
 
 TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 1U);
   EXPECT_EQ(dropped(), 0U);
-  EXPECT_TRUE(door_->waitForCount("warned: no_borders", 1.0));
-  EXPECT_TRUE(door_->waitForMessage("no road_borders yet")) << door_->diagnosticMessage();
+  EXPECT_TRUE(harness_->waitForCount("warned: no_borders", 1.0));
+  EXPECT_TRUE(harness_->waitForMessage("no road_borders yet")) << harness_->diagnosticMessage();
 }
 
 TEST_F(BorderFilterTest, ByTheThesisAnObjectOnTheBorderIsDroppedAndReported) {
   now_ += 0.06;
-  ASSERT_TRUE(door_->sendRoad(roadNow()));
+  ASSERT_TRUE(harness_->sendRoad(roadNow()));
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 0U);
   ASSERT_EQ(dropped(), 1U);
-  EXPECT_EQ(door_->dropped.back()->header.frame_id, "base_link");
-  const DroppedObjectMessage& one = door_->dropped.back()->objects[0];
+  EXPECT_EQ(harness_->dropped.back()->header.frame_id, "base_link");
+  const DroppedObjectMessage& one = harness_->dropped.back()->objects[0];
   EXPECT_EQ(one.reason, DroppedObjectMessage::ON_BORDER);
   EXPECT_EQ(one.side, RoadBorderMessage::LEFT);
   EXPECT_NEAR(one.object.pose.position.x, 10.0, 1.0);
@@ -102,33 +102,33 @@ TEST_F(BorderFilterTest, BordersThatAreNoneAreCountedAndTheLastOnesServe) {
   now_ += 0.06;
   RoadBorders bad = roadNow();
   bad.borders.at(0).points.at(0).x = std::numeric_limits<float>::quiet_NaN();
-  ASSERT_TRUE(door_->sendRoad(bad));
-  EXPECT_TRUE(door_->waitForCount("dropped: bad_border", 1.0));
+  ASSERT_TRUE(harness_->sendRoad(bad));
+  EXPECT_TRUE(harness_->waitForCount("dropped: bad_border", 1.0));
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 0U);
 }
 
-TEST_F(BorderFilterTest, StaleBordersDropNothingAndItIsSaid) {
+TEST_F(BorderFilterTest, StaleBordersDropNothingAndItIsReported) {
   now_ += 3.0;
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 1U);
   EXPECT_EQ(dropped(), 0U);
-  EXPECT_TRUE(door_->waitForCount("warned: old_borders", 1.0));
-  EXPECT_TRUE(door_->waitForMessage("no road_borders for")) << door_->diagnosticMessage();
+  EXPECT_TRUE(harness_->waitForCount("warned: old_borders", 1.0));
+  EXPECT_TRUE(harness_->waitForMessage("no road_borders for")) << harness_->diagnosticMessage();
 }
 
-TEST_F(BorderFilterTest, BordersInAnotherFrameDropNothingAndItIsSaid) {
+TEST_F(BorderFilterTest, BordersInAnotherFrameDropNothingAndItIsReported) {
   now_ += 0.06;
-  ASSERT_TRUE(door_->sendRoad(roadNow("odom")));
+  ASSERT_TRUE(harness_->sendRoad(roadNow("odom")));
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 1U);
-  EXPECT_TRUE(door_->waitForCount("warned: wrong_frame", 1.0));
+  EXPECT_TRUE(harness_->waitForCount("warned: wrong_frame", 1.0));
 }
 
 TEST_F(BorderFilterTest, ALoopedBag) {
   now_ = 0.0;
-  door_->setClock(now_);
-  ASSERT_TRUE(door_->sendRoad(roadNow()));
+  harness_->setClock(now_);
+  ASSERT_TRUE(harness_->sendRoad(roadNow()));
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 0U);
   EXPECT_EQ(dropped(), 1U);

@@ -13,13 +13,13 @@
 namespace datmo::cloud_to_scan_test {
 namespace {
 
-class CloudDoor : public Listener {
+class CloudHarness : public Listener {
  public:
-  CloudDoor() {
+  CloudHarness() {
     scan_ = node_.subscribe<sensor_msgs::LaserScan>(
         "scan", kQueue,
         [this](const sensor_msgs::LaserScanConstPtr& scan) { scans.push_back(scan); });
-    tf_static_heard_ = node_.subscribe<tf2_msgs::TFMessage>(
+    mounts_ = node_.subscribe<tf2_msgs::TFMessage>(
         "/tf_static", kQueue,
         [this](const tf2_msgs::TFMessageConstPtr& list) { transforms.addStatic(*list); });
     tf2_msgs::TFMessage mount;
@@ -50,34 +50,34 @@ class CloudDoor : public Listener {
   ros::Publisher tf_static_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true);
   ros::Publisher cloud_ = node_.advertise<sensor_msgs::PointCloud2>("cloud", kQueue);
   ros::Subscriber scan_;
-  ros::Subscriber tf_static_heard_;
+  ros::Subscriber mounts_;
 };
 
 TEST(CloudToScanNodelet, ACloudComesOutAsAScanBelowTheLidar) {
-  CloudDoor door;
-  ASSERT_TRUE(door.waitForNodelet());
+  CloudHarness harness;
+  ASSERT_TRUE(harness.waitForNodelet());
   samples::LidarCloudMaker maker;
   maker.addGround();
   maker.addWall(10.5);
   auto cloud = samples::lidarMessage(maker.cloud);
   // The mount may be on its way still: clouds go on until one comes out.
-  ASSERT_TRUE(door.waitFor([&] {
+  ASSERT_TRUE(harness.waitFor([&] {
     cloud.header.stamp += ros::Duration(0.1);
-    door.send(cloud);
-    return !door.scans.empty();
-  })) << door.diagnosticMessage("cloud_to_scan");
-  const sensor_msgs::LaserScan& scan = *door.scans.front();
+    harness.send(cloud);
+    return !harness.scans.empty();
+  })) << harness.diagnosticMessage("cloud_to_scan");
+  const sensor_msgs::LaserScan& scan = *harness.scans.front();
   EXPECT_EQ(scan.header.frame_id, "cloud_scan");
   const auto ahead = static_cast<std::size_t>(std::lround(-scan.angle_min / scan.angle_increment));
   EXPECT_NEAR(scan.ranges.at(ahead), 10.0F, 0.02F);
-  EXPECT_TRUE(door.waitFor([&door] {
-    return door.transforms.core().canTransform("base_link", "cloud_scan", ros::Time(0));
+  EXPECT_TRUE(harness.waitFor([&harness] {
+    return harness.transforms.core().canTransform("base_link", "cloud_scan", ros::Time(0));
   }));
-  EXPECT_TRUE(door.waitFor([&door] { return door.timings["cloud_to_scan"] > 0; }));
+  EXPECT_TRUE(harness.waitFor([&harness] { return harness.timings["cloud_to_scan"] > 0; }));
   cloud.is_bigendian = 1;
-  door.send(cloud);
-  EXPECT_TRUE(door.waitFor(
-      [&door] { return door.diagnostic("cloud_to_scan", "dropped: big_endian") == 1.0; }));
+  harness.send(cloud);
+  EXPECT_TRUE(harness.waitFor(
+      [&harness] { return harness.diagnostic("cloud_to_scan", "dropped: big_endian") == 1.0; }));
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace datmo::device_can_test {
 namespace {
 
 /// The odometry that comes of a vehicle's bus.
-class VehicleDoor : public Listener {
+class OdometryRecorder : public Listener {
  public:
-  VehicleDoor() {
+  OdometryRecorder() {
     odometry_ = node_.subscribe<nav_msgs::Odometry>(
         "motion/odometry", kQueue,
         [this](const nav_msgs::OdometryConstPtr& message) { odometry.push_back(message); });
@@ -35,12 +35,12 @@ class VehicleDoor : public Listener {
   ros::Subscriber odometry_;
 };
 
-TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsSaid) {
+TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsReported) {
   const std::string recording = ros::param::param<std::string>("recording", "");
-  VehicleDoor door;
-  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
-  EXPECT_TRUE(
-      door.waitFor([&door] { return door.diagnostic("device", "dropped: bad_recording") >= 1.0; }));
+  OdometryRecorder recorder;
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "dropped: bad_recording") >= 1.0; }));
   constexpr int kFrames = 100;
   constexpr double kPeriod = 0.04;  // s
   std::string log;
@@ -53,26 +53,26 @@ TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsSaid) {
   std::ofstream(recording + ".part") << log;
   ASSERT_EQ(std::rename((recording + ".part").c_str(), recording.c_str()), 0);
   // The first counter moves nothing yet; and what a busy machine discards is counted.
-  const auto came = [&door] {
-    return static_cast<double>(door.odometry.size()) +
-           std::max(door.diagnostic("device", "measurements discarded"), 0.0);
+  const auto came = [&recorder] {
+    return static_cast<double>(recorder.odometry.size()) +
+           std::max(recorder.diagnostic("device", "measurements discarded"), 0.0);
   };
-  ASSERT_TRUE(door.waitFor([&came] { return came() >= kFrames - 1; }));
+  ASSERT_TRUE(recorder.waitFor([&came] { return came() >= kFrames - 1; }));
   EXPECT_EQ(came(), kFrames - 1.0);
-  const nav_msgs::Odometry& last = *door.odometry.back();
+  const nav_msgs::Odometry& last = *recorder.odometry.back();
   EXPECT_NEAR(last.twist.twist.linear.x, 5.0, 1e-9);
   EXPECT_NEAR(last.twist.twist.angular.z, 0.15708, 1e-4);
   // A chord of the circle, by the times at which the frames came.
-  const double seconds = (last.header.stamp - door.odometry.front()->header.stamp).toSec();
+  const double seconds = (last.header.stamp - recorder.odometry.front()->header.stamp).toSec();
   const double radius = 5.0 / 0.157080;
   EXPECT_NEAR(std::hypot(last.pose.pose.position.x, last.pose.pose.position.y),
               2.0 * radius * std::sin(0.5 * 0.157080 * seconds), 0.05);
-  EXPECT_TRUE(door.waitFor([&door] {
-    return door.diagnostic("device", "dropped: recording_end") == 1.0 &&
-           door.diagnostic("device", "warned: bad_frame") == 1.0;
+  EXPECT_TRUE(recorder.waitFor([&recorder] {
+    return recorder.diagnostic("device", "dropped: recording_end") == 1.0 &&
+           recorder.diagnostic("device", "warned: bad_frame") == 1.0;
   }));
-  EXPECT_EQ(door.diagnostic("device", "frames of other messages"), kFrames);
-  EXPECT_EQ(door.diagnostic("device", "frames missed"), 0.0);
+  EXPECT_EQ(recorder.diagnostic("device", "frames of other messages"), kFrames);
+  EXPECT_EQ(recorder.diagnostic("device", "frames missed"), 0.0);
   std::remove(recording.c_str());
 }
 

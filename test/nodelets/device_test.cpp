@@ -27,9 +27,9 @@ constexpr int kSickPort = 20211;      // device_sick.test's
 constexpr int kLidarPort = 20236;     // device_velodyne.test's
 constexpr int kReceiverPort = 20110;  // device_nmea.test's
 
-class ScanDoor : public Listener {
+class ScanRecorder : public Listener {
  public:
-  ScanDoor() {
+  ScanRecorder() {
     scan_ = node_.subscribe<sensor_msgs::LaserScan>(
         "scan", kQueue,
         [this](const sensor_msgs::LaserScanConstPtr& scan) { scans.push_back(scan); });
@@ -46,16 +46,16 @@ class ScanDoor : public Listener {
   ros::Subscriber scan_;
 };
 
-TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
+TEST(DeviceTest, AScannersScansComeAndItsFailureIsReported) {
   samples::FakeHokuyo scanner(kPort);
-  ScanDoor door;
-  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  ScanRecorder recorder;
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
   scanner.accept();
   scanner.shakeHands();
   const ros::Time before = ros::Time::now();
   scanner.send(samples::FakeHokuyo::scan(100, {1000, 2000, 65533, 1, 5000}));
-  ASSERT_TRUE(door.waitFor([&door] { return !door.scans.empty(); }));
-  const sensor_msgs::LaserScan& scan = *door.scans.front();
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return !recorder.scans.empty(); }));
+  const sensor_msgs::LaserScan& scan = *recorder.scans.front();
   EXPECT_EQ(scan.header.frame_id, "front_laser");
   EXPECT_GE(scan.header.stamp, before - ros::Duration(samples::FakeHokuyo::kSweep + 1e-6));
   EXPECT_LE(scan.header.stamp, ros::Time::now());
@@ -70,35 +70,36 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
   EXPECT_FLOAT_EQ(scan.scan_time, 0.025F);
 
   scanner.send(samples::FakeHokuyo::scan(175, {1000, 1000, 1000, 1000, 1000}));
-  EXPECT_TRUE(door.waitFor([&door] {
-    return door.diagnostic("device", "scans missed") == 2.0 &&
-           door.diagnostic("device", "connections") >= 1.0;
+  EXPECT_TRUE(recorder.waitFor([&recorder] {
+    return recorder.diagnostic("device", "scans missed") == 2.0 &&
+           recorder.diagnostic("device", "connections") >= 1.0;
   }));
 
   scanner.close();
-  EXPECT_TRUE(door.waitFor(
-      [&door] { return door.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
-  EXPECT_NE(door.diagnosticMessage("device").find("127.0.0.1:20940 has closed the connection"),
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
+  EXPECT_NE(recorder.diagnosticMessage("device").find("127.0.0.1:20940 has closed the connection"),
             std::string::npos)
-      << door.diagnosticMessage("device");
+      << recorder.diagnosticMessage("device");
   scanner.accept();
   scanner.shakeHands();
   scanner.send(samples::FakeHokuyo::scan(5, {1000, 1000, 1000, 1000, 1000}));
-  EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
-  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") >= 2.0; }));
+  EXPECT_TRUE(recorder.waitFor([&recorder] { return recorder.scans.size() == 3; }));
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "connections") >= 2.0; }));
 }
 
-TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsSaid) {
+TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsReported) {
   samples::FakeSick scanner(kSickPort);
-  ScanDoor door;
-  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  ScanRecorder recorder;
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
   scanner.accept();
   scanner.shakeHands();
   const ros::Time before = ros::Time::now();
   samples::SickTelegram telegram;
   scanner.scan(telegram);
-  ASSERT_TRUE(door.waitFor([&door] { return !door.scans.empty(); }));
-  const sensor_msgs::LaserScan& scan = *door.scans.front();
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return !recorder.scans.empty(); }));
+  const sensor_msgs::LaserScan& scan = *recorder.scans.front();
   EXPECT_EQ(scan.header.frame_id, "front_laser");
   EXPECT_GE(scan.header.stamp, before - ros::Duration(0.020001));
   EXPECT_LE(scan.header.stamp, ros::Time::now());
@@ -113,25 +114,26 @@ TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsSaid) {
   telegram.begun += 120000;
   telegram.sent += 120000;
   scanner.scan(telegram);
-  EXPECT_TRUE(door.waitFor([&door] {
-    return door.diagnostic("device", "scans missed") == 2.0 &&
-           door.diagnostic("device", "warned: dirty_window") == 1.0;
+  EXPECT_TRUE(recorder.waitFor([&recorder] {
+    return recorder.diagnostic("device", "scans missed") == 2.0 &&
+           recorder.diagnostic("device", "warned: dirty_window") == 1.0;
   }));
 
   scanner.close();
-  EXPECT_TRUE(door.waitFor(
-      [&door] { return door.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
   scanner.accept();
   scanner.shakeHands();
   scanner.scan(samples::SickTelegram());
-  EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
-  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") >= 2.0; }));
+  EXPECT_TRUE(recorder.waitFor([&recorder] { return recorder.scans.size() == 3; }));
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "connections") >= 2.0; }));
 }
 
 /// The clouds of a lidar and the scans that cloud_to_scan makes of them.
-class LidarDoor : public ScanDoor {
+class LidarRecorder : public ScanRecorder {
  public:
-  LidarDoor() {
+  LidarRecorder() {
     cloud_ = node_.subscribe<sensor_msgs::PointCloud2>(
         "points", 1, [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { last = cloud; });
     tf2_msgs::TFMessage mount;
@@ -179,46 +181,46 @@ bool isWhole(const sensor_msgs::LaserScan& scan) {
 }
 
 TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
-  LidarDoor door;
+  LidarRecorder recorder;
   TurningLidar lidar{samples::VelodyneSample()};
-  ASSERT_TRUE(door.waitFor([&] {
+  ASSERT_TRUE(recorder.waitFor([&] {
     lidar.sendDue();
-    return door.last != nullptr && !door.scans.empty();
+    return recorder.last != nullptr && !recorder.scans.empty();
   }));
-  EXPECT_EQ(door.last->header.frame_id, "roof_lidar");
-  ASSERT_EQ(door.last->fields.size(), 6U);
-  EXPECT_EQ(door.last->fields[5].name, "time");
+  EXPECT_EQ(recorder.last->header.frame_id, "roof_lidar");
+  ASSERT_EQ(recorder.last->fields.size(), 6U);
+  EXPECT_EQ(recorder.last->fields[5].name, "time");
   // In time, within what a busy machine takes; not before it was measured.
-  EXPECT_LT(door.last->header.stamp, ros::Time::now());
-  EXPECT_TRUE(door.waitFor([&] {
+  EXPECT_LT(recorder.last->header.stamp, ros::Time::now());
+  EXPECT_TRUE(recorder.waitFor([&] {
     lidar.sendDue();
-    return door.diagnostic("device", "connections") >= 1.0;
+    return recorder.diagnostic("device", "connections") >= 1.0;
   }));
-  EXPECT_TRUE(door.waitFor([&] {
+  EXPECT_TRUE(recorder.waitFor([&] {
     lidar.sendDue();
-    return isWhole(*door.scans.back());
-  })) << door.scans.size()
+    return isWhole(*recorder.scans.back());
+  })) << recorder.scans.size()
       << " scans, none of them whole";
 
   lidar.lose(3);
-  EXPECT_TRUE(door.waitFor([&] {
+  EXPECT_TRUE(recorder.waitFor([&] {
     lidar.sendDue();
-    return door.diagnostic("device", "packets missed") >= 3.0;
+    return recorder.diagnostic("device", "packets missed") >= 3.0;
   }));
   // It is gone, and back.
-  EXPECT_TRUE(
-      door.waitFor([&door] { return door.diagnostic("device", "dropped: silent_device") >= 1.0; }));
-  const auto before = door.scans.size();
-  EXPECT_TRUE(door.waitFor([&] {
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "dropped: silent_device") >= 1.0; }));
+  const auto before = recorder.scans.size();
+  EXPECT_TRUE(recorder.waitFor([&] {
     lidar.sendDue();
-    return door.scans.size() > before && door.diagnostic("device", "connections") >= 2.0;
+    return recorder.scans.size() > before && recorder.diagnostic("device", "connections") >= 2.0;
   }));
 }
 
 /// Positions and velocities of a satellite receiver.
-class ReceiverDoor : public Listener {
+class FixRecorder : public Listener {
  public:
-  ReceiverDoor() {
+  FixRecorder() {
     fix_ = node_.subscribe<sensor_msgs::NavSatFix>(
         "gnss", 1, [this](const sensor_msgs::NavSatFixConstPtr& message) { fix = message; });
     twist_ = node_.subscribe<geometry_msgs::TwistStamped>(
@@ -237,32 +239,33 @@ class ReceiverDoor : public Listener {
   ros::Subscriber twist_;
 };
 
-TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsSaid) {
+TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsReported) {
   samples::FakeServer receiver(kReceiverPort);
-  ReceiverDoor door;
-  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  FixRecorder recorder;
+  ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
   receiver.accept();
   receiver.send(samples::ggaLine(1.0) + samples::ggaLine(1.2) + samples::rmcLine(1.2, 10.0));
-  ASSERT_TRUE(door.waitFor([&door] { return door.fix != nullptr && door.twist != nullptr; }));
-  EXPECT_EQ(door.fix->header.frame_id, "antenna");
-  EXPECT_NEAR(door.fix->latitude, 45.0 + 10.0 / 60.0, 1e-9);
-  EXPECT_EQ(door.fix->status.status, sensor_msgs::NavSatStatus::STATUS_FIX);
-  EXPECT_NEAR(door.fix->position_covariance[4], 16.0, 1e-9);
+  ASSERT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.fix != nullptr && recorder.twist != nullptr; }));
+  EXPECT_EQ(recorder.fix->header.frame_id, "antenna");
+  EXPECT_NEAR(recorder.fix->latitude, 45.0 + 10.0 / 60.0, 1e-9);
+  EXPECT_EQ(recorder.fix->status.status, sensor_msgs::NavSatStatus::STATUS_FIX);
+  EXPECT_NEAR(recorder.fix->position_covariance[4], 16.0, 1e-9);
   // The earth_frame stage takes it.
-  EXPECT_NEAR(positionOf(*door.fix).altitude, 250.0, 1e-9);
-  EXPECT_NEAR(covarianceOf(*door.fix, 1.0)(0, 0), 16.0, 1e-9);
-  EXPECT_NEAR(door.twist->twist.linear.x, 5.14444, 1e-4);
-  EXPECT_TRUE(door.twist->header.frame_id.empty());  // the vehicle's
+  EXPECT_NEAR(positionOf(*recorder.fix).altitude, 250.0, 1e-9);
+  EXPECT_NEAR(covarianceOf(*recorder.fix, 1.0)(0, 0), 16.0, 1e-9);
+  EXPECT_NEAR(recorder.twist->twist.linear.x, 5.14444, 1e-4);
+  EXPECT_TRUE(recorder.twist->header.frame_id.empty());  // the vehicle's
   receiver.close();
-  EXPECT_TRUE(door.waitFor(
-      [&door] { return door.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
-  door.fix.reset();
+  EXPECT_TRUE(recorder.waitFor(
+      [&recorder] { return recorder.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
+  recorder.fix.reset();
   receiver.accept();
   receiver.send(samples::ggaLine(9.0) + samples::ggaLine(9.2) +
                 samples::nmeaLine("GPGGA,100009.400,,,,,0,00,,,M,,M,,"));
-  EXPECT_TRUE(door.waitFor([&door] {
-    return door.fix != nullptr &&
-           door.fix->status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  EXPECT_TRUE(recorder.waitFor([&recorder] {
+    return recorder.fix != nullptr &&
+           recorder.fix->status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   }));
 }
 

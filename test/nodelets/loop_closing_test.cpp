@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "labeled_scan_door.h"
+#include "labeled_scan_harness.h"
 #include "slam/drift_drive.h"
 #include <datmo_fusion/SaveMap.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kStep = 0.2;  // s
 
-class LoopClosingDoor : public LabeledScanDoor {
+class LoopClosingHarness : public LabeledScanHarness {
  public:
-  LoopClosingDoor() : LabeledScanDoor("loop_closing") {}
+  LoopClosingHarness() : LabeledScanHarness("loop_closing") {}
 
   std::vector<nav_msgs::PathConstPtr> paths;
   std::vector<nav_msgs::OccupancyGridConstPtr> optimized_maps;
@@ -32,8 +32,8 @@ class LoopClosingDoor : public LabeledScanDoor {
 };
 
 TEST(LoopClosingTest, TwoLapsWithADriftingPoseComeOutWithoutDrift) {
-  LoopClosingDoor door;
-  ASSERT_TRUE(door.waitForNodelet());
+  LoopClosingHarness harness;
+  ASSERT_TRUE(harness.waitForNodelet());
   const std::vector<Pose2> truth = roundTheYard(2);
   Pose2 live = truth.front();
   double seconds = 0.0;
@@ -41,28 +41,28 @@ TEST(LoopClosingTest, TwoLapsWithADriftingPoseComeOutWithoutDrift) {
     live = i == 0 ? live : live * drifting(truth[i - 1].inverse() * truth[i]);
     LabeledScan scan = labeled(Yard().scan(truth[i], 0.0), live);
     scan.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-    door.setClock(seconds);
-    door.send(scan);
-    ASSERT_TRUE(door.waitFor([&] {
-      return door.diagnostic("trajectories begun") >= 0.0 &&
-             door.transforms.core().canTransform("map", "global_map", toTime(scan.stamp));
+    harness.setClock(seconds);
+    harness.send(scan);
+    ASSERT_TRUE(harness.waitFor([&] {
+      return harness.diagnostic("trajectories begun") >= 0.0 &&
+             harness.transforms.core().canTransform("map", "global_map", toTime(scan.stamp));
     })) << i
-        << ": " << door.diagnosticMessage();
+        << ": " << harness.diagnosticMessage();
   }
   const auto is_done = [&] {
-    return !door.paths.empty() && door.paths.back()->poses.size() == truth.size() &&
-           !door.optimized_maps.empty();
+    return !harness.paths.empty() && harness.paths.back()->poses.size() == truth.size() &&
+           !harness.optimized_maps.empty();
   };
   constexpr double kMaxWait = 120.0;  // s, as of a Listener
-  for (const double end = seconds + kMaxWait; seconds < end && !door.waitFor(is_done, 1.0);) {
+  for (const double end = seconds + kMaxWait; seconds < end && !harness.waitFor(is_done, 1.0);) {
     seconds += 1.0;
-    door.setClock(seconds);
+    harness.setClock(seconds);
   }
   ASSERT_TRUE(is_done());
-  const Pose2 end = fromMessage(door.paths.back()->poses.back().pose);
+  const Pose2 end = fromMessage(harness.paths.back()->poses.back().pose);
   EXPECT_LT((end.position() - truth.back().position()).norm(), 0.3);
   EXPECT_GT((live.position() - truth.back().position()).norm(), 1.0);
-  EXPECT_TRUE(door.waitFor([&] { return door.diagnostic("loops closed") > 1.0; }));
+  EXPECT_TRUE(harness.waitFor([&] { return harness.diagnostic("loops closed") > 1.0; }));
   datmo_fusion::SaveMap save;
   save.request.file = "relative.map";
   ASSERT_TRUE(ros::service::call("loop_closing/save_map", save));

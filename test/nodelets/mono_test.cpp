@@ -23,7 +23,7 @@ class Camera : public Listener {
         [this](const ObjectArrayConstPtr& message) { named.push_back(message); });
   }
 
-  bool isHeard() const {
+  bool isConnected() const {
     return images_.getNumSubscribers() > 0 && objects_.getNumSubscribers() > 0 &&
            infos_.getNumSubscribers() > 0 && lists_.getNumPublishers() > 0;
   }
@@ -68,7 +68,7 @@ class Camera : public Listener {
 
 TEST(MonoClassifierNodeletTest, ListsHaveTheStampsOfExposures) {
   Camera camera;
-  ASSERT_TRUE(camera.waitFor([&] { return camera.isHeard(); }));
+  ASSERT_TRUE(camera.waitFor([&] { return camera.isConnected(); }));
   double seconds = 1.0;
   ASSERT_TRUE(camera.waitFor([&] {
     seconds += 0.1;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kSpeed = 2.0;    // m/s
 constexpr double kYawRate = 0.1;  // rad/s
 
-class MotionDoor : public Listener {
+class MotionHarness : public Listener {
  public:
   bool waitForNodelets() {
     return waitFor([this] {
@@ -65,28 +65,28 @@ class MotionDoor : public Listener {
 };
 
 TEST(Motion, AnImuAndATwistLeadToOdometryAndPoses) {
-  MotionDoor door;
-  ASSERT_TRUE(door.waitForNodelets());
+  MotionHarness harness;
+  ASSERT_TRUE(harness.waitForNodelets());
   // The Imu's messages are of use from when the twist is there: two topics, in either order.
   double now = 100.0;
-  ASSERT_TRUE(door.waitFor([&] {
+  ASSERT_TRUE(harness.waitFor([&] {
     now += 0.01;
-    door.sendTwist(now);
-    door.sendImu(now);
-    return door.odometry.size() >= 3;
-  })) << door.diagnosticMessage("motion");
-  const nav_msgs::Odometry& odometry = *door.odometry.back();
+    harness.sendTwist(now);
+    harness.sendImu(now);
+    return harness.odometry.size() >= 3;
+  })) << harness.diagnosticMessage("motion");
+  const nav_msgs::Odometry& odometry = *harness.odometry.back();
   EXPECT_EQ(odometry.header.frame_id, "odom");
   EXPECT_EQ(odometry.child_frame_id, "robot");
   EXPECT_NEAR(odometry.twist.twist.linear.x, kSpeed, 1e-9);
   EXPECT_NEAR(odometry.twist.twist.angular.z, kYawRate, 1e-6);
-  ASSERT_TRUE(door.waitFor([&] {
+  ASSERT_TRUE(harness.waitFor([&] {
     now += 0.01;
-    door.sendScan(now);
-    return !door.labeled_scans.empty();
-  })) << door.diagnosticMessage("grid_slam");
-  EXPECT_EQ(door.labeled_scans.back()->header.frame_id, "robot");
-  EXPECT_NEAR(door.labeled_scans.back()->scanner.x, 1.0, 1e-9) << "as mounts says";
+    harness.sendScan(now);
+    return !harness.labeled_scans.empty();
+  })) << harness.diagnosticMessage("grid_slam");
+  EXPECT_EQ(harness.labeled_scans.back()->header.frame_id, "robot");
+  EXPECT_NEAR(harness.labeled_scans.back()->scanner.x, 1.0, 1e-9) << "as mounts says";
 }
 
 }  // namespace

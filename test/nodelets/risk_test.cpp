@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "labeled_scan_door.h"
-#include "ros/track_fusion_sample.h"
+#include "labeled_scan_harness.h"
+#include "ros/risk_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/risk_conversion.h"
@@ -15,31 +15,24 @@
 namespace datmo::risk_test {
 namespace {
 
-constexpr double kHostSpeed = 5.0;  // m/s, of samples::scanBetweenWalls
-constexpr double kCarAt = 30.0;     // m, along the drive
+constexpr double kCarAt = 30.0;  // m, along the drive
 
 /// s; a clock that is late by a step must not look like a jump of the stamps.
 constexpr double kLongStep = 0.4;
 
-class RiskDoor : public LabeledScanDoor {
+class RiskHarness : public LabeledScanHarness {
  public:
-  RiskDoor() : LabeledScanDoor("risk") {}
+  RiskHarness() : LabeledScanHarness("risk") {}
 
   bool waitForNodelet() {
-    return LabeledScanDoor::waitForNodelet() && waitFor([this] {
+    return LabeledScanHarness::waitForNodelet() && waitFor([this] {
              return risks_.getNumPublishers() >= 1 && tracks_.getNumSubscribers() >= 1 &&
                     odometry_.getNumSubscribers() >= 1;
            });
   }
 
   void sendOdometry(double seconds) {
-    nav_msgs::Odometry odometry;
-    odometry.header.frame_id = "odom";
-    odometry.header.stamp = ros::Time(samples::kStart + seconds);
-    odometry.child_frame_id = "base_link";
-    odometry.pose.pose.orientation.w = 1.0;
-    odometry.twist.twist.linear.x = kHostSpeed;
-    odometry_.publish(odometry);
+    odometry_.publish(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
   }
 
   void sendTracks(const TrackArray& list) { tracks_.publish(list); }
@@ -53,57 +46,46 @@ class RiskDoor : public LabeledScanDoor {
       "risks", kQueue, [this](const RiskArrayConstPtr& risk) { risks.push_back(risk); });
 };
 
-TrackArray carAhead(double seconds) {
-  TrackList list;
-  list.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-  Track track = carTrack("lidar", 7, samples::kStart + seconds);
-  track.state.setZero();
-  track.state[0] = kCarAt;
-  track.covariance = 0.01 * TrackCovariance::Identity();
-  track.moving = false;
-  track.mode_probabilities = {0.0, 0.0, 0.0, 0.0, 1.0};
-  track.box.center = Pose2(kCarAt, 0.0, 0.0);
-  list.tracks = {track};
-  return toMessage(list, "map");
-}
+TrackArray carAhead(double seconds) { return samples::standingCar(seconds, kCarAt); }
 
 class RiskTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    door_ = new RiskDoor();
-    ASSERT_TRUE(door_->waitForNodelet());
+    harness_ = new RiskHarness();
+    ASSERT_TRUE(harness_->waitForNodelet());
   }
 
-  static void TearDownTestSuite() { delete door_; }
+  static void TearDownTestSuite() { delete harness_; }
 
   /// Odometry and scan of now; waits until the nodelet has them.
   static void sendHost() {
-    door_->setClock(now_);
-    door_->sendOdometry(now_);
-    door_->send(samples::scanBetweenWalls(now_));
+    harness_->setClock(now_);
+    harness_->sendOdometry(now_);
+    harness_->send(samples::scanBetweenWalls(now_));
     ++steps_;
-    ASSERT_TRUE(door_->waitForCount("odometry received", steps_));
-    ASSERT_TRUE(door_->waitForCount("labeled_scan received", steps_));
+    ASSERT_TRUE(harness_->waitForCount("odometry received", steps_));
+    ASSERT_TRUE(harness_->waitForCount("labeled_scan received", steps_));
   }
 
   /// One step of the drive; waits for its risks.
   static void step() {
     ASSERT_NO_FATAL_FAILURE(sendHost());
     const TrackArray tracks = carAhead(now_);
-    door_->sendTracks(tracks);
-    ASSERT_TRUE(door_->waitFor([&] {
-      return !door_->risks.empty() && door_->risks.back()->header.stamp == tracks.header.stamp;
+    harness_->sendTracks(tracks);
+    ASSERT_TRUE(harness_->waitFor([&] {
+      return !harness_->risks.empty() &&
+             harness_->risks.back()->header.stamp == tracks.header.stamp;
     })) << now_
-        << " s: " << door_->diagnosticMessage();
+        << " s: " << harness_->diagnosticMessage();
     now_ += kLongStep;
   }
 
-  static RiskDoor* door_;
+  static RiskHarness* harness_;
   static double now_;    // s, of the drive
   static double steps_;  // so far
 };
 
-RiskDoor* RiskTest::door_ = nullptr;
+RiskHarness* RiskTest::harness_ = nullptr;
 double RiskTest::now_ = 0.0;
 double RiskTest::steps_ = 0.0;
 
@@ -111,33 +93,33 @@ TEST_F(RiskTest, WarnsBeforeTheCarAhead) {
   for (int i = 0; i < 11; ++i) {
     ASSERT_NO_FATAL_FAILURE(step());
   }
-  EXPECT_EQ(door_->risks.front()->level, RiskArray::LEVEL_NONE);
-  const RiskArray& last = *door_->risks.back();
+  EXPECT_EQ(harness_->risks.front()->level, RiskArray::LEVEL_NONE);
+  const RiskArray& last = *harness_->risks.back();
   EXPECT_GE(last.level, RiskArray::LEVEL_WARNING);
   EXPECT_EQ(last.cause, 7U);
   EXPECT_NE(last.reason.find("vehicle 7"), std::string::npos) << last.reason;
 }
 
 TEST_F(RiskTest, DiagnosticsReportTheLevel) {
-  EXPECT_TRUE(door_->waitFor([] {
-    return door_->diagnostic("level, 0 (none) to 3 (imminent)") >= RiskArray::LEVEL_WARNING;
+  EXPECT_TRUE(harness_->waitFor([] {
+    return harness_->diagnostic("level, 0 (none) to 3 (imminent)") >= RiskArray::LEVEL_WARNING;
   }));
-  EXPECT_EQ(door_->diagnostic("dropped"), 0.0);
+  EXPECT_EQ(harness_->diagnostic("dropped"), 0.0);
 }
 
 TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
   ASSERT_NO_FATAL_FAILURE(sendHost());
   TrackArray tracks = carAhead(now_);
   tracks.tracks.front().covariance[0] = std::numeric_limits<double>::quiet_NaN();
-  door_->sendTracks(tracks);
-  EXPECT_TRUE(door_->waitForCount("warned: bad_track", 1.0));
+  harness_->sendTracks(tracks);
+  EXPECT_TRUE(harness_->waitForCount("warned: bad_track", 1.0));
   now_ += kLongStep;
 }
 
 TEST_F(RiskTest, ALoopedBagBeginsAnew) {
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(step());
-  EXPECT_EQ(door_->risks.back()->level, RiskArray::LEVEL_NONE);
+  EXPECT_EQ(harness_->risks.back()->level, RiskArray::LEVEL_NONE);
 }
 
 }  // namespace

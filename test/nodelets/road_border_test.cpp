@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "labeled_scan_door.h"
+#include "labeled_scan_harness.h"
 #include <gtest/gtest.h>
 
 namespace datmo::road_border_test {
 namespace {
 
-class RoadBorderDoor : public LabeledScanDoor {
+class RoadBorderHarness : public LabeledScanHarness {
  public:
-  RoadBorderDoor() : LabeledScanDoor("road_border") {}
+  RoadBorderHarness() : LabeledScanHarness("road_border") {}
 
   bool waitForNodelet() {
-    return LabeledScanDoor::waitForNodelet() &&
+    return LabeledScanHarness::waitForNodelet() &&
            waitFor([this] { return road_borders_.getNumPublishers() >= 1; });
   }
 
@@ -32,24 +32,24 @@ class RoadBorderDoor : public LabeledScanDoor {
 
 class RoadBorderTest : public testing::Test {
  protected:
-  static constexpr double kStep = RoadBorderDoor::kStep;
+  static constexpr double kStep = RoadBorderHarness::kStep;
 
   static void SetUpTestSuite() {
-    door_ = new RoadBorderDoor();
-    ASSERT_TRUE(door_->waitForNodelet());
+    harness_ = new RoadBorderHarness();
+    ASSERT_TRUE(harness_->waitForNodelet());
   }
 
-  static void TearDownTestSuite() { delete door_; }
+  static void TearDownTestSuite() { delete harness_; }
 
   /// One step of the drive; waits for its road.
   static void step() {
     const LabeledScan scan = samples::scanBetweenWalls(now_);
-    door_->setClock(now_);
-    door_->send(scan);
-    ASSERT_TRUE(door_->waitFor([&] {
-      return !door_->roads.empty() && door_->roads.back()->header.stamp == toTime(scan.stamp);
+    harness_->setClock(now_);
+    harness_->send(scan);
+    ASSERT_TRUE(harness_->waitFor([&] {
+      return !harness_->roads.empty() && harness_->roads.back()->header.stamp == toTime(scan.stamp);
     })) << now_
-        << " s: " << door_->diagnosticMessage();
+        << " s: " << harness_->diagnosticMessage();
     now_ += kStep;
   }
 
@@ -63,15 +63,15 @@ class RoadBorderTest : public testing::Test {
   /// to nothing.
   static void expectDropped(const std::string& reason,
                             const std::function<void(LabeledScanMessage&)>& spoil) {
-    const std::size_t before = door_->roads.size();
+    const std::size_t before = harness_->roads.size();
     LabeledScanMessage scan = toMessage(samples::scanBetweenWalls(now_), "base_link", "map");
     spoil(scan);
-    door_->send(scan);
-    EXPECT_TRUE(door_->waitForCount("dropped: " + reason, 1.0)) << reason;
-    EXPECT_EQ(door_->roads.size(), before) << reason;
+    harness_->send(scan);
+    EXPECT_TRUE(harness_->waitForCount("dropped: " + reason, 1.0)) << reason;
+    EXPECT_EQ(harness_->roads.size(), before) << reason;
   }
 
-  static const RoadBorders& last() { return *door_->roads.back(); }
+  static const RoadBorders& last() { return *harness_->roads.back(); }
 
   /// m, from the walls on its side to each point of the last borders.
   static double farthestFromWalls() {
@@ -98,16 +98,16 @@ class RoadBorderTest : public testing::Test {
     return farthest;
   }
 
-  static RoadBorderDoor* door_;
+  static RoadBorderHarness* harness_;
   static double now_;  // s, of the drive
 };
 
-RoadBorderDoor* RoadBorderTest::door_ = nullptr;
+RoadBorderHarness* RoadBorderTest::harness_ = nullptr;
 double RoadBorderTest::now_ = 0.0;
 
 TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
-  EXPECT_EQ(door_->roads.size(), 32U) << "one for each scan";
+  EXPECT_EQ(harness_->roads.size(), 32U) << "one for each scan";
   EXPECT_EQ(last().header.frame_id, "map");
   EXPECT_GE(last().borders.size(), 2U);
   EXPECT_LT(farthestFromWalls(), 0.5);
@@ -115,13 +115,13 @@ TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
 }
 
 TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
-  EXPECT_TRUE(door_->waitForCount("processed", 32.0));
-  EXPECT_TRUE(
-      door_->waitFor([] { return door_->diagnostic("stretches of border on the left") >= 1.0; }));
-  EXPECT_GE(door_->diagnostic("stretches of border on the right"), 1.0);
-  EXPECT_EQ(door_->diagnostic("labeled_scan received"), 32.0);
-  EXPECT_EQ(door_->diagnostic("dropped"), 0.0);
-  EXPECT_TRUE(door_->waitFor([] { return door_->timings["road_border"] == 32; }));
+  EXPECT_TRUE(harness_->waitForCount("processed", 32.0));
+  EXPECT_TRUE(harness_->waitFor(
+      [] { return harness_->diagnostic("stretches of border on the left") >= 1.0; }));
+  EXPECT_GE(harness_->diagnostic("stretches of border on the right"), 1.0);
+  EXPECT_EQ(harness_->diagnostic("labeled_scan received"), 32.0);
+  EXPECT_EQ(harness_->diagnostic("dropped"), 0.0);
+  EXPECT_TRUE(harness_->waitFor([] { return harness_->timings["road_border"] == 32; }));
 }
 
 TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
@@ -152,19 +152,19 @@ TEST_F(RoadBorderTest, WhatIsPublishedChangesWhileItRunsAndNothingIsForgotten) {
   EXPECT_GT(farthestAhead(), before - 2.0) << "what was followed is still there";
 }
 
-TEST_F(RoadBorderTest, SilenceIsSaid) {
+TEST_F(RoadBorderTest, SilenceIsReported) {
   now_ += 3.0;
-  door_->setClock(now_);
-  EXPECT_TRUE(door_->waitForMessage("no labeled_scan for")) << door_->diagnosticMessage();
+  harness_->setClock(now_);
+  EXPECT_TRUE(harness_->waitForMessage("no labeled_scan for")) << harness_->diagnosticMessage();
   ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
-  EXPECT_TRUE(door_->waitForMessage("runs")) << door_->diagnosticMessage();
+  EXPECT_TRUE(harness_->waitForMessage("runs")) << harness_->diagnosticMessage();
 }
 
 TEST_F(RoadBorderTest, ALoopedBagBeginsAnew) {
-  const RoadBorders& first = *door_->roads.at(31);
+  const RoadBorders& first = *harness_->roads.at(31);
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
-  EXPECT_TRUE(door_->waitForCount("warned: clock_restart", 1.0));
+  EXPECT_TRUE(harness_->waitForCount("warned: clock_restart", 1.0));
   EXPECT_EQ(last().header.stamp, first.header.stamp);
   EXPECT_EQ(last().borders, first.borders) << "nothing is left of the first run";
 }

@@ -49,7 +49,7 @@ class Stations : public Listener {
   }
 
   /// Where the map and the vehicle are at a time. `x`: m, in the map.
-  void publishPlace(const ros::Time& time, double x) {
+  void publishPoses(const ros::Time& time, double x) {
     const Stamp now = toStamp(time);
     EarthFrame frame{now, kPlane, {kMap, 1e-4 * Eigen::Matrix3d::Identity()}};
     frames_.publish(toMessage(frame, "map"));
@@ -119,7 +119,7 @@ TEST(V2xWireTest, StationsHearEachOther) {
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
   // Both a CAM and its CPM have to come through; each time newer ones are sent.
   ASSERT_TRUE(stations.waitFor([&] {
-    stations.publishPlace(ros::Time::now(), 0.0);
+    stations.publishPoses(ros::Time::now(), 0.0);
     stations.sendOther();
     return stations.foreign && stations.foreign->tracks.size() == 2;
   }));
@@ -139,16 +139,17 @@ TEST(V2xWireTest, StationsHearEachOther) {
   }));
 
   ASSERT_TRUE(stations.waitFor([&] {
-    stations.publishPlace(ros::Time::now(), 0.0);
+    stations.publishPoses(ros::Time::now(), 0.0);
     stations.publishOwn();
     return !stations.datagrams.isEmpty();
   }));
   const Stamp now = toStamp(ros::Time::now());
-  const StationMessage heard =
+  const StationMessage received =
       decodeStation(stations.datagrams.take(), now, StationMessageOptions());
-  EXPECT_EQ(heard.list.station, 1U);
-  ASSERT_EQ(heard.list.tracks.size(), 1U);
-  const Point2 in_plane = kPlane.toPlane(heard.plane.toGeodetic(heard.list.tracks[0].position));
+  EXPECT_EQ(received.list.station, 1U);
+  ASSERT_EQ(received.list.tracks.size(), 1U);
+  const Point2 in_plane =
+      kPlane.toPlane(received.plane.toGeodetic(received.list.tracks[0].position));
   EXPECT_LT((in_plane - kMap * Point2(HostVehicleOptions().middleAhead(), 0.0)).norm(), 0.05);
   EXPECT_TRUE(
       stations.waitFor([&] { return stations.diagnostic("v2x_wire", "datagrams sent") >= 2.0; }));
@@ -198,7 +199,7 @@ TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
     const ros::Time now = ros::Time::now();
     if (now >= next) {
       next += period;
-      stations.publishPlace(now, driven(now));
+      stations.publishPoses(now, driven(now));
       stations.publishOwn();
       stations.send(mapOfLane());
       stations.send(greenLight());

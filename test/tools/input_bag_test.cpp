@@ -148,7 +148,7 @@ TEST_F(InputBag, BagWithoutPermission) {
   expectRefused("no permission to read it");
 }
 
-TEST_F(InputBag, OutputsThatCannotBeWrittenAreSaidAtTheStart) {
+TEST_F(InputBag, OutputsThatCannotBeWrittenAreReportedAtTheStart) {
   const std::string nowhere = (folder_ / "nowhere" / "out.bag").string();
   EXPECT_EQ(messageOf([&] { OutputBag bag(nowhere); }),
             nowhere + ": cannot be written (no folder " + (folder_ / "nowhere").string() + ")");
@@ -188,7 +188,7 @@ TEST_F(InputBag, OutputInAFolderWithoutPermission) {
   fs::permissions(folder_, fs::perms::owner_all);
 }
 
-TEST_F(InputBag, AFullDiskIsSaidAndLeavesNoBag) {
+TEST_F(InputBag, AFullDiskIsReportedAndLeavesNoBag) {
   const auto write = [this] {
     OutputBag output(file_);
     std_msgs::String text;

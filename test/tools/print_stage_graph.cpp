@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The graph of stages as JSON, for the test that holds perception.launch against it:
 // print_stage_graph [SWITCH...], e.g. low_level_fusion; print_stage_graph --switches: their names.
+// Exit code 1 with a message where the graph and nodelets.xml do not fit.
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <set>
@@ -8,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "command_line.h"
 #include "run_bag/stage_types.h"
 #include <nlohmann/json.hpp>
 
@@ -70,19 +73,17 @@ nlohmann::json toJson(const datmo::GraphStage& stage) {
           {"part", nameOf(stage.part)}, {"takes", topics.takes}, {"makes", topics.makes}};
 }
 
-}  // namespace
-
-int main(int count, char** words) {
-  const std::set<std::string> on(words + 1, words + count);
-  const auto is_on = [&on](const std::string& name) { return on.count(name) > 0; };
-  if (is_on("--switches")) {
-    std::vector<std::string> names;
-    for (const datmo::NamedSwitch& each : datmo::stackSwitches()) {
-      names.push_back(each.name);
-    }
-    std::cout << nlohmann::json(names) << '\n';
-    return 0;
+nlohmann::json switchNames() {
+  nlohmann::json names = nlohmann::json::array();
+  for (const datmo::NamedSwitch& each : datmo::stackSwitches()) {
+    names.push_back(each.name);
   }
+  return names;
+}
+
+/// The stages that run with some switches on, by their names.
+nlohmann::json stagesWith(const std::set<std::string>& on) {
+  const auto is_on = [&on](const std::string& name) { return on.count(name) > 0; };
   datmo::GraphSwitches switches;
   for (const datmo::NamedSwitch& each : datmo::stackSwitches()) {
     switches.*each.value = is_on(each.name);
@@ -96,5 +97,15 @@ int main(int count, char** words) {
   for (const datmo::GraphStage& stage : stageGraph(switches)) {
     stages[stage.name] = toJson(stage);
   }
-  std::cout << stages << '\n';
+  return stages;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  return datmo::runProgram("print_stage_graph", EXIT_FAILURE, count, words, [](const auto& given) {
+    datmo::checkStageTypes(stageGraph(datmo::allSwitches()));
+    const std::set<std::string> on(given.begin(), given.end());
+    std::cout << (on.count("--switches") > 0 ? switchNames() : stagesWith(on)) << '\n';
+  });
 }

@@ -153,7 +153,7 @@ TEST_F(RunBagInput, APartThatIsRefusedIsSummedUp) {
   EXPECT_TRUE(holds(table, "3 of 30")) << table;
 }
 
-TEST_F(RunBagInput, ScansThatAreAllRefusedAreSaidWithWhatToDo) {
+TEST_F(RunBagInput, ScansThatAreAllRefusedAreReportedWithWhatToDo) {
   writeDrive(false);
   const std::string message = failure();
   for (const char* const part :

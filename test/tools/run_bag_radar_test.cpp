@@ -10,7 +10,8 @@
 namespace datmo::run_bag_radar_test {
 namespace {
 
-constexpr float kAway = 3.0F;  // m/s, by which what drives ahead is faster than the vehicle
+constexpr float kRelativeSpeed =
+    3.0F;  // m/s, by which what drives ahead is faster than the vehicle
 
 class RunBagWithRadar : public RunBag {
  protected:
@@ -24,8 +25,8 @@ class RunBagWithRadar : public RunBag {
       scan.header.frame_id = "scanner";
       scan.returns.resize(2);
       const auto seconds = static_cast<float>(secondsBetween(kStart, stamp));
-      scan.returns[0].range = 12.0F + kAway * seconds;
-      scan.returns[0].doppler_velocity = kAway;
+      scan.returns[0].range = 12.0F + kRelativeSpeed * seconds;
+      scan.returns[0].doppler_velocity = kRelativeSpeed;
       scan.returns[1].range = static_cast<float>(kEnd - kSpeed * seconds);
       scan.returns[1].doppler_velocity = static_cast<float>(-kSpeed);
       bag.write(topic, toTime(stamp + 1e-3), scan);
@@ -47,7 +48,7 @@ TEST_F(RunBagWithRadar, ItsObjectsAreFused) {
     };
     const auto object = std::find_if(list->objects.begin(), list->objects.end(), by_radar);
     if (object != list->objects.end()) {
-      EXPECT_NEAR(object->velocity.x, kSpeed + kAway, 0.1);
+      EXPECT_NEAR(object->velocity.x, kSpeed + kRelativeSpeed, 0.1);
       ++fused;
     }
   }
@@ -66,13 +67,13 @@ TEST_F(RunBagWithRadar, WhatItAloneSeesIsTracked) {
   ASSERT_TRUE(last);
   const double end = kPeriod * (kScans - 1);
   const auto is_there = [end](const TrackMessage& track) {
-    const double ahead = 2.0 + kSpeed * end + 12.0 + static_cast<double>(kAway) * end;
+    const double ahead = 2.0 + kSpeed * end + 12.0 + static_cast<double>(kRelativeSpeed) * end;
     return std::abs(track.pose.position.x - ahead) < 1.0 && std::abs(track.pose.position.y) < 1.0;
   };
   const auto track = std::find_if(last->tracks.begin(), last->tracks.end(), is_there);
   ASSERT_NE(track, last->tracks.end());
   EXPECT_TRUE(track->moving);
-  EXPECT_NEAR(track->velocity.x, kSpeed + static_cast<double>(kAway), 1.0);
+  EXPECT_NEAR(track->velocity.x, kSpeed + static_cast<double>(kRelativeSpeed), 1.0);
 }
 
 TEST_F(RunBagWithRadar, ATopicThatIsNotThereIsNamed) {

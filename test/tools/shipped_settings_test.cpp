@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the package ships says the same as the code: the sensor sets and doc/parameters.md.
+// What the package ships says the same as the code: the sensor sets, nodelets.xml and
+// doc/parameters.md.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "parameter_tables.h"
 #include "run_bag/sensor_set.h"
+#include "run_bag/stage_types.h"
 #include "yaml_options.h"
 #include <gtest/gtest.h>
 
@@ -87,6 +90,29 @@ TEST(ParameterPage, PublicParametersAreFewAndManyOfThemAreLive) {
   EXPECT_LE(countOf(of_users, "\n| `"), kMaxPublic);
   EXPECT_GE(countOf(of_users, "*live* |"), kMinLive);
   EXPECT_EQ(countOf(page, "*live* |"), countOf(of_users, "*live* |"));
+}
+
+TEST(StageTypes, EachRowOfTheGraphHasAnEntryAndEachEntryARow) {
+  EXPECT_NO_THROW(checkStageTypes(stageGraph(allSwitches())));
+}
+
+TEST(StageTypes, WhatLacksAnEntryOrARowIsNamed) {
+  std::vector<GraphStage> graph = stageGraph(allSwitches());
+  std::replace_if(
+      graph.begin(), graph.end(), [](const GraphStage& stage) { return stage.type == "risk"; },
+      GraphStage{"parking", "parking_spaces", {}, {}});
+  try {
+    checkStageTypes(graph);
+    FAIL() << "expected an error";
+  } catch (const std::logic_error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("expected a class datmo_fusion/parking_spaces in nodelets.xml"),
+              std::string::npos)
+        << message;
+    EXPECT_NE(message.find("expected a row 'risk' in src/ros/stage/stage_graph.cpp"),
+              std::string::npos)
+        << message;
+  }
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(report["totals"]["recordings"], 3)
         self.assertFalse((self.drives / "batch" / "work").exists())
 
-    def test_full_disk_is_said_and_is_not_the_recordings_fault(self):
+    def test_full_disk_is_reported_and_is_not_the_recordings_fault(self):
         self.record(a="full")
         code, said, report = self.batch()
         self.assertEqual(code, 1)
@@ -209,7 +209,7 @@ class Batch(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "no sensor set, expected a.yaml beside it"):
             find_recordings(self.drives, out, None)
 
-    def test_nothing_to_do_is_said(self):
+    def test_nothing_to_do_is_reported(self):
         self.assertIn("no recordings", self.batch()[1])
         shutil.rmtree(self.drives)
         self.assertIn("no such folder", self.batch()[1])

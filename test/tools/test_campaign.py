@@ -129,7 +129,7 @@ class Soak(unittest.TestCase):
         self.assertAlmostEqual(drift["per_hour"], 2.0, places=6)
         self.assertLess(drift["error"], 1e-6)
 
-    def test_noise_is_told_by_the_standard_error(self):
+    def test_noise_is_recognized_by_the_standard_error(self):
         noise = np.random.default_rng(1).normal(0.0, 1.0, 200)
         drift = soak.drift(np.linspace(0.0, 2.0, 200), 50.0 + noise)
         self.assertLess(abs(drift["per_hour"]), 4.0 * drift["error"])

@@ -17,7 +17,7 @@ GOOD = {
     "src/slam/private.h": "#include <vector>\n",
     "src/ros/convert.cpp": '#include <ros/ros.h>\n#include "datmo_fusion/Object.h"\n'
                            '#include "datmo_fusion/grid/map.h"\n',
-    "src/nodelets/door.cpp": "#include <nodelet/nodelet.h>\n#include \"datmo_fusion/ros/convert.h\"\n",
+    "src/nodelets/host.cpp": "#include <nodelet/nodelet.h>\n#include \"datmo_fusion/ros/convert.h\"\n",
     "tools/run/main.cpp": '#include <rosbag/bag.h>\n#include "datmo_fusion/ros/convert.h"\n',
     "test/unit/grid/test_map.cpp": '#include <gtest/gtest.h>\n#include "datmo_fusion/grid/map.h"\n',
 }
@@ -75,7 +75,7 @@ class CheckLayers(unittest.TestCase):
                               "ros/ is a higher room")
 
     def test_nothing_includes_nodelets(self):
-        self.expect_violation("tools/run/bad.cpp", '#include "datmo_fusion/nodelets/door.h"\n',
+        self.expect_violation("tools/run/bad.cpp", '#include "datmo_fusion/nodelets/host.h"\n',
                               "nothing includes nodelets/")
 
     def test_nothing_includes_tools(self):

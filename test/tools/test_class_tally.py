@@ -38,7 +38,7 @@ def reports(right, wrong, score, said="vehicle", instead=NOTHING):
 
 
 class Tally(unittest.TestCase):
-    def test_reports_are_what_is_said_of_what_is_there(self):
+    def test_reports_are_counted_by_what_is_there(self):
         objects = [seen(10.0, Object.CLASS_VEHICLE), seen(20.0, Object.CLASS_PEDESTRIAN),
                    seen(30.0, Object.CLASS_VEHICLE), seen(40.0, Object.CLASS_UNKNOWN),
                    seen(90.0, Object.CLASS_VEHICLE)]  # fmt: skip

@@ -123,7 +123,7 @@ class CommandLine(EvaluateCase):
         self.assertIsNone(result["conflicts"])
         self.assertIn("1 maps", text)
 
-    def test_what_cannot_be_scored_is_said(self):
+    def test_what_cannot_be_scored_is_reported(self):
         run = self.write_run([], [])
         _, errors, _ = self.evaluate("maps", run, run, "--topic", "/map/other", code=1)
         self.assertIn("no grid on /map/other", errors)

@@ -118,7 +118,7 @@ class Tool(EvaluateCase):
         self.assertRegex(text, r"lead, median \[s\] +2.00")
         self.assertEqual(result["ours"]["drives"], 2)
 
-    def test_a_folder_without_bags_is_said(self):
+    def test_a_folder_without_bags_is_reported(self):
         _, errors, _ = self.evaluate("risk", f"ours={self.folder}", code=1)
         self.assertIn("no bag in it", errors)
 

@@ -66,7 +66,7 @@ class ImageFiles(unittest.TestCase):
         for value, expected in zip(values, (10, 100, 200)):
             self.assertAlmostEqual(value, expected, delta=5.0)
 
-    def test_what_is_no_source_is_said(self):
+    def test_what_is_no_source_is_reported(self):
         with self.assertRaisesRegex(InputError, "no image in it"):
             Images(self.folder)
         with self.assertRaisesRegex(InputError, "expected a folder of images, or a video file"):
@@ -83,7 +83,7 @@ class ImageFiles(unittest.TestCase):
         self.assertEqual(info.D[0], 0.1)
         self.assertEqual((info.header.stamp, info.header.frame_id), (rospy.Time(3), "left"))
 
-    def test_a_calibration_that_lacks_something_is_said(self):
+    def test_a_calibration_that_lacks_something_is_reported(self):
         with self.assertRaisesRegex(InputError, "projection_matrix: expected data with 12 numbers"):
             read_calibration(self.calibration(projection_matrix={"data": [1.0]}))
         with self.assertRaisesRegex(InputError, "image_width"):

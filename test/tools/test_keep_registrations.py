@@ -113,7 +113,7 @@ class KeepRegistrations(unittest.TestCase):
         everybody = sorted([second.uri, first_again.uri])
         wait_for(lambda: [sorted(each) for each in listener.updates] == [everybody], "the listener knows both")
 
-    def test_no_subscriber_is_told_of_a_part_of_the_publishers(self):
+    def test_no_subscriber_gets_a_part_of_the_publishers(self):
         listener = self.node("/listener")
         publishers = [self.node(f"/publisher{i}") for i in range(5)]
         for publisher in publishers:
@@ -138,7 +138,7 @@ class KeepRegistrations(unittest.TestCase):
         self.keeper.step()
         self.assertEqual(again.master.lookupService("/perception/list"), "rosrpc://localhost:6")
 
-    def test_a_master_that_is_away_is_said_once_and_nothing_is_forgotten(self):
+    def test_a_master_that_is_away_is_reported_once_and_nothing_is_forgotten(self):
         self.node("/tracker").publish("/tracks")
         self.keeper.step()
         self.master.kill()

@@ -106,7 +106,7 @@ class LiveLaunch(unittest.TestCase):
             self.assertEqual(parameters["/vehicle_bus/can/yaw_from"], "none")
             self.assertEqual(parameters["/vehicle_bus/recording"], "/drive.log")
 
-    def test_other_stations_are_heard_and_told(self):
+    def test_messages_of_other_stations_are_received_and_sent(self):
         nodes, parameters = loaded("v2x_wire:=true", "track_fusion:=true", "v2x_port:=5000",
                                    "v2x_destination:=10.0.0.5", "stations:=/others")
         self.assertEqual(nodes["v2x_wire"].args, "load datmo_fusion/v2x_wire perception")

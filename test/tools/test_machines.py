@@ -24,19 +24,19 @@ def packet(to, payload=b"payload"):
 class Relay(unittest.TestCase):
     def setUp(self):
         self.ends = {}
-        self.ways = {}
+        self.devices = {}
         for address in ("10.77.0.1", "10.77.0.2"):
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
             theirs.setblocking(False)
             self.addCleanup(ours.close)
             self.addCleanup(theirs.close)
             self.ends[address] = ours
-            self.ways[socket.inet_aton(address)] = theirs.fileno()
+            self.devices[socket.inet_aton(address)] = theirs.fileno()
 
     def relay(self, quality):
         child = os.fork()
         if child == 0:
-            lossy_network._relay(self.ways, quality, os.getppid())
+            lossy_network._relay(self.devices, quality, os.getppid())
             os._exit(0)
         self.addCleanup(os.waitpid, child, 0)
         self.addCleanup(os.kill, child, 9)

@@ -112,7 +112,7 @@ class RunReadme(unittest.TestCase):
         self.assertEqual(code, 1, output)
         self.assertIn("page0.md: FAILED: line 1: needs 'luck'", output)
 
-    def test_a_missing_environment_is_said(self):
+    def test_a_missing_environment_is_reported(self):
         (self.devel / "setup.bash").unlink()
         code, output = self.run_on(block("true"))
         self.assertEqual(code, 1, output)

@@ -11,6 +11,7 @@ import json
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -20,9 +21,12 @@ from launch_files import PACKAGE, load
 
 
 def printed(*words):
-    """What print_stage_graph says."""
-    return json.loads(subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *words], check=True,
-                                     stdout=subprocess.PIPE).stdout)
+    """What print_stage_graph says; ends the test with its message where it fails."""
+    done = subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *words], check=False, encoding="utf-8",
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if done.returncode != 0:
+        sys.exit(done.stderr)
+    return json.loads(done.stdout)
 
 
 SWITCHES = printed("--switches")
@@ -100,8 +104,8 @@ class StageGraph(unittest.TestCase):
                         self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
 
     def test_what_crosses_from_part_to_part_is_in_the_documents(self):
-        """The table of doc/live.md: topic, type, who publishes it, which parts take it."""
-        page = (PACKAGE / "doc/live.md").read_text(encoding="utf-8")
+        """The table of doc/machines.md: topic, type, who publishes it, which parts take it."""
+        page = (PACKAGE / "doc/machines.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
         self.assertEqual({row[:3]: row[3] for row in rows}, crossing_topics())
 

@@ -14,7 +14,7 @@
 namespace datmo {
 
 /// Where a beam from the origin of a box's frame at `from` along `direction` enters the box: the
-/// way to there, m. Nothing if it misses it.
+/// distance to there, m. Nothing if it misses it.
 inline std::optional<double> distanceInto(const Box2& box, const Point2& from,
                                           const Point2& direction) {
   const Pose2 to_box = box.center.inverse();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a ROS master knows, read from one and told to another by the master's own API.
+"""What a ROS master knows, read from one and registered with another by the master's own API.
 
 Nodes register when they start, and never again: a master that was started anew knows none of those that
 run. They are connected with each other and go on, but nobody new finds them, and their parameters are gone.
@@ -59,7 +59,7 @@ def write(master, before):
     publishers, subscribers, services = ([each for each in part if each[1] in nodes]
                                          for part in (before.publishers, before.subscribers, before.services))
     as_node = {node: rosgraph.Master(node, master.master_uri) for node in nodes}
-    # Publishers come first: a subscriber that is told of a part of them would leave the others.
+    # Publishers come first: a subscriber that gets a part of them would leave the others.
     for topic, node in publishers:
         as_node[node].registerPublisher(topic, before.types.get(topic, ANY_TYPE), nodes[node])
     for topic, node in subscribers:
@@ -85,9 +85,9 @@ def missing(before, now, name=""):
 
 def answers(uri):
     """Whether a node takes a connection; one that stands still does."""
-    place = urlsplit(uri)
+    address = urlsplit(uri)
     try:
-        socket.create_connection((place.hostname, place.port), PATIENCE).close()
+        socket.create_connection((address.hostname, address.port), PATIENCE).close()
     except OSError:
         return False
     return True

@@ -15,7 +15,7 @@ namespace {
 class ObjectTable {
  public:
   void addFrame(const TrueState& truth, Stamp stamp) {
-    const auto [position, is_new] = places_.emplace(truth.id, entries_.size());
+    const auto [position, is_new] = indices_.emplace(truth.id, entries_.size());
     if (is_new) {
       entries_.emplace_back();
       entries_.back().score.id = truth.id;
@@ -28,7 +28,7 @@ class ObjectTable {
   }
 
   void addHit(const TrueState& truth, const TrackState& track, Stamp stamp) {
-    Entry& entry = entries_[places_.at(truth.id)];
+    Entry& entry = entries_[indices_.at(truth.id)];
     ObjectScore& score = entry.score;
     if (!score.delay) {
       score.delay = secondsBetween(score.first, stamp);
@@ -57,7 +57,7 @@ class ObjectTable {
   };
 
   std::vector<Entry> entries_;
-  std::unordered_map<std::uint32_t, std::size_t> places_;  // by id
+  std::unordered_map<std::uint32_t, std::size_t> indices_;  // by id
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr double kSearchRange = 40.0;
 /// Standard deviations that are searched through.
 constexpr double kSearchSigmas = 2.0;
 
-/// A sighting, and what is expected nearest to it.
+/// A measured position, and what is expected nearest to it.
 struct Match {
   Point2 difference;  ///< m, from the expected position to the observed one, vehicle's frame
   Point2 expected;    ///< m, vehicle's frame

@@ -4,8 +4,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/ros/stage/stage_factory.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace datmo {
 
@@ -20,5 +22,9 @@ struct StageType {
 
 /// By the type of a stage of the graph. Throws std::logic_error for one that nodelets.xml lacks.
 const StageType& stageTypeNamed(const std::string& type);
+
+/// Holds a graph with all switches on against nodelets.xml. Throws std::logic_error that names each
+/// type without an entry there, and each stage there without a row in the graph.
+void checkStageTypes(const std::vector<GraphStage>& graph);
 
 }  // namespace datmo

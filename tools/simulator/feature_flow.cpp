@@ -34,7 +34,7 @@ Eigen::Isometry3d mountOf(const StereoCameraOptions& options, double nod) {
 }
 
 /// Where tf says that the camera is.
-Eigen::Isometry3d toldMount(const StereoCameraOptions& options) {
+Eigen::Isometry3d reportedMount(const StereoCameraOptions& options) {
   Eigen::Isometry3d mount = mountOf(options, 0.0);
   mount.linear() =
       Eigen::AngleAxisd(-degrees(options.mount_heading_error), Eigen::Vector3d::UnitZ()) *
@@ -85,7 +85,7 @@ std::vector<PointVelocity> FeatureFlow::measure(const World& world, double time)
     return {};
   }
   return pointVelocities(rig, found, *motion, stampOf(before->time),
-                         {stampOf(now.time), toldMount(options_)});
+                         {stampOf(now.time), reportedMount(options_)});
 }
 
 std::vector<FeatureQuad> FeatureFlow::quads(const World& world, const View& before,
@@ -125,11 +125,11 @@ std::optional<FeatureQuad> FeatureFlow::quadAt(const Eigen::Vector2d& pixel,
   if (!end || texture_.isEven(*end, ray.origin + end->range * ray.direction)) {
     return std::nullopt;
   }
-  const Point2 place = ray.origin + end->range * ray.direction;
+  const Point2 point = ray.origin + end->range * ray.direction;
   const std::uint32_t object = end->solid == nullptr ? kNoObject : end->solid->object;
-  const Point2 place_before = pointBefore(place, object, now.state, before.state);
-  const auto later = seen({place.x(), place.y(), end->height}, now);
-  const auto earlier = seen({place_before.x(), place_before.y(), end->height}, before);
+  const Point2 point_before = pointBefore(point, object, now.state, before.state);
+  const auto later = seen({point.x(), point.y(), end->height}, now);
+  const auto earlier = seen({point_before.x(), point_before.y(), end->height}, before);
   if (!later || !earlier) {
     return std::nullopt;
   }
@@ -170,7 +170,7 @@ StereoFeature FeatureFlow::noisy(StereoFeature feature) {
 }
 
 CameraMotion FeatureFlow::prior(const View& before, const View& now) const {
-  const Eigen::Isometry3d mount = toldMount(options_);
+  const Eigen::Isometry3d mount = reportedMount(options_);
   return priorMotion({before.state.base.inverse() * now.state.base, now.time - before.time,
                       kTurnSigma, kSpeedSigma},
                      mount, mount);

@@ -36,13 +36,13 @@ geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stam
   message.transform.translation.y = options.mount_y;
   message.transform.translation.z = options.mount_height;
   // The optical axes in base_link's: z is its x, x its -y, y its -z.
-  const Eigen::Quaterniond told =
+  const Eigen::Quaterniond reported =
       Eigen::AngleAxisd(-degrees(options.mount_heading_error), Eigen::Vector3d::UnitZ()) *
       Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
-  message.transform.rotation.x = told.x();
-  message.transform.rotation.y = told.y();
-  message.transform.rotation.z = told.z();
-  message.transform.rotation.w = told.w();
+  message.transform.rotation.x = reported.x();
+  message.transform.rotation.y = reported.y();
+  message.transform.rotation.z = reported.z();
+  message.transform.rotation.w = reported.w();
   return message;
 }
 

@@ -25,7 +25,7 @@ struct BranchSearchOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A street that leads away from a place.
+/// A street that leads away from a point.
 struct RoadBranch {
   double heading = 0.0;  ///< rad, map frame, the middle of those in which it is free
   double angle = 0.0;    ///< rad, of all headings in which it is
@@ -34,7 +34,7 @@ struct RoadBranch {
   double sides = 0.0;
 };
 
-/// Finds the streets that lead away from a place: corridors as wide as a street and so long that
+/// Finds the streets that lead away from a point: corridors as wide as a street and so long that
 /// neither a yard nor a driveway is, which beams have passed and in which nothing stands, and
 /// beside which something does: what is seen through a gap between parked cars may be open ground,
 /// which has no sides. That holds however the vehicle is turned. On a road there are two of them,

@@ -89,7 +89,7 @@ class FollowedBorder {
   double found_length_;  ///< m
   std::optional<CurveTable> table_;
   std::vector<ArcLengthInterval> reach_;  ///< m from the anchor, where the line may go on
-  std::vector<CurvePoint> places_;        ///< of the ends of the scan's beams
+  std::vector<CurvePoint> curve_points_;  ///< of the ends of the scan's beams
   std::vector<BorderHit> taken_;          ///< of one scan; a member to spare memory
   double age_ = 0.0;                      ///< s in the state
   double unseen_for_ = 0.0;

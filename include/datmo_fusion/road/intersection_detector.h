@@ -19,7 +19,7 @@ struct IntersectionDetectorOptions {
   void check() const;
 };
 
-/// What is seen at one place of the vehicle's path.
+/// What is seen at one point of the vehicle's path.
 struct IntersectionObservation {
   double arc_length = 0.0;  ///< m, distance driven
   bool bordered = false;    ///< a border of the road runs beside the vehicle

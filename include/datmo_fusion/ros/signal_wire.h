@@ -41,11 +41,11 @@ class SignalWire {
   void received(std::string_view bytes, Stamp now);
 
   /// `own`: our tracks on the earth, of which that with id 0 is ourselves. Null if we are not among
-  /// them, or on no lane that leads into an intersection that we have heard of.
+  /// them, or on no lane that leads into an intersection that was received.
   SignalAdviceMessagePtr advise(const StationTracksMessage& own);
 
  private:
-  struct HeardMap {
+  struct ReceivedMap {
     Stamp stamp;
     MapIntersection intersection;
   };
@@ -61,7 +61,7 @@ class SignalWire {
 
   SignalWireOptions options_;
   StageMonitor& monitor_;
-  std::map<IntersectionId, HeardMap> maps_;
+  std::map<IntersectionId, ReceivedMap> maps_;
   std::map<IntersectionId, IntersectionSignals> signals_;
   std::optional<Stamp> last_;
 };

@@ -49,7 +49,7 @@ class StationWire {
 
   StationWireOptions options_;
   StageMonitor& monitor_;
-  std::optional<std::uint32_t> own_station_;  ///< that we told others
+  std::optional<std::uint32_t> own_station_;  ///< that we sent
   std::deque<std::string> recent_;            ///< datagrams sent
   std::optional<Stamp> due_;                  ///< of the next list
   std::optional<Stamp> last_low_frequency_;

@@ -19,9 +19,9 @@ void addStatic(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map);
 class Submap {
  public:
   /// By rising stamps. `pose`: of the vehicle in the submap's frame.
-  void add(Scan scan, const Pose2& pose) { placed_.push_back({std::move(scan), pose}); }
+  void add(Scan scan, const Pose2& pose) { scans_.push_back({std::move(scan), pose}); }
 
-  bool empty() const { return placed_.empty(); }
+  bool empty() const { return scans_.empty(); }
 
   /// m; the farthest that the vehicle was from the frame's origin.
   double radius() const;
@@ -34,12 +34,12 @@ class Submap {
   std::vector<EndPoint> ends(double max_step) const;
 
  private:
-  struct PlacedScan {
+  struct PosedScan {
     Scan scan;
     Pose2 pose;
   };
 
-  std::vector<PlacedScan> placed_;
+  std::vector<PosedScan> scans_;
 };
 
 }  // namespace datmo

@@ -60,7 +60,7 @@ PositionEvidence evidenceOf(Object& object, const ScanSupport& scan_support,
 ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupport* scan_support,
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts) {
   const PositionCovarianceOptions& covariance = options.sources.at(source.source).covariance;
-  const bool is_heard = scan_support != nullptr && source.source != options.scanner;
+  const bool has_scan_evidence = scan_support != nullptr && source.source != options.scanner;
   const double later = secondsBetween(reference, source.list.stamp);
   const Point2 sensor = sensorOf(source.list);
   ObjectIntake intake;
@@ -71,8 +71,8 @@ ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupp
     }
     Object object = transformed(source.base_in_reference, listed);
     object.delay += later;
-    intake.scan_evidence.push_back(is_heard ? evidenceOf(object, *scan_support, options)
-                                            : PositionEvidence());
+    intake.scan_evidence.push_back(has_scan_evidence ? evidenceOf(object, *scan_support, options)
+                                                     : PositionEvidence());
     intake.list.objects.push_back(std::move(object));
   }
   intake.sensor = source.base_in_reference * sensor;

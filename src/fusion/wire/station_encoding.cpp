@@ -142,8 +142,8 @@ std::vector<std::string> encodeStation(const StationTrackList& list, const Local
 
   std::vector<CpmObject> objects;
   for (const StationTrack& track : list.tracks) {
-    const bool is_told = track.id != 0 && isFinite(track) && isInReach(track, front);
-    if (is_told && objects.size() < kObjectsPerMessage * Cpm::kMaxSegments) {
+    const bool is_sent = track.id != 0 && isFinite(track) && isInReach(track, front);
+    if (is_sent && objects.size() < kObjectsPerMessage * Cpm::kMaxSegments) {
       objects.push_back(objectOf(track, front));
     }
   }

@@ -207,6 +207,7 @@ void draw(const Marker& marker, Drawing& drawing) {
   Vectors points;
   std::transform(marker.points.begin(), marker.points.end(), std::back_inserter(points), pointOf);
   if (!isFinite(marker, points)) {
+    ++drawing.left_out;
     return;
   }
   Pencil pencil(marker, drawing);

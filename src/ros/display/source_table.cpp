@@ -87,7 +87,7 @@ void SourceTable::take(const diagnostic_msgs::DiagnosticArray& message, double n
 std::vector<SourceRow> SourceTable::rows(double now, double silence) const {
   std::vector<SourceRow> rows;
   for (const auto& [name, node] : nodes_) {
-    const double silent = now - node.heard;
+    const double silent = now - node.received_at;
     for (SourceRow row : node.rows) {
       if (silent > silence) {
         std::string text(32, '\0');

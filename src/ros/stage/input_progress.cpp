@@ -26,8 +26,8 @@ std::vector<InputProgress::Line> InputProgress::news(const StageMonitor& monitor
   if (!first.empty()) {
     lines.push_back({false, first + waitingFor(monitor)});
   }
-  if (seconds > kPatience && !missing_said_) {
-    missing_said_ = true;
+  if (seconds > kPatience && !missing_reported_) {
+    missing_reported_ = true;
     const std::vector<Line> absent = missing(monitor, published_type);
     lines.insert(lines.end(), absent.begin(), absent.end());
   }
@@ -37,7 +37,7 @@ std::vector<InputProgress::Line> InputProgress::news(const StageMonitor& monitor
 std::string InputProgress::firstMessages(const StageMonitor& monitor) {
   std::string text;
   for (const WatchedInput& input : inputs_) {
-    if (monitor.hasReceived(input.name) && said_.insert(input.name).second) {
+    if (monitor.hasReceived(input.name) && reported_.insert(input.name).second) {
       const std::string description = monitor.description(input.name);
       text += (text.empty() ? "first " : ", first ") + nameAndTopics(input) +
               (description.empty() ? "" : ": " + description);

@@ -154,7 +154,7 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
     inputs_.report(matched.stamp(), matched.missing);
     return {};
   }
-  inputs_.report(matched.stamp(), takeIn(matched, *scan));
+  inputs_.report(matched.stamp(), ingest(matched, *scan));
   MapFusionOutput output;
   if (!last_output_ || secondsBetween(*last_output_, matched.stamp()) >= options_.period) {
     output = outputAt(matched.stamp());
@@ -164,7 +164,7 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
   return output;
 }
 
-std::vector<MissingSource> MapFusionStage::takeIn(const Matched& matched, const LabeledScan& scan) {
+std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const LabeledScan& scan) {
   std::vector<MissingSource> missing = matched.missing;
   const std::vector<Point2> movers = moversOf(scan);
   fuser_.moveTo(scan.base_in_map,

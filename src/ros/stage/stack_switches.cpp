@@ -40,7 +40,7 @@ const std::vector<NamedSwitch>& stackSwitches() {
        "follows the stereo camera's objects too and fuses the tracks, and writes\n"
        "/tracks/lidar, /tracks/stereo and /objects/stereo"},
       {"v2x", &StackSwitches::v2x,
-       "takes the tracks of other stations as source v2x of track_fusion, by the map's place\n"
+       "takes the tracks of other stations as source v2x of track_fusion, by the map's pose\n"
        "on the earth (gnss), and writes /earth_frame, /tracks/v2x and /stations/own"},
       {"risk", &StackSwitches::risk,
        "assesses the risk of contact with tracks and with what stands, and writes /risks"},

@@ -19,7 +19,7 @@ constexpr double kVelocityTime = 0.3;
 /// Of the own pose at another time than a scan's, s.
 constexpr double kMaxPoseAge = 1.0;
 
-/// Of our own speed and acceleration, as others are told, (m/s)^2 and (m/s^2)^2.
+/// Of our own speed and acceleration, as others are sent them, (m/s)^2 and (m/s^2)^2.
 constexpr double kOwnVelocityVariance = 0.04;
 constexpr double kOwnAccelerationVariance = 4.0;
 

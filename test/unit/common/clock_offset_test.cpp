@@ -9,9 +9,9 @@ namespace {
 constexpr double kRounding = 1e-6;  // s
 
 /// An exchange that begins at `asked` (s, our clock), with a clock that is `ahead` (s) of ours.
-ClockExchange exchange(double asked, double ahead, double way_there, double way_back) {
-  return {Stamp::fromSeconds(asked), Stamp::fromSeconds(asked + way_there + ahead),
-          Stamp::fromSeconds(asked + way_there + way_back)};
+ClockExchange exchange(double asked, double ahead, double request_delay, double answer_delay) {
+  return {Stamp::fromSeconds(asked), Stamp::fromSeconds(asked + request_delay + ahead),
+          Stamp::fromSeconds(asked + request_delay + answer_delay)};
 }
 
 ClockOffsetEstimator withoutDrift() {

@@ -9,7 +9,7 @@
 namespace datmo::camera_consistency_test {
 namespace {
 
-/// Mean of the squared error of the rear's place over its variance, and the mean error (m).
+/// Mean of the squared error of the rear's position over its variance, and the mean error (m).
 struct Consistency {
   double squares = 0.0;
   double bias = 0.0;

@@ -204,7 +204,8 @@ TEST(MovingObjectDetectorTest, TwoSidesOfACarGiveItsWholeBox) {
   EXPECT_LT(right, left) << "the left is where the rear ends";
 }
 
-/// Over random places of a box, the mean of (error of a side)^2 / its variance, of the sides seen.
+/// Over random positions of a box, the mean of (error of a side)^2 / its variance, of the sides
+/// seen.
 double sideNees(const RayCaster& scanner, double length, double width) {
   MovingObjectDetectorOptions options;
   options.range_sigma = scanner.range_sigma;

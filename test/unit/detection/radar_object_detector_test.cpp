@@ -105,7 +105,7 @@ TEST(RadarObjects, OfTooFewReturnsAreNone) {
 }
 
 TEST(RadarObjects, AreAsSureAsTheySay) {
-  // A curve with a radar at the front's corner: objects of known place and velocity, whose
+  // A curve with a radar at the front's corner: objects of known position and velocity, whose
   // reflections lie anywhere on them; noise of what the options say.
   constexpr int kCycles = 2000;
   const RadarObjectDetectorOptions options;

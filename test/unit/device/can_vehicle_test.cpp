@@ -47,7 +47,7 @@ class CanRecordingTest : public testing::Test {
   DeviceProbe probe_{DeviceKind::kCan};
 };
 
-TEST_F(CanRecordingTest, ItsMotionComesAndItsEndIsSaid) {
+TEST_F(CanRecordingTest, ItsMotionComesAndItsEndIsReported) {
   probe_.setup.can.delay = 0.02;
   play(canLogText(1.0, yawFrame(10.0)) + canLogText(1.0, speedFrame(3.0, 0)) + "broken\n" +
        "(1.01) can0 20000008#0000000000000000\n" + canLogText(1.02, speedFrame(4.0, 1)) +
@@ -75,7 +75,7 @@ TEST_F(CanRecordingTest, AGapInItIsNoReasonToBeginAnew) {
   EXPECT_EQ(probe_.faults.take(), "recording_end");
 }
 
-TEST_F(CanRecordingTest, OneOfAnotherVehicleAndOneThatIsNoneAreSaid) {
+TEST_F(CanRecordingTest, OneOfAnotherVehicleAndOneThatIsNoneAreReported) {
   play(canLogText(1.0, samples::canFrame(0x123, {1})));
   EXPECT_EQ(probe_.faults.take(), "recording_end");
   EXPECT_TRUE(probe_.devices.isEmpty());
@@ -202,7 +202,7 @@ TEST_F(CanBusTest, FramesOfCanFdAndErrorsComeAndOthersAreNone) {
   EXPECT_EQ(reasonOf([&] { socket->next(); }), "bad_frame");
 }
 
-TEST_F(CanBusTest, AVehiclesMotionComesAndASilentBusIsSaid) {
+TEST_F(CanBusTest, AVehiclesMotionComesAndASilentBusIsReported) {
   const auto device = vehicle(0.3);
   sendFrame(yawFrame(1.0));
   sendFrame(speedFrame(5.0, 0));
@@ -251,7 +251,7 @@ TEST_F(CanBusTest, ItStopsWhileItWaits) {
   EXPECT_THROW(socket->next(), DeviceStopped);
 }
 
-TEST(CanInterfaceTest, OneThatThereIsNotIsSaid) {
+TEST(CanInterfaceTest, OneThatThereIsNotIsReported) {
   const std::atomic<bool> stop{false};
   EXPECT_EQ(reasonOf([&] { CanSocket::open("nocan7", 1.0, stop); }), "no_connection");
 }

@@ -85,7 +85,7 @@ TEST(CaptureFileTest, FramesOfAnotherKindAreNamed) {
   }
 }
 
-TEST(CaptureFileTest, FilesThatAreNoneAndThatAreCutAreSaid) {
+TEST(CaptureFileTest, FilesThatAreNoneAndThatAreCutAreReported) {
   const std::atomic<bool> stop{false};
   EXPECT_EQ(reasonOf([&] { CaptureFile("/no/such/file", kPort, stop); }), "bad_recording");
   const std::string file = testing::TempDir() + "capture_file_cut_test.pcap";

@@ -17,7 +17,7 @@ using samples::UnusedPort;
 
 class DeviceRunnerTest : public testing::TestWithParam<DeviceKind> {};
 
-TEST_P(DeviceRunnerTest, WhereNobodyListensIsSaidAndItIsTriedAgain) {
+TEST_P(DeviceRunnerTest, WhereNobodyListensIsReportedAndItIsTriedAgain) {
   const UnusedPort unused;
   DeviceProbe probe(GetParam());
   probe.start(unused.port());

@@ -68,16 +68,16 @@ void FakeServer::accept() {
 
 std::string FakeServer::receive(char end) {
   std::array<char, 256> bytes;
-  while (heard_.find(end) == std::string::npos) {
+  while (received_.find(end) == std::string::npos) {
     const ssize_t count = recv(client_, bytes.data(), bytes.size(), 0);
     if (count <= 0) {
       return "";
     }
-    heard_.append(bytes.data(), static_cast<std::size_t>(count));
+    received_.append(bytes.data(), static_cast<std::size_t>(count));
   }
-  const std::size_t length = heard_.find(end);
-  const std::string line = heard_.substr(0, length);
-  heard_.erase(0, length + 1);
+  const std::size_t length = received_.find(end);
+  const std::string line = received_.substr(0, length);
+  received_.erase(0, length + 1);
   return line;
 }
 
@@ -90,7 +90,7 @@ void FakeServer::close() {
     ::close(client_);
   }
   client_ = -1;
-  heard_.clear();
+  received_.clear();
 }
 
 }  // namespace datmo::samples

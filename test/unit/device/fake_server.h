@@ -48,7 +48,7 @@ class FakeServer {
   int listener_ = -1;
   int client_ = -1;
   int port_ = 0;
-  std::string heard_;
+  std::string received_;
 };
 
 }  // namespace datmo::samples

@@ -61,8 +61,8 @@ void FakeSick::shakeHands(const std::string& name) {
 }
 
 std::string FakeSick::command() {
-  const std::string heard = receive('\x03');
-  return heard.empty() ? "" : heard.substr(1);
+  const std::string received = receive('\x03');
+  return received.empty() ? "" : received.substr(1);
 }
 
 void FakeSick::answer(const std::string& text) const { send(colaTelegram(text)); }

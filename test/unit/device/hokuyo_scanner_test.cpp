@@ -140,7 +140,7 @@ TEST_F(HokuyoScannerTest, AnotherDeviceIsRefused) {
   EXPECT_EQ(probe_.faults.take(), "bad_answer");
 }
 
-TEST_F(HokuyoScannerTest, ALaserThatStaysOffIsSaid) {
+TEST_F(HokuyoScannerTest, ALaserThatStaysOffIsReported) {
   start();
   fake_.accept();
   for (std::string asked = fake_.command(); asked != "BM"; asked = fake_.command()) {

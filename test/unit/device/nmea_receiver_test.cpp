@@ -138,7 +138,7 @@ TEST_F(NmeaReceiverTest, BadSentencesAreCountedAndWithoutTimeNothingComes) {
   EXPECT_EQ(probe_.warnings.take(), "late_sentence");
 }
 
-TEST_F(NmeaReceiverTest, AReceiverThatIsGoneAndBackAndOneThatIsNoneAreSaid) {
+TEST_F(NmeaReceiverTest, AReceiverThatIsGoneAndBackAndOneThatIsNoneAreReported) {
   start();
   exchange(ggaLine(1.0), 1.0);
   fake_.send("$GPGGA,1000");
@@ -182,7 +182,7 @@ class FakeSerial {
   std::string file_;
 };
 
-TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsSaid) {
+TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsReported) {
   DeviceProbe probe(DeviceKind::kNmea);
   auto serial = std::make_unique<FakeSerial>();
   probe.setup.address = serial->file();
@@ -196,7 +196,7 @@ TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsSaid) {
   EXPECT_EQ(probe.faults.take(), "no_connection");
 }
 
-TEST(SerialReceiverTest, ABaudRateThatThereIsNotIsSaid) {
+TEST(SerialReceiverTest, ABaudRateThatThereIsNotIsReported) {
   const FakeSerial serial;
   const std::atomic<bool> stop{false};
   EXPECT_THROW(SerialLine({serial.file(), 12345, 1.0}, stop), DeviceError);

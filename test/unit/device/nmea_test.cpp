@@ -54,7 +54,7 @@ TEST(NmeaTest, AChecksumMayBeInLowerCase) {
   EXPECT_TRUE(reader.next());
 }
 
-TEST(NmeaTest, BytesOfAnotherBaudRateAreSaid) {
+TEST(NmeaTest, BytesOfAnotherBaudRateAreReported) {
   NmeaReader reader;
   reader.feed(std::string(300, '\xF8'));
   EXPECT_EQ(reasonOf([&] { reader.next(); }), "bad_sentence");

@@ -143,7 +143,7 @@ TEST_F(SickScannerTest, AnotherModelIsRefused) {
   EXPECT_EQ(probe_.faults.take(), "wrong_device");
 }
 
-TEST_F(SickScannerTest, AnErrorInPlaceOfAnAnswerIsSaid) {
+TEST_F(SickScannerTest, AnErrorInPlaceOfAnAnswerIsReported) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.command();
@@ -151,7 +151,7 @@ TEST_F(SickScannerTest, AnErrorInPlaceOfAnAnswerIsSaid) {
   EXPECT_EQ(probe_.faults.take(), "device_fault");
 }
 
-TEST_F(SickScannerTest, APasswordThatWasChangedIsSaid) {
+TEST_F(SickScannerTest, APasswordThatWasChangedIsReported) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.answer(FakeSick::goodAnswer(fake_.command(), "LMS111"));
@@ -186,7 +186,7 @@ TEST_F(SickScannerTest, SilenceFromTheStartNamesTheDialect) {
   }
 }
 
-TEST_F(SickScannerTest, ADirtyWindowAndAnErrorAreSaidAndScansGoOn) {
+TEST_F(SickScannerTest, ADirtyWindowAndAnErrorAreReportedAndScansGoOn) {
   start();
   SickTelegram telegram;
   telegram.state = "0 2";

@@ -139,7 +139,7 @@ TEST_F(VelodyneFaultTest, ANamedModelIsHeldAgainstThePackets) {
   }
 }
 
-TEST_F(VelodyneFaultTest, ALidarThatDoesNotTurnIsSaid) {
+TEST_F(VelodyneFaultTest, ALidarThatDoesNotTurnIsReported) {
   VelodyneSample sample;
   VelodyneStream stream{sample};
   sendTurns(stream, 1.0);
@@ -154,7 +154,7 @@ TEST_F(VelodyneFaultTest, ALidarThatDoesNotTurnIsSaid) {
   EXPECT_EQ(faultOf(), "device_fault");
 }
 
-TEST_F(VelodyneFaultTest, OneThatDoesNotTurnFromItsStartIsSaid) {
+TEST_F(VelodyneFaultTest, OneThatDoesNotTurnFromItsStartIsReported) {
   VelodyneSample sample;
   sample.step = 0;
   VelodyneStream still{sample};

@@ -70,7 +70,7 @@ TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreNotTaken) {
   EXPECT_TRUE(probe_.devices.isEmpty());
 }
 
-TEST_F(VelodyneLoopbackTest, APortThatIsTakenIsSaid) {
+TEST_F(VelodyneLoopbackTest, APortThatIsTakenIsReported) {
   const int port = FakeLidar::freePort();
   DeviceProbe first(DeviceKind::kVelodyne);
   first.setup.address = "";

@@ -88,7 +88,7 @@ TEST_F(AttainableTest, DelaysBesideTheAttainable) {
   EXPECT_FALSE(delays[2].attainable);
 }
 
-TEST_F(AttainableTest, WhatIsToldBeforeItHasToBeFoundIsAttainedAtOnce) {
+TEST_F(AttainableTest, WhatIsReportedBeforeItHasToBeFoundIsAttainedAtOnce) {
   drive(3.0, 10);
   ObjectScore object;
   object.id = 1;

@@ -14,7 +14,7 @@ constexpr double kPeriod = 0.1;  // s
 const Point2 kAlongX(1.0, 0.0);
 const Point2 kAlongY(0.0, 1.0);
 
-TEST(MotionBound, NothingIsToldByOneScan) {
+TEST(MotionBound, NothingIsKnownFromOneScan) {
   MotionBound bound;
   EXPECT_DOUBLE_EQ(bound.logRatio(), 0.0);
   bound.addRange(Point2::Zero(), kAlongX, -kAlongX, kSigma);
@@ -33,7 +33,7 @@ TEST(MotionBound, AWallThatComesAlongTheBeam) {
   }
 }
 
-TEST(MotionBound, AlongASideWithoutItsEndsNothingIsToldEver) {
+TEST(MotionBound, AlongASideWithoutItsEndsNothingIsEverKnown) {
   MotionBound bound;
   const Point2 oblique = Point2(1.0, 1.0).normalized();
   for (int n = 0; n < 100; ++n) {

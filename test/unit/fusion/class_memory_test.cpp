@@ -12,15 +12,15 @@ const ClassMemory::Member kLidar{"lidar", 1};
 const ClassMemory::Member kStereo{"stereo", 7};
 const ClassMemory::Member kNextStereo{"stereo", 8};
 
-ClassProbabilities saidTo(ObjectClass object_class, double probability) {
+ClassProbabilities reportedAs(ObjectClass object_class, double probability) {
   ClassBelief belief;
   belief.update(object_class, probability);
   return belief.probabilities();
 }
 
 const ClassProbabilities kUnknown = ClassBelief().probabilities();
-const ClassProbabilities kPedestrian = saidTo(ObjectClass::kPedestrian, 0.9);
-const ClassProbabilities kCyclist = saidTo(ObjectClass::kCyclist, 0.6);
+const ClassProbabilities kPedestrian = reportedAs(ObjectClass::kPedestrian, 0.9);
+const ClassProbabilities kCyclist = reportedAs(ObjectClass::kCyclist, 0.6);
 
 TEST(ClassMemoryTest, BeforeAnythingWasSaidAllAreEquallyLikely) {
   EXPECT_EQ(ClassMemory().belief(), kUnknown);

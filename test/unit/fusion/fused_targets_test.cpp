@@ -143,8 +143,8 @@ TEST(FusedTargetsTest, OfTwoAtOnePositionTheSameOneIsPublished) {
   for (int i = 0; i < 6; ++i) {
     const double t = 0.1 * i;
     const double existence = i % 2 == 0 ? 0.7 : 0.88;
-    const auto result = fuser.fuse(at(t), {heard("lidar", t, {far("lidar", 9.0, existence)}, {}),
-                                           heard("stereo", t, {far("stereo", -9.0, 0.8)}, {})});
+    const auto result = fuser.fuse(at(t), {received("lidar", t, {far("lidar", 9.0, existence)}, {}),
+                                           received("stereo", t, {far("stereo", -9.0, 0.8)}, {})});
     ASSERT_EQ(result.list.tracks.size(), 1U);
     EXPECT_EQ(result.list.tracks[0].sources[0].source, "stereo") << t;
   }
@@ -154,8 +154,8 @@ TEST(FusedTargetsTest, ASourceWithoutBeamsIsNotMissed) {
   TrackFuser fuser{TrackFuserOptions()};
   ViewFan unknown;
   unknown.beam_spacing = degrees(1.0);
-  const auto result =
-      fuser.fuse(at(0.0), {lidar(0.0, {far("lidar", 9.0)}), heard("stereo", 0.0, {}, {unknown})});
+  const auto result = fuser.fuse(
+      at(0.0), {lidar(0.0, {far("lidar", 9.0)}), received("stereo", 0.0, {}, {unknown})});
   ASSERT_EQ(result.list.tracks.size(), 1U);
   EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
 }

@@ -10,8 +10,8 @@ namespace datmo {
 
 constexpr std::size_t sideIndex(BoxSide side) { return static_cast<std::size_t>(side); }
 
-/// A valid object without size, of which nothing but its place is known; `sigma` in m, along each
-/// axis.
+/// A valid object without size, of which nothing but its position is known; `sigma` in m, along
+/// each axis.
 inline Object pointObject(double x, double y, double sigma, const std::string& sensor = "lidar") {
   Object object;
   object.box.center = Pose2(x, y, 0.0);

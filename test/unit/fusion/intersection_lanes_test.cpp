@@ -62,7 +62,7 @@ TEST(ApproachLanes, LanesThatVehiclesDoNotComeOnAndThoseThatCannotBeUsedAreLeftO
   EXPECT_EQ(approachLanes(intersection, plane()).left_out, 2U);
 }
 
-TEST(PlaceOnLane, DistancesAreAlongTheLane) {
+TEST(PositionOnLane, DistancesAreAlongTheLane) {
   ApproachLane lane;
   lane.points = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 20.0}};
   LanePosition position = positionOn(lane, {4.0, 1.0});

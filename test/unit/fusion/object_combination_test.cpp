@@ -64,7 +64,7 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   EXPECT_NEAR(box.center.y() - 0.5 * box.width, -1.0, 0.01);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRight)]));
-  // The right side is known by the other one's size, which the left side ties to the surer place.
+  // The right side is known by the other one's size, tied by the left side to the surer position.
   const double right =
       fused.side_variance[sideIndex(BoxSide::kRight)] + fused.position_covariance(1, 1);
   const double left =
@@ -145,8 +145,8 @@ TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeas
 }
 
 TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
-  // A short line of points across the sight, its ends seen, and not what is behind it; the other
-  // sensor sees the corner of a car.
+  // A short line of points across the line of sight, its ends seen, and not what is behind it; the
+  // other sensor sees the corner of a car.
   Object line = boxObject(20.0, 0.0, 0.0, 0.6, 0.01);
   hide(line, BoxSide::kFront);
   Object car = boxObject(22.0, 0.0, 4.0, 1.8, 0.01, "stereo");

@@ -19,8 +19,8 @@ namespace {
 
 const Stamp kReference = Stamp::fromSeconds(5.0);
 
-SourceObjects heard(const std::string& source, std::vector<Object> objects, double seconds = 5.0,
-                    const Pose2& base_in_reference = Pose2()) {
+SourceObjects received(const std::string& source, std::vector<Object> objects, double seconds = 5.0,
+                       const Pose2& base_in_reference = Pose2()) {
   return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
 }
 
@@ -56,9 +56,9 @@ ObjectFusionResult fuse(const std::vector<SourceObjects>& sources,
 
 TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
   const auto [list, counts] =
-      fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1), pointObject(30.0, 8.0, 0.1)}),
-            heard("stereo", {pointObject(10.4, 0.1, 0.5, "stereo"),
-                             pointObject(15.0, -6.0, 0.5, "stereo")})});
+      fuse({received("lidar", {pointObject(10.0, 0.0, 0.1), pointObject(30.0, 8.0, 0.1)}),
+            received("stereo", {pointObject(10.4, 0.1, 0.5, "stereo"),
+                                pointObject(15.0, -6.0, 0.5, "stereo")})});
   ASSERT_EQ(list.objects.size(), 3U);
   EXPECT_EQ(counts.fused, 1U);
   EXPECT_EQ(list.stamp, kReference);
@@ -73,16 +73,16 @@ TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
 TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {
   // In 0.05 s the vehicle came 1 m ahead: of a pole the older list told 1 m more.
   SourceObjects stereo =
-      heard("stereo", {pointObject(11.0, 0.0, 0.1, "stereo")}, 4.95, Pose2(-1.0, 0.0, 0.0));
+      received("stereo", {pointObject(11.0, 0.0, 0.1, "stereo")}, 4.95, Pose2(-1.0, 0.0, 0.0));
   stereo.list.objects[0].delay = 0.01;
   stereo.list.views = {ahead("stereo")};
-  const auto alone = fuse({heard("lidar", {}), stereo}).list;
+  const auto alone = fuse({received("lidar", {}), stereo}).list;
   ASSERT_EQ(alone.objects.size(), 1U);
   EXPECT_NEAR(alone.objects[0].box.center.x(), 10.0, 1e-9);
   EXPECT_NEAR(alone.objects[0].delay, -0.04, 1e-9);
   ASSERT_EQ(alone.views.size(), 1U);
   EXPECT_NEAR(alone.views[0].field.sensor_in_base.x(), 0.0, 1e-9);
-  const auto both = fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}), stereo}).list;
+  const auto both = fuse({received("lidar", {pointObject(10.0, 0.0, 0.1)}), stereo}).list;
   ASSERT_EQ(both.objects.size(), 1U);
   EXPECT_NEAR(both.objects[0].delay, -0.02, 1e-6);
 }
@@ -94,10 +94,10 @@ TEST(ObjectFuserTest, OrderOfTheObjectsDoesNotMatter) {
     lidar.push_back(pointObject(10.0 + i, 0.1 * i, 0.1));
     stereo.push_back(pointObject(10.3 + i, 0.1 * i, 0.4, "stereo"));
   }
-  const auto expected = fuse({heard("lidar", lidar), heard("stereo", stereo)}).list;
+  const auto expected = fuse({received("lidar", lidar), received("stereo", stereo)}).list;
   std::reverse(lidar.begin(), lidar.end());
   std::rotate(stereo.begin(), stereo.begin() + 3, stereo.end());
-  const auto list = fuse({heard("lidar", lidar), heard("stereo", stereo)}).list;
+  const auto list = fuse({received("lidar", lidar), received("stereo", stereo)}).list;
   ASSERT_EQ(list.objects.size(), expected.objects.size());
   for (std::size_t i = 0; i < list.objects.size(); ++i) {
     EXPECT_EQ(list.objects[i].box.center.position(), expected.objects[i].box.center.position());
@@ -109,9 +109,10 @@ TEST(ObjectFuserTest, AThirdSourceJoinsWhatTwoSee) {
   ObjectFuserOptions options;
   options.sources["radar"];
   const std::vector<SourceObjects> sources = {
-      heard("lidar", {pointObject(10.0, 0.0, 0.1)}),
-      heard("radar", {pointObject(10.1, 0.0, 0.3, "radar"), pointObject(40.0, 0.0, 0.3, "radar")}),
-      heard("stereo", {pointObject(10.2, 0.0, 0.5, "stereo")})};
+      received("lidar", {pointObject(10.0, 0.0, 0.1)}),
+      received("radar",
+               {pointObject(10.1, 0.0, 0.3, "radar"), pointObject(40.0, 0.0, 0.3, "radar")}),
+      received("stereo", {pointObject(10.2, 0.0, 0.5, "stereo")})};
   const auto [list, counts] = ObjectFuser(options).fuse(sources, nullptr);
   ASSERT_EQ(list.objects.size(), 2U);
   EXPECT_EQ(counts.fused, 1U);
@@ -123,8 +124,8 @@ TEST(ObjectFuserTest, SeenByTwoIsLikelierToBeAnObject) {
   options.sources["stereo"].detection_probability = 0.6;
   options.sources["stereo"].false_agreement_probability = 0.1;
   const auto list = ObjectFuser(options)
-                        .fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}),
-                               heard("stereo", {pointObject(10.0, 0.0, 0.3, "stereo")})},
+                        .fuse({received("lidar", {pointObject(10.0, 0.0, 0.1)}),
+                               received("stereo", {pointObject(10.0, 0.0, 0.3, "stereo")})},
                               nullptr)
                         .list;
   ASSERT_EQ(list.objects.size(), 1U);
@@ -134,14 +135,14 @@ TEST(ObjectFuserTest, SeenByTwoIsLikelierToBeAnObject) {
 TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
   ObjectFuserOptions options;
   options.sources["stereo"].detection_probability = 0.6;
-  SourceObjects stereo = heard("stereo", {boxObject(20.0, 0.0, 2.0, 2.0, 0.01, "stereo")});
+  SourceObjects stereo = received("stereo", {boxObject(20.0, 0.0, 2.0, 2.0, 0.01, "stereo")});
   const std::vector<Object> lidar = {pointObject(10.0, 2.0, 0.1),   // in its view
                                      pointObject(10.0, 20.0, 0.1),  // outside
                                      pointObject(30.0, 0.0, 0.1)};  // behind what it saw
   const ObjectFuser fuser(options);
-  const auto not_known = fuser.fuse({heard("lidar", lidar), stereo}, nullptr).list;
+  const auto not_known = fuser.fuse({received("lidar", lidar), stereo}, nullptr).list;
   stereo.list.views = {ahead("stereo")};
-  const auto list = fuser.fuse({heard("lidar", lidar), stereo}, nullptr).list;
+  const auto list = fuser.fuse({received("lidar", lidar), stereo}, nullptr).list;
   ASSERT_EQ(list.objects.size(), 4U);
   const double seen = options.visibility.max_probability;
   const double hidden = options.visibility.min_probability;
@@ -155,7 +156,7 @@ TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
 
 TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
   const std::vector<SourceObjects> sources = {
-      heard("lidar", {}), heard("stereo", {boxObject(20.0, 0.0, 1.0, 2.0, 0.01, "stereo")})};
+      received("lidar", {}), received("stereo", {boxObject(20.0, 0.0, 1.0, 2.0, 0.01, "stereo")})};
   const LabeledScan on_static = scanAhead(19.5, PointState::kStatic);
   const Object standing = fuse(sources, &on_static).list.objects.at(0);
   EXPECT_EQ(standing.dynamic_state, DynamicState::kStatic);
@@ -172,7 +173,7 @@ TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
 
 TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
   // Of the beams on what stereo sees, 4 of 9 end on static points: too few to say that it stands.
-  const SourceObjects stereo = heard("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
+  const SourceObjects stereo = received("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
   LabeledScan scan = scanAhead(19.5, PointState::kStatic);
   for (ScanPoint& point : scan.points) {
     point.state = point.bearing > -degrees(0.5) ? PointState::kMoving : PointState::kStatic;
@@ -184,7 +185,7 @@ TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
     lidar.dynamic_state = DynamicState::kMoving;
     lidar.moving_fraction = 1.0;
     lidar.points.assign(points, Point2(19.5, 0.5));
-    return fuse({heard("lidar", {lidar}), stereo}, &scan).list;
+    return fuse({received("lidar", {lidar}), stereo}, &scan).list;
   };
   const auto max = fusedWith(5);
   ASSERT_EQ(max.objects.size(), 1U);
@@ -199,9 +200,9 @@ TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
 TEST(ObjectFuserTest, PolesStandUnlessTheyWereSeenToMove) {
   Object walker = pointObject(10.0, -5.0, 0.1);
   walker.dynamic_state = DynamicState::kMoving;
-  const auto list = fuse({heard("lidar", {walker}),
-                          heard("stereo", {poleAt(10.0, 0.0, 0.8), poleAt(10.0, 5.0, 0.4),
-                                           poleAt(10.0, -5.0, 0.8)})})
+  const auto list = fuse({received("lidar", {walker}),
+                          received("stereo", {poleAt(10.0, 0.0, 0.8), poleAt(10.0, 5.0, 0.4),
+                                              poleAt(10.0, -5.0, 0.8)})})
                         .list;
   ASSERT_EQ(list.objects.size(), 3U);
   EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kMoving);
@@ -214,10 +215,10 @@ TEST(ObjectFuserTest, ATableReplacesTheCovarianceOfTheObjects) {
   options.sources["stereo"].covariance.range_variance = {0.1, 0.2, 0.3};
   options.sources["stereo"].covariance.bearing_variance = {0.001, 0.002, 0.003};
   // Seen from 1 m ahead of the vehicle's origin, which turned by a quarter since then.
-  SourceObjects stereo =
-      heard("stereo", {pointObject(4.5, 0.0, 7.0, "stereo")}, 5.0, Pose2(0.0, 0.0, kQuarterTurn));
+  SourceObjects stereo = received("stereo", {pointObject(4.5, 0.0, 7.0, "stereo")}, 5.0,
+                                  Pose2(0.0, 0.0, kQuarterTurn));
   stereo.list.views = {ahead("stereo")};
-  const auto list = ObjectFuser(options).fuse({heard("lidar", {}), stereo}, nullptr).list;
+  const auto list = ObjectFuser(options).fuse({received("lidar", {}), stereo}, nullptr).list;
   ASSERT_EQ(list.objects.size(), 1U);
   EXPECT_NEAR(list.objects[0].position_covariance(1, 1), 0.2, 1e-9);
   EXPECT_NEAR(list.objects[0].position_covariance(0, 0), 0.002 * 3.5 * 3.5, 1e-9);
@@ -246,7 +247,7 @@ TEST(ObjectFuserTest, InvalidObjectsAreCountedAndTheOthersKept) {
   stereo[3].side_variance[0] = -1.0;
   stereo[4].log_odds = std::numeric_limits<double>::infinity();
   const auto [list, counts] =
-      fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}), heard("stereo", stereo)});
+      fuse({received("lidar", {pointObject(10.0, 0.0, 0.1)}), received("stereo", stereo)});
   EXPECT_EQ(counts.rejected, 5U);
   EXPECT_EQ(list.objects.size(), 2U);
 }
@@ -259,7 +260,7 @@ TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
   ObjectFuserOptions options;
   options.max_objects = 200;
   const auto [list, counts] =
-      ObjectFuser(options).fuse({heard("lidar", lidar), heard("stereo", lidar)}, nullptr);
+      ObjectFuser(options).fuse({received("lidar", lidar), received("stereo", lidar)}, nullptr);
   EXPECT_EQ(counts.refused, 1600U);
   EXPECT_EQ(list.objects.size(), 200U);
   EXPECT_EQ(counts.fused, 200U);
@@ -269,7 +270,7 @@ TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
 }
 
 TEST(ObjectFuserTest, SourcesThatNobodyKnowsAreRefused) {
-  EXPECT_THROW(fuse({heard("sonar", {})}), std::out_of_range);
+  EXPECT_THROW(fuse({received("sonar", {})}), std::out_of_range);
   EXPECT_THROW(fuse({}), std::out_of_range);
 }
 

@@ -184,7 +184,7 @@ struct Cycle {
 
 /// Approaches at constant speed with each offset of the cycle: what is said is what is then found,
 /// from the first time on at which something is said.
-TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthWhatIsSaidIsSo) {
+TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthTheAdviceHolds) {
   int said = 0;
   int passes = 0;
   int not_said = 0;

@@ -30,7 +30,7 @@ TEST_F(SignalEventsTest, AnEndFarAheadIsNotPast) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);  // ends in the wrong order
 }
 
-TEST_F(SignalEventsTest, WhatHasEndedAndIsToldAsOnIsNotKnown) {
+TEST_F(SignalEventsTest, WhatHasEndedAndIsSentAsOnIsNotKnown) {
   show({event(SignalState::kStop, -5.0, -5.0), event(SignalState::kProtected, 30.0, 40.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
   EXPECT_NEAR(*advise()->movements[0].min_end, -5.0, 1e-6);  // not an hour ahead
@@ -54,7 +54,7 @@ TEST_F(SignalEventsTest, AFirstEventThatHasNotBegunIsNotOn) {
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
 }
 
-TEST_F(SignalEventsTest, WhatFollowsIsUsedWhereItIsTold) {
+TEST_F(SignalEventsTest, WhatFollowsIsUsedWhereItIsSent) {
   show({event(SignalState::kStop, 5.0, 5.0), event(SignalState::kPreMovement, 7.0, 7.0),
         event(SignalState::kProtected, 30.0, 40.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
@@ -65,12 +65,12 @@ TEST_F(SignalEventsTest, WhatFollowsIsUsedWhereItIsTold) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalEventsTest, RedThatEndsWithNothingToldIsNotKnown) {
+TEST_F(SignalEventsTest, RedThatEndsWithNothingSentIsNotKnown) {
   show({event(SignalState::kStop, 5.0, 6.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalEventsTest, EndsThatAreNotToldAreAnyTime) {
+TEST_F(SignalEventsTest, EndsThatAreNotSentAreAnyTime) {
   show({event(SignalState::kProtected, 12.0, unknown_)});
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
   signals_->state.movements.clear();

@@ -149,7 +149,7 @@ TEST_F(SourceMatcherTest, NoSampleIsOlderThanTheLastOfItsSourceThatServed) {
   EXPECT_EQ(next(0.2), "lidar 0.065, stereo none near") << "not the one of 0 s";
 }
 
-TEST_F(SourceMatcherTest, ASlowerSourceIsHeardOnceASample) {
+TEST_F(SourceMatcherTest, ASlowerSourceIsMatchedOnceASample) {
   std::set<std::int64_t> served;
   int sets = 0;
   int without = 0;

@@ -75,32 +75,32 @@ TEST(OwnStation, ComesBackAsItWas) {
   const StationMessage cpm = decodeStation(bytes[1], samples::kWireNoon, kMessageOptions);
   EXPECT_EQ(cpm.list.stamp, samples::kWireNoon);
   ASSERT_EQ(cpm.list.tracks.size(), 1U);
-  const StationTrack& told = list.tracks[1];
-  const StationTrack& heard = cpm.list.tracks[0];
-  EXPECT_EQ(heard.id, told.id);
-  EXPECT_LT((inOurs(cpm, heard.position) - told.position).norm(), 0.02);
-  EXPECT_LT((heard.velocity - told.velocity).norm(), 0.01);
-  EXPECT_NEAR(heard.covariance(0, 0), 0.25 + 0.04, 0.01);  // with our own place's
-  EXPECT_NEAR(heard.covariance(3, 3), 0.02, 0.002);
-  EXPECT_NEAR(heard.heading, told.heading, degrees(0.05));
-  EXPECT_NEAR(heard.height, 1.7, 1e-6);
-  EXPECT_NEAR(heard.existence_probability, 0.95, 0.04);
-  EXPECT_NEAR(heard.class_probabilities[static_cast<std::size_t>(ObjectClass::kCyclist)], 0.9,
+  const StationTrack& sent = list.tracks[1];
+  const StationTrack& received = cpm.list.tracks[0];
+  EXPECT_EQ(received.id, sent.id);
+  EXPECT_LT((inOurs(cpm, received.position) - sent.position).norm(), 0.02);
+  EXPECT_LT((received.velocity - sent.velocity).norm(), 0.01);
+  EXPECT_NEAR(received.covariance(0, 0), 0.25 + 0.04, 0.01);  // with our own position's
+  EXPECT_NEAR(received.covariance(3, 3), 0.02, 0.002);
+  EXPECT_NEAR(received.heading, sent.heading, degrees(0.05));
+  EXPECT_NEAR(received.height, 1.7, 1e-6);
+  EXPECT_NEAR(received.existence_probability, 0.95, 0.04);
+  EXPECT_NEAR(received.class_probabilities[static_cast<std::size_t>(ObjectClass::kCyclist)], 0.9,
               1e-6);
 }
 
-TEST(OwnStation, OfManyTracksIsToldInSegmentsThatFitADatagram) {
+TEST(OwnStation, ManyTracksAreSentInSegmentsThatFitADatagram) {
   constexpr std::size_t kDatagram = 1400;
   const std::vector<std::string> bytes = encodeStation(ownList(80), kHere, kMessageOptions, false);
   ASSERT_EQ(bytes.size(), 4U);
-  std::size_t heard = 0;
+  std::size_t received = 0;
   for (std::size_t i = 1; i < bytes.size(); ++i) {
     EXPECT_LT(bytes[i].size(), kDatagram);
     const StationMessage message = decodeStation(bytes[i], samples::kWireNoon, kMessageOptions);
     EXPECT_EQ(message.list.part, i);
-    heard += message.list.tracks.size();
+    received += message.list.tracks.size();
   }
-  EXPECT_EQ(heard, 80U);
+  EXPECT_EQ(received, 80U);
 }
 
 TEST(OwnStation, LeavesOutWhatCannotBeTold) {

@@ -175,10 +175,10 @@ TEST(StationOfCpm, HasWhatItPerceives) {
   EXPECT_NEAR(track.position.y(), -5.67, 1e-9);
   EXPECT_NEAR(track.velocity.x(), -1.2, 1e-9);
   EXPECT_NEAR(track.covariance(2, 2), std::pow(0.3 / 1.96, 2), 1e-9);
-  // The station's own place, the object's in it, and the velocity's part.
-  const double place = 0.25 * std::pow(1.5 / 2.4477, 2) + 0.75 * std::pow(1.0 / 2.4477, 2);
+  // The station's own position, the object's relative to it, and the velocity's part.
+  const double position = 0.25 * std::pow(1.5 / 2.4477, 2) + 0.75 * std::pow(1.0 / 2.4477, 2);
   EXPECT_NEAR(track.covariance(0, 0),
-              place + std::pow(0.2 / 1.96, 2) + 0.01 * std::pow(0.3 / 1.96, 2), 1e-6);
+              position + std::pow(0.2 / 1.96, 2) + 0.01 * std::pow(0.3 / 1.96, 2), 1e-6);
   EXPECT_TRUE(isCovariance(track.covariance));
   // Its heading is out of range: that of the motion.
   EXPECT_NEAR(std::abs(track.heading), kPi, 1e-9);
@@ -213,9 +213,9 @@ TEST(StationOfCpm, OfUnknownConfidenceHasTheOptions) {
   const StationTrack track =
       decodeStation(encode(cpm, ItsDictionary::k221), samples::kWireNoon, kOptions)
           .list.tracks.at(0);
-  const double place = (std::pow(1.5, 2) + std::pow(1.0, 2)) / std::pow(2.4477, 2);
+  const double position = (std::pow(1.5, 2) + std::pow(1.0, 2)) / std::pow(2.4477, 2);
   EXPECT_NEAR((track.covariance.topLeftCorner<2, 2>().trace()),
-              place + 2.0 * std::pow(kOptions.object_position_sigma, 2), 1e-6);
+              position + 2.0 * std::pow(kOptions.object_position_sigma, 2), 1e-6);
   EXPECT_NEAR(std::sqrt(track.covariance(3, 3)), kOptions.unknown_speed_sigma, 1e-9);
   EXPECT_DOUBLE_EQ(track.heading_variance, kUnknownHeadingVariance);
   EXPECT_DOUBLE_EQ(track.existence_probability, kOptions.existence);

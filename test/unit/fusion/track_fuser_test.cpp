@@ -103,9 +103,10 @@ TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
   // With fusion of objects besides, the first tracker hears the camera, too.
   const auto published = [](const std::vector<std::string>& sensors) {
     TrackFuser fuser(withScheme(TrackScheme::kConfirmedByAll));
-    Track heard_of = driving(0.0, 0.0, "lidar");
-    heard_of.sensors = sensors;
-    return fuser.fuse(at(0.0), {lidar(0.0, {heard_of}), stereo(0.0, {driving(0.2, 0.0, "stereo")})})
+    Track from_lidar = driving(0.0, 0.0, "lidar");
+    from_lidar.sensors = sensors;
+    return fuser
+        .fuse(at(0.0), {lidar(0.0, {from_lidar}), stereo(0.0, {driving(0.2, 0.0, "stereo")})})
         .list.tracks.size();
   };
   EXPECT_EQ(published({"stereo"}), 0U);
@@ -239,10 +240,10 @@ TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
     // Each list of the camera comes half a second late, and just every second time.
-    const double heard_at = 0.2 * static_cast<int>(i / 2) - 0.5;
+    const double received_at = 0.2 * static_cast<int>(i / 2) - 0.5;
     const TrackFusionResult result =
         fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")}),
-                           stereo(heard_at, {driving(0.0, heard_at, "stereo")})});
+                           stereo(received_at, {driving(0.0, received_at, "stereo")})});
     ASSERT_EQ(result.list.tracks.size(), 1U) << t;
     EXPECT_EQ(result.list.tracks[0].sources.size(), 2U) << t;
     EXPECT_NEAR(result.list.tracks[0].state.x(), 5.0 * t, 1e-3);
@@ -267,7 +268,7 @@ TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
 
 TEST(TrackFuserTest, UnknownSourcesAndBadOptionsAreRefused) {
   TrackFuser fuser{TrackFuserOptions()};
-  EXPECT_THROW(fuser.fuse(at(0.0), {heard("radar", 0.0, {}, {})}), std::out_of_range);
+  EXPECT_THROW(fuser.fuse(at(0.0), {received("radar", 0.0, {}, {})}), std::out_of_range);
   EXPECT_THROW(readOptions<TrackFuserOptions>({{"scheme", std::string("some")}}), OptionError);
   TrackFuserOptions options;
   options.beyond = "radar";

@@ -32,7 +32,7 @@ TEST(TrackPredictionTest, GoesStraightWithoutAYawRate) {
   EXPECT_NEAR(ahead.state[1], 1.6, 1e-9);
   EXPECT_NEAR(ahead.state[2], 5.0, 1e-9);
   EXPECT_NEAR(ahead.box.center.heading(), track.box.center.heading(), 1e-9);
-  // Variance of the place, of the velocity for 0.4 s, and of white acceleration (t^3 / 3).
+  // Variance of the position, of the velocity for 0.4 s, and of white acceleration (t^3 / 3).
   const double density = kOptions.motion.acceleration_density;
   EXPECT_NEAR(ahead.covariance(0, 0), 0.04 + 0.16 * 0.25 + density * 0.064 / 3.0, 1e-9);
   EXPECT_NEAR(ahead.covariance(2, 2), 0.25 + 0.4 * density, 1e-9);
@@ -73,7 +73,8 @@ TEST(TrackPredictionTest, TheProcessNoiseIsThatOfTheTimeToEitherSide) {
   const LinearMotion back = motionOf(track, -0.4, kOptions);
   EXPECT_NEAR(ahead.noise(0, 0), back.noise(0, 0), 1e-12);
   EXPECT_NEAR(ahead.noise(0, 2), -back.noise(0, 2), 1e-12);
-  // Whoever gains speed was farther behind: place and velocity of the past vary against each other.
+  // Whoever gains speed was farther behind: position and velocity of the past vary against each
+  // other.
   EXPECT_LT(back.noise(0, 2), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<TrackCovariance>(back.noise).eigenvalues().minCoeff(),
             0.0);

@@ -28,8 +28,8 @@ inline ViewFan allAround(double range) {
   return fan;
 }
 
-inline SourceTracks heard(const std::string& source, double seconds, std::vector<Track> tracks,
-                          std::vector<ViewFan> views) {
+inline SourceTracks received(const std::string& source, double seconds, std::vector<Track> tracks,
+                             std::vector<ViewFan> views) {
   auto list = std::make_shared<TrackList>();
   list->stamp = at(seconds);
   list->tracks = std::move(tracks);
@@ -39,10 +39,10 @@ inline SourceTracks heard(const std::string& source, double seconds, std::vector
 
 /// The scanner sees to 80 m, the camera to 40 m.
 inline SourceTracks lidar(double seconds, std::vector<Track> tracks) {
-  return heard("lidar", seconds, std::move(tracks), {allAround(80.0)});
+  return received("lidar", seconds, std::move(tracks), {allAround(80.0)});
 }
 inline SourceTracks stereo(double seconds, std::vector<Track> tracks) {
-  return heard("stereo", seconds, std::move(tracks), {allAround(40.0)});
+  return received("stereo", seconds, std::move(tracks), {allAround(40.0)});
 }
 
 /// Drives along y = 0 and is at x when it is 0 s.

@@ -140,7 +140,7 @@ TEST(EgoMotionTest, NothingSeenIsNoMotion) {
 }
 
 TEST(EgoMotionTest, TheErrorsAreAsLargeAsItSays) {
-  // NEES of speed and yaw rate over noise of the sightings; the places expected are exact.
+  // NEES of speed and yaw rate over noise of the measurements; the expected positions are exact.
   Random random(7);
   const Eigen::Matrix2d exact = 1e-6 * Eigen::Matrix2d::Identity();
   const std::vector<Point2> positions = parkedCars();

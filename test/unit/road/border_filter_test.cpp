@@ -60,7 +60,9 @@ TEST_F(BorderFilterTest, OnABorderItIsLessLikelyToMove) {
 
 TEST_F(BorderFilterTest, BeyondABorderToo) { EXPECT_TRUE(isOutside(movingAt({20.0, -6.0}))); }
 
-TEST_F(BorderFilterTest, OnTheRoadNothingIsSaid) { EXPECT_FALSE(isOutside(movingAt({20.0, 3.0}))); }
+TEST_F(BorderFilterTest, OnTheRoadNothingIsOutside) {
+  EXPECT_FALSE(isOutside(movingAt({20.0, 3.0})));
+}
 
 TEST_F(BorderFilterTest, WhatReachesIntoTheRoadIsOnIt) {
   Object car = movingAt({20.0, 4.2});
@@ -112,7 +114,7 @@ TEST_F(BorderFilterTest, WhereNoBorderIsKnownItGoesOn) {
   EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
 }
 
-TEST_F(BorderFilterTest, WithoutARoadNothingIsSaid) {
+TEST_F(BorderFilterTest, WithoutARoadNothingIsOutside) {
   road_ = {};
   EXPECT_FALSE(isOutside(movingAt({20.0, 4.2})));
 }

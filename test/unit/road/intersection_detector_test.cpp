@@ -40,11 +40,11 @@ TEST_F(IntersectionDetectorTest, OneObservationIsWeighedAsByHand) {
   // Rate 1/150 + 1/20 = 0.05667 per m: in 2 m 0.1176 (1 - exp(-0.1133)) = 0.01261; its odds times
   // 0.75 / 0.05 = 15.
   EXPECT_NEAR(detector_.probability(), 0.1607, 1e-4);
-  IntersectionDetector twin(options);
-  twin.update({0.0, true, kRoad});
-  twin.update({2.0, true, kRoad});
+  IntersectionDetector on_road(options);
+  on_road.update({0.0, true, kRoad});
+  on_road.update({2.0, true, kRoad});
   // Its odds times 0.25 / 0.95.
-  EXPECT_NEAR(twin.probability(), 0.00335, 1e-5);
+  EXPECT_NEAR(on_road.probability(), 0.00335, 1e-5);
 }
 
 TEST_F(IntersectionDetectorTest, AnIntersectionIsFoundWhileItIsThere) {

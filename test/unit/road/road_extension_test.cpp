@@ -8,7 +8,7 @@
 namespace datmo::road_extension_test {
 namespace {
 
-/// A border on the left, 4 m from the x axis, from one place along it to another.
+/// A border on the left, 4 m from the x axis, from one point along it to another.
 RoadBorder leftBorder(double from, double to) {
   RoadBorder border;
   border.points = {{{from, 4.0}, 0.1}, {{to, 4.0}, 0.1}};

@@ -16,7 +16,7 @@ SidePresence bordered() {
   return side;
 }
 
-/// No border from one way to another, m.
+/// No border from one arc length to another, m.
 void open(SidePresence& side, double from, double to, double probability = 0.1) {
   for (std::size_t i = 0; i < side.probability.size(); ++i) {
     const double station = side.first_station + static_cast<double>(i) * side.station_length;

@@ -71,7 +71,7 @@ TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
   EXPECT_EQ(figure("standard deviation [m]"), 3.0);
 }
 
-TEST_F(DeviceDiagnosticsTest, OfABusTheRateAndTheGapsAreSaid) {
+TEST_F(DeviceDiagnosticsTest, OfABusTheRateAndTheGapsAreReported) {
   diagnostics_.connected("a bus", now_);
   DeviceMeasurement twist;
   twist.data = VehicleTwist{1.0, 0.0, 42};

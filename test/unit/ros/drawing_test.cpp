@@ -150,11 +150,15 @@ TEST(Drawing, WhatIsNotFiniteIsLeftOut) {
   box.pose.position.x = std::numeric_limits<double>::quiet_NaN();
   Marker line = makeShape(Marker::LINE_STRIP);
   line.points = {at(0.0, 0.0), at(std::numeric_limits<double>::infinity(), 0.0)};
-  EXPECT_TRUE(drawn(box).solid.empty());
-  EXPECT_TRUE(drawn(line).solid.empty());
+  for (const Marker& marker : {box, line}) {
+    const Drawing drawing = drawn(marker);
+    EXPECT_TRUE(drawing.solid.empty());
+    EXPECT_EQ(drawing.left_out, 1U);
+  }
   Marker gone = makeShape(Marker::CUBE);
   gone.action = Marker::DELETE;
   EXPECT_TRUE(drawn(gone).solid.empty());
+  EXPECT_EQ(drawn(gone).left_out, 0U);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST_F(GridFusionStageTest, TheCallersClockNeedNotBeTheStamps) {
   EXPECT_TRUE(stage_.next(now(0.11)));
 }
 
-TEST_F(GridFusionStageTest, ASilentSourceIsSaidOnceAndTheOthersGoOn) {
+TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersGoOn) {
   bothAt(100.0, kFree, kFree);
   stage_.change({{"rule", std::string("priority")}});
   int fused = 0;
@@ -74,7 +74,7 @@ TEST_F(GridFusionStageTest, ASilentSourceIsSaidOnceAndTheOthersGoOn) {
   EXPECT_EQ(warnings("silent_source"), 1U);
 }
 
-TEST_F(GridFusionStageTest, ASourceThatIsAlwaysTooLateIsSaidOnceUntilItIsFusedAgain) {
+TEST_F(GridFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnceUntilItIsFusedAgain) {
   for (const double start : {100.0, 102.0}) {
     EXPECT_TRUE(bothAt(start, kFree, kFree));
     const std::uint64_t before = warnings("late_source");

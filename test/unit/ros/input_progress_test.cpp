@@ -30,7 +30,7 @@ TEST(InputProgress, TheFirstMessageSaysWhatItIsAndWhatIsWaitedFor) {
       "first scan on /front/scan: 360 beams to 8.0 m in laser; waiting for odometry on /odom");
 }
 
-TEST(InputProgress, EachInputIsSaidOnce) {
+TEST(InputProgress, EachInputIsReportedOnce) {
   StageMonitor monitor("grid_slam");
   InputProgress progress = scanAndOdometry();
   monitor.received("scan", kNow);
@@ -79,7 +79,7 @@ TEST(InputProgress, AScanMayComeOnTwoTopics) {
   EXPECT_FALSE(progress.news(monitor, 6.0, echoes_alone).at(0).is_warning);
 }
 
-TEST(InputProgress, AWrongTypeIsSaidWithBoth) {
+TEST(InputProgress, AWrongTypeIsReportedWithBoth) {
   const StageMonitor monitor("tracker");
   InputProgress progress({{"objects", {{"/objects", "datmo_fusion/ObjectArray"}}}});
   const auto lines = progress.news(monitor, 10.0, somebody);

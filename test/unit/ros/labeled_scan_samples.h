@@ -24,7 +24,7 @@ inline ScanField wideField() {
   return field;
 }
 
-/// A scan in which something seems to move at one place (m, base frame = map), some time (s) after
+/// A scan in which something seems to move at one point (m, base frame = map), some time (s) after
 /// kStart.
 inline LabeledScan scanWithMover(const Point2& position, double seconds) {
   LabeledScan scan;

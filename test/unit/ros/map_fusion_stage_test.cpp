@@ -171,7 +171,7 @@ TEST_F(MapFusionStageTest, ASourceThatIsSilentStaysInTheMap) {
   EXPECT_GT(monitor_.figures().at("fused without stereo"), 5.0);
 }
 
-TEST_F(MapFusionStageTest, WithoutPosesNothingComesAndItIsSaid) {
+TEST_F(MapFusionStageTest, WithoutPosesNothingComesAndItIsReported) {
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
     take("lidar", gridMessage(t, kOccupied));

@@ -34,7 +34,7 @@ TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
   EXPECT_NE(find(markers, "object heads", 1), nullptr);
 }
 
-TEST(Markers, VehicleIsAsLargeAsItIsSaidToBeAndGoesWithItsFrame) {
+TEST(Markers, VehicleIsAsLargeAsConfiguredAndGoesWithItsFrame) {
   std_msgs::Header scan;
   scan.frame_id = "base_link";
   scan.stamp = ros::Time(5.0);

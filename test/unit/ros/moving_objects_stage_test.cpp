@@ -90,7 +90,7 @@ TEST_F(MovingObjectsStageTest, ByTheThesisItIsDropped) {
   EXPECT_EQ(output->dropped->objects[0].side, RoadBorderMessage::LEFT);
 }
 
-TEST_F(MovingObjectsStageTest, WithoutBordersNothingIsKnownAndItIsSaid) {
+TEST_F(MovingObjectsStageTest, WithoutBordersNothingIsKnownAndItIsReported) {
   EXPECT_EQ(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_EQ(monitor_.warnings().at("no_borders"), 1U);
 }

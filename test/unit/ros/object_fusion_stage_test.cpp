@@ -115,7 +115,7 @@ TEST_F(ObjectFusionStageTest, AListWhoseMotionIsNotKnownIsLeftOut) {
   EXPECT_EQ(monitor_.warningCount(), 1U);
 }
 
-TEST_F(ObjectFusionStageTest, ASilentSourceIsSaidOnceAndTheOthersGoOn) {
+TEST_F(ObjectFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersGoOn) {
   for (const std::string source : {"lidar", "stereo"}) {
     const double start = source == "lidar" ? 100.0 : 200.0;
     EXPECT_TRUE(bothAt(start));
@@ -138,7 +138,7 @@ TEST_F(ObjectFusionStageTest, ASilentSourceIsSaidOnceAndTheOthersGoOn) {
   EXPECT_EQ(monitor_.warningCount(), 2U);
 }
 
-TEST_F(ObjectFusionStageTest, ASourceThatIsAlwaysTooLateIsSaidOnce) {
+TEST_F(ObjectFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnce) {
   for (int i = 0; i < 10; ++i) {
     const double t = 100.0 + 0.1 * i;
     take("lidar", t);

@@ -6,7 +6,7 @@
 namespace datmo::repeat_filter_test {
 namespace {
 
-TEST(RepeatFilter, ThousandsOfTheSameAreSaidOnce) {
+TEST(RepeatFilter, ThousandsOfTheSameAreReportedOnce) {
   RepeatFilter filter;
   int lines = 0;
   for (int i = 0; i < 11561; ++i) {
@@ -23,7 +23,7 @@ TEST(RepeatFilter, AnotherNumberIsNoOtherCause) {
   EXPECT_FALSE(filter.lineOf(InputError("tilted", "tilted by -112.25 degrees"), 2.0));
 }
 
-TEST(RepeatFilter, AnotherCauseIsSaidWithTheCountSoFar) {
+TEST(RepeatFilter, AnotherCauseIsReportedWithTheCountSoFar) {
   RepeatFilter filter;
   EXPECT_TRUE(filter.lineOf(InputError("wrong_frame", "in 'laser_1'"), 0.0));
   EXPECT_FALSE(filter.lineOf(InputError("wrong_frame", "in 'laser_1'"), 0.1));
@@ -42,7 +42,7 @@ TEST(RepeatFilter, MessagesThatShareAnErrorCountEachByItself) {
             "2 on /odom (lost: 10 so far)");
 }
 
-TEST(RepeatFilter, WhatComesBackAfterALongQuietIsSaidAgain) {
+TEST(RepeatFilter, WhatComesBackAfterALongQuietIsReportedAgain) {
   RepeatFilter filter;
   EXPECT_TRUE(filter.lineOf(InputError("late", "too late"), 0.0));
   EXPECT_FALSE(filter.lineOf(InputError("late", "too late"), 50.0));

@@ -103,7 +103,7 @@ TEST(RiskMarkers, UnlikelyContactsAndNoLevelAreNotDrawn) {
   risks.host_path.clear();
   EXPECT_TRUE(markersOf(risks, RiskStyle()).markers.empty());
   risks.risks[0].median_ttc = std::numeric_limits<float>::infinity();
-  EXPECT_TRUE(markersOf(risks, {0.0, 1.0}).markers.empty()) << "no contact, no place of it";
+  EXPECT_TRUE(markersOf(risks, {0.0, 1.0}).markers.empty()) << "no contact, no point of it";
 }
 
 TEST(DriverView, IsInTheFrameOfTheHost) {

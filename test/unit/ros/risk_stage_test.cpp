@@ -6,7 +6,7 @@
 
 #include "labeled_scan_samples.h"
 #include "monitor_counts.h"
-#include "track_fusion_sample.h"
+#include "risk_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
@@ -14,37 +14,19 @@
 namespace datmo::risk_stage_test {
 namespace {
 
-constexpr double kHostSpeed = 5.0;  ///< m/s, of samples::scanBetweenWalls
-
 class RiskStageTest : public testing::Test {
  protected:
   void scanAt(double seconds) {
     stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
   }
 
-  void odometryAt(double seconds, double speed = kHostSpeed) {
-    nav_msgs::Odometry odometry;
-    odometry.header.frame_id = "odom";
-    odometry.header.stamp = ros::Time(samples::kStart + seconds);
-    odometry.child_frame_id = "base_link";
-    odometry.pose.pose.orientation.w = 1.0;
-    odometry.twist.twist.linear.x = speed;
-    stage_.takeOdometry(odometry);
+  void odometryAt(double seconds, double speed = samples::kHostSpeed) {
+    stage_.takeOdometry(samples::odometry(samples::kStart + seconds, speed));
   }
 
   /// A car that stands so far ahead of base_link, between the walls.
   static TrackArray carAhead(double seconds, double ahead) {
-    TrackList list;
-    list.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-    Track track = carTrack("lidar", 7, samples::kStart + seconds);
-    track.state.setZero();
-    track.state[0] = kHostSpeed * seconds + ahead;
-    track.covariance = 0.01 * TrackCovariance::Identity();
-    track.moving = false;
-    track.mode_probabilities = {0.0, 0.0, 0.0, 0.0, 1.0};
-    track.box.center = Pose2(track.state[0], 0.0, 0.0);
-    list.tracks = {track};
-    return toMessage(list, "map");
+    return samples::standingCar(seconds, samples::kHostSpeed * seconds + ahead);
   }
 
   /// The risks of one step with all inputs.
@@ -108,7 +90,7 @@ TEST_F(RiskStageTest, WithoutPoseOrMotionThereIsNoRisk) {
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(RiskStageTest, TracksThatAreNoneAreSaid) {
+TEST_F(RiskStageTest, TracksThatAreNoneAreReported) {
   odometryAt(0.0);
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);

@@ -116,7 +116,7 @@ TEST(RoadConversion, PointsAreBoundedOverAllBorders) {
   EXPECT_EQ(reasonAfter(filled(kMaxBorderPoints + 4)), "many_points");
 }
 
-TEST(RoadConversion, WhatIsWrongIsSaidWithItsValue) {
+TEST(RoadConversion, WhatIsWrongIsReportedWithItsValue) {
   RoadModel road = straightRoad();
   road.borders[0].points.pop_back();
   road.borders[0].points.pop_back();

@@ -61,7 +61,7 @@ TEST_F(SaveMapTest, ARelativePathIsRefused) {
   EXPECT_NE(response.message.find("expected an absolute path"), std::string::npos);
 }
 
-TEST_F(SaveMapTest, WhereItCannotBeWrittenIsSaidAndCounted) {
+TEST_F(SaveMapTest, WhereItCannotBeWrittenIsReportedAndCounted) {
   const auto response = answer(file("none/hall.map"));
   EXPECT_FALSE(response.success);
   EXPECT_EQ(samples::warnings(monitor_, "map_not_saved"), 1U);

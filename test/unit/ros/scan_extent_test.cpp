@@ -14,45 +14,46 @@ Scan scanOf(double range, double reach) {
   return scan;
 }
 
-/// What is said of a hundred such scans, and how often.
-std::vector<InputError> saidOf(const Scan& scan, double length, double width) {
+/// The warnings of a hundred such scans.
+std::vector<InputError> warningsOf(const Scan& scan, double length, double width) {
   GridWindowOptions window;
   window.length = length;
   window.width = width;
   ScanExtent extent(window);
-  std::vector<InputError> said;
+  std::vector<InputError> warnings;
   for (int i = 0; i < 100; ++i) {
     if (const auto error = extent.take(scan)) {
-      said.push_back(*error);
+      warnings.push_back(*error);
     }
   }
-  return said;
+  return warnings;
 }
 
 TEST(ScanExtent, AWindowThatFitsIsFine) {
-  EXPECT_TRUE(saidOf(scanOf(49.0, 50.0), 90.0, 108.0).empty());
-  EXPECT_TRUE(saidOf(scanOf(8.0, 8.0), 24.0, 24.0).empty());
+  EXPECT_TRUE(warningsOf(scanOf(49.0, 50.0), 90.0, 108.0).empty());
+  EXPECT_TRUE(warningsOf(scanOf(8.0, 8.0), 24.0, 24.0).empty());
 }
 
-TEST(ScanExtent, EndPointsOutsideOfTheWindowAreSaidOnce) {
-  const auto said = saidOf(scanOf(30.0, 80.0), 24.0, 24.0);
-  ASSERT_EQ(said.size(), 1U);
-  EXPECT_EQ(said[0].reason(), "small_window");
-  EXPECT_NE(std::string(said[0].what()).find("30.0 m"), std::string::npos) << said[0].what();
-  EXPECT_NE(std::string(said[0].what()).find("24.0 m x 24.0 m"), std::string::npos);
+TEST(ScanExtent, EndPointsOutsideOfTheWindowAreReportedOnce) {
+  const auto warnings = warningsOf(scanOf(30.0, 80.0), 24.0, 24.0);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].reason(), "small_window");
+  EXPECT_NE(std::string(warnings[0].what()).find("30.0 m"), std::string::npos)
+      << warnings[0].what();
+  EXPECT_NE(std::string(warnings[0].what()).find("24.0 m x 24.0 m"), std::string::npos);
 }
 
-TEST(ScanExtent, AScannerOfShortReachInALargeWindowIsSaid) {
-  const auto said = saidOf(scanOf(3.0, 8.0), 90.0, 108.0);
-  ASSERT_EQ(said.size(), 1U);
-  EXPECT_EQ(said[0].reason(), "large_window");
-  EXPECT_NE(std::string(said[0].what()).find("8.0 m"), std::string::npos) << said[0].what();
+TEST(ScanExtent, AScannerOfShortReachInALargeWindowIsReported) {
+  const auto warnings = warningsOf(scanOf(3.0, 8.0), 90.0, 108.0);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].reason(), "large_window");
+  EXPECT_NE(std::string(warnings[0].what()).find("8.0 m"), std::string::npos) << warnings[0].what();
 }
 
 TEST(ScanExtent, WithoutAnyHitTheReachIsJudgedAlone) {
   Scan scan = scanOf(3.0, 50.0);
   scan.rays.clear();
-  EXPECT_TRUE(saidOf(scan, 90.0, 108.0).empty());
+  EXPECT_TRUE(warningsOf(scan, 90.0, 108.0).empty());
 }
 
 }  // namespace

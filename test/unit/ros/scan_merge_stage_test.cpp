@@ -89,7 +89,7 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   EXPECT_NEAR(merged->ranges[kBehind], 6.0, 1e-5);
 }
 
-TEST_F(ScanMergeStageTest, ASilentScannerIsSaidAndTheOtherGoesOn) {
+TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherGoesOn) {
   drive(0.0);
   take("rear", 0.0, 5.0F);
   take("front", 0.0, 7.0F);

@@ -100,7 +100,7 @@ TEST(SharedOptions, MovedKeysAreRefusedWithTheNewOne) {
   expectMentions(errorOfKey("odometry_hold", 2.0), {"motion: {hold: ...}"});
 }
 
-TEST(SharedOptions, ScannerIsSaidOnce) {
+TEST(SharedOptions, ScannerIsDeclaredOnce) {
   const SharedOptions shared = sharedOf({{"scanner",
                                           {{"free_range", 12.0},
                                            {"range_sigma", 0.03},
@@ -124,7 +124,7 @@ TEST(SharedOptions, ScannerIsSaidOnce) {
   EXPECT_EQ(readStageOptions<MovingObjectsStageOptions>({}, shared).detector.range_sigma, 0.03);
 }
 
-TEST(SharedOptions, StereoCameraIsSaidOnce) {
+TEST(SharedOptions, StereoCameraIsDeclaredOnce) {
   const SharedOptions shared = sharedOf({{"stereo_camera",
                                           {{"baseline", 0.4},
                                            {"min_depth", 0.7},
@@ -147,7 +147,7 @@ TEST(SharedOptions, StereoCameraIsSaidOnce) {
   EXPECT_FALSE(objects.detector.road.estimate);
 }
 
-TEST(SharedOptions, VehicleIsSaidOnce) {
+TEST(SharedOptions, VehicleIsDeclaredOnce) {
   const SharedOptions shared =
       sharedOf({{"vehicle", {{"length", 3.0}, {"own_points/front", 2.5}, {"height", 2.0}}}});
   EXPECT_EQ(readStageOptions<RiskStageOptions>({}, shared).risk.vehicle.length, 3.0);

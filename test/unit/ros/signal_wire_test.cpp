@@ -124,7 +124,7 @@ TEST_F(SignalWireTest, WhatIsOldAheadRepeatedOrBrokenIsCounted) {
   EXPECT_FALSE(wire_.advise(ownAt(103.5)));
 }
 
-TEST_F(SignalWireTest, LightsThatAreHeardNoMoreSayNothingAndMapsAreForgotten) {
+TEST_F(SignalWireTest, LightsThatAreNotReceivedAnyMoreSayNothingAndMapsAreForgotten) {
   wire_.received(mapem(), kNewYear + 100.0);
   wire_.received(spatem(100.0, 130.0), kNewYear + 100.0);
   EXPECT_EQ(wire_.advise(ownAt(102.1))->reason, "old_signals");

@@ -54,7 +54,7 @@ TEST_F(StageHealthTest, NothingPublishedIsNothingMade) {
   EXPECT_EQ(state.faults[1], "no odometry yet: nobody publishes it (odometry on /odom)");
 }
 
-TEST_F(StageHealthTest, AWrongTypeIsSaidWithBothTypes) {
+TEST_F(StageHealthTest, AWrongTypeIsReportedWithBothTypes) {
   published_ = {{"/scan", "sensor_msgs/PointCloud2"}, {"/odom", "geometry_msgs/TwistStamped"}};
   const StageState state = judge(100.0);
   EXPECT_EQ(
@@ -103,7 +103,7 @@ StageState stage(const std::string& name, HealthLevel level, const std::string& 
   return state;
 }
 
-TEST(StackHealth, TheFirstCauseInTheChainIsSaid) {
+TEST(StackHealth, TheFirstCauseInTheChainIsReported) {
   const std::vector<StageState> stages{
       stage("tracker", HealthLevel::kNoOutput, "no objects for 2.0 s", {"/objects"}, {"/tracks"}),
       stage("moving_objects", HealthLevel::kNoOutput, "no labeled_scan yet", {"/labeled_scan"},
@@ -132,7 +132,7 @@ TEST(StackHealth, LessThanAllNamesTheFirstFault) {
   EXPECT_EQ(health.sentence, "less than all: stereo_grid: no points2 for 3.0 s");
 }
 
-TEST(StackHealth, GoodOnesAreSaidInTwoWords) {
+TEST(StackHealth, GoodOnesAreReportedInTwoWords) {
   EXPECT_EQ(
       stackHealth({stage("tracker", HealthLevel::kOk, "", {}, {"/tracks"})}, "/tracks").sentence,
       "tracks come");

@@ -136,7 +136,7 @@ TEST_F(StageRunnerTest, ARefusedOutputResetsTheStageBeforeItsNextMessage) {
   EXPECT_EQ(monitor_.warnings().at("bad_output"), 1U);
 }
 
-TEST(StageRunner, WithoutStateARestartIsSaidAlone) {
+TEST(StageRunner, WithoutStateARestartIsReportedAlone) {
   StageMonitor monitor("stage");
   StageRunner runner(monitor, StreamOptions(), "starts over");
   runner.check("scan", ros::Time(100.0));

@@ -162,7 +162,7 @@ TEST_F(TrackFusionGapTest, WithoutTheReferenceTheOthersGoOn) {
   EXPECT_EQ(warnings("silent_source"), 1U);
 }
 
-TEST_F(TrackFusionStageTest, ASourceThatIsAlwaysTooLateIsSaidOnce) {
+TEST_F(TrackFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnce) {
   const auto fused =
       play(listsOf("lidar", 100.0, 104.0, 0.1), listsOf("stereo", 100.0, 104.0, 0.1, 0.75));
   EXPECT_GE(fused.size(), 38U) << "the scanner goes on";

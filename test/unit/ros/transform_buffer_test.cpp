@@ -157,7 +157,7 @@ TEST_F(MountedBufferTest, ALookUpAtTheEndOfTimeIsAnInputError) {
   }
 }
 
-TEST_F(MountedBufferTest, AMissingMountIsSaidWithWhatToDo) {
+TEST_F(MountedBufferTest, AMissingMountIsReportedWithWhatToDo) {
   try {
     scannerMount(buffer_.core(), "base_link", "velodyne");
     FAIL() << "no exception";

@@ -54,7 +54,7 @@ class V2xStageTest : public testing::Test {
     }
   }
 
-  /// A pedestrian at a place in the map.
+  /// A pedestrian at a point in the map.
   StationTracksMessage listAt(int step, const Point2& in_map) const {
     StationTrackList list;
     list.stamp = stampAt(step);
@@ -77,7 +77,7 @@ class V2xStageTest : public testing::Test {
   V2xStage stage_{V2xStageOptions(), monitor_};
 };
 
-TEST_F(V2xStageTest, WithoutReceiverNothingPassesAndThatIsSaid) {
+TEST_F(V2xStageTest, WithoutReceiverNothingPassesAndThatIsReported) {
   EXPECT_EQ(stage_.takeStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
   EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
@@ -135,9 +135,9 @@ TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
   EXPECT_NEAR(std::hypot(ours->tracks[0].velocity_east, ours->tracks[0].velocity_north), kSpeed,
               0.1);
   // A station that hears it has it where the vehicle is: middleAhead of base_link.
-  const StationTrackList heard = fromMessage(*ours, plane_);
+  const StationTrackList received = fromMessage(*ours, plane_);
   const Point2 middle(kSpeed * kPeriod * (kSteps - 1) + HostVehicleOptions().middleAhead(), 0.0);
-  EXPECT_LT((heard.tracks[0].position - kMap * middle).norm(), 0.1);
+  EXPECT_LT((received.tracks[0].position - kMap * middle).norm(), 0.1);
 }
 
 TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {

@@ -54,7 +54,7 @@ TEST(StereoGridInputTest, FewLinesOfSightSayNothing) {
   EXPECT_EQ(count(grid, kUnknownPercent), grid.cells().size());
 }
 
-TEST(StereoGridInputTest, LoneMismatchesAreNoObstacles) {
+TEST(StereoGridInputTest, IsolatedMismatchesAreNoObstacles) {
   MadeCloud made((MadeScene()));
   Random random(5);
   for (int i = 0; i < 900; ++i) {

@@ -42,7 +42,7 @@ TEST(StereoGridTest, AWallIsOccupiedAndFreeBeforeAndUnknownBehind) {
   }
 }
 
-TEST(StereoGridTest, TheOpenRoadIsFreeInViewAndNothingIsSaidElsewhere) {
+TEST(StereoGridTest, TheOpenRoadIsFreeInViewAndTheRestIsUnknown) {
   const SensorGrid grid = gridOf(MadeScene());
   EXPECT_EQ(count(grid, kOccupied), 0U);
   for (const double x : {6.0, 10.0, 20.0, 30.0, 36.0}) {

@@ -54,7 +54,7 @@ TEST(ClassCameraTest, AReportIsAsProbableAsItIsRight) {
   EXPECT_EQ(list.objects[0].sensors, std::vector<std::string>{"mono"});
 }
 
-TEST(ClassCameraTest, PositionsAreAsUnsureAsTheyAreSaidToBe) {
+TEST(ClassCameraTest, PositionsAreAsUnsureAsTheirCovarianceSays) {
   ClassCamera camera = cameraOf();
   const World world = worldWith("car", {20.0, 5.0, 0.0});
   double sum = 0.0;

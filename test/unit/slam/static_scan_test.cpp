@@ -46,7 +46,7 @@ TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
   EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
 }
 
-TEST(StaticRanges, NothingIsToldBeyondWhatABeamWithoutReturnClears) {
+TEST(StaticRanges, NothingIsKnownBeyondWhatABeamWithoutReturnClears) {
   LabeledScan scan = fiveBeams();
   EXPECT_EQ(staticRange(scan.field), 40.0);
   scan.points = {pointOf(0, 45.0, PointState::kStatic)};

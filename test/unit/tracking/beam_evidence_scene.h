@@ -10,7 +10,7 @@
 
 namespace datmo::samples {
 
-/// Scans and sightings of one object, and the evidence of beams for its motion.
+/// Scans and observations of one object, and the evidence of beams for its motion.
 class BeamEvidenceScene : public testing::Test {
  protected:
   /// What is computed by hand below goes by these, not by the defaults.

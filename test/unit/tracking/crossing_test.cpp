@@ -18,7 +18,7 @@ Point2 positionOf(int target, double seconds) {
   return {4.0 * seconds, side * (2.5 - 5.0 * seconds / kSeconds)};
 }
 
-/// Id of the track nearest to a place, within 1 m; 0: none.
+/// Id of the track nearest to a point, within 1 m; 0: none.
 std::uint32_t idAt(const TrackList& list, const Point2& position) {
   double nearest = 1.0;
   std::uint32_t id = 0;

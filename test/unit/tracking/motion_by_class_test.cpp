@@ -8,7 +8,7 @@
 namespace datmo {
 namespace {
 
-ClassProbabilities saidTo(ObjectClass object_class, double probability, int times) {
+ClassProbabilities reportedAs(ObjectClass object_class, double probability, int times) {
   ClassBelief belief;
   for (int i = 0; i < times; ++i) {
     belief.update(object_class, probability);
@@ -35,7 +35,7 @@ TEST(ClassLogRatio, IsAsComputedByHand) {
 TEST(ClassLogRatio, WhoLooksLikeAPersonMostlyMovesAndAPoleDoesNot) {
   const MotionByClassOptions options;
   const auto ratio = [&](ObjectClass object_class, double probability, int times) {
-    return classLogRatio(saidTo(object_class, probability, times), options);
+    return classLogRatio(reportedAs(object_class, probability, times), options);
   };
   EXPECT_GT(ratio(ObjectClass::kPedestrian, 0.9, 5), 1.5);
   EXPECT_GT(ratio(ObjectClass::kCyclist, 0.9, 5), 1.5);

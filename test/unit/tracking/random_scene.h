@@ -24,7 +24,7 @@ class RandomScene {
   RandomScene(std::uint64_t seed, const RandomSceneOptions& options)
       : options_(options), engine_(seed) {
     for (int i = 0; i < options.targets; ++i) {
-      places_.emplace_back(uniform(), uniform());
+      positions_.emplace_back(uniform(), uniform());
       velocities_.emplace_back(options.speed_std * normal(), options.speed_std * normal());
     }
   }
@@ -32,12 +32,12 @@ class RandomScene {
   /// 0.1 s later.
   std::vector<Object> next() {
     std::vector<Object> objects;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      places_[i] += 0.1 * velocities_[i];
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      positions_[i] += 0.1 * velocities_[i];
       const double luck = std::uniform_real_distribution<double>()(engine_);
       const Point2 noise = options_.noise_std * Point2(normal(), normal());
       if (luck < options_.detection) {
-        objects.push_back(objectAt(places_[i].x() + noise.x(), places_[i].y() + noise.y()));
+        objects.push_back(objectAt(positions_[i].x() + noise.x(), positions_[i].y() + noise.y()));
       }
     }
     const int clutter = std::uniform_int_distribution<int>(0, options_.max_clutter)(engine_);
@@ -56,7 +56,7 @@ class RandomScene {
 
   RandomSceneOptions options_;
   std::mt19937_64 engine_;
-  std::vector<Point2> places_;
+  std::vector<Point2> positions_;
   std::vector<Point2> velocities_;
 };
 

@@ -11,14 +11,6 @@
 namespace datmo::split_merge_test {
 namespace {
 
-std::set<std::uint32_t> idsOf(const TrackList& list) {
-  std::set<std::uint32_t> ids;
-  for (const Track& track : list.tracks) {
-    ids.insert(track.id);
-  }
-  return ids;
-}
-
 /// A box along x with points on its outline.
 Object segment(double x, double y, double length, double width) {
   Object object = objectAt(x, y);

@@ -170,7 +170,7 @@ double upperBound(int samples) { return 2.0 + 1.96 * 2.0 / std::sqrt(samples); }
 
 class TrackedBoxDrives : public testing::TestWithParam<Traffic> {};
 
-TEST_P(TrackedBoxDrives, TheCenterIsWhereItIsSaidToBe) {
+TEST_P(TrackedBoxDrives, TheCenterIsWithinItsCovariance) {
   const RayCaster fine(degrees(180.0), degrees(0.5), 0.05);
   const RayCaster coarse(degrees(180.0), degrees(2.0), 0.2);
   for (const RayCaster& scanner : {fine, coarse}) {

@@ -13,14 +13,6 @@
 namespace datmo::tracker_test {
 namespace {
 
-std::set<std::uint32_t> idsOf(const TrackList& list) {
-  std::set<std::uint32_t> ids;
-  for (const Track& track : list.tracks) {
-    ids.insert(track.id);
-  }
-  return ids;
-}
-
 /// Scans until the first track is published; -1: never.
 int scansUntilConfirmed(TrackingScene& scene, double speed, int max) {
   for (int scan = 1; scan <= max; ++scan) {

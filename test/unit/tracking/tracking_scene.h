@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,14 @@ inline Object objectAt(double x, double y, DynamicState state = DynamicState::kU
   object.moving_fraction = state == DynamicState::kMoving ? 1.0 : 0.0;
   object.sensors = {"lidar"};
   return object;
+}
+
+inline std::set<std::uint32_t> idsOf(const TrackList& list) {
+  std::set<std::uint32_t> ids;
+  for (const Track& track : list.tracks) {
+    ids.insert(track.id);
+  }
+  return ids;
 }
 
 /// Scans at a fixed rate through a tracker; the vehicle stands at the origin unless it is told

@@ -68,7 +68,7 @@ TEST_F(ScanHistoryTest, ABeamAlongALineIsNoEvidenceOfIt) {
 }
 
 TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
-  // Beams half a radian apart: the one straight ahead lights a place that lies 0.2 rad beside it,
+  // Beams half a radian apart: the one straight ahead lights a point that lies 0.2 rad beside it,
   // but meets the line there only behind the scanner, at -3.4 m.
   ScanHistoryOptions options;
   options.lit_share = 1.0;

@@ -71,7 +71,7 @@ TEST(RoadColorTest, ANewColorIsLearnedFromImageToImage) {
   EXPECT_GT(color.probability(gray(60.0)), 0.7);
 }
 
-TEST(RoadColorTest, ColorsOfOneBrightnessAreToldApart) {
+TEST(RoadColorTest, ColorsOfOneBrightnessAreDistinguished) {
   PixelColors samples;
   for (const PixelColor& sample : samplesAround({100.0})) {
     samples.push_back(bgr(sample[0], sample[0], sample[0]));

@@ -7,10 +7,11 @@ import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.bag_input import opened
-from datmo_tools.convert import kitti_messages, kitti_scans
+from datmo_tools.convert import kitti_scans
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate import road_plane
+from datmo_tools.evaluate import cloud_grids, road_plane
 from datmo_tools.evaluate.arguments import add_grids
+from datmo_tools.evaluate.cloud_grids import CLOUDS
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
@@ -18,11 +19,7 @@ from datmo_tools.evaluate.grid_recordings import (
     mounts_of,
 )
 from datmo_tools.evaluate.grid_scores import UNDECIDED
-from datmo_tools.evaluate.report import Section
-from datmo_tools.evaluate.stereo_grid_scores import BAND_EDGES, moved, obstacle_points
-from datmo_tools.evaluate.stereo_grids import CLOUDS, with_clouds
-from datmo_tools.evaluate.truth import TRUE_POSE
-from datmo_tools.pose_path import read_path
+from datmo_tools.evaluate.stereo_grid_scores import BAND_EDGES, obstacle_points
 from datmo_tools.text_table import rounded
 
 DESCRIPTION = """\
@@ -98,28 +95,15 @@ def score(run, drive, topic):
     """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
     dictionary that JSON can hold. Raises InputError."""
     clouds, image = _read_drive(drive)
-    path = read_path(drive, TRUE_POSE)
-    counts, used, left_out = NOTHING, 0, 0
-    for stamp, grid, nearest in with_clouds(run, drive, topic, clouds):
-        if nearest is None:
-            left_out += 1
-            continue
-        then, now = path.at(nearest), path.at(stamp)
-        counts += count(grid, *(moved(points, then, now) for points in clouds[nearest]), image)
-        used += 1
-    ends = [*zip(BAND_EDGES, BAND_EDGES[1:]), *SUMS]
-    return {
-        "run": str(run),
-        "topic": topic,
-        "grids": used,
-        "grids_without_cloud": left_out,
-        "bands": [_band(counts, near, far) for near, far in ends],
-    }
+    counts, result = cloud_grids.score(
+        run, drive, topic, clouds, lambda grid, *points: count(grid, *points, image), NOTHING
+    )
+    result["bands"] = [_band(*band) for band in cloud_grids.in_bands(counts, SUMS)]
+    return result
 
 
-def _band(counts, near, far):
-    chosen = [near <= begin < far for begin in BAND_EDGES[:-1]]
-    free, right, road, found = (int(column[chosen].sum()) for column in counts)
+def _band(near, far, counts):
+    free, right, road, found = counts
     return {
         "from": near,
         "to": far,
@@ -146,12 +130,7 @@ def _read_drive(path):
     projection = np.array(info.P).reshape(3, 4)[:, :3]
     image = Image(mount_of(path, mounts, info.header.frame_id), projection,
                   (info.width, info.height))  # fmt: skip
-    velodyne = mount_of(path, mounts, kept[CLOUDS][0].header.frame_id)
-    clouds = {
-        message.header.stamp.to_nsec(): _parted(kitti_messages.points(message), velodyne)
-        for message in kept[CLOUDS]
-    }
-    return clouds, image
+    return cloud_grids.points_by_stamp(path, kept[CLOUDS], mounts, _parted), image
 
 
 def _parted(cloud, base_from_velodyne):
@@ -164,19 +143,10 @@ def _parted(cloud, base_from_velodyne):
 
 def sections(result):
     """List of Section of a score."""
-    rows = [[result["topic"], "precision", "of free", "recall", "of the road"]]
-    rows += [
-        [
-            f"{band['from']:g} to {band['to']:g} m",
-            rounded(band["precision"], 4),
-            str(band["free"]),
-            rounded(band["recall"], 3),
-            str(band["road"]),
-        ]
-        for band in result["bands"]
-    ]
-    scored = f"{result['grids']} grids, {result['grids_without_cloud']} more without a cloud"
-    return [Section(rows=rows, lines=[scored])]
+    return cloud_grids.sections(
+        result, ["precision", "of free", "recall", "of the road"],
+        lambda band: [rounded(band["precision"], 4), str(band["free"]), rounded(band["recall"], 3), str(band["road"])],
+    )  # fmt: skip
 
 
 def evaluate(values):

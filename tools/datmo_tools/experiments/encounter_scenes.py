@@ -16,7 +16,7 @@ AFTER = 3.0  # s, the drive goes on
 CLEARANCE = 1.0  # m, of a near miss in space
 CLEAR_TIME = 1.5  # s, of a near miss in time
 ROAD = (-60.0, 320.0)  # m, from and to
-CORNER_LEAD = 3.8  # m, of its way, that the left corner of a turning bumper is in the other lane before its middle
+CORNER_LEAD = 3.8  # m, by which the left corner of a turning bumper is in the other lane before its middle
 BEYOND = 4.5  # m, beyond the lane's middle who crosses stands still
 
 
@@ -131,8 +131,8 @@ def _crossing(result, host, speed, kind, side, ending):
         wait -= CLEAR_TIME if ending == "time" else CLEARANCE / speed
     profile = _start_at(wait, speed)
     # It stops before the lane, or beyond it.
-    way = run_up - HALF_WIDTH - half - CLEARANCE if ending == STOPS else run_up + BEYOND
-    profile = _stop_after(profile, way, speed, deceleration)
+    distance = run_up - HALF_WIDTH - half - CLEARANCE if ending == STOPS else run_up + BEYOND
+    profile = _stop_after(profile, distance, speed, deceleration)
     result["actors"].append(
         {"kind": kind, "path": [[x, start_y], [x, HOST_Y - side * 60.0]],
          "start": max(0.0, -wait * speed), "speed": profile, "corner_radius": 0.0}
@@ -148,10 +148,10 @@ def _start_at(wait, speed):
     return [[0.0, 0.0], [wait - 0.5 * ramp, 0.0], [wait + 0.5 * ramp, speed]]
 
 
-def _stop_after(profile, way, speed, deceleration):
-    """The same, but it stands after `way` (m)."""
+def _stop_after(profile, distance, speed, deceleration):
+    """The same, but it stands after `distance` (m)."""
     braking = speed * speed / (2.0 * deceleration)
-    begin = profile[-1][0] + max(0.0, (way - braking) / speed)
+    begin = profile[-1][0] + max(0.0, (distance - braking) / speed)
     if len(profile) > 1:  # what the ramp up takes
         begin -= 0.5 * (profile[-1][0] - profile[-2][0])
     begin = max(begin, profile[-1][0] + 0.05)

@@ -45,12 +45,12 @@ def kept_ids(computed, recorded, begin, end, sensor="stereo"):
 def _ids_of(tracks, truth, seen, paths):
     """Track id by object id, of those objects that have a track near to them."""
     own, true = (path.at(tracks.header.stamp.to_nsec()) for path in paths)
-    places = [(track.id, transforms.relative(own, planar(track.pose))[:2]) for track in tracks.tracks]
+    positions = [(track.id, transforms.relative(own, planar(track.pose))[:2]) for track in tracks.tracks]
     found = {}
     for each in truth.objects:
         if each.id in seen:
             at = transforms.relative(true, planar(each.pose))[:2]
-            distance, track = min(((float(np.hypot(*np.subtract(place, at))), track) for track, place in places),
+            distance, track = min(((float(np.hypot(*np.subtract(position, at))), track) for track, position in positions),
                                   default=(np.inf, 0))  # fmt: skip
             if distance < NEAR:
                 found[each.id] = track

@@ -33,7 +33,7 @@ PARENT_CHECK = 1.0  # s
 
 
 class Quality(NamedTuple):
-    """Of each way from one computer to another."""
+    """Of each direction from one computer to another."""
 
     delay: float = 0.0  # s
     jitter: float = 0.0  # s; each packet's delay is uniform within delay +- jitter
@@ -71,9 +71,9 @@ class LossyNetwork:
         try:
             for i, name in enumerate(self._names):
                 self._devices.append(self._connect(i, name))
-            ways = {socket.inet_aton(self.address(i)): device for i, device in enumerate(self._devices)}
+            devices = {socket.inet_aton(self.address(i)): device for i, device in enumerate(self._devices)}
             self._relay = multiprocessing.get_context("fork").Process(
-                target=_relay, args=(ways, self._quality, os.getpid()), daemon=True)
+                target=_relay, args=(devices, self._quality, os.getpid()), daemon=True)
             self._relay.start()
         except BaseException:
             self._end()
@@ -139,19 +139,19 @@ def _end_processes(name):
             os.kill(int(process), signal.SIGKILL)
 
 
-def _relay(ways, quality, parent):
-    """Carries packets until it is ended, or its parent is. ways: file descriptors by address (4 bytes)."""
+def _relay(devices, quality, parent):
+    """Carries packets until it is ended, or its parent is. devices: file descriptors by address (4 bytes)."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the parent ends it
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     chance = random.Random(quality.seed)
     waiting, number = [], 0
     while os.getppid() == parent:
         wait = max(0.0, waiting[0][0] - time.monotonic()) if waiting else PARENT_CHECK
-        ready, _, _ = select.select(list(ways.values()), [], [], min(wait, PARENT_CHECK))
+        ready, _, _ = select.select(list(devices.values()), [], [], min(wait, PARENT_CHECK))
         now = time.monotonic()
         for device in ready:
             for packet in _packets(device):
-                to = ways.get(packet[DESTINATION])
+                to = devices.get(packet[DESTINATION])
                 if to is None or chance.random() < quality.loss or len(waiting) >= MOST_WAITING:
                     continue
                 due = now + quality.delay + quality.jitter * chance.uniform(-1.0, 1.0)

@@ -78,7 +78,7 @@ def _drive(values, seed):
 
 
 class MapOfRun:
-    """Places of the truth in the map of a run, which drifts: as the vehicle has them about itself."""
+    """Positions of the truth in the map of a run, which drifts: as the vehicle has them about itself."""
 
     def __init__(self, bag, truth):
         self.truth = truth
@@ -86,7 +86,7 @@ class MapOfRun:
                       for message, _ in read_messages(bag, POSE)}  # fmt: skip
         self.stamps = np.array(sorted(self.poses))
 
-    def place(self, item, stamp):
+    def position_of(self, item, stamp):
         """Position (m) of an item at a stamp (ns)."""
         near = int(self.stamps[np.argmin(np.abs(self.stamps - stamp))])
         true = min(self.truth.poses, key=lambda pose: abs(pose[0] - near))
@@ -103,7 +103,7 @@ def _first_track(bag, truth):
         stamp = message.header.stamp.to_nsec()
         walker = truth.nearest(stamp, PEDESTRIAN)
         if walker is not None and walker.moving and any(
-            _distance(track, own.place(walker, stamp)) < GATE for track in message.tracks
+            _distance(track, own.position_of(walker, stamp)) < GATE for track in message.tracks
         ):
             return (stamp - truth.start) * 1e-9
     return None
@@ -114,7 +114,7 @@ def _nees(bag, truth):
     for message, _ in read_messages(bag, FOREIGN):
         stamp = message.header.stamp.to_nsec()
         for track in message.tracks:
-            near = [own.place(item, stamp) for item in truth.moving(stamp)]
+            near = [own.position_of(item, stamp) for item in truth.moving(stamp)]
             errors = [position - _position(track) for position in near]
             if errors:
                 error = min(errors, key=np.linalg.norm)
@@ -129,7 +129,7 @@ def _false_lists(bag, truth):
     for message, _ in read_messages(bag, TRACKS):
         stamp = message.header.stamp.to_nsec()
         count += any(
-            all(_distance(track, own.place(item, stamp)) > GATE for item in truth.all(stamp))
+            all(_distance(track, own.position_of(item, stamp)) > GATE for item in truth.all(stamp))
             for track in message.tracks)
     return count
 

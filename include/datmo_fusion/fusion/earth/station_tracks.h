@@ -81,7 +81,7 @@ struct StationTrackCounts {
 
 /// Tracks of other stations to tracks in the map.
 ///
-/// The covariance of each is its own, turned, with what is not known of the map's place on the
+/// The covariance of each is its own, turned, with what is not known of the map's pose on the
 /// earth, and of the station's clock: an object at v that is t seconds off is v t elsewhere. That
 /// of the acceleration is what objects do.
 ///

@@ -89,8 +89,8 @@ class TrackFuser {
 
   /// What a source's track says of the class, with (withSpeed) or without (withoutSpeed) what its
   /// speed does.
-  ClassProbabilities classSaid(const Track& track, const TrackSourceOptions& source,
-                               decltype(withSpeed)* weigh) const;
+  ClassProbabilities reportedClass(const Track& track, const TrackSourceOptions& source,
+                                   decltype(withSpeed)* weigh) const;
   std::vector<Track> fused(const std::vector<TrackGroup>& groups,
                            const std::vector<PresentTracks>& present,
                            const std::vector<std::optional<Point2>>& sensors,

@@ -46,7 +46,7 @@ StationMessage decodeStation(std::string_view bytes, Stamp now,
 
 /// A CAM of the track with id 0, which is ourselves, and CPMs of the others, which are few enough
 /// for a datagram each. A CPM has each track's whole covariance, which has what we do not know of
-/// our own place, and so counts that twice. Tracks farther than 1.3 km are left out.
+/// our own position, and so counts that twice. Tracks farther than 1.3 km are left out.
 ///
 /// `plane`: of the list. `low_frequency`: whether the CAM has that container. Throws WireError
 /// (`no_own_position`) where the list does not have ourselves.

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxBorderPoints = 10000;
 /// `many_points` for more than kMaxBorderPoints.
 RoadBorders toMessage(const RoadModel& road, const std::string& fixed_frame);
 
-/// The inverse, to the message's precision (places and probabilities are single); throws the same.
+/// The inverse, to the message's precision (points and probabilities are single); throws the same.
 /// The frame is the caller's to check.
 RoadModel fromMessage(const RoadBorders& message);
 

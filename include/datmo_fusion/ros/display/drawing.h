@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Drawing {
   std::vector<DrawnVertex> solid;        ///< three each; they hide what is behind
   std::vector<DrawnVertex> translucent;  ///< three each
   std::vector<DrawnLabel> labels;
+  std::size_t left_out = 0;  ///< markers with a number that is not finite
 };
 
 /// The shapes of markers of one frame as triangles: boxes, cylinders, spheres, arrows of two

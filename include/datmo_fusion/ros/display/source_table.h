@@ -39,7 +39,7 @@ class SourceTable {
 
  private:
   struct Node {
-    double heard = 0.0;
+    double received_at = 0.0;
     std::vector<SourceRow> rows;
   };
   std::map<std::string, Node> nodes_;

@@ -32,8 +32,8 @@ class InputProgress {
   std::vector<Line> missing(const StageMonitor& monitor, const PublishedType& published_type) const;
 
   std::vector<WatchedInput> inputs_;  ///< by name
-  std::set<std::string> said_;
-  bool missing_said_ = false;
+  std::set<std::string> reported_;
+  bool missing_reported_ = false;
 };
 
 }  // namespace datmo

@@ -89,7 +89,7 @@ class MapFusionStage : public Stage {
   MapFusionOutput fuse(const Matched& matched);
 
   /// Takes in the grids of a set; returns those that were not there or of no use.
-  std::vector<MissingSource> takeIn(const Matched& matched, const LabeledScan& scan);
+  std::vector<MissingSource> ingest(const Matched& matched, const LabeledScan& scan);
   MapFusionOutput outputAt(Stamp stamp);
   void show(const FusedMaps& maps);
   void reset();

@@ -15,11 +15,11 @@ namespace datmo {
 
 /// A nodelet that takes labeled scans, and a scripted grid_slam before it. Times count from the
 /// start of the drive, samples::kStart.
-class LabeledScanDoor : public Listener {
+class LabeledScanHarness : public Listener {
  public:
   static constexpr double kStep = 1.0 / 16.0;  // s
 
-  explicit LabeledScanDoor(std::string nodelet) : nodelet_(std::move(nodelet)) {}
+  explicit LabeledScanHarness(std::string nodelet) : nodelet_(std::move(nodelet)) {}
 
   /// Until the nodelet listens and reports.
   bool waitForNodelet() {

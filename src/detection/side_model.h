@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "datmo_fusion/detection/box_fit.h"
+#include "datmo_fusion/detection/segment_end.h"
+
+namespace datmo {
+
+/// What a sensor knows of the sides of a box that was fitted to its points.
+struct SideModel {
+  /// rad; a side that was seen faces the sensor: with a vaguer heading its ends are not known.
+  double max_slant = 0.0;
+
+  /// m^2, of the position of a side with so many points on it.
+  std::function<double(std::size_t points)> seen_variance;
+
+  /// Where a side that was seen ends, along a unit vector out of the box, whose direction is known
+  /// to `heading_std` (rad); nothing where the end is hidden.
+  std::function<std::optional<SurfaceEnd>(const Point2& normal, double heading_std)> end_beyond;
+};
+
+/// Sets the object's box, extended to the ends of the sides that were seen, the variance of each
+/// side, and the heading, along the longer side, in (-pi/2, pi/2].
+void setSides(Object& object, const BoxFit& fit, const SideModel& model);
+
+}  // namespace datmo

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A display for tests of what needs a window."""
+
+import contextlib
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def virtual_display(size):
+    """Starts one of so many pixels (width, height), which this process and its children use; gives the file
+    with its pixels, in the form of xwd."""
+    read, write = os.pipe()
+    with tempfile.TemporaryDirectory() as runtime, \
+            subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "%dx%dx24" % size, "-fbdir",
+                              runtime, "+extension", "GLX", "-nolisten", "tcp"], pass_fds=[write],
+                             stderr=subprocess.DEVNULL) as xvfb:
+        os.environ.update(DISPLAY=":" + os.read(read, 16).decode().strip(), XDG_RUNTIME_DIR=runtime,
+                          LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
+        try:
+            yield Path(runtime, "Xvfb_screen0")
+        finally:
+            xvfb.terminate()
