@@ -16,8 +16,8 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double secon
   const auto addHit = [&](const ScanPoint& point) {
     const Point2 end = vehicle * point.position;
     const CellIndex cell = hits.window().cellAt(end);
-    result.beams.push_back({end, true, hits.smoothed(cell), hits.isLasting(cell),
-                            point.state == PointState::kMoving});
+    result.beams.push_back(
+        {end, true, hits.smoothed(cell), hits.isLasting(cell), point.state == PointState::kMoving});
   };
   auto point = scan.points.begin();
   auto blind = scan.blind_beams.begin();

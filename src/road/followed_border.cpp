@@ -194,8 +194,7 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
-        evidence_.addHit(track_.arcLength() + end.along,
-                         beam.in_free_space ? scan.novelty : 1.0);
+        evidence_.addHit(track_.arcLength() + end.along, beam.in_free_space ? scan.novelty : 1.0);
         evidence_.addDepth(track_.arcLength() + end.along, false);
         seen = true;
       }

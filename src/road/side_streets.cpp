@@ -81,10 +81,9 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
       continue;
     }
     // The last look is from nearest by.
-    known_.erase(
-        std::remove_if(known_.begin(), known_.end(),
-                       [&](const Known& known) { return exclude(known.border, *found); }),
-        known_.end());
+    known_.erase(std::remove_if(known_.begin(), known_.end(),
+                                [&](const Known& known) { return exclude(known.border, *found); }),
+                 known_.end());
     if (known_.size() < kMaxStreets) {
       known_.push_back({*found, opening.side, stamp});
     }

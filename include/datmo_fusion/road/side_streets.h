@@ -25,8 +25,8 @@ struct SideStreetOptions {
 };
 
 /// The borders of streets that open into the vehicle's: the search for borders of the thesis (3.5)
-/// from the middle of each opening, as from a vehicle that looks into the street. What it finds last
-/// takes the place of what contradicts it.
+/// from the middle of each opening, as from a vehicle that looks into the street. What it finds
+/// last takes the place of what contradicts it.
 class SideStreets {
  public:
   /// Throws OptionError.

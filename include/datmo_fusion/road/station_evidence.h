@@ -37,8 +37,8 @@ class StationEvidence {
   /// what lies inside.
   void keepWithin(const ArcLengthInterval& interval);
 
-  /// One beam of the scan that ended on the line there (m along it), or went through. `weight`: 0 to
-  /// 1, how much of it is news.
+  /// One beam of the scan that ended on the line there (m along it), or went through. `weight`: 0
+  /// to 1, how much of it is news.
   void addHit(double along, double weight = 1.0);
   void addPassage(double along);
 

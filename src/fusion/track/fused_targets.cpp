@@ -167,7 +167,7 @@ void FusedTargets::follow(Stamp stamp, double seconds, std::vector<Track> groups
     target.lost += seconds;
     target.track = predicted(std::move(target.track), seconds, options.prediction);
   }
-  addRefound(groups, options.association.comparison.withoutBody(), owners);
+  addRefound(groups, options.association.comparison, owners);
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (!owners[group]) {
       owners[group] = targets_.size();

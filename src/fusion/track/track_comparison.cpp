@@ -34,20 +34,22 @@ const double kLogOfTurn = std::log(2.0 * kPi);
 
 /// m^2, along the axes of the box: where a sensor takes the center of a body to be that it sees a
 /// part of.
-Eigen::Vector2d centerVariances(const Box2& box, const TrackComparisonOptions& options) {
-  return {square(options.body_std) + square(options.extent_share * box.length),
-          square(options.body_std) + square(options.extent_share * box.width)};
+Eigen::Vector2d centerVariances(const Track& track, const TrackComparisonOptions& options) {
+  // The covariance of what several sensors track has the body's in it.
+  const double body = track.sources.size() > 1 ? 0.0 : square(options.body_std);
+  return {body + square(options.extent_share * track.box.length),
+          body + square(options.extent_share * track.box.width)};
 }
 
 /// The same in the fixed frame.
-Eigen::Matrix2d centerCovariance(const Box2& box, const TrackComparisonOptions& options) {
-  const Eigen::Matrix2d axes = box.center.rotation();
-  return axes * centerVariances(box, options).asDiagonal() * axes.transpose();
+Eigen::Matrix2d centerCovariance(const Track& track, const TrackComparisonOptions& options) {
+  const Eigen::Matrix2d axes = track.box.center.rotation();
+  return axes * centerVariances(track, options).asDiagonal() * axes.transpose();
 }
 
 /// m^2, of a track's position in all directions together.
 double positionVariance(const Track& track, const TrackComparisonOptions& options) {
-  return track.covariance.topLeftCorner<2, 2>().trace() + centerVariances(track.box, options).sum();
+  return track.covariance.topLeftCorner<2, 2>().trace() + centerVariances(track, options).sum();
 }
 
 /// Logarithm of how much likelier two tracks of these classes are if they are one object: all
@@ -115,12 +117,6 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
                  unrelated_density, {1e-6, 1.0});
 }
 
-TrackComparisonOptions TrackComparisonOptions::withoutBody() const {
-  TrackComparisonOptions options = *this;
-  options.body_std = 0.0;
-  return options;
-}
-
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options) {
   const Compared difference = a.state.head<kCompared>() - b.state.head<kCompared>();
   const double variance = positionVariance(a, options) + positionVariance(b, options);
@@ -130,8 +126,7 @@ TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOpt
   }
   ComparedCovariance covariance = a.covariance.topLeftCorner<kCompared, kCompared>() +
                                   b.covariance.topLeftCorner<kCompared, kCompared>();
-  covariance.topLeftCorner<2, 2>() +=
-      centerCovariance(a.box, options) + centerCovariance(b.box, options);
+  covariance.topLeftCorner<2, 2>() += centerCovariance(a, options) + centerCovariance(b, options);
   covariance.bottomRightCorner<2, 2>().diagonal().array() += square(options.velocity_std);
   const Eigen::LLT<ComparedCovariance> root(covariance);
   const double squared_distance = root.matrixL().solve(difference).squaredNorm();

@@ -167,18 +167,20 @@ Track TrackFuser::joined(TrackGroup group, const std::vector<PresentTracks>& pre
   std::sort(group.begin(), group.end(), [&](const TrackPosition& a, const TrackPosition& b) {
     return isSurer(trackAt(a), trackAt(b));
   });
+  if (group.size() == 1) {
+    return trackAt(group.front());
+  }
   const TrackComparisonOptions& comparison = options_.association.comparison;
   std::vector<Track> tracks;
   double age = 0.0;
   for (const TrackPosition& position : group) {
     tracks.push_back(trackAt(position));
-    tracks.back().covariance.diagonal().head<2>().array() += square(comparison.body_std);
     age = std::max(age, tracks.back().age);
   }
-  if (tracks.size() == 1) {
-    return tracks.front();
+  const bool contradict = contradictEachOther(tracks, comparison);
+  for (Track& track : tracks) {
+    track.covariance.diagonal().head<2>().array() += square(comparison.body_std);
   }
-  const bool contradict = contradictEachOther(tracks, comparison.withoutBody());
   for (std::size_t i = 0; i < group.size(); ++i) {
     for (std::size_t j = i + 1; j < group.size(); ++j) {
       reconcileExtents(tracks[i], sensors[group[i].list], tracks[j], sensors[group[j].list]);

@@ -98,23 +98,30 @@ TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
   // What sensors take for the body's center is in the covariance of both already: where it would
   // make them one if it counted twice, they are two.
   const TrackFuserOptions options;
-  const TrackComparisonOptions& twice = options.association.comparison;
-  const auto ofBody = [&](double y, std::uint32_t id) {
+  const TrackComparisonOptions& comparison = options.association.comparison;
+  const auto ofTwo = [&](double y, std::uint32_t id) {
     Track track = carTrack(20.0, y, 5.0, 0.0, "lidar", id);
-    track.covariance.diagonal().head<2>().array() += square(twice.body_std);
+    track.covariance.diagonal().head<2>().array() += square(comparison.body_std);
+    track.sources = {{"lidar", id}, {"stereo", id}};
     return track;
   };
-  const auto isOneAt = [&](double y, const TrackComparisonOptions& comparison) {
-    return compare(ofBody(0.0, 1), ofBody(y, 2), comparison).log_likelihood_ratio > 0.0;
+  const auto isOne = [&](const Track& a, const Track& b) {
+    return compare(a, b, comparison).log_likelihood_ratio > 0.0;
+  };
+  const auto countedAgain = [](Track track) {
+    track.sources.clear();
+    return track;
   };
   int borderline = 0;
   for (double y = 2.5; y < 5.0; y += 0.1) {
-    FusedTargets targets(1);
-    targets.follow(at(0.0), 0.0, {ofBody(0.0, 1)}, options);
-    targets.follow(at(0.0), 0.0, {ofBody(y, 2)}, options);
-    const bool is_one = isOneAt(y, twice.withoutBody());
+    const Track lost = ofTwo(0.0, 1);
+    const Track seen = ofTwo(y, 2);
+    FusedTargets targets(2);
+    targets.follow(at(0.0), 0.0, {lost}, options);
+    targets.follow(at(0.0), 0.0, {seen}, options);
+    const bool is_one = isOne(lost, seen);
     EXPECT_EQ(targets.all().size(), is_one ? 1U : 2U) << y;
-    borderline += isOneAt(y, twice) != is_one ? 1 : 0;
+    borderline += isOne(countedAgain(lost), countedAgain(seen)) != is_one ? 1 : 0;
   }
   EXPECT_GT(borderline, 0) << "or this shows nothing";
 }

@@ -52,7 +52,7 @@ Track afterTwoSeconds(const TrackFuserOptions& options, const Names& names,
     const std::vector<Track> tracks = tracksAt(t, names, i == 20 ? last_speed : 5.0);
     std::vector<SourceTracks> lists;
     for (const std::size_t source : order) {
-      lists.push_back(heard(names[source], t, {tracks[source]}, {allAround(80.0)}));
+      lists.push_back(received(names[source], t, {tracks[source]}, {allAround(80.0)}));
     }
     result = fuser.fuse(at(t), lists);
   }
@@ -105,8 +105,8 @@ TEST_P(ThreeSourcesTest, ThreeAreNoLessSureThanTwo) {
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
     const std::vector<Track> tracks = tracksAt(t, {"lidar", "radar", "stereo"}, 5.0);
-    const auto result = fuser.fuse(at(t), {heard("lidar", t, {tracks[0]}, {allAround(80.0)}),
-                                           heard("radar", t, {tracks[1]}, {allAround(80.0)})});
+    const auto result = fuser.fuse(at(t), {received("lidar", t, {tracks[0]}, {allAround(80.0)}),
+                                           received("radar", t, {tracks[1]}, {allAround(80.0)})});
     ASSERT_EQ(result.list.tracks.size(), 1U);
     two = result.list.tracks[0];
   }

@@ -70,7 +70,7 @@ TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
   EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
 }
 
-TEST(TrackFuserTest, WhereASensorTakesTheBodysCenterToBeIsUncertainHoweverManyHaveIt) {
+TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain) {
   const TrackFuserOptions options = withScheme(TrackScheme::kByExistence);
   const double body_variance = square(options.association.comparison.body_std);
   TrackFuser fuser(options);
@@ -88,7 +88,9 @@ TEST(TrackFuserTest, WhereASensorTakesTheBodysCenterToBeIsUncertainHoweverManyHa
       const Track& track = result.list.tracks[0];
       ASSERT_EQ(track.sources.size(), alone ? 1U : 2U);
       // Intersection of two that are alike is as sure as either.
-      EXPECT_NEAR(track.covariance(0, 0), by_lidar.covariance(0, 0) + body_variance, 1e-6) << t;
+      EXPECT_NEAR(track.covariance(0, 0), by_lidar.covariance(0, 0) + (alone ? 0.0 : body_variance),
+                  1e-6)
+          << t;
     }
   }
 }

@@ -51,7 +51,8 @@ class FusedTargets {
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
 
   /// The tracks of the present, one for each group, at `stamp`, `seconds` after the last time; what
-  /// sensors take for a body's center (TrackComparisonOptions::body_std) is in their covariances.
+  /// sensors take for a body's center (TrackComparisonOptions::body_std) is in the covariances of
+  /// those of several sources.
   /// Targets without one are lost: predicted, and forgotten after `memory` s.
   void follow(Stamp stamp, double seconds, std::vector<Track> groups,
               const TrackFuserOptions& options);

@@ -14,9 +14,6 @@ struct TrackComparisonOptions {
   double unrelated_density = 0.002;  ///< 1/m^2
 
   void visit(OptionVisitor& visitor);
-
-  /// For tracks whose covariances have body_std in them.
-  TrackComparisonOptions withoutBody() const;
 };
 
 /// Whether two tracks are of one object.
@@ -32,7 +29,8 @@ struct TrackComparison {
 /// By position, velocity and class. The statistical distance has both covariances as if they were
 /// independent: what errors the two have in common makes them agree better than that. What two
 /// sensors take for the center of a body differs by which parts of it they see, by a share of its
-/// size, and that is no noise of either track.
+/// size, and that is no noise of either track; one that was fused of several has body_std in its
+/// covariance already.
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options);
 
 struct ParallelTracksOptions {
