@@ -21,9 +21,6 @@ namespace {
 /// Who saw them.
 constexpr char kSensor[] = "cloud";
 
-/// rad; a side that was seen faces the lidar: a vaguer heading tells no more of where it ends.
-constexpr double kMaxSlant = 0.3;
-
 /// What stands on the ground, at the cloud's stamp.
 class Band {
  public:
@@ -111,7 +108,7 @@ void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
     // The side ends anywhere before the next column.
     return SurfaceEnd{0.5 * end.gap, kUniformVariance * square(end.gap)};
   };
-  setSides(object, fit, {kMaxSlant, seen_variance, end_beyond});
+  setSides(object, fit, {seen_variance, end_beyond});
 }
 
 void setClass(Object& object, const SeenSize& size, const ObjectClassifier& classifier,

@@ -19,9 +19,6 @@ namespace {
 
 constexpr char kSensor[] = "lidar";
 
-/// rad; a side that was seen faces the scanner: with a vaguer heading its ends are not known.
-constexpr double kMaxScannerSlant = 0.3;
-
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
   std::vector<ScanPoint> result;
@@ -125,7 +122,7 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
     const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
     return ends.beyond(outermost, normal, heading_std);
   };
-  setSides(object, fit, {kMaxScannerSlant, seen_variance, end_beyond});
+  setSides(object, fit, {seen_variance, end_beyond});
 }
 
 }  // namespace datmo

@@ -12,15 +12,15 @@ namespace datmo {
 
 /// What a sensor knows of the sides of a box that was fitted to its points.
 struct SideModel {
-  /// rad; a side that was seen faces the sensor: with a vaguer heading its ends are not known.
-  double max_slant = 0.0;
-
   /// m^2, of the position of a side with so many points on it.
   std::function<double(std::size_t points)> seen_variance;
 
   /// Where a side that was seen ends, along a unit vector out of the box, whose direction is known
   /// to `heading_std` (rad); nothing where the end is hidden.
   std::function<std::optional<SurfaceEnd>(const Point2& normal, double heading_std)> end_beyond;
+
+  /// rad, the deviation of the heading counts up to this: a side that was seen faces the sensor.
+  double max_slant = 0.3;
 };
 
 /// Sets the object's box, extended to the ends of the sides that were seen, the variance of each

@@ -20,9 +20,6 @@ constexpr double kExtentSigma = 0.2;
 /// Points of the outline of an object, at most: columns beside each other are averaged.
 constexpr std::size_t kMaxPoints = 40;
 
-/// rad; a side that was seen faces the camera: with a vaguer heading its ends are not known.
-constexpr double kMaxCameraSlant = 0.3;
-
 /// Sides whose normal is nearer to the line of sight than this (sine of the angle) end in depth, of
 /// which the ends in the image carry no information.
 constexpr double kSideways = 0.5;
@@ -109,7 +106,7 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
     return square(fit.noise) * std::min(1.0, alike / static_cast<double>(points));
   };
   const auto end_beyond = [&](const Point2& normal, double) { return endOn(normal, outline); };
-  setSides(object, fit, {kMaxCameraSlant, seen_variance, end_beyond});
+  setSides(object, fit, {seen_variance, end_beyond});
 }
 
 /// Where it ends in the image is known well, where on the line of sight as well as the depth of

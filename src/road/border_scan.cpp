@@ -16,8 +16,7 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double secon
   const auto addHit = [&](const ScanPoint& point) {
     const Point2 end = vehicle * point.position;
     const CellIndex cell = hits.window().cellAt(end);
-    result.beams.push_back(
-        {end, true, hits.smoothed(cell), hits.isLasting(cell), point.state == PointState::kMoving});
+    result.beams.push_back({end, true, hits.smoothed(cell), hits.isLasting(cell)});
   };
   auto point = scan.points.begin();
   auto blind = scan.blind_beams.begin();
@@ -35,7 +34,7 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double secon
       const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
       const Point2 end(scan.field.free_range * std::cos(bearing),
                        scan.field.free_range * std::sin(bearing));
-      result.beams.push_back({result.scanner * end, false, 0, false, false});
+      result.beams.push_back({result.scanner * end, false, 0, false});
     }
   }
   // Of a scan whose field is not known, all.

@@ -84,7 +84,7 @@ void BorderTrack::advance(double along, double seconds) {
   covariance_(3, 3) += square(options_.curvature_rate_sigma) * (1.0 - kept * kept);
 }
 
-int BorderTrack::correct(const std::vector<BorderHit>& hits) {
+int BorderTrack::correct(const std::vector<BorderHit>& hits, double novelty) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   Eigen::Vector4d pull = Eigen::Vector4d::Zero();
   int taken = 0;
@@ -95,8 +95,8 @@ int BorderTrack::correct(const std::vector<BorderHit>& hits) {
     if (square(hit.position.aside) > square(options_.gate) * spread) {
       continue;
     }
-    information += row * row.transpose() / variance;
-    pull += row * (hit.position.aside / variance);
+    information += row * row.transpose() * (novelty / variance);
+    pull += row * (hit.position.aside * novelty / variance);
     ++taken;
   }
   if (taken == 0) {

@@ -12,10 +12,10 @@ namespace {
 /// m, between the samples of a corridor, along and across.
 constexpr double kSampleStep = 0.5;
 
-/// m, from the point to where a corridor begins: the vehicle itself.
+/// m, from the vehicle's middle to where a corridor begins.
 constexpr double kBranchBegin = 1.0;
 
-/// m, from the point to where the sides of a street begin: nearer ones may be those of the
+/// m, from the vehicle to where the sides of a street begin: nearer ones may be those of the
 /// vehicle's own road, four lanes and a footpath wide.
 constexpr double kSidesBegin = 14.0;
 
@@ -78,7 +78,7 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
                  width, {1.0, 20.0});
   visitor.number(
       {"max_shift", "m",
-       "from the point to its middle line: beside a yard that is so long for a moment only"},
+       "from the vehicle to its middle line: beside a yard that is so long for a moment only"},
       max_shift, {0.0, 10.0});
   visitor.number({"heading_step", "rad", "from a heading that is tried to the next"}, heading_step,
                  {degrees(1.0), degrees(30.0)});

@@ -68,10 +68,11 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.number({"range_sigma", "m", "noise of a measured range"}, range_sigma, {0.0, 2.0});
   visitor.number({"tolerance", "m", "from the line, where a beam that ends has hit the border"},
                  tolerance, {0.05, 5.0});
-  visitor.number({"correlation", "1",
-                  "scans that see the same unevenness of a border: their hits count as those of "
-                  "one"},
-                 correlation, {1.0, 100.0});
+  visitor.number(
+      {"correlation", "1",
+       "scans of a moving vehicle that see the same unevenness of a border: their hits count "
+       "as those of one"},
+      correlation, {1.0, 100.0});
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
                  {5.0, 200.0});
   visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
@@ -163,9 +164,6 @@ void FollowedBorder::moveAnchor(const BorderScan& scan) {
 
 void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   taken_.clear();
-  if (scan.novelty <= 0.0) {
-    return;
-  }
   const double unfitted = std::max(0.0, options_.growth - kFittedGrowth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
@@ -178,9 +176,9 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
     const double across = line.x() * ray.y() - line.y() * ray.x();
     const double variance = square(options_.range_sigma * across) + square(kRoughness);
-    taken_.push_back({position, options_.correlation * variance / scan.novelty});
+    taken_.push_back({position, options_.correlation * variance});
   }
-  track_.correct(taken_);
+  track_.correct(taken_, scan.novelty);
 }
 
 void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_nearest) {
@@ -194,7 +192,7 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
-        evidence_.addHit(track_.arcLength() + end.along, beam.in_free_space ? scan.novelty : 1.0);
+        evidence_.addHit(track_.arcLength() + end.along);
         evidence_.addDepth(track_.arcLength() + end.along, false);
         seen = true;
       }

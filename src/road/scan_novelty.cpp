@@ -6,11 +6,14 @@
 namespace datmo {
 
 void ScanNoveltyOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"correlation_length", "m",
-                  "between two scanner positions from which scans see nearly the same"},
-                 correlation_length, {0.01, 10.0});
+  visitor.number(
+      {"correlation_length", "m",
+       "that the scanner moves until what two scans see correlates by 1/e: the unevenness "
+       "of curbs and parked cars; 0.1 m is no different"},
+      correlation_length, {0.01, 10.0});
   visitor.number({"correlation_time", "s",
-                  "after which a scan from the same position is news: what stood there has left"},
+                  "the same of the time between two scans from one position: longer than vehicles "
+                  "take to pass, shorter than they park"},
                  correlation_time, {0.1, 1000.0});
 }
 

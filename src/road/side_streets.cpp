@@ -7,9 +7,9 @@ namespace datmo {
 
 namespace {
 
-/// No street for vehicles is narrower, m: left borders that begin nearer to each other are of one
-/// street, and so are right ones.
-constexpr double kMinStreetWidth = 5.5;
+/// m, of two lanes: left borders that begin nearer to each other are taken for those of one street,
+/// and so are right ones.
+constexpr double kStreetWidth = 5.5;
 
 /// m, from a point of a published border to the next.
 constexpr double kPointStep = 1.0;
@@ -31,7 +31,7 @@ bool cross(const FoundBorder& one, const FoundBorder& other) {
 /// cross.
 bool exclude(const FoundBorder& one, const FoundBorder& other) {
   const double apart = (one.line.position() - other.line.position()).norm();
-  return (one.side == other.side && apart < kMinStreetWidth) || cross(one, other);
+  return (one.side == other.side && apart < kStreetWidth) || cross(one, other);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
     if (!found) {
       continue;
     }
-    // The last look is from nearest by.
+    // The newest look has the most hits.
     known_.erase(std::remove_if(known_.begin(), known_.end(),
                                 [&](const Known& known) { return exclude(known.border, *found); }),
                  known_.end());

@@ -82,9 +82,9 @@ StationEvidence::Station* StationEvidence::stationAt(double along) {
   return slot < stations_.size() ? &stations_[slot] : nullptr;
 }
 
-void StationEvidence::addHit(double along, double weight) {
+void StationEvidence::addHit(double along) {
   if (Station* station = stationAt(along)) {
-    station->update += weight * hit_;
+    station->update += hit_;
   }
 }
 

@@ -14,7 +14,7 @@ std::string otherType(const std::string& topic, const std::string& expected) {
   request[1] = "";
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue topics;
-  constexpr bool kWaitForMaster = false;  // the window would stand still
+  constexpr bool kWaitForMaster = false;  // no retries: the window waits for the answer
   if (!ros::master::execute("getPublishedTopics", request, response, topics, kWaitForMaster)) {
     return "";
   }

@@ -16,7 +16,7 @@ struct StatusLine {
 };
 
 /// What the master says is published on a topic, if it is not `expected`; else, and without a
-/// master, empty. Does not wait for a master.
+/// master, empty. Waits for one answer of the master, and tries no second time.
 std::string otherType(const std::string& topic, const std::string& expected);
 
 /// Whether somebody publishes what a display draws, and how much has come.

@@ -110,10 +110,13 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   }
 
   void showStatus() {
-    set("Topic",
-        TopicStatus{this->topic_property_->getTopicStd(), ros::message_traits::datatype<Message>(),
-                    this->sub_.getSubscriber().getNumPublishers(), this->messages_received_}
-            .line());
+    // Without a subscriber rviz's line says why: the topic's name is invalid.
+    if (const ros::Subscriber& subscriber = this->sub_.getSubscriber()) {
+      set("Topic", TopicStatus{this->topic_property_->getTopicStd(),
+                               ros::message_traits::datatype<Message>(),
+                               subscriber.getNumPublishers(), this->messages_received_}
+                       .line());
+    }
     set("Message", messages_.newest());
   }
 

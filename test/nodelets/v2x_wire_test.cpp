@@ -114,7 +114,7 @@ class Stations : public Listener {
   std::unique_ptr<DatagramListener> ours_;
 };
 
-TEST(V2xWireTest, StationsHearEachOther) {
+TEST(V2xWireTest, StationsReceiveEachOther) {
   Stations stations;
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
   // Both a CAM and its CPM have to come through; each time newer ones are sent.

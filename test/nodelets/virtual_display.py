@@ -17,8 +17,13 @@ def virtual_display(size):
             subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "%dx%dx24" % size, "-fbdir",
                               runtime, "+extension", "GLX", "-nolisten", "tcp"], pass_fds=[write],
                              stderr=subprocess.DEVNULL) as xvfb:
-        os.environ.update(DISPLAY=":" + os.read(read, 16).decode().strip(), XDG_RUNTIME_DIR=runtime,
-                          LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
+        os.close(write)
+        with os.fdopen(read) as answer:
+            number = answer.readline().strip()
+        if not number:
+            raise RuntimeError("Xvfb ended before it had a display")
+        os.environ.update(DISPLAY=":" + number, XDG_RUNTIME_DIR=runtime, LIBGL_ALWAYS_SOFTWARE="1",
+                          QT_X11_NO_MITSHM="1")
         try:
             yield Path(runtime, "Xvfb_screen0")
         finally:

@@ -14,9 +14,8 @@ struct BorderScan {
   struct Beam {
     Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
     bool hit = false;
-    int hits_there = 0;          ///< smoothed (thesis eq. 3.5.1), of its end point
-    bool lasting = false;        ///< what it ends on has been there for longer than a mover stays
-    bool in_free_space = false;  ///< the map has its end as free: something came, or is hit rarely
+    int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
+    bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
   };
 
   Pose2 scanner;

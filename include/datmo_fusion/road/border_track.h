@@ -54,8 +54,9 @@ class BorderTrack {
   /// Takes the anchor so far along the line (m, negative: back), `seconds` (0 or more) on.
   void advance(double along, double seconds);
 
-  /// Takes points in, those beyond the gate left out; how many were taken.
-  int correct(const std::vector<BorderHit>& hits);
+  /// Takes points in, those beyond the gate left out; how many were taken. `novelty`: 0 to 1, how
+  /// much of them is new information (ScanNovelty).
+  int correct(const std::vector<BorderHit>& hits, double novelty = 1.0);
 
  private:
   /// Variance by which the road deviates within a distance from the anchor, m^2.

@@ -15,11 +15,11 @@ struct ScanNoveltyOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How much of what a scan sees the scans before it have not said already. From one viewpoint the
-/// same beams meet the same surfaces, so that a waiting vehicle learns next to nothing from scan to
-/// scan. The errors of two scans correlate by exp(-distance / length - time / correlation time), a
-/// Gauss-Markov process over both, whose innovation has the share 1 - correlation^2 of the variance
-/// (Bar-Shalom, Li, Kirubarajan 2001, 8.2: autocorrelated noise).
+/// Share of new information in a scan. From one viewpoint the same beams meet the same surfaces, so
+/// that a waiting vehicle learns next to nothing from scan to scan. The errors of two scans
+/// correlate by exp(-distance / length - time / correlation time), a Gauss-Markov process over
+/// both, whose innovation has the share 1 - correlation^2 of the variance (Bar-Shalom, Li,
+/// Kirubarajan 2001, 8.2: autocorrelated noise).
 class ScanNovelty {
  public:
   explicit ScanNovelty(const ScanNoveltyOptions& options) : options_(options) {}

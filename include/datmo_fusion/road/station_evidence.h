@@ -37,9 +37,8 @@ class StationEvidence {
   /// what lies inside.
   void keepWithin(const ArcLengthInterval& interval);
 
-  /// One beam of the scan that ended on the line there (m along it), or went through. `weight`: 0
-  /// to 1, how much of it is news.
-  void addHit(double along, double weight = 1.0);
+  /// One beam of the scan that ended on the line there (m along it), or went through.
+  void addHit(double along);
   void addPassage(double along);
 
   /// How far a beam that went through there saw what is behind: so deep as only a street is, or

@@ -33,7 +33,7 @@ void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
             [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
-/// An order of tracks that does not hang on that of their sources.
+/// An order of tracks that does not depend on that of their sources.
 bool isSurer(const Track& a, const Track& b) {
   const auto rank = [](const Track& track) {
     return std::make_tuple(track.covariance.topLeftCorner<2, 2>().determinant(), track.state.x(),

@@ -26,7 +26,7 @@ TEST(SignalTimes, AMinuteOfTheYearIsAStamp) {
 }
 
 TEST(SignalTimes, TheYearIsTheNearest) {
-  // 23:59 on the last day of 2023, heard two seconds into 2024; and the other way round.
+  // 23:59 on the last day of 2023, received two seconds into 2024; and the other way round.
   EXPECT_NEAR(stampAt(365 * 1440 - 1, 59500, kNewYear2024 + 2.0)->seconds(), kNewYear2024 - 0.5,
               1e-6);
   EXPECT_NEAR(stampAt(0, 500, kNewYear2024 - 2.0)->seconds(), kNewYear2024 + 0.5, 1e-6);

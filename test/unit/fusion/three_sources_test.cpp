@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three trackers of one object: what comes out does not hang on which is named first.
+// Three trackers of one object: what comes out does not depend on which is named first.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -38,15 +38,5 @@ TEST(BorderScanTest, KnowsWhatLasts) {
   EXPECT_EQ(borderScan(second, hits, 1.5).beams[40].hits_there, 2);
 }
 
-TEST(BorderScanTest, KnowsWhatEndsInFreeSpace) {
-  LabeledScan scan = samples::scanOf({{20.0, 0.0}, {10.0, 3.0}}, 0.0);
-  scan.points[0].state = PointState::kMoving;
-  scan.points[1].state = PointState::kStatic;
-  scan.field = {};
-  const BorderScan beams = borderScan(scan, HitGrid{HitGridOptions{}}, 0.06);
-  EXPECT_TRUE(beams.beams[0].in_free_space);
-  EXPECT_FALSE(beams.beams[1].in_free_space);
-}
-
 }  // namespace
 }  // namespace datmo::border_scan_test

@@ -195,26 +195,6 @@ TEST_F(RoadBorderDetectorTest, AStandingVehicleSeesTheSameRoad) {
   EXPECT_FALSE(road.at_intersection);
 }
 
-TEST_F(RoadBorderDetectorTest, WhatCrossesBeforeAWaitingVehicleIsNoBorder) {
-  walls_ = {{-3.0}, {4.0, -100.0, 45.0}, {4.0, 60.0, 300.0}};
-  drive(36.0);
-  const std::vector<Wall> road = walls_;
-  // Cars out of the side street on the left, at 8 m/s, one every 3 s.
-  for (double seconds = 0.0; seconds < 30.0; seconds += kPeriod) {
-    const double front = 20.0 - 8.0 * std::fmod(seconds, 3.0);
-    walls_ = road;
-    walls_.push_back({front, 51.0, 52.8});
-    cross_walls_ = {{51.0, front, front + 4.5}};
-    for (const RoadBorder& border : detector_.update(scanFrom(Pose2(x_, 0.0, 0.0))).borders) {
-      for (const BorderPoint& point : border.points) {
-        const double x = point.position.x();
-        EXPECT_FALSE(border.side == RoadSide::kLeft && !border.side_street && x > 48.0 && x < 57.0)
-            << x << " m after " << seconds << " s";
-      }
-    }
-  }
-}
-
 TEST_F(RoadBorderDetectorTest, AWaitingVehicleDoesNotBecomeSurerOfItsBorders) {
   const auto sigmaAhead = [this](const RoadModel& road) {
     double sigma = 0.0;

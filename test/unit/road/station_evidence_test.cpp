@@ -40,13 +40,6 @@ TEST_F(StationEvidenceTest, OnePassageByHand) {
   EXPECT_EQ(evidence_.logOdds(6.5), 0.0);
 }
 
-TEST_F(StationEvidenceTest, AHitThatIsHardlyNewsSaysLittle) {
-  evidence_.addHit(5.5, 0.25);
-  evidence_.endScan();
-  EXPECT_NEAR(evidence_.logOdds(5.5), 0.25 * std::log(options_.hit_probability / options_.clutter),
-              1e-12);
-}
-
 TEST_F(StationEvidenceTest, ManyBeamsOfAScanCountAsOneAndAllScansAreHeld) {
   for (int i = 0; i < 100; ++i) {
     evidence_.addHit(5.5);

@@ -63,7 +63,7 @@ TEST_F(StationWireTest, WhatCannotBeUsedIsCountedByReason) {
 }
 
 TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
-  // A CAM's time is told modulo 65.536 s: when a clock begins at 0, half of them lie before it.
+  // A CAM's time is sent modulo 65.536 s: when a clock begins at 0, half of them lie before it.
   for (int high_byte = 0; high_byte < 256; high_byte += 16) {
     std::string cam = samples::wireCam().bytes();
     cam[6] = static_cast<char>(high_byte);  // of the generation time, after a header of 48 bits

@@ -40,7 +40,7 @@ TEST_F(V2xWireTest, DatagramsGoToTheWireOfTheirKind) {
 }
 
 TEST_F(V2xWireTest, WithoutADestinationNothingIsSentAndNothingIsWrong) {
-  EXPECT_FALSE(wire_.serveOwn(StationTracksMessage())) << "no lane that we have heard of";
+  EXPECT_FALSE(wire_.serveOwn(StationTracksMessage())) << "no lanes were received";
   EXPECT_TRUE(monitor_.warnings().empty());
 }
 

@@ -110,7 +110,7 @@ TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
   EXPECT_GT(sinceStart(after), 0.9 * sinceStart(before));
 }
 
-TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapInWhichOnlyOdometryThatErrsWasHeard) {
+TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapInWhichOnlyOdometryThatErrsWasReceived) {
   // 4 % of the speed and 1 degree/s off, which the SLAM does not know, and 2 s without a hit.
   double nees = 0.0;
   const std::vector<Twist2> errors = {

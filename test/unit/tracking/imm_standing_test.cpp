@@ -90,5 +90,80 @@ TEST(Standing, SwitchedOffItHasNoProbability) {
   }
 }
 
+TEST(Standing, AMeasuredVelocityTellsAWalkerFromWhatStands) {
+  const ImmOptions options;
+  for (const double speed : {0.0, 1.4}) {
+    ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
+    const MeasuredVelocity measured{{speed, 0.0}, 0.04 * Eigen::Matrix2d::Identity()};
+    const double expected = filter.logLikelihood(measured);
+    EXPECT_EQ(filter.update(measured, options.outlier_probability), expected);
+    filter.predict(immStep(options, kPeriod));
+    filter.update(measured, options.outlier_probability);
+    EXPECT_NEAR(filter.estimate().mean[2], speed, 0.2);
+    EXPECT_EQ(filter.modeProbabilities()[kStanding] > 0.5, speed == 0.0);
+  }
+}
+
+TEST(Standing, BetweenSureAndUnknownAMeasuredStandstillTellsTheLessTheLessSureItIs) {
+  const ImmOptions options;
+  ImmFilter before(startAt(Point2::Zero()), priorModeProbabilities(options));
+  before.predict(immStep(options, kPeriod));
+  double standing = 1.0;
+  for (const double sigma : {0.1, 0.3, 0.6, 1.0, 2.0, 5.0, 100.0}) {
+    ImmFilter filter = before;
+    filter.update(MeasuredVelocity{{0.0, 0.0}, sigma * sigma * Eigen::Matrix2d::Identity()},
+                  options.outlier_probability);
+    EXPECT_LT(filter.modeProbabilities()[kStanding], standing) << sigma;
+    standing = filter.modeProbabilities()[kStanding];
+    EXPECT_GT(standing, before.modeProbabilities()[kStanding]) << sigma;
+  }
+  EXPECT_NEAR(standing, before.modeProbabilities()[kStanding], 5e-3) << "it tells nothing";
+}
+
+TEST(Standing, HowManyOfAModeStopIsByItsVelocity) {
+  const ImmOptions options;
+  const ImmStep step = immStep(options, kPeriod);
+  const ModeVector prior = priorModeProbabilities(options);
+  const auto standingAt = [&](double speed, double sigma) {
+    StateEstimate start = startAt(Point2::Zero());
+    start.mean[2] = speed;
+    start.covariance.block<2, 2>(2, 2) = sigma * sigma * Eigen::Matrix2d::Identity();
+    ImmFilter filter(start, prior);
+    filter.predict(step);
+    return filter.modeProbabilities()[kStanding];
+  };
+  const double stays = prior[kStanding] * step.transition(kStanding, kStanding);
+  const double stops = prior.dot(step.transition.col(kStanding)) - stays;
+  // All modes have one velocity: the mean of exp(-v^2 / (2 s^2)) over it, in both components.
+  const double s = step.stop_variance;
+  const double slow = s / (s + 0.04);
+  EXPECT_NEAR(standingAt(0.0, 0.2), stays + stops * slow, 1e-12);
+  EXPECT_NEAR(standingAt(3.0, 0.2), stays + stops * slow * std::exp(-4.5 / (s + 0.04)), 1e-12);
+  EXPECT_NEAR(standingAt(3.0, 2.0), stays + stops * s / (s + 4.0) * std::exp(-4.5 / (s + 4.0)),
+              1e-12);
+}
+
+TEST(Standing, WhatIsFastDoesNotStandInTheNextScan) {
+  ImmFilter filter = follow([](double t) { return Point2(8.0 * t, 1.2 * t); }, 3.0);
+  // Of a parked car beside it: the speed along the line of sight is vague, that across is not.
+  const Eigen::Vector2d variance(13.7, 0.09);
+  const MeasuredVelocity of_another{{1.7, 0.0}, variance.asDiagonal()};
+  filter.predict(immStep(ImmOptions(), kPeriod));
+  filter.update(of_another, ImmOptions().outlier_probability);
+  EXPECT_LT(filter.modeProbabilities()[kStanding], 0.1);
+  EXPECT_GT(filter.estimate().mean[2], 6.0);
+}
+
+TEST(Standing, WhatBrakesToAStopStands) {
+  constexpr double kDeceleration = 4.0;  // m/s^2
+  constexpr double kStopTime = 2.0;      // s
+  const auto braking = [=](double t) {
+    const double braked = std::min(t, kStopTime);
+    return Point2(kDeceleration * (kStopTime - 0.5 * braked) * braked, 0.0);
+  };
+  EXPECT_LT(follow(braking, 1.5).modeProbabilities()[kStanding], 0.1);
+  EXPECT_GT(follow(braking, kStopTime + 1.0).modeProbabilities()[kStanding], 0.5);
+}
+
 }  // namespace
 }  // namespace datmo::imm_standing_test

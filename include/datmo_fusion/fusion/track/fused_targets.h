@@ -50,9 +50,8 @@ class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
 
-  /// The tracks of the present, one for each group, at `stamp`, `seconds` after the last time; what
-  /// sensors take for a body's center (TrackComparisonOptions::body_std) is in the covariances of
-  /// those of several sources.
+  /// The present tracks, one for each group, at `stamp`, `seconds` after the last time. The
+  /// covariances of those of several sources include TrackComparisonOptions::body_std.
   /// Targets without one are lost: predicted, and forgotten after `memory` s.
   void follow(Stamp stamp, double seconds, std::vector<Track> groups,
               const TrackFuserOptions& options);

@@ -37,7 +37,7 @@ struct StationMessage {
 /// CAM: the station itself, with id 0, as part 0 of what it tracks; CPM: what it perceives, with
 /// its numbers plus one, as the part of its segment's number. Confidences are of 95 %; standard
 /// deviations come of them by the normal distribution, and where they are not available of the
-/// options. Correlations of a CPM are not used. `now`: a CAM's time is told modulo 65.536 s.
+/// options. Correlations of a CPM are not used. `now`: a CAM's time is sent modulo 65.536 s.
 ///
 /// Throws WireError: also for a station that does not know where it is (`no_position`), and for one
 /// that is no vehicle nor person and says nothing else (`no_track`).
