@@ -138,6 +138,7 @@ std::array<double, kMotionModes> averagedModes(const std::vector<Track>& tracks)
 
 ClassProbabilities jointClass(const std::vector<Track>& tracks) {
   std::vector<ClassProbabilities> beliefs;
+  beliefs.reserve(tracks.size());
   for (const Track& track : tracks) {
     beliefs.push_back(track.class_probabilities);
   }
@@ -181,6 +182,7 @@ void addEvidence(Track& whole, const Track& track) {
 Track combined(const std::vector<Track>& tracks, bool contradict, const CrossCovarianceOf& cross,
                const TrackCombinationOptions& options) {
   std::vector<StateEstimate> estimates;
+  estimates.reserve(tracks.size());
   for (const Track& track : tracks) {
     estimates.push_back({track.state, track.covariance});
   }
