@@ -16,6 +16,9 @@ namespace {
 /// rad; with a vaguer heading, what seems to be two sides may be one.
 constexpr double kSureOfCorner = 0.15;
 
+/// rad, the deviation of the heading counts up to this: a side that was seen faces the sensor.
+constexpr double kMaxSlant = 0.3;
+
 constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(side); }
 
 constexpr std::size_t opposite(std::size_t side) { return side ^ 1U; }
@@ -98,7 +101,7 @@ void turnToLongerSide(Object& object) {
 }  // namespace
 
 void setSides(Object& object, const BoxFit& fit, const SideModel& model) {
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(model.max_slant)));
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;

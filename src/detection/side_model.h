@@ -18,9 +18,6 @@ struct SideModel {
   /// Where a side that was seen ends, along a unit vector out of the box, whose direction is known
   /// to `heading_std` (rad); nothing where the end is hidden.
   std::function<std::optional<SurfaceEnd>(const Point2& normal, double heading_std)> end_beyond;
-
-  /// rad, the deviation of the heading counts up to this: a side that was seen faces the sensor.
-  double max_slant = 0.3;
 };
 
 /// Sets the object's box, extended to the ends of the sides that were seen, the variance of each

@@ -9,11 +9,11 @@ void ScanNoveltyOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"correlation_length", "m",
        "that the scanner moves until what two scans see correlates by 1/e: the unevenness "
-       "of curbs and parked cars; 0.1 m is no different"},
+       "of curbs and parked cars"},
       correlation_length, {0.01, 10.0});
   visitor.number({"correlation_time", "s",
-                  "the same of the time between two scans from one position: longer than vehicles "
-                  "take to pass, shorter than they park"},
+                  "the same of the time between two scans from one position: what stands there "
+                  "changes"},
                  correlation_time, {0.1, 1000.0});
 }
 
