@@ -218,6 +218,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/association_scan.cpp
   tracking/beam_positions.cpp
   tracking/box_size.cpp
+  tracking/center_gate.cpp
   tracking/class_by_speed.cpp
   tracking/class_motion.cpp
   tracking/clutter_map.cpp

@@ -25,6 +25,7 @@ Box2 moved(const Pose2& frame, const Box2& box) {
 struct Expected {
   Box2 box;
   double variance;  ///< m^2, of both coordinates together
+  CenterGate gate;
 };
 
 double detectionProbability(const Expected& target, const AssociationScan& scan) {
@@ -50,8 +51,9 @@ class NearObjects {
                                    [](const Point2& point, double min) { return point.x() < min; });
     for (; center != end && center->x() <= position.x() + reach; ++center) {
       const double distance2 = (*center - position).squaredNorm();
-      if (distance2 <= reach * reach) {
-        heap_.emplace_back(distance2, static_cast<std::size_t>(center - scan.centers.begin()));
+      const auto index = static_cast<std::size_t>(center - scan.centers.begin());
+      if (distance2 <= reach * reach && target.gate.mayPass(distance2, scan.bounds[index])) {
+        heap_.emplace_back(distance2, index);
       }
     }
     std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
@@ -104,7 +106,8 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
 
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
                       const AssociationOptions& options) {
-  const Expected expected{target.box(), target.positionCovariance().trace()};
+  const Expected expected{target.box(), target.positionCovariance().trace(),
+                          target.gateOf(options.gate)};
   TargetScores scores;
   scores.detection_probability = detectionProbability(expected, scan);
   const double seen = existence * scores.detection_probability;

@@ -16,14 +16,7 @@ void symmetrize(TrackCovariance& covariance) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
-PositionMeasurement undelayed(PositionMeasurement measured) {
-  measured.delay = 0.0;
-  return measured;
-}
-
 }  // namespace
-
-double Innovation::squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
 
 double Innovation::logLikelihood() const {
   return -0.5 * (squaredDistance() + std::log(covariance.determinant())) - std::log(2.0 * kPi);
@@ -35,19 +28,6 @@ StateEstimate carriedOn(const StateEstimate& estimate, double seconds) {
   result.covariance.topRows<2>() += seconds * result.covariance.middleRows<2>(2);
   result.covariance.leftCols<2>() += seconds * result.covariance.middleCols<2>(2);
   return result;
-}
-
-Innovation innovationOf(const StateEstimate& predicted, const PositionMeasurement& measured) {
-  if (measured.delay != 0.0) {
-    return innovationOf(carriedOn(predicted, measured.delay), undelayed(measured));
-  }
-  return {measured.position - predicted.mean.head<2>(),
-          predicted.covariance.topLeftCorner<2, 2>() + measured.covariance};
-}
-
-Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& measured) {
-  return {measured.velocity - predicted.mean.segment<2>(2),
-          predicted.covariance.block<2, 2>(2, 2) + measured.covariance};
 }
 
 // With the position p and the rest r of the state x = (p, r), a motion is x' = F x + noise with
@@ -131,7 +111,7 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured) {
   if (measured.delay != 0.0) {
     const StateEstimate then = carriedOn(predicted, measured.delay);
-    return carriedOn(update(then, undelayed(measured)), -measured.delay);
+    return carriedOn(update(then, PositionMeasurement{measured.position, measured.covariance, 0.0}), -measured.delay);
   }
   const Innovation innovation = innovationOf(predicted, measured);
   const Eigen::Matrix2d weight = innovation.covariance.inverse();

@@ -161,6 +161,11 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
           object.position_covariance + alongAxes(seen_axes, variance), object.delay};
 }
 
+CenterGate TrackedBox::gateOf(const Eigen::Matrix2d& covariance, double gate) const {
+  return {gate, maxVariance(covariance), size_.mean().norm(), anchor_share_.cwiseAbs().maxCoeff(),
+          size_.variance().maxCoeff()};
+}
+
 Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
   const SeenBox seen = seenFrom(heading_, object);
   const Eigen::Vector2d share = sharesOf(seen, size_, anchor_share_);

@@ -7,6 +7,7 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/center_gate.h"
 #include "datmo_fusion/tracking/clutter_map.h"
 #include "datmo_fusion/tracking/transition_model.h"
 #include "datmo_fusion/visibility/visibility.h"
@@ -28,6 +29,7 @@ struct AssociationScan {
   /// First the objects by themselves, by rising x of their centers; then what else they may be.
   std::vector<Observation> observations;
   std::vector<Point2> centers;      ///< of the objects by themselves: to look through many of them
+  std::vector<CenterBound> bounds;  ///< of the same
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
   double noise = 0.0;               ///< m, largest standard deviation of position and sides

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
@@ -33,14 +34,27 @@ struct Innovation {
   Eigen::Matrix2d covariance;  ///< of the residual
 
   /// Mahalanobis distance squared; chi-square with two degrees of freedom where the models hold.
-  double squaredDistance() const;
+  double squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
 
   /// Logarithm of the normal density of the residual, of 1/m^2 or 1/(m/s)^2.
   double logLikelihood() const;
 };
 
-Innovation innovationOf(const StateEstimate& predicted, const PositionMeasurement& measured);
-Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& measured);
+// In line, as an association asks for many of them.
+inline Innovation innovationOf(const StateEstimate& predicted,
+                               const PositionMeasurement& measured) {
+  if (measured.delay != 0.0) {
+    return innovationOf(carriedOn(predicted, measured.delay),
+                        PositionMeasurement{measured.position, measured.covariance, 0.0});
+  }
+  return {measured.position - predicted.mean.head<2>(),
+          predicted.covariance.topLeftCorner<2, 2>() + measured.covariance};
+}
+
+inline Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& measured) {
+  return {measured.velocity - predicted.mean.segment<2>(2),
+          predicted.covariance.block<2, 2>(2, 2) + measured.covariance};
+}
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
 

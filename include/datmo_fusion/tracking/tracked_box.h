@@ -6,6 +6,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/box_size.h"
+#include "datmo_fusion/tracking/center_gate.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
@@ -44,6 +45,9 @@ class TrackedBox {
   /// has what differs from scan to scan; where the sides seen are not those of the last time, also
   /// what the unknown size makes of that.
   PositionMeasurement measurementOf(const Object& object) const;
+
+  /// Of a center with this covariance (m^2), as far as `gate` (Mahalanobis distance squared).
+  CenterGate gateOf(const Eigen::Matrix2d& covariance, double gate) const;
 
   /// Takes in the size, class and heading of an object, `seconds` >= 0 after the last one. Returns
   /// by how much the center moves (m, fixed frame), because size or heading are known better now

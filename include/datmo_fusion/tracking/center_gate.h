@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/object.h"
+
+namespace datmo {
+
+/// How far from the middle of an object any target may measure its center by it, and how surely, at
+/// most: what is known of the object alone, once for all targets.
+struct CenterBound {
+  explicit CenterBound(const Object& object);
+
+  double diagonal;  ///< m
+  double share;     ///< 0 to 0.5, by which the centers lie apart: of the sizes of object and target
+  /// m^2, in any direction, but for what the size of the target adds; infinite for an object with a
+  /// delay, which lies elsewhere by the velocity.
+  double variance;
+  bool hides_side;  ///< a side was not seen
+};
+
+/// The gate of one target, by bounds alone: most objects that are near enough to be looked at are
+/// far outside of it, and what a target measures by an object takes long to work out.
+struct CenterGate {
+  double gate;           ///< largest Mahalanobis distance squared
+  double variance;       ///< m^2, of the estimate, in any direction
+  double diagonal;       ///< m, of the box
+  double share;          ///< 0 to 0.5, largest anchor share
+  double size_variance;  ///< m^2, of length or width
+
+  /// Whether TrackedBox::measurementOf() an object may be within the gate, whose middle lies at
+  /// this distance squared (m^2) from the estimate. Never wrong where it says no.
+  bool mayPass(double distance2, const CenterBound& object) const;
+};
+
+/// Largest variance in any direction.
+double maxVariance(const Eigen::Matrix2d& covariance);
+
+}  // namespace datmo

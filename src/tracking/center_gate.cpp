@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/tracking/center_gate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "datmo_fusion/common/square.h"
+
+namespace datmo {
+
+namespace {
+
+/// More than what distances (m) and, as a share, variances are rounded by.
+constexpr double kRoundedDistance = 1e-6;
+constexpr double kRoundedShare = 1e-9;
+
+/// What the sides along one axis bound. See measured() in tracked_box.cpp.
+void addAxis(double one, double opposite, CenterBound& bound) {
+  if (std::isfinite(one) && std::isfinite(opposite)) {
+    const double sum = one + opposite;
+    bound.share = std::max(bound.share, sum > 0.0 ? 0.5 * std::abs(one - opposite) / sum : 0.0);
+  } else {
+    bound.share = 0.5;
+    bound.hides_side = true;
+  }
+}
+
+}  // namespace
+
+double maxVariance(const Eigen::Matrix2d& covariance) {
+  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return 0.5 * covariance.trace() +
+         std::sqrt(square(half_difference) + square(covariance(0, 1)));
+}
+
+CenterBound::CenterBound(const Object& object)
+    : diagonal(std::hypot(object.box.length, object.box.width)), share(0.0), hides_side(false) {
+  const auto& sides = object.side_variance;
+  addAxis(sides[static_cast<std::size_t>(BoxSide::kFront)],
+          sides[static_cast<std::size_t>(BoxSide::kRear)], *this);
+  addAxis(sides[static_cast<std::size_t>(BoxSide::kLeft)],
+          sides[static_cast<std::size_t>(BoxSide::kRight)], *this);
+  double of_side = 0.0;
+  for (const double side : sides) {
+    of_side = std::isfinite(side) ? std::max(of_side, side) : of_side;
+  }
+  variance = object.delay == 0.0 ? maxVariance(object.position_covariance) + of_side
+                                 : std::numeric_limits<double>::infinity();
+}
+
+bool CenterGate::mayPass(double distance2, const CenterBound& object) const {
+  double total = variance + object.variance + square(share + object.share) * size_variance;
+  if (object.hides_side) {  // of opposite ones perhaps both
+    total += kUniformVariance * (square(diagonal) + size_variance);
+  }
+  const double apart = object.share * (diagonal + object.diagonal) + kRoundedDistance;
+  const double reach = apart + std::sqrt(gate * total) * (1.0 + kRoundedShare);
+  return !(distance2 > square(reach));
+}
+
+}  // namespace datmo
