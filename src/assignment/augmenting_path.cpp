@@ -41,7 +41,7 @@ AugmentingPath::AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_re
 }
 
 void AugmentingPath::add(int row, PricedAssignment& assignment) {
-  assignment.open_rows.push_back(row);
+  assignment.open(row);
   run({row, costs_.row(row), kUnassigned}, assignment);
 }
 
@@ -169,7 +169,7 @@ void AugmentingPath::reach(int column, double distance, int from) {
 /// Shortens the paths to all open columns, and to the void, by those over this row.
 void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
                               const PricedAssignment& assignment) {
-  const PossibleColumns columns = costs_.possible(row);
+  const Possible columns = costs_.possible(row);
   work_ += columns.size();
   const double offset = distance - assignment.row_price[row];
   for (const int column : columns) {

@@ -2,12 +2,16 @@
 #include "priced_assignment.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace datmo {
 
 namespace {
+
+/// Columns that a row may have in most problems; memory for more is taken when needed.
+constexpr int kUsualColumns = 4;
 
 double minOut(int row, const RowCost& row_cost, const AssignmentCosts& costs,
               const PricedAssignment& assignment) {
@@ -21,11 +25,11 @@ double minOut(int row, const RowCost& row_cost, const AssignmentCosts& costs,
 }
 
 /// From the void, where the column may stay, or from another open row.
-double minIntoColumn(int column, int row, const AssignmentCosts& costs,
+double minIntoColumn(int column, int row, const AssignmentCosts& costs, const RowsOfColumns& rows,
                      const PricedAssignment& assignment) {
   double min = 0.0;
-  for (const int other : assignment.open_rows) {
-    if (other != row) {
+  for (const int other : rows.possible(column)) {
+    if (other != row && assignment.is_open[other] != 0) {
       min = std::min(min, costs.pairs(other, column) - assignment.row_price[other]);
     }
   }
@@ -55,7 +59,7 @@ AssignmentCosts::AssignmentCosts(const CostMatrix& all_pairs,
                                  std::pmr::memory_resource* memory)
     : pairs(all_pairs), unassigned(unassigned_cost), columns_(memory), first_(memory) {
   first_.reserve(rows() + 1);
-  columns_.reserve((pairs.array() < kForbidden).count());
+  columns_.reserve(std::min<std::ptrdiff_t>(pairs.size(), std::ptrdiff_t{kUsualColumns} * rows()));
   for (int row = 0; row < rows(); ++row) {
     first_.push_back(static_cast<int>(columns_.size()));
     const double* cost = pairs.row(row).data();
@@ -68,20 +72,49 @@ AssignmentCosts::AssignmentCosts(const CostMatrix& all_pairs,
   first_.push_back(static_cast<int>(columns_.size()));
 }
 
+RowsOfColumns::RowsOfColumns(const AssignmentCosts& costs, std::pmr::memory_resource* memory)
+    : rows_(memory), first_(costs.columns() + 2, 0, memory) {
+  for (int row = 0; row < costs.rows(); ++row) {
+    for (const int column : costs.possible(row)) {
+      ++first_[column + 2];
+    }
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  rows_.resize(first_.back());
+  for (int row = 0; row < costs.rows(); ++row) {
+    for (const int column : costs.possible(row)) {
+      rows_[first_[column + 1]++] = row;  // it was the end of the column before
+    }
+  }
+}
+
 PricedAssignment::PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory)
     : row_price(rows, 0.0, memory),
       column_price(columns, 0.0, memory),
       column_of_row(rows, kUnassigned, memory),
       row_of_column(columns, kUnassigned, memory),
-      open_rows(memory) {
+      open_rows(memory),
+      is_open(rows, 0, memory) {
   open_rows.reserve(rows);
+}
+
+void PricedAssignment::open(int row) {
+  open_rows.push_back(row);
+  is_open[row] = 1;
 }
 
 void PricedAssignment::fix(int row) {
   open_rows.erase(std::find(open_rows.begin(), open_rows.end(), row));
+  is_open[row] = 0;
   if (column_of_row[row] != kUnassigned) {
     row_of_column[column_of_row[row]] = kFixed;
   }
+}
+
+void PricedAssignment::openOnly(const int* begin, const int* end) {
+  open_rows.clear();
+  std::fill(is_open.begin(), is_open.end(), char{0});
+  std::for_each(begin, end, [this](int row) { open(row); });
 }
 
 double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCosts& costs) {
@@ -94,14 +127,14 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
 }
 
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                   const PricedAssignment& assignment) {
+                   const RowsOfColumns& rows, const PricedAssignment& assignment) {
   const double out = minOut(row, row_cost, costs, assignment);
   if (out == kForbidden) {
     return kForbidden;
   }
   const int column = assignment.column_of_row[row];
   const double in = column == kUnassigned ? minIntoVoid(costs, assignment)
-                                          : minIntoColumn(column, row, costs, assignment);
+                                          : minIntoColumn(column, row, costs, rows, assignment);
   return std::max(out + in, 0.0);
 }
 

@@ -15,10 +15,10 @@ struct RowCost {
   double unassigned = 0.0;
 };
 
-/// The columns that a row may have, rising.
-class PossibleColumns {
+/// The columns that a row may have, rising; or the rows that may have a column.
+class Possible {
  public:
-  PossibleColumns(const int* begin, const int* end) : begin_(begin), end_(end) {}
+  Possible(const int* begin, const int* end) : begin_(begin), end_(end) {}
   const int* begin() const { return begin_; }
   const int* end() const { return end_; }
   std::ptrdiff_t size() const { return end_ - begin_; }
@@ -43,13 +43,27 @@ class AssignmentCosts {
   RowCost row(int row) const { return {pairs.row(row).data(), unassigned[row]}; }
 
   /// Columns that a row may have.
-  PossibleColumns possible(int row) const {
+  Possible possible(int row) const {
     return {columns_.data() + first_[row], columns_.data() + first_[row + 1]};
   }
 
  private:
   std::pmr::vector<int> columns_;  ///< row after row
   std::pmr::vector<int> first_;    ///< of each row, and the end
+};
+
+/// The rows that may have each column: of those that are possible at all, in most problems few.
+class RowsOfColumns {
+ public:
+  RowsOfColumns(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
+
+  Possible possible(int column) const {
+    return {rows_.data() + first_[column], rows_.data() + first_[column + 1]};
+  }
+
+ private:
+  std::pmr::vector<int> rows_;   ///< column after column
+  std::pmr::vector<int> first_;  ///< of each column, and the end
 };
 
 /// In place of the row that has a column.
@@ -67,14 +81,21 @@ struct PricedAssignment {
   /// Nothing assigned, all prices 0, no row open.
   PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory);
 
+  /// A row may get another column.
+  void open(int row);
+
   /// A row keeps what it has.
   void fix(int row);
+
+  /// These rows are open, and no others.
+  void openOnly(const int* begin, const int* end);
 
   std::pmr::vector<double> row_price;
   std::pmr::vector<double> column_price;
   std::pmr::vector<int> column_of_row;
   std::pmr::vector<int> row_of_column;  ///< kUnassigned: free; kFixed: of a row that keeps it
   std::pmr::vector<int> open_rows;      ///< that may get another column
+  std::pmr::vector<char> is_open;       ///< the same, by row
 };
 
 /// Sum over all rows.
@@ -84,7 +105,7 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
 /// `row_cost` allows, which is not what it has: the first step of the path to its new column, and
 /// the last one to its old column (AugmentingPath). kForbidden: there is no other column.
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                   const PricedAssignment& assignment);
+                   const RowsOfColumns& rows, const PricedAssignment& assignment);
 
 /// Throws std::invalid_argument where they do not belong together.
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);

@@ -61,6 +61,7 @@ class RankedAssignments::State {
       : memory_(buffer_.data(), buffer_.size()),
         cost_(std::move(cost)),
         unassigned_cost_(std::move(unassigned_cost)),
+        rows_of_columns_(costs_, &memory_),
         max_work_(max_work),
         path_(costs_, &memory_),
         present_(costs_.rows(), costs_.columns(), &memory_),
@@ -103,6 +104,7 @@ class RankedAssignments::State {
   CostMatrix cost_;
   Eigen::VectorXd unassigned_cost_;
   AssignmentCosts costs_{cost_, unassigned_cost_, &memory_};
+  RowsOfColumns rows_of_columns_;
   std::int64_t max_work_;
   std::int64_t own_work_ = 0;  ///< entries that were copied, or looked at for bounds
   bool cut_ = false;
@@ -182,7 +184,7 @@ void RankedAssignments::State::load(int part, int position) {
   std::copy_n(columnsOf(part), rows, present_.column_of_row.begin());
   std::fill(present_.row_of_column.begin(), present_.row_of_column.end(), kUnassigned);
   const int* order = orderOf(parts_[part]);
-  present_.open_rows.assign(order + position, order + rows);
+  present_.openOnly(order + position, order + rows);
   for (int i = 0; i < rows; ++i) {
     const int column = present_.column_of_row[order[i]];
     if (column != kUnassigned) {
@@ -245,14 +247,14 @@ void RankedAssignments::State::search(const Candidate& candidate) {
 /// Of how much dearer the best of a part becomes where this row differs.
 double RankedAssignments::State::bound(int part, int row) {
   own_work_ += costs_.possible(row).size();
-  return minIncrease(row, allowed(part, row), costs_, present_);
+  return minIncrease(row, allowed(part, row), costs_, rows_of_columns_, present_);
 }
 
 /// What a row may have that is to differ from the part's best, and from all that was taken away
 /// from the part before.
 RowCost RankedAssignments::State::allowed(int part, int row) {
   RowCost cost = costs_.row(row);
-  const PossibleColumns possible = costs_.possible(row);
+  const Possible possible = costs_.possible(row);
   own_work_ += possible.size();
   for (const int column : possible) {  // no other one is looked at
     allowed_[column] = cost.columns[column];

@@ -21,12 +21,15 @@ std::array<Point2, 4> Box2::corners() const {
 }
 
 bool Box2::contains(const Point2& point) const {
-  // A quick answer for most points; half of both sides is farther than the corners.
+  // A quick answer for most points: half of both sides is farther than the corners, and half of the
+  // shorter one is nearer than all sides.
+  const double distance2 = (point - center.position()).squaredNorm();
   const double reach = 0.5 * (length + width) + kRounding;
-  if ((point - center.position()).squaredNorm() > reach * reach) {
+  const double inside = 0.5 * std::min(length, width) - kRounding;
+  if (distance2 > reach * reach) {
     return false;
   }
-  return distanceTo(point) == 0.0;
+  return (inside > 0.0 && distance2 < inside * inside) || distanceTo(point) == 0.0;
 }
 
 double Box2::distanceTo(const Point2& point) const {

@@ -105,10 +105,11 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
 }
 
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
-                      const AssociationOptions& options) {
+                      const AssociationOptions& options, TargetScores memory) {
   const Expected expected{target.box(), target.positionCovariance().trace(),
                           target.gateOf(options.gate)};
-  TargetScores scores;
+  TargetScores scores = std::move(memory);
+  scores.candidates.clear();
   scores.detection_probability = detectionProbability(expected, scan);
   const double seen = existence * scores.detection_probability;
   scores.missed = std::log1p(-seen);

@@ -69,6 +69,7 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
                        const Visibility& visibility, const ClutterMap& clutter,
                        const ScanIntakeOptions& options, ScanIntakeCounts& counts) {
   std::vector<Entry> entries;
+  entries.reserve(objects.size());
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Object object = transformed(base_in_fixed, objects[i]);
     if (isValid(object)) {
@@ -83,13 +84,24 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
     entries.resize(max);
   }
   counts.accepted += entries.size();
-  std::sort(entries.begin(), entries.end(), isLeft);
+  std::vector<Entry*> from_left;  // objects are large, and stay where they are
+  from_left.reserve(entries.size());
+  for (Entry& entry : entries) {
+    from_left.push_back(&entry);
+  }
+  std::sort(from_left.begin(), from_left.end(),
+            [](const Entry* a, const Entry* b) { return isLeft(*a, *b); });
 
   AssociationScan scan;
+  scan.observations.reserve(entries.size());
+  scan.centers.reserve(entries.size());
+  scan.bounds.reserve(entries.size());
+  scan.listed.reserve(entries.size());
   scan.objects = entries.size();
   scan.visibility = &visibility;
   scan.fixed_in_base = base_in_fixed.inverse();
-  for (Entry& entry : entries) {
+  for (Entry* const next : from_left) {
+    Entry& entry = *next;
     const Box2& box = entry.object.box;
     scan.noise = std::max(scan.noise, std::sqrt(variance(entry.object)));
     scan.extent = std::max(scan.extent, std::hypot(box.length, box.width));

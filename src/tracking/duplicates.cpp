@@ -49,10 +49,7 @@ bool isPartOf(const BoxedTarget& part, const BoxedTarget& whole, const Duplicate
 bool reaches(Box2 box, const Box2& other, double scale) {
   box.length *= scale;
   box.width *= scale;
-  const Point2& point = other.center.position();
-  const double diagonal = box.length + box.width;  // at least: a quick answer for most pairs
-  return (point - box.center.position()).squaredNorm() <= diagonal * diagonal &&
-         box.contains(point);
+  return box.contains(other.center.position());
 }
 
 void DuplicateOptions::visit(OptionVisitor& visitor) {
@@ -66,12 +63,15 @@ void DuplicateOptions::visit(OptionVisitor& visitor) {
                  velocity_gate, {0.0, 1000.0});
 }
 
-std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets,
-                                       const DuplicateOptions& options) {
+std::vector<std::uint64_t> findDuplicates(const std::vector<BestTarget>& targets,
+                                          const DuplicateOptions& options) {
   std::vector<BoxedTarget> all;
   std::vector<BoxedTarget> confirmed;
+  all.reserve(targets.size());
+  confirmed.reserve(targets.size());
   double max_reach = 0.0;
-  for (const Target* target : targets) {
+  for (const BestTarget& best : targets) {
+    const Target* target = best.target;
     const Box2 box = target->box();
     if (!(std::isfinite(box.center.x()) && std::isfinite(box.center.y()))) {
       continue;  // it is lost, and has no place in an order
@@ -83,7 +83,7 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
     }
   }
   std::sort(confirmed.begin(), confirmed.end(), hasLowerX);
-  std::set<std::uint64_t> result;
+  std::vector<std::uint64_t> result;
   for (const BoxedTarget& part : all) {
     const double reach = std::max(max_reach, part.reach);
     const double x = part.box.center.x();
@@ -93,7 +93,7 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
     for (auto whole = begin; whole != confirmed.end() && whole->box.center.x() <= x + reach;
          ++whole) {
       if (isPartOf(part, *whole, options)) {
-        result.insert(part.target->number());
+        result.push_back(part.target->number());
         break;
       }
     }

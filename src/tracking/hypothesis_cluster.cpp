@@ -187,11 +187,16 @@ void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Tar
 
 void canonicalize(HypothesisCluster& cluster) { canonicalize(cluster.trees, cluster.hypotheses); }
 
-std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t oldest_scan) {
+void split(HypothesisCluster cluster, std::uint64_t oldest_scan,
+           std::vector<HypothesisCluster>& parts) {
   std::vector<TreeLink>& links = cluster.links;
   links.erase(std::remove_if(links.begin(), links.end(),
                              [&](const TreeLink& link) { return link.scan < oldest_scan; }),
               links.end());
+  if (cluster.trees.size() == 1) {
+    parts.push_back(std::move(cluster));
+    return;
+  }
   // Targets that are gone still link those that are left: they come after these.
   NumberIndex index_of(cluster.trees.size() + 2 * links.size());
   for (const TrackTree& tree : cluster.trees) {
@@ -205,22 +210,20 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
   for (const TreeLink& link : links) {
     groups.join(index_of[link.first], index_of[link.second]);
   }
-  std::vector<HypothesisCluster> result;
   for (std::vector<std::size_t>& group : groups.sets()) {
     const std::size_t first = group.front();
     group.erase(std::lower_bound(group.begin(), group.end(), cluster.trees.size()), group.end());
     if (group.size() == cluster.trees.size() && !group.empty()) {
-      result.push_back(std::move(cluster));  // no list in braces: it would be copied
-      return result;
+      parts.push_back(std::move(cluster));
+      return;
     }
     if (group.empty()) {
       continue;
     }
-    result.push_back(part(cluster, group));
-    std::copy_if(links.begin(), links.end(), std::back_inserter(result.back().links),
+    parts.push_back(part(cluster, group));
+    std::copy_if(links.begin(), links.end(), std::back_inserter(parts.back().links),
                  [&](const TreeLink& link) { return groups.find(index_of[link.first]) == first; });
   }
-  return result;
 }
 
 }  // namespace datmo

@@ -212,7 +212,7 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
 }
 
 double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
-                        const std::vector<double>& speed_stds, double apparent_motion) {
+                        std::initializer_list<double> speed_stds, double apparent_motion) {
   const auto density = [&](double speed_std) {
     const Eigen::Matrix2d total = covariance + square(speed_std) * Eigen::Matrix2d::Identity();
     return std::exp(-0.5 * velocity.dot(total.inverse() * velocity)) /

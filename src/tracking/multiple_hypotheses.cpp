@@ -65,7 +65,7 @@ void MultipleHypotheses::predict(double seconds) {
 }
 
 void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
-  best_.reset();
+  best_known_ = false;
   const std::uint64_t hurried = counts_.best_only_steps;
   score(scan);
   mergeCompeting(scan.objects);
@@ -94,7 +94,7 @@ void MultipleHypotheses::score(const AssociationScan& scan) {
     for (TrackTree& tree : cluster.trees) {
       for (Leaf& leaf : tree.leaves) {
         const double existence = leaf.target.existenceProbability(target_options_);
-        leaf.scores = scoresOf(leaf.target, scan, existence, options_);
+        leaf.scores = scoresOf(leaf.target, scan, existence, options_, std::move(leaf.scores));
         leaf.related = relatedObjects(leaf.target, scan, split_merge_);
       }
     }
@@ -117,19 +117,23 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
     }
   }
   const auto max = static_cast<std::size_t>(hypothesis_options_.max_hypotheses);
-  std::vector<HypothesisCluster> result;
-  result.reserve(clusters_.size());
-  for (const std::vector<std::size_t>& group : groups.sets()) {
-    HypothesisCluster cluster = std::move(clusters_[group.front()]);
+  for (const std::vector<std::size_t>& group : groups.sets(2)) {
+    HypothesisCluster& all = clusters_[group.front()];
     for (std::size_t i = 1; i < group.size(); ++i) {
-      cluster = merge(std::move(cluster), std::move(clusters_[group[i]]), max);
+      HypothesisCluster& other = clusters_[group[i]];
+      all = merge(std::move(all), std::move(other), max);
+      other.trees.clear();
     }
-    if (group.size() > 1) {
-      cluster.objects = candidateObjects(cluster);  // leaves may be gone
-    }
-    result.push_back(std::move(cluster));
+    all.objects = candidateObjects(all);  // leaves may be gone
   }
-  clusters_ = std::move(result);
+  removeEmpty();
+}
+
+void MultipleHypotheses::removeEmpty() {
+  clusters_.erase(
+      std::remove_if(clusters_.begin(), clusters_.end(),
+                     [](const HypothesisCluster& cluster) { return cluster.trees.empty(); }),
+      clusters_.end());
 }
 
 void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationScan& scan,
@@ -156,9 +160,7 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
   const auto history = static_cast<std::uint64_t>(hypothesis_options_.scan_history);
   const std::uint64_t open = decided ? 0 : history;  // scans of which something is left to decide
   const std::uint64_t oldest = scan_number_ + 1 > open ? scan_number_ + 1 - open : 0;
-  for (HypothesisCluster& part : split(std::move(whole), oldest)) {
-    next.push_back(std::move(part));
-  }
+  split(std::move(whole), oldest, next);
 }
 
 /// As expand() and split() would make it.
@@ -183,33 +185,32 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
       continue;
     }
     --room_;
-    Leaf leaf{Target(observation.object, object, next_number_ + object, target_options_,
-                     scan.transitionsOf(observation.object.object_class)),
-              {},
-              {},
-              {}};
-    leaf.nodes.front() = next_node_++;
     TrackTree tree;
-    tree.leaves.push_back(std::move(leaf));
+    tree.leaves.push_back({Target(observation.object, object, next_number_ + object,
+                                  target_options_,
+                                  scan.transitionsOf(observation.object.object_class)),
+                           {next_node_++},
+                           {},
+                           {}});
     next.push_back(singleTarget(std::move(tree)));
   }
 }
 
-std::vector<BestTarget> MultipleHypotheses::best() const {
-  if (!best_) {
-    best_ = findBest();
+const std::vector<BestTarget>& MultipleHypotheses::best() const {
+  if (!best_known_) {
+    findBest();
+    best_known_ = true;
   }
-  return *best_;
+  return best_;
 }
 
-std::vector<BestTarget> MultipleHypotheses::findBest() const {
-  std::vector<BestTarget> result;
-  result.reserve(targets());
+void MultipleHypotheses::findBest() const {
+  best_.clear();
   for (const HypothesisCluster& cluster : clusters_) {
     if (cluster.hypotheses.size() == 1) {
       for (const TrackTree& tree : cluster.trees) {
         assert(tree.leaves.size() == 1);
-        result.push_back({&tree.leaves.front().target, 1.0});
+        best_.push_back({&tree.leaves.front().target, 1.0});
       }
       continue;
     }
@@ -223,14 +224,13 @@ std::vector<BestTarget> MultipleHypotheses::findBest() const {
       for (std::size_t i = 0; i < probabilities.size(); ++i) {
         present += cluster.hypotheses[i].leaf_of_tree[tree] == kAbsent ? 0.0 : probabilities[i];
       }
-      result.push_back(
+      best_.push_back(
           {&cluster.trees[tree].leaves[static_cast<std::size_t>(leaf)].target, present});
     }
   }
-  std::sort(result.begin(), result.end(), [](const BestTarget& a, const BestTarget& b) {
+  std::sort(best_.begin(), best_.end(), [](const BestTarget& a, const BestTarget& b) {
     return a.target->number() < b.target->number();
   });
-  return result;
 }
 
 void MultipleHypotheses::change(std::uint64_t number, const std::function<void(Target&)>& change) {
@@ -259,11 +259,8 @@ void MultipleHypotheses::removeIf(const std::function<bool(const Target&)>& isLo
   if (!any) {
     return;
   }
-  best_.reset();
-  clusters_.erase(
-      std::remove_if(clusters_.begin(), clusters_.end(),
-                     [](const HypothesisCluster& cluster) { return cluster.trees.empty(); }),
-      clusters_.end());
+  best_known_ = false;
+  removeEmpty();
 }
 
 std::size_t MultipleHypotheses::targets() const {

@@ -20,17 +20,16 @@ void NearestNeighborTargets::predict(double seconds) {
 }
 
 void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
-  std::vector<TargetScores> scores;
-  scores.reserve(targets_.size());
-  for (const std::unique_ptr<Target>& target : targets_) {
-    scores.push_back(
-        scoresOf(*target, scan, target->existenceProbability(target_options_), options_));
+  scores_.resize(targets_.size());
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    scores_[i] = scoresOf(*targets_[i], scan, targets_[i]->existenceProbability(target_options_),
+                          options_, std::move(scores_[i]));
   }
-  const std::vector<int> object_of_target = assign(scores, scan.objects);
+  const std::vector<int> object_of_target = assign(scores_, scan.objects);
 
   std::vector<bool> explained(scan.objects, false);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const double seen = scores[i].detection_probability;
+    const double seen = scores_[i].detection_probability;
     if (object_of_target[i] == kUnassigned) {
       targets_[i]->miss(seen, target_options_);
       continue;
@@ -54,10 +53,7 @@ std::vector<int> NearestNeighborTargets::assign(const std::vector<TargetScores>&
   std::vector<int> object_of_target(scores.size(), kUnassigned);
   std::int64_t work = options_.max_work;
   bool cut = false;
-  for (const std::vector<std::size_t>& group : groups.sets()) {
-    if (group.size() == 1) {
-      continue;
-    }
+  for (const std::vector<std::size_t>& group : groups.sets(2)) {
     const auto rows = std::lower_bound(group.begin(), group.end(), scores.size()) - group.begin();
     const auto columns = static_cast<std::ptrdiff_t>(group.size()) - rows;
     CostMatrix costs(rows, columns);
@@ -103,13 +99,12 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
   }
 }
 
-std::vector<BestTarget> NearestNeighborTargets::best() const {
-  std::vector<BestTarget> result;
-  result.reserve(targets_.size());
+const std::vector<BestTarget>& NearestNeighborTargets::best() const {
+  best_.clear();
   for (const std::unique_ptr<Target>& target : targets_) {
-    result.push_back({target.get(), 1.0});
+    best_.push_back({target.get(), 1.0});
   }
-  return result;
+  return best_;
 }
 
 void NearestNeighborTargets::change(std::uint64_t number,

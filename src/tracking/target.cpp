@@ -32,10 +32,10 @@ constexpr double kEven = 0.5;
 /// Logarithm of how much likelier a velocity is for what moves than for what stands.
 double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         double false_motion, const TargetOptions& options) {
-  const std::vector<double> speed_stds{options.class_by_speed.pedestrian.componentStd(),
-                                       options.class_by_speed.cyclist.componentStd(),
-                                       options.birth_speed_std};
-  return velocityLogRatio(velocity, covariance, speed_stds, false_motion);
+  return velocityLogRatio(velocity, covariance,
+                          {options.class_by_speed.pedestrian.componentStd(),
+                           options.class_by_speed.cyclist.componentStd(), options.birth_speed_std},
+                          false_motion);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -88,23 +87,22 @@ void Tracker::reset() {
 }
 
 void Tracker::removeDuplicates() {
-  std::vector<const Target*> targets;
-  for (const BestTarget& best : targets_->best()) {
-    targets.push_back(best.target);
-  }
-  const std::set<std::uint64_t> duplicates = findDuplicates(targets, options_.duplicates);
+  const std::vector<std::uint64_t> duplicates =
+      findDuplicates(targets_->best(), options_.duplicates);
   counts_.merged_tracks += duplicates.size();
   remove(duplicates);
 }
 
-void Tracker::remove(const std::set<std::uint64_t>& numbers) {
+void Tracker::remove(const std::vector<std::uint64_t>& numbers) {
   if (!numbers.empty()) {
-    targets_->removeIf([&](const Target& target) { return numbers.count(target.number()) > 0; });
+    targets_->removeIf([&](const Target& target) {
+      return std::binary_search(numbers.begin(), numbers.end(), target.number());
+    });
   }
 }
 
 void Tracker::makeRoom(std::size_t objects, double seconds) {
-  const std::vector<BestTarget> all = targets_->best();
+  const std::vector<BestTarget>& all = targets_->best();
   const auto max = static_cast<std::size_t>(options_.gating.max_targets);
   if (all.size() + objects <= max) {
     return;
@@ -121,10 +119,12 @@ void Tracker::makeRoom(std::size_t objects, double seconds) {
            std::make_tuple(existence(*b), b->hits(), b->number());
   });
   unlikely.resize(std::min(unlikely.size(), all.size() + objects - max));
-  std::set<std::uint64_t> numbers;
+  std::vector<std::uint64_t> numbers;
+  numbers.reserve(unlikely.size());
   for (const Target* target : unlikely) {
-    numbers.insert(target->number());
+    numbers.push_back(target->number());
   }
+  std::sort(numbers.begin(), numbers.end());
   counts_.evicted_targets += numbers.size();
   remove(numbers);
 }

@@ -38,6 +38,7 @@ void SeenPointHistory::add(const Object& object, double scan_time, double memory
     const std::size_t index = taken == 1 ? 0 : i * (size - 1) / (taken - 1);
     seen.points.push_back({object.points[index], directionAt(object.points, index)});
   }
+  seen_.reserve(kMaxScans + 1);
   seen_.push_back(std::make_shared<const SeenPoints>(std::move(seen)));
   const auto recent = std::find_if(seen_.begin(), seen_.end(),
                                    [&](const auto& scan) { return scan->time >= time - memory; });

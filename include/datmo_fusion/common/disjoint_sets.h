@@ -34,8 +34,8 @@ class DisjointSets {
     }
   }
 
-  /// The members of each group, rising; groups by their least member.
-  std::vector<std::vector<std::size_t>> sets() {
+  /// The members of each group of at least `min_size`, rising; groups by their least member.
+  std::vector<std::vector<std::size_t>> sets(std::size_t min_size = 1) {
     std::vector<std::size_t> sizes(parent_.size());  // where the least member is known
     for (std::size_t member = 0; member < parent_.size(); ++member) {
       ++sizes[find(member)];
@@ -44,6 +44,9 @@ class DisjointSets {
     std::vector<std::size_t> group_of(parent_.size());  // where the least member is known
     for (std::size_t member = 0; member < parent_.size(); ++member) {
       const std::size_t least = find(member);
+      if (sizes[least] < min_size) {
+        continue;
+      }
       if (least == member) {
         group_of[member] = result.size();
         result.emplace_back().reserve(sizes[member]);

@@ -43,8 +43,10 @@ struct TargetScores {
 /// Thesis 3.3.4 ignores all pairs of different classes. Here those that are surely different are no
 /// candidates, and of others the probability that they differ counts against them: so a class that
 /// the sensor mistakes for another now and then does not break a track.
+///
+/// `memory`: scores that are of no use any more, to go without new memory.
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
-                      const AssociationOptions& options);
+                      const AssociationOptions& options, TargetScores memory = {});
 
 /// Adds an observation to the candidates if it is within the target's gate.
 void addCandidate(const Target& target, const AssociationScan& scan, std::size_t observation,

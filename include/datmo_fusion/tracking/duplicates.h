@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "datmo_fusion/common/box2.h"
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/tracking/target.h"
+#include "datmo_fusion/tracking/target_set.h"
 
 namespace datmo {
 
@@ -21,13 +20,13 @@ struct DuplicateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Numbers of the targets that follow another part of an object that a confirmed one follows
+/// Numbers, rising, of the targets that follow another part of an object that a confirmed one follows
 /// already: those at the same position, within the size of their boxes, whose velocity does not
 /// differ significantly. Of two confirmed ones the older id stays.
 ///
 /// Split hypotheses explain most parts of a confirmed target; this is for parts that were followed
 /// before it was confirmed.
-std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets,
-                                       const DuplicateOptions& options);
+std::vector<std::uint64_t> findDuplicates(const std::vector<BestTarget>& targets,
+                                          const DuplicateOptions& options);
 
 }  // namespace datmo

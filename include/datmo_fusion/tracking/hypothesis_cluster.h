@@ -47,8 +47,9 @@ void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Tar
 /// cluster may be left without trees.
 void canonicalize(HypothesisCluster& cluster);
 
-/// The groups of targets that have shared no object since `oldest_scan`, not even through one that
-/// is gone, as clusters of their own.
-std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t oldest_scan);
+/// Adds to `parts` the groups of targets that have shared no object since `oldest_scan`, not even
+/// through one that is gone, as clusters of their own.
+void split(HypothesisCluster cluster, std::uint64_t oldest_scan,
+           std::vector<HypothesisCluster>& parts);
 
 }  // namespace datmo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include <Eigen/Core>
@@ -85,7 +86,7 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
 /// inverse. Source: the Bayes factor of nested models, with an outlier component (Kass and Raftery,
 /// Bayes factors, 1995).
 double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
-                        const std::vector<double>& speed_stds, double apparent_motion);
+                        std::initializer_list<double> speed_stds, double apparent_motion);
 
 /// Logarithm of how much likelier all that was observed is for a target that moves than for one
 /// that stands: by its beams and by its velocity. The end of a beam along a wall has an apparent

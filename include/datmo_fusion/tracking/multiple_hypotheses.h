@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
@@ -26,12 +25,12 @@ class MultipleHypotheses : public TargetSet {
 
   void predict(double seconds) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
-  std::vector<BestTarget> best() const override;
+  const std::vector<BestTarget>& best() const override;
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }
   void clear() override {
-    best_.reset();
+    best_known_ = false;
     clusters_.clear();
     counts_ = {};
   }
@@ -39,6 +38,7 @@ class MultipleHypotheses : public TargetSet {
  private:
   void score(const AssociationScan& scan);
   void mergeCompeting(std::size_t objects);
+  void removeEmpty();
   void expandCluster(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,
                      std::vector<HypothesisCluster>& next);
   void missSingle(HypothesisCluster& cluster);
@@ -47,7 +47,7 @@ class MultipleHypotheses : public TargetSet {
   std::size_t targets() const;
   /// The targets of each cluster's best hypothesis, by number. Leaves that are in no hypothesis are
   /// gone (canonicalize): where there is but one hypothesis, each tree has one leaf.
-  std::vector<BestTarget> findBest() const;
+  void findBest() const;
 
   TargetOptions target_options_;
   ImmStepCache steps_;
@@ -55,7 +55,8 @@ class MultipleHypotheses : public TargetSet {
   HypothesisOptions hypothesis_options_;
   SplitMergeOptions split_merge_;
   std::vector<HypothesisCluster> clusters_;
-  mutable std::optional<std::vector<BestTarget>> best_;  ///< none: something has changed
+  mutable std::vector<BestTarget> best_;
+  mutable bool best_known_ = false;  ///< false: something has changed
   std::uint64_t scan_number_ = 0;
   std::uint64_t next_number_ = 1;
   std::uint64_t next_node_ = 1;

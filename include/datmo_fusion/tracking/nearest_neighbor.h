@@ -19,12 +19,13 @@ class NearestNeighborTargets : public TargetSet {
 
   void predict(double seconds) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
-  std::vector<BestTarget> best() const override;
+  const std::vector<BestTarget>& best() const override;
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }
   void clear() override {
     targets_.clear();
+    best_.clear();
     counts_ = {};
   }
 
@@ -40,6 +41,8 @@ class NearestNeighborTargets : public TargetSet {
   ImmStepCache steps_;
   AssociationOptions options_;
   std::vector<std::unique_ptr<Target>> targets_;  ///< by rising number; too large to be moved
+  mutable std::vector<BestTarget> best_;
+  std::vector<TargetScores> scores_;  ///< of the last scan: memory for the next one
   std::uint64_t next_number_ = 1;
   AssociationCounts counts_;
 };

@@ -36,8 +36,8 @@ class TargetSet {
   /// Takes in a scan: targets are updated or missed, and objects of no target start new ones.
   virtual void associate(AssociationScan& scan, const StepBudget& budget) = 0;
 
-  /// Targets of the most likely hypothesis, by rising number.
-  virtual std::vector<BestTarget> best() const = 0;
+  /// Targets of the most likely hypothesis, by rising number; valid until the set changes.
+  virtual const std::vector<BestTarget>& best() const = 0;
 
   /// Applies a change to all hypotheses of the target with this number.
   virtual void change(std::uint64_t number, const std::function<void(Target&)>& change) = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
+#include <vector>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/scan.h"
@@ -69,7 +69,8 @@ class Tracker {
 
  private:
   void removeDuplicates();
-  void remove(const std::set<std::uint64_t>& numbers);
+  /// `numbers`: rising.
+  void remove(const std::vector<std::uint64_t>& numbers);
 
   /// So that new objects are never refused for the sake of old false alarms.
   void makeRoom(std::size_t objects, double seconds);

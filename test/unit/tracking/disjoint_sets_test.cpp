@@ -20,6 +20,7 @@ TEST(DisjointSets, JoinsThroughOthersWhateverTheOrder) {
   groups.join(3, 1);
   groups.join(0, 4);
   EXPECT_EQ(groups.sets(), (Sets{{0, 4}, {1, 3, 5}, {2}}));
+  EXPECT_EQ(groups.sets(3), (Sets{{1, 3, 5}})) << "of three or more";
   EXPECT_EQ(groups.find(5), 1U) << "the least of the group";
 }
 

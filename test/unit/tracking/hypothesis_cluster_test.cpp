@@ -153,10 +153,16 @@ HypothesisCluster threeTargets() {
   return cluster;
 }
 
+std::vector<HypothesisCluster> partsOf(const HypothesisCluster& cluster, std::uint64_t oldest_scan) {
+  std::vector<HypothesisCluster> parts;
+  split(cluster, oldest_scan, parts);
+  return parts;
+}
+
 TEST(HypothesisCluster, SplitsIntoTargetsThatSharedNoObjectOfLate) {
   HypothesisCluster cluster = threeTargets();
   cluster.links = {{10, 1, 2}, {7, 2, 3}};
-  const std::vector<HypothesisCluster> parts = split(cluster, 8);
+  const std::vector<HypothesisCluster> parts = partsOf(cluster, 8);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(numbersOf(parts[0]), (std::vector<std::uint64_t>{1, 2}));
   expectHypotheses(parts[0], {0.7, 0.3}, {{0, 0}, {1, 1}});
@@ -164,13 +170,13 @@ TEST(HypothesisCluster, SplitsIntoTargetsThatSharedNoObjectOfLate) {
   EXPECT_EQ(numbersOf(parts[1]), std::vector<std::uint64_t>{3});
   expectHypotheses(parts[1], {0.6, 0.4}, {{0}, {1}});
   EXPECT_TRUE(parts[1].links.empty());
-  EXPECT_EQ(split(cluster, 7).size(), 1U) << "in the oldest scan that counts";
+  EXPECT_EQ(partsOf(cluster, 7).size(), 1U) << "in the oldest scan that counts";
 }
 
 TEST(HypothesisCluster, TargetsStayLinkedThroughOneThatIsGone) {
   HypothesisCluster cluster = threeTargets();
   cluster.links = {{10, 9, 1}, {10, 9, 3}};
-  const std::vector<HypothesisCluster> parts = split(cluster, 8);
+  const std::vector<HypothesisCluster> parts = partsOf(cluster, 8);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(numbersOf(parts[0]), (std::vector<std::uint64_t>{1, 3}));
   EXPECT_EQ(parts[0].links.size(), 2U);
@@ -180,7 +186,7 @@ TEST(HypothesisCluster, TargetsStayLinkedThroughOneThatIsGone) {
 TEST(HypothesisCluster, NothingIsLeftOfNothing) {
   HypothesisCluster cluster;
   cluster.hypotheses = {hypothesisOf(1.0, {})};
-  EXPECT_TRUE(split(cluster, 0).empty());
+  EXPECT_TRUE(partsOf(cluster, 0).empty());
 }
 
 }  // namespace

@@ -2,14 +2,14 @@
 #include "datmo_fusion/tracking/motion_likelihood.h"
 
 #include <cmath>
-#include <vector>
+#include <initializer_list>
 
 #include <gtest/gtest.h>
 
 namespace datmo::motion_likelihood_test {
 namespace {
 
-const std::vector<double> kSpeeds = {2.0};  // m/s
+constexpr std::initializer_list<double> kSpeeds = {2.0};  // m/s
 constexpr double kApparent = 0.1;
 
 double velocityRatio(double speed, double sigma) {
@@ -36,7 +36,7 @@ TEST(VelocityLogRatio, NoVelocityOutweighsWhatOnlySeemsToMove) {
 
 TEST(VelocityLogRatio, SpeedsOfSeveralKindsAreAMixture) {
   const Eigen::Matrix2d covariance = 0.25 * Eigen::Matrix2d::Identity();
-  const auto ratio = [&](const std::vector<double>& speeds) {
+  const auto ratio = [&](std::initializer_list<double> speeds) {
     return velocityLogRatio({1.4, 0.0}, covariance, speeds, kApparent);
   };
   EXPECT_GT(ratio({1.25}), ratio({1.25, 8.0}));
