@@ -9,6 +9,7 @@
 #include <memory_resource>
 #include <utility>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
@@ -44,15 +45,17 @@ class NearObjects {
     const Box2& box = target.box;
     const Point2& position = box.center.position();
     const double sigma = std::sqrt(target.variance);
-    const double reach =
-        std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
+    const double reach = std::min(
+        std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box),
+        target.gate.reach(scan.bound));
     const auto end = scan.centers.end();
     auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
                                    [](const Point2& point, double min) { return point.x() < min; });
     for (; center != end && center->x() <= position.x() + reach; ++center) {
       const double distance2 = (*center - position).squaredNorm();
       const auto index = static_cast<std::size_t>(center - scan.centers.begin());
-      if (distance2 <= reach * reach && target.gate.mayPass(distance2, scan.bounds[index])) {
+      if (distance2 <= reach * reach &&
+          distance2 <= square(target.gate.reach(scan.bounds[index]))) {
         heap_.emplace_back(distance2, index);
       }
     }

@@ -110,6 +110,7 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
     const bool starts = entry.object.dynamic_state != DynamicState::kStatic;
     scan.centers.push_back(box.center.position());
     scan.bounds.emplace_back(entry.object);
+    scan.bound.widen(scan.bounds.back());
     scan.observations.push_back(
         {std::move(entry.object), {scan.listed.size()}, std::log(density), starts, false});
     scan.listed.push_back(entry.listed);

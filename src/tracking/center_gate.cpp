@@ -36,7 +36,7 @@ double maxVariance(const Eigen::Matrix2d& covariance) {
 }
 
 CenterBound::CenterBound(const Object& object)
-    : diagonal(std::hypot(object.box.length, object.box.width)), share(0.0), hides_side(false) {
+    : diagonal(std::hypot(object.box.length, object.box.width)) {
   const auto& sides = object.side_variance;
   addAxis(sides[static_cast<std::size_t>(BoxSide::kFront)],
           sides[static_cast<std::size_t>(BoxSide::kRear)], *this);
@@ -50,14 +50,20 @@ CenterBound::CenterBound(const Object& object)
                                  : std::numeric_limits<double>::infinity();
 }
 
-bool CenterGate::mayPass(double distance2, const CenterBound& object) const {
+void CenterBound::widen(const CenterBound& other) {
+  diagonal = std::max(diagonal, other.diagonal);
+  share = std::max(share, other.share);
+  variance = std::max(variance, other.variance);
+  hides_side = hides_side || other.hides_side;
+}
+
+double CenterGate::reach(const CenterBound& object) const {
   double total = variance + object.variance + square(share + object.share) * size_variance;
   if (object.hides_side) {  // of opposite ones perhaps both
     total += kUniformVariance * (square(diagonal) + size_variance);
   }
   const double apart = object.share * (diagonal + object.diagonal) + kRoundedDistance;
-  const double reach = apart + std::sqrt(gate * total) * (1.0 + kRoundedShare);
-  return !(distance2 > square(reach));
+  return apart + std::sqrt(gate * total) * (1.0 + kRoundedShare);
 }
 
 }  // namespace datmo

@@ -53,12 +53,15 @@ MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
       hypothesis_options_(hypotheses),
       split_merge_(split_merge) {}
 
-void MultipleHypotheses::predict(double seconds) {
+void MultipleHypotheses::predict(double seconds, const AssociationScan& scan) {
   const ImmSteps& steps = steps_.of(seconds);
   for (HypothesisCluster& cluster : clusters_) {
     for (TrackTree& tree : cluster.trees) {
       for (Leaf& leaf : tree.leaves) {
         leaf.target.predict(seconds, steps, target_options_);
+        const double existence = leaf.target.existenceProbability(target_options_);
+        leaf.scores = scoresOf(leaf.target, scan, existence, options_, std::move(leaf.scores));
+        leaf.related = relatedObjects(leaf.target, scan, split_merge_);
       }
     }
   }
@@ -67,7 +70,6 @@ void MultipleHypotheses::predict(double seconds) {
 void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
   best_known_ = false;
   const std::uint64_t hurried = counts_.best_only_steps;
-  score(scan);
   mergeCompeting(scan.objects);
   const std::size_t followed = targets();
   const auto max = static_cast<std::size_t>(options_.max_targets);
@@ -89,25 +91,13 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
   counts_.best_only_steps = std::min(counts_.best_only_steps, hurried + 1);
 }
 
-void MultipleHypotheses::score(const AssociationScan& scan) {
-  for (HypothesisCluster& cluster : clusters_) {
-    for (TrackTree& tree : cluster.trees) {
-      for (Leaf& leaf : tree.leaves) {
-        const double existence = leaf.target.existenceProbability(target_options_);
-        leaf.scores = scoresOf(leaf.target, scan, existence, options_, std::move(leaf.scores));
-        leaf.related = relatedObjects(leaf.target, scan, split_merge_);
-      }
-    }
-    cluster.objects = candidateObjects(cluster);
-  }
-}
-
 /// Clusters that may have been seen as the same object become one.
 void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   constexpr std::size_t kNobody = kUnseen;
   std::vector<std::size_t> claimer(objects, kNobody);
   DisjointSets groups(clusters_.size());
   for (std::size_t i = 0; i < clusters_.size(); ++i) {
+    clusters_[i].objects = candidateObjects(clusters_[i]);
     for (const std::size_t object : clusters_[i].objects) {
       if (claimer[object] == kNobody) {
         claimer[object] = i;

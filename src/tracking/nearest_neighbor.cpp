@@ -12,56 +12,54 @@ NearestNeighborTargets::NearestNeighborTargets(const TargetOptions& target,
                                                const AssociationOptions& association)
     : target_options_(target), steps_(target.filter), options_(association) {}
 
-void NearestNeighborTargets::predict(double seconds) {
+void NearestNeighborTargets::predict(double seconds, const AssociationScan& scan) {
   const ImmSteps& steps = steps_.of(seconds);
-  for (const std::unique_ptr<Target>& target : targets_) {
-    target->predict(seconds, steps, target_options_);
+  for (ScoredTarget& next : targets_) {
+    Target& target = *next.target;
+    target.predict(seconds, steps, target_options_);
+    next.scores = scoresOf(target, scan, target.existenceProbability(target_options_), options_,
+                           std::move(next.scores));
   }
 }
 
 void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
-  scores_.resize(targets_.size());
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    scores_[i] = scoresOf(*targets_[i], scan, targets_[i]->existenceProbability(target_options_),
-                          options_, std::move(scores_[i]));
-  }
-  const std::vector<int> object_of_target = assign(scores_, scan.objects);
+  const std::vector<int> object_of_target = assign(scan.objects);
 
   std::vector<bool> explained(scan.objects, false);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const double seen = scores_[i].detection_probability;
+    const double seen = targets_[i].scores.detection_probability;
     if (object_of_target[i] == kUnassigned) {
-      targets_[i]->miss(seen, target_options_);
+      targets_[i].target->miss(seen, target_options_);
       continue;
     }
     const auto object = static_cast<std::size_t>(object_of_target[i]);
-    targets_[i]->update(scan.observations[object], object, seen, target_options_);
+    targets_[i].target->update(scan.observations[object], object, seen, target_options_);
     explained[object] = true;
   }
   startTargets(scan, explained);
   next_number_ += scan.objects;
 }
 
-std::vector<int> NearestNeighborTargets::assign(const std::vector<TargetScores>& scores,
-                                                std::size_t objects) {
-  DisjointSets groups(scores.size() + objects);  // first the targets, then the objects
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    for (const Candidate& candidate : scores[i].candidates) {
-      groups.join(i, scores.size() + candidate.observation);
+std::vector<int> NearestNeighborTargets::assign(std::size_t objects) {
+  const std::size_t targets = targets_.size();
+  DisjointSets groups(targets + objects);  // first the targets, then the objects
+  for (std::size_t i = 0; i < targets; ++i) {
+    for (const Candidate& candidate : targets_[i].scores.candidates) {
+      groups.join(i, targets + candidate.observation);
     }
   }
-  std::vector<int> object_of_target(scores.size(), kUnassigned);
+  std::vector<int> object_of_target(targets, kUnassigned);
   std::int64_t work = options_.max_work;
   bool cut = false;
   for (const std::vector<std::size_t>& group : groups.sets(2)) {
-    const auto rows = std::lower_bound(group.begin(), group.end(), scores.size()) - group.begin();
+    const auto rows = std::lower_bound(group.begin(), group.end(), targets) - group.begin();
     const auto columns = static_cast<std::ptrdiff_t>(group.size()) - rows;
     CostMatrix costs(rows, columns);
     costs.setConstant(kForbidden);
     for (std::ptrdiff_t row = 0; row < rows; ++row) {
-      for (const Candidate& candidate : scores[group[static_cast<std::size_t>(row)]].candidates) {
+      for (const Candidate& candidate : targets_[group[static_cast<std::size_t>(row)]].scores.candidates) {
         const auto column = std::lower_bound(group.begin() + rows, group.end(),
-                                             scores.size() + candidate.observation);
+                                             targets + candidate.observation);
         costs(row, column - group.begin() - rows) = -candidate.score;
       }
     }
@@ -73,7 +71,7 @@ std::vector<int> NearestNeighborTargets::assign(const std::vector<TargetScores>&
     for (std::ptrdiff_t row = 0; row < rows; ++row) {
       const int column = assignment.column_of_row[static_cast<std::size_t>(row)];
       if (column != kUnassigned) {
-        const std::size_t object = group[static_cast<std::size_t>(rows + column)] - scores.size();
+        const std::size_t object = group[static_cast<std::size_t>(rows + column)] - targets;
         object_of_target[group[static_cast<std::size_t>(row)]] = static_cast<int>(object);
       }
     }
@@ -94,24 +92,26 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
       continue;
     }
     targets_.push_back(
-        std::make_unique<Target>(observation.object, object, next_number_ + object, target_options_,
-                                 scan.transitionsOf(observation.object.object_class)));
+        {std::make_unique<Target>(observation.object, object, next_number_ + object,
+                                  target_options_,
+                                  scan.transitionsOf(observation.object.object_class)),
+         {}});
   }
 }
 
 const std::vector<BestTarget>& NearestNeighborTargets::best() const {
   best_.clear();
-  for (const std::unique_ptr<Target>& target : targets_) {
-    best_.push_back({target.get(), 1.0});
+  for (const ScoredTarget& next : targets_) {
+    best_.push_back({next.target.get(), 1.0});
   }
   return best_;
 }
 
 void NearestNeighborTargets::change(std::uint64_t number,
                                     const std::function<void(Target&)>& change) {
-  for (const std::unique_ptr<Target>& target : targets_) {
-    if (target->number() == number) {
-      change(*target);
+  for (const ScoredTarget& next : targets_) {
+    if (next.target->number() == number) {
+      change(*next.target);
     }
   }
 }
@@ -119,7 +119,7 @@ void NearestNeighborTargets::change(std::uint64_t number,
 void NearestNeighborTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
   targets_.erase(
       std::remove_if(targets_.begin(), targets_.end(),
-                     [&](const std::unique_ptr<Target>& target) { return isLost(*target); }),
+                     [&](const ScoredTarget& next) { return isLost(*next.target); }),
       targets_.end());
 }
 

@@ -14,10 +14,10 @@ PlannedCluster::PlannedCluster(HypothesisCluster& cluster, const ExpansionContex
       context_(context),
       next_node_(next_node),
       room_(room),
-      counts_(counts),
-      trees_(cluster.trees.size()) {
-  for (std::size_t tree = 0; tree < trees_.size(); ++tree) {
-    trees_[tree].old_tree = tree;
+      counts_(counts) {
+  trees_.reserve(cluster.trees.size());
+  for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
+    trees_.emplace_back(&memory_).old_tree = tree;
   }
 }
 
@@ -62,7 +62,7 @@ HypothesisCluster PlannedCluster::finish() {
 }
 
 int PlannedCluster::find(std::size_t tree, int parent, std::size_t observation) const {
-  const std::vector<PlannedLeaf>& leaves = trees_[tree].leaves;
+  const auto& leaves = trees_[tree].leaves;
   const auto found = std::find_if(leaves.begin(), leaves.end(), [&](const PlannedLeaf& leaf) {
     return leaf.parent == parent && leaf.observation == observation;
   });
@@ -117,7 +117,7 @@ void PlannedCluster::startTarget(std::size_t observation, GlobalHypothesis& chil
   PlannedLeaf leaf{kAbsent, observation, {}};
   leaf.nodes.front() = next_node_++;
   noteUse(observation, context_.first_number + observation);
-  trees_.push_back({kNoTree, {leaf}});
+  trees_.emplace_back(&memory_).leaves.push_back(leaf);
   child.leaf_of_tree.push_back(0);
 }
 

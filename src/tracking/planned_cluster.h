@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory_resource>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,9 +30,14 @@ struct PlannedLeaf {
 };
 
 struct PlannedTree {
+  explicit PlannedTree(std::pmr::memory_resource* memory) : leaves(memory) {}
+
   std::size_t old_tree = kNoTree;  ///< that it continues
-  std::vector<PlannedLeaf> leaves;
+  std::pmr::vector<PlannedLeaf> leaves;
 };
+
+/// Memory of the leaves of most clusters, bytes; for larger ones more is taken when needed.
+inline constexpr std::size_t kFirstMemory = 4096;
 
 /// The cluster of the next scan, as its hypotheses come in. All that it is made of must outlive it.
 class PlannedCluster {
@@ -68,7 +74,9 @@ class PlannedCluster {
   std::uint64_t& next_node_;
   std::size_t& room_;
   AssociationCounts& counts_;
-  std::vector<PlannedTree> trees_;  ///< the old ones, then those that start now
+  alignas(std::max_align_t) std::array<std::byte, kFirstMemory> buffer_;
+  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};  ///< of the leaves
+  std::vector<PlannedTree> trees_;              ///< the old ones, then those that start now
   std::vector<GlobalHypothesis> hypotheses_;
   std::map<std::size_t, std::size_t> tree_of_birth_;  ///< by observation
   std::set<std::size_t> refused_;                     ///< observations that found no room

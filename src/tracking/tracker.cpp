@@ -53,11 +53,11 @@ TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed
   const StepBudget budget(clock_, options_.time_budget);
   const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, objects.stamp)) : 0.0;
   stamp_ = stamp_ ? std::max(*stamp_, objects.stamp) : objects.stamp;
-  targets_->predict(seconds);
-  removeLost();
   AssociationScan scan =
       ingest(objects.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
   scan.transition_priors = &transition_priors_;
+  targets_->predict(seconds, scan);
+  removeLost();
   makeRoom(scan.objects, seconds);
   targets_->associate(scan, budget);
   removeDuplicates();

@@ -30,6 +30,7 @@ struct AssociationScan {
   std::vector<Observation> observations;
   std::vector<Point2> centers;      ///< of the objects by themselves: to look through many of them
   std::vector<CenterBound> bounds;  ///< of the same
+  CenterBound bound;                ///< of all of them
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
   double noise = 0.0;               ///< m, largest standard deviation of position and sides

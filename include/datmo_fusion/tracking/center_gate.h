@@ -10,14 +10,18 @@ namespace datmo {
 /// How far from the middle of an object any target may measure its center by it, and how surely, at
 /// most: what is known of the object alone, once for all targets.
 struct CenterBound {
+  CenterBound() = default;  ///< of no object
   explicit CenterBound(const Object& object);
 
-  double diagonal;  ///< m
-  double share;     ///< 0 to 0.5, by which the centers lie apart: of the sizes of object and target
+  /// Holds for an object of the other bound as well.
+  void widen(const CenterBound& other);
+
+  double diagonal = 0.0;  ///< m
+  double share = 0.0;     ///< 0 to 0.5, by which the centers lie apart: of both sizes
   /// m^2, in any direction, but for what the size of the target adds; infinite for an object with a
   /// delay, which lies elsewhere by the velocity.
-  double variance;
-  bool hides_side;  ///< a side was not seen
+  double variance = 0.0;
+  bool hides_side = false;  ///< a side was not seen
 };
 
 /// The gate of one target, by bounds alone: most objects that are near enough to be looked at are
@@ -29,9 +33,9 @@ struct CenterGate {
   double share;          ///< 0 to 0.5, largest anchor share
   double size_variance;  ///< m^2, of length or width
 
-  /// Whether TrackedBox::measurementOf() an object may be within the gate, whose middle lies at
-  /// this distance squared (m^2) from the estimate. Never wrong where it says no.
-  bool mayPass(double distance2, const CenterBound& object) const;
+  /// m: by an object whose middle lies farther from the estimate than this, TrackedBox measures no
+  /// center within the gate.
+  double reach(const CenterBound& object) const;
 };
 
 /// Largest variance in any direction.

@@ -23,7 +23,7 @@ class MultipleHypotheses : public TargetSet {
   MultipleHypotheses(const TargetOptions& target, const AssociationOptions& association,
                      const HypothesisOptions& hypotheses, const SplitMergeOptions& split_merge);
 
-  void predict(double seconds) override;
+  void predict(double seconds, const AssociationScan& scan) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
   const std::vector<BestTarget>& best() const override;
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
@@ -36,7 +36,6 @@ class MultipleHypotheses : public TargetSet {
   }
 
  private:
-  void score(const AssociationScan& scan);
   void mergeCompeting(std::size_t objects);
   void removeEmpty();
   void expandCluster(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,

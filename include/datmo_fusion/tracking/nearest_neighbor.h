@@ -17,7 +17,7 @@ class NearestNeighborTargets : public TargetSet {
  public:
   NearestNeighborTargets(const TargetOptions& target, const AssociationOptions& association);
 
-  void predict(double seconds) override;
+  void predict(double seconds, const AssociationScan& scan) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
   const std::vector<BestTarget>& best() const override;
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
@@ -30,9 +30,14 @@ class NearestNeighborTargets : public TargetSet {
   }
 
  private:
+  struct ScoredTarget {
+    std::unique_ptr<Target> target;  ///< too large to be moved
+    TargetScores scores;             ///< against the present scan
+  };
+
   /// The object of each target, or kUnassigned. Targets that share no object, be it over others,
   /// are assigned by themselves: the cost of an assignment grows with more than its square.
-  std::vector<int> assign(const std::vector<TargetScores>& scores, std::size_t objects);
+  std::vector<int> assign(std::size_t objects);
 
   /// Of the objects that belong to no target.
   void startTargets(const AssociationScan& scan, const std::vector<bool>& explained);
@@ -40,9 +45,8 @@ class NearestNeighborTargets : public TargetSet {
   TargetOptions target_options_;
   ImmStepCache steps_;
   AssociationOptions options_;
-  std::vector<std::unique_ptr<Target>> targets_;  ///< by rising number; too large to be moved
+  std::vector<ScoredTarget> targets_;  ///< by rising number
   mutable std::vector<BestTarget> best_;
-  std::vector<TargetScores> scores_;  ///< of the last scan: memory for the next one
   std::uint64_t next_number_ = 1;
   AssociationCounts counts_;
 };

@@ -30,10 +30,11 @@ class TargetSet {
  public:
   virtual ~TargetSet() = default;
 
-  /// To the time of the next scan, `seconds` >= 0 ahead.
-  virtual void predict(double seconds) = 0;
+  /// To the time of the next scan, `seconds` >= 0 ahead, and how well its objects fit each target:
+  /// both at once, as more targets are followed than the cache holds.
+  virtual void predict(double seconds, const AssociationScan& scan) = 0;
 
-  /// Takes in a scan: targets are updated or missed, and objects of no target start new ones.
+  /// Takes in that scan: targets are updated or missed, and objects of no target start new ones.
   virtual void associate(AssociationScan& scan, const StepBudget& budget) = 0;
 
   /// Targets of the most likely hypothesis, by rising number; valid until the set changes.

@@ -54,8 +54,8 @@ inline std::vector<Object> objectsAlong(const std::vector<double>& positions) {
 /// Whole scans through a set of targets, 0.1 s apart.
 inline void see(TargetSet& targets, ScanSource& source, const std::vector<Object>& objects,
                 const StepBudget& budget = StepBudget()) {
-  targets.predict(0.1);
   AssociationScan scan = source.scan(objects);
+  targets.predict(0.1, scan);
   targets.associate(scan, budget);
 }
 
