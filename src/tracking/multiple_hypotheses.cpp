@@ -12,26 +12,19 @@ namespace datmo {
 namespace {
 
 /// See HypothesisCluster::objects.
-std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
-  std::size_t all = 0;
-  for (const TrackTree& tree : cluster.trees) {
-    for (const Leaf& leaf : tree.leaves) {
-      all += leaf.scores.candidates.size() + leaf.related.size();
-    }
-  }
-  std::vector<std::size_t> result;
-  result.reserve(all);
+void findObjects(HypothesisCluster& cluster) {
+  std::vector<std::size_t>& objects = cluster.objects;
+  objects.clear();
   for (const TrackTree& tree : cluster.trees) {
     for (const Leaf& leaf : tree.leaves) {
       for (const Candidate& candidate : leaf.scores.candidates) {
-        result.push_back(candidate.observation);
+        objects.push_back(candidate.observation);
       }
-      result.insert(result.end(), leaf.related.begin(), leaf.related.end());
+      objects.insert(objects.end(), leaf.related.begin(), leaf.related.end());
     }
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  std::sort(objects.begin(), objects.end());
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
 }
 
 /// One target of which nothing is left to decide and that no object is near: so are most of those
@@ -97,7 +90,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   std::vector<std::size_t> claimer(objects, kNobody);
   DisjointSets groups(clusters_.size());
   for (std::size_t i = 0; i < clusters_.size(); ++i) {
-    clusters_[i].objects = candidateObjects(clusters_[i]);
+    findObjects(clusters_[i]);
     for (const std::size_t object : clusters_[i].objects) {
       if (claimer[object] == kNobody) {
         claimer[object] = i;
@@ -114,7 +107,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
       all = merge(std::move(all), std::move(other), max);
       other.trees.clear();
     }
-    all.objects = candidateObjects(all);  // leaves may be gone
+    findObjects(all);  // leaves may be gone
   }
   removeEmpty();
 }
