@@ -13,6 +13,11 @@ namespace {
 /// Columns that a row may have in most problems; memory for more is taken when needed.
 constexpr int kUsualColumns = 4;
 
+/// Whether four costs all are.
+bool isForbidden(const double* costs) {
+  return std::min(std::min(costs[0], costs[1]), std::min(costs[2], costs[3])) == kForbidden;
+}
+
 double minOut(int row, const RowCost& row_cost, const AssignmentCosts& costs,
               const PricedAssignment& assignment) {
   double min = row_cost.unassigned;
@@ -36,22 +41,6 @@ double minIntoColumn(int column, int row, const AssignmentCosts& costs, const Ro
   return min - assignment.column_price[column];
 }
 
-/// From an open row that gives its column up, or from a free column.
-double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment) {
-  double min = kForbidden;
-  for (const int row : assignment.open_rows) {
-    if (assignment.column_of_row[row] != kUnassigned) {
-      min = std::min(min, costs.unassigned[row] - assignment.row_price[row]);
-    }
-  }
-  for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
-    if (assignment.row_of_column[column] == kUnassigned) {
-      min = std::min(min, assignment.column_price[column]);
-    }
-  }
-  return min;
-}
-
 }  // namespace
 
 AssignmentCosts::AssignmentCosts(const CostMatrix& all_pairs,
@@ -64,7 +53,9 @@ AssignmentCosts::AssignmentCosts(const CostMatrix& all_pairs,
     first_.push_back(static_cast<int>(columns_.size()));
     const double* cost = pairs.row(row).data();
     for (int column = 0; column < columns(); ++column) {
-      if (cost[column] < kForbidden) {
+      if (column + 3 < columns() && isForbidden(cost + column)) {
+        column += 3;
+      } else if (cost[column] < kForbidden) {
         columns_.push_back(column);
       }
     }
@@ -126,15 +117,32 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
   return sum;
 }
 
+double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment) {
+  double min = kForbidden;
+  for (const int row : assignment.open_rows) {
+    if (assignment.column_of_row[row] != kUnassigned) {
+      min = std::min(min, costs.unassigned[row] - assignment.row_price[row]);
+    }
+  }
+  for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
+    if (assignment.row_of_column[column] == kUnassigned) {
+      min = std::min(min, assignment.column_price[column]);
+    }
+  }
+  return min;
+}
+
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                   const RowsOfColumns& rows, const PricedAssignment& assignment) {
+                   const RowsOfColumns& rows, const PricedAssignment& assignment,
+                   double into_void) {
   const double out = minOut(row, row_cost, costs, assignment);
   if (out == kForbidden) {
     return kForbidden;
   }
   const int column = assignment.column_of_row[row];
-  const double in = column == kUnassigned ? minIntoVoid(costs, assignment)
-                                          : minIntoColumn(column, row, costs, rows, assignment);
+  const double in = column == kUnassigned
+                        ? into_void
+                        : minIntoColumn(column, row, costs, rows, assignment);
   return std::max(out + in, 0.0);
 }
 

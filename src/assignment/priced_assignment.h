@@ -104,8 +104,13 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
 /// Bound from below of how much dearer the assignment becomes once an open row may only have what
 /// `row_cost` allows, which is not what it has: the first step of the path to its new column, and
 /// the last one to its old column (AugmentingPath). kForbidden: there is no other column.
+/// `into_void`: see minIntoVoid(); only of use if the row has no column.
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                   const RowsOfColumns& rows, const PricedAssignment& assignment);
+                   const RowsOfColumns& rows, const PricedAssignment& assignment, double into_void);
+
+/// The last step of such a path to the void: from an open row that gives its column up, or from a
+/// free column. The same for all rows without column.
+double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment);
 
 /// Throws std::invalid_argument where they do not belong together.
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);

@@ -112,6 +112,7 @@ class RankedAssignments::State {
 
   // Of one part at a time.
   PricedAssignment present_;
+  std::optional<double> into_void_;   ///< see minIntoVoid(); none: not known
   std::pmr::vector<double> allowed_;  ///< costs of one row, in its possible columns
   std::pmr::vector<RowBound> bounds_;
 
@@ -178,6 +179,7 @@ void RankedAssignments::State::keep(const Part& part) {
 void RankedAssignments::State::load(int part, int position) {
   const int rows = costs_.rows();
   own_work_ += entriesOfPart();
+  into_void_.reset();
   const double* prices = prices_.data() + std::ptrdiff_t{part} * (rows + costs_.columns());
   std::copy_n(prices, rows, present_.row_price.begin());
   std::copy_n(prices + rows, costs_.columns(), present_.column_price.begin());
@@ -208,6 +210,9 @@ void RankedAssignments::State::split(int part) {
       push(parts_[part].cost + increase, part, position);
     }
     present_.fix(row);
+    if (present_.column_of_row[row] != kUnassigned) {
+      into_void_.reset();  // over this row no more
+    }
   }
 }
 
@@ -247,7 +252,11 @@ void RankedAssignments::State::search(const Candidate& candidate) {
 /// Of how much dearer the best of a part becomes where this row differs.
 double RankedAssignments::State::bound(int part, int row) {
   own_work_ += costs_.possible(row).size();
-  return minIncrease(row, allowed(part, row), costs_, rows_of_columns_, present_);
+  if (!into_void_ && present_.column_of_row[row] == kUnassigned) {
+    into_void_ = minIntoVoid(costs_, present_);
+  }
+  return minIncrease(row, allowed(part, row), costs_, rows_of_columns_, present_,
+                     into_void_.value_or(kForbidden));
 }
 
 /// What a row may have that is to differ from the part's best, and from all that was taken away

@@ -20,6 +20,12 @@ std::array<Point2, 4> Box2::corners() const {
           center * Point2(x, -y)};
 }
 
+Point2 Box2::beyond(const Point2& point) const {
+  const Point2 local = Pose2(Point2::Zero(), -center.heading()).rotate(point - center.position());
+  return {std::max(0.0, std::abs(local.x()) - 0.5 * length),
+          std::max(0.0, std::abs(local.y()) - 0.5 * width)};
+}
+
 bool Box2::contains(const Point2& point) const {
   // A quick answer for most points: half of both sides is farther than the corners, and half of the
   // shorter one is nearer than all sides.
@@ -29,14 +35,12 @@ bool Box2::contains(const Point2& point) const {
   if (distance2 > reach * reach) {
     return false;
   }
-  return (inside > 0.0 && distance2 < inside * inside) || distanceTo(point) == 0.0;
+  return (inside > 0.0 && distance2 < inside * inside) || beyond(point).isZero(0.0);
 }
 
 double Box2::distanceTo(const Point2& point) const {
-  const Point2 local = Pose2(Point2::Zero(), -center.heading()).rotate(point - center.position());
-  const double dx = std::max(0.0, std::abs(local.x()) - 0.5 * length);
-  const double dy = std::max(0.0, std::abs(local.y()) - 0.5 * width);
-  return std::hypot(dx, dy);
+  const Point2 farther = beyond(point);
+  return std::hypot(farther.x(), farther.y());
 }
 
 }  // namespace datmo

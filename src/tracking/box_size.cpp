@@ -162,6 +162,7 @@ void BoxSize::summarize() {
   for (const Hypothesis& hypothesis : hypotheses_) {
     best = std::max(best, hypothesis.log_weight);
   }
+  const double min_weight = std::exp(kMinLogWeight);  // of most
   double total = 0.0;
   double along_first = 0.0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -169,7 +170,8 @@ void BoxSize::summarize() {
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     Hypothesis& hypothesis = hypotheses_[i];
     hypothesis.log_weight = std::max(hypothesis.log_weight - best, kMinLogWeight);
-    const double weight = std::exp(hypothesis.log_weight);
+    const double weight =
+        hypothesis.log_weight == kMinLogWeight ? min_weight : std::exp(hypothesis.log_weight);
     total += weight;
     along_first += i % kAxes == 0 ? weight : 0.0;
     const Eigen::Vector2d mean(hypothesis.mean[0], hypothesis.mean[1]);

@@ -14,7 +14,14 @@ namespace {
 /// See HypothesisCluster::objects.
 void findObjects(HypothesisCluster& cluster) {
   std::vector<std::size_t>& objects = cluster.objects;
+  std::size_t all = 0;
+  for (const TrackTree& tree : cluster.trees) {
+    for (const Leaf& leaf : tree.leaves) {
+      all += leaf.scores.candidates.size() + leaf.related.size();
+    }
+  }
   objects.clear();
+  objects.reserve(all);
   for (const TrackTree& tree : cluster.trees) {
     for (const Leaf& leaf : tree.leaves) {
       for (const Candidate& candidate : leaf.scores.candidates) {

@@ -158,9 +158,15 @@ void TransitionModel::setPrior(const JumpCounts& prior) {
   }
   prior_ = prior;
   learned_ = all - prior;
+  learns_ = true;
 }
 
 const ModeMatrix& TransitionModel::predict(double seconds) {
+  if (!learns_) {  // the prior alone, and most sensors keep their period
+    matrix_ = seconds == seconds_ ? matrix_ : transitionMatrix(prior_, seconds);
+    seconds_ = seconds;
+    return matrix_;
+  }
   const double kept = std::exp(-seconds / options_.forgetting);
   learned_.jumps *= kept;
   learned_.exposure *= kept;
@@ -189,6 +195,7 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
     updateRow(all, from, joint.row(from).transpose() / evidence);
   }
   learned_ = all - prior_;
+  learns_ = true;
 }
 
 /// `joint`: probabilities that the mode was `from` and is each one now.

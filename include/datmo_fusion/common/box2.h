@@ -21,6 +21,10 @@ struct Box2 {
 
   /// From the point to the nearest point of the rectangle, m; 0 inside.
   double distanceTo(const Point2& point) const;
+
+ private:
+  /// How far the point lies beyond the sides, along both axes of the box, m; 0 between them.
+  Point2 beyond(const Point2& point) const;
 };
 
 }  // namespace datmo

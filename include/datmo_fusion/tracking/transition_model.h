@@ -102,6 +102,7 @@ class TransitionModel {
   TransitionLearningOptions options_;
   JumpCounts prior_;
   JumpCounts learned_;
+  bool learns_ = false;  ///< false: nothing was learned as yet
   ModeMatrix matrix_ = ModeMatrix::Identity();
   double seconds_ = 0.0;
 };
