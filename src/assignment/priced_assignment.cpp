@@ -140,9 +140,8 @@ double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& cost
     return kForbidden;
   }
   const int column = assignment.column_of_row[row];
-  const double in = column == kUnassigned
-                        ? into_void
-                        : minIntoColumn(column, row, costs, rows, assignment);
+  const double in =
+      column == kUnassigned ? into_void : minIntoColumn(column, row, costs, rows, assignment);
   return std::max(out + in, 0.0);
 }
 

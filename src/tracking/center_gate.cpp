@@ -31,8 +31,7 @@ void addAxis(double one, double opposite, CenterBound& bound) {
 
 double maxVariance(const Eigen::Matrix2d& covariance) {
   const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
-  return 0.5 * covariance.trace() +
-         std::sqrt(square(half_difference) + square(covariance(0, 1)));
+  return 0.5 * covariance.trace() + std::sqrt(square(half_difference) + square(covariance(0, 1)));
 }
 
 CenterBound::CenterBound(const Object& object)

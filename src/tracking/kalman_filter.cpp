@@ -111,7 +111,8 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured) {
   if (measured.delay != 0.0) {
     const StateEstimate then = carriedOn(predicted, measured.delay);
-    return carriedOn(update(then, PositionMeasurement{measured.position, measured.covariance, 0.0}), -measured.delay);
+    return carriedOn(update(then, PositionMeasurement{measured.position, measured.covariance, 0.0}),
+                     -measured.delay);
   }
   const Innovation innovation = innovationOf(predicted, measured);
   const Eigen::Matrix2d weight = innovation.covariance.inverse();

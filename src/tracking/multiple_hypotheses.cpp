@@ -61,7 +61,7 @@ void MultipleHypotheses::predict(double seconds, const AssociationScan& scan) {
         leaf.target.predict(seconds, steps, target_options_);
         const double existence = leaf.target.existenceProbability(target_options_);
         leaf.scores = scoresOf(leaf.target, scan, existence, options_, std::move(leaf.scores));
-        leaf.related = relatedObjects(leaf.target, scan, split_merge_);
+        leaf.related = relatedObjects(leaf.target, scan, split_merge_, std::move(leaf.related));
       }
     }
   }
@@ -176,12 +176,9 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
     }
     --room_;
     TrackTree tree;
-    tree.leaves.push_back({Target(observation.object, object, next_number_ + object,
-                                  target_options_,
-                                  scan.transitionsOf(observation.object.object_class)),
-                           {next_node_++},
-                           {},
-                           {}});
+    tree.leaves.emplace_back(Leaf::Nodes{next_node_++}, observation.object, object,
+                             next_number_ + object, target_options_,
+                             scan.transitionsOf(observation.object.object_class));
     next.push_back(singleTarget(std::move(tree)));
   }
 }

@@ -57,9 +57,10 @@ std::vector<int> NearestNeighborTargets::assign(std::size_t objects) {
     CostMatrix costs(rows, columns);
     costs.setConstant(kForbidden);
     for (std::ptrdiff_t row = 0; row < rows; ++row) {
-      for (const Candidate& candidate : targets_[group[static_cast<std::size_t>(row)]].scores.candidates) {
-        const auto column = std::lower_bound(group.begin() + rows, group.end(),
-                                             targets + candidate.observation);
+      for (const Candidate& candidate :
+           targets_[group[static_cast<std::size_t>(row)]].scores.candidates) {
+        const auto column =
+            std::lower_bound(group.begin() + rows, group.end(), targets + candidate.observation);
         costs(row, column - group.begin() - rows) = -candidate.score;
       }
     }
@@ -91,11 +92,10 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
       ++counts_.refused_births;
       continue;
     }
-    targets_.push_back(
-        {std::make_unique<Target>(observation.object, object, next_number_ + object,
-                                  target_options_,
-                                  scan.transitionsOf(observation.object.object_class)),
-         {}});
+    targets_.push_back({std::make_unique<Target>(
+                            observation.object, object, next_number_ + object, target_options_,
+                            scan.transitionsOf(observation.object.object_class)),
+                        {}});
   }
 }
 
@@ -117,10 +117,9 @@ void NearestNeighborTargets::change(std::uint64_t number,
 }
 
 void NearestNeighborTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
-  targets_.erase(
-      std::remove_if(targets_.begin(), targets_.end(),
-                     [&](const ScoredTarget& next) { return isLost(*next.target); }),
-      targets_.end());
+  targets_.erase(std::remove_if(targets_.begin(), targets_.end(),
+                                [&](const ScoredTarget& next) { return isLost(*next.target); }),
+                 targets_.end());
 }
 
 }  // namespace datmo

@@ -10,11 +10,7 @@ namespace datmo {
 PlannedCluster::PlannedCluster(HypothesisCluster& cluster, const ExpansionContext& context,
                                std::uint64_t& next_node, std::size_t& room,
                                AssociationCounts& counts)
-    : old_(cluster),
-      context_(context),
-      next_node_(next_node),
-      room_(room),
-      counts_(counts) {
+    : old_(cluster), context_(context), next_node_(next_node), room_(room), counts_(counts) {
   trees_.reserve(cluster.trees.size());
   for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
     trees_.emplace_back(&memory_).old_tree = tree;
@@ -134,23 +130,28 @@ TrackTree PlannedCluster::grow(const PlannedTree& plan) {
   tree.leaves.reserve(plan.leaves.size());
   for (auto leaf = plan.leaves.begin(); leaf != plan.leaves.end(); ++leaf) {
     if (leaf->parent == kAbsent) {
-      tree.leaves.push_back({newTarget(leaf->observation), leaf->nodes, {}, {}});
+      startTarget(*leaf, tree);
       continue;
     }
     const bool last = std::none_of(leaf + 1, plan.leaves.end(), [&](const PlannedLeaf& other) {
       return other.parent == leaf->parent;
     });
     Leaf& old = old_.trees[plan.old_tree].leaves[static_cast<std::size_t>(leaf->parent)];
-    tree.leaves.push_back({last ? std::move(old.target) : old.target, leaf->nodes, {}, {}});
+    if (last) {
+      tree.leaves.emplace_back(leaf->nodes, std::move(old.target));
+    } else {
+      tree.leaves.emplace_back(leaf->nodes, old.target);
+    }
     continueTarget(tree.leaves.back().target, leaf->observation, old.scores.detection_probability);
   }
   return tree;
 }
 
-Target PlannedCluster::newTarget(std::size_t observation) const {
-  const Object& object = context_.scan.observations[observation].object;
-  return {object, observation, context_.first_number + observation, context_.target,
-          context_.scan.transitionsOf(object.object_class)};
+void PlannedCluster::startTarget(const PlannedLeaf& leaf, TrackTree& tree) const {
+  const Object& object = context_.scan.observations[leaf.observation].object;
+  tree.leaves.emplace_back(leaf.nodes, object, leaf.observation,
+                           context_.first_number + leaf.observation, context_.target,
+                           context_.scan.transitionsOf(object.object_class));
 }
 
 void PlannedCluster::continueTarget(Target& target, std::size_t observation, double seen) const {

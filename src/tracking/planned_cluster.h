@@ -26,7 +26,7 @@ inline constexpr std::size_t kNoTree = std::numeric_limits<std::size_t>::max();
 struct PlannedLeaf {
   int parent;               ///< leaf of the old tree that it continues; kAbsent: a new target
   std::size_t observation;  ///< kUnseen: missed
-  std::array<std::uint64_t, kMaxScanHistory + 1> nodes;  ///< see Leaf
+  Leaf::Nodes nodes;        ///< see Leaf
 };
 
 struct PlannedTree {
@@ -64,7 +64,7 @@ class PlannedCluster {
   int leafFor(std::size_t tree, int parent, std::size_t observation);
   void startTarget(std::size_t observation, GlobalHypothesis& child);
   TrackTree grow(const PlannedTree& plan);
-  Target newTarget(std::size_t observation) const;
+  void startTarget(const PlannedLeaf& leaf, TrackTree& tree) const;
   void continueTarget(Target& target, std::size_t observation, double seen) const;
   void noteUse(std::size_t observation, std::uint64_t number);
   void linkSharers(HypothesisCluster& cluster);
@@ -76,7 +76,7 @@ class PlannedCluster {
   AssociationCounts& counts_;
   alignas(std::max_align_t) std::array<std::byte, kFirstMemory> buffer_;
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};  ///< of the leaves
-  std::vector<PlannedTree> trees_;              ///< the old ones, then those that start now
+  std::vector<PlannedTree> trees_;  ///< the old ones, then those that start now
   std::vector<GlobalHypothesis> hypotheses_;
   std::map<std::size_t, std::size_t> tree_of_birth_;  ///< by observation
   std::set<std::size_t> refused_;                     ///< observations that found no room

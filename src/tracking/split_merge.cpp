@@ -184,8 +184,10 @@ void SplitMergeOptions::visit(OptionVisitor& visitor) {
 }
 
 std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
-                                        const SplitMergeOptions& options) {
-  std::vector<std::size_t> result;
+                                        const SplitMergeOptions& options,
+                                        std::vector<std::size_t> memory) {
+  std::vector<std::size_t> result = std::move(memory);
+  result.clear();
   if (!target.confirmed()) {
     return result;
   }

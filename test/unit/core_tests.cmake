@@ -58,6 +58,11 @@ datmo_fusion_add_core_test(tracking
   tracking/wide_functions_test.cpp
   tracking/wrong_classes_test.cpp
 )
+
+# A program of its own: it counts what all of the program allocates.
+datmo_fusion_add_core_test(tracking_memory
+  tracking/steady_memory_test.cpp
+)
 # They include sources of tracking in a namespace of their own.
 set_source_files_properties(tracking/wide_clone_avx2.cpp tracking/wide_clone_default.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/src/tracking)

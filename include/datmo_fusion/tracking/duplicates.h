@@ -20,9 +20,9 @@ struct DuplicateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Numbers, rising, of the targets that follow another part of an object that a confirmed one follows
-/// already: those at the same position, within the size of their boxes, whose velocity does not
-/// differ significantly. Of two confirmed ones the older id stays.
+/// Numbers, rising, of the targets that follow another part of an object that a confirmed one
+/// follows already: those at the same position, within the size of their boxes, whose velocity does
+/// not differ significantly. Of two confirmed ones the older id stays.
 ///
 /// Split hypotheses explain most parts of a confirmed target; this is for parts that were followed
 /// before it was confirmed.

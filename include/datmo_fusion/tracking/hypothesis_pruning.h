@@ -20,8 +20,8 @@ void sortByWeight(std::vector<GlobalHypothesis>& hypotheses);
 /// Hypotheses that say the same become one.
 void mergeEqual(std::vector<GlobalHypothesis>& hypotheses);
 
-/// Removes the leaves of a tree, the `index`-th, that are in no hypothesis. False, and the tree is of
-/// no use any more: none is left. `index_of`: memory for this.
+/// Removes the leaves of a tree, the `index`-th, that are in no hypothesis. False, and the tree is
+/// of no use any more: none is left. `index_of`: memory for this.
 template <typename Tree>
 bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothesis>& hypotheses,
                         std::vector<int>& index_of) {

@@ -19,9 +19,11 @@ struct SplitMergeOptions {
 };
 
 /// The objects by themselves, rising, that may be parts of a confirmed target or cover it, within
-/// its gate or not. The target must have been predicted to the scan's time.
+/// its gate or not. The target must have been predicted to the scan's time. `memory`: a list that
+/// is of no use any more, to go without new memory.
 std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
-                                        const SplitMergeOptions& options);
+                                        const SplitMergeOptions& options,
+                                        std::vector<std::size_t> memory = {});
 
 /// Other readings of a cluster's objects than each by itself (thesis figure 4.11 d, e): several
 /// objects inside of the box of a confirmed target may be parts of it, and an object that covers

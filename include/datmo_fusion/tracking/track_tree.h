@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "datmo_fusion/tracking/association.h"
@@ -19,8 +20,15 @@ inline constexpr std::size_t kMaxScanHistory = 8;
 /// The tree itself is not stored. Of its nodes a leaf knows its own and those of the last scans,
 /// newest first; 0: before the target was first seen.
 struct Leaf {
+  using Nodes = std::array<std::uint64_t, kMaxScanHistory + 1>;
+
+  /// Makes its target in place: it is large.
+  template <typename... OfTarget>
+  explicit Leaf(const Nodes& all_nodes, OfTarget&&... of_target)
+      : target(std::forward<OfTarget>(of_target)...), nodes(all_nodes) {}
+
   Target target;
-  std::array<std::uint64_t, kMaxScanHistory + 1> nodes{};
+  Nodes nodes;
   TargetScores scores;               ///< against the present scan
   std::vector<std::size_t> related;  ///< of its objects: see relatedObjects()
 };

@@ -6,6 +6,8 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/random.h"
+
 namespace datmo::association_test {
 namespace {
 
@@ -85,6 +87,40 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
   EXPECT_GT(expected, 10U);
   EXPECT_LT(expected, objects.size());
   EXPECT_EQ(candidatesOf(target, objects).size(), expected);
+}
+
+TEST_F(AssociationTest, TheQuickAnswerLosesNothingWhateverSidesAreSeen) {
+  Random random(1);
+  const auto anyObject = [&random] {
+    Object object = objectAt(random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0));
+    object.box = {Pose2(object.box.center.position(), random.uniform(-kPi, kPi)),
+                  random.uniform(0.0, 9.0), random.uniform(0.0, 3.0)};
+    for (double& side : object.side_variance) {
+      side = random.uniform(0.0, 1.0) < 0.5 ? kHiddenSide : random.uniform(0.0, 0.5);
+    }
+    object.delay = random.uniform(0.0, 1.0) < 0.1 ? 0.05 : 0.0;
+    return object;
+  };
+  options_.max_candidates = 1000;
+  std::size_t within = 0;
+  for (int i = 0; i < 300; ++i) {
+    const TargetOptions options;
+    Target target(anyObject(), 0, 1, options);
+    target.predict(0.1, immSteps(options.filter, 0.1), options);
+    const CenterGate gate = target.gateOf(options_.gate);
+    for (int k = 0; k < 30; ++k) {
+      const Object object = anyObject();
+      const double distance =
+          (object.box.center.position() - target.box().center.position()).norm();
+      const Innovation innovation =
+          innovationOf(target.filter().estimate(), target.measurementOf(object));
+      if (innovation.squaredDistance() <= options_.gate) {
+        ++within;
+        EXPECT_LE(distance, gate.reach(CenterBound(object)));
+      }
+    }
+  }
+  EXPECT_GT(within, 300U);
 }
 
 TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {

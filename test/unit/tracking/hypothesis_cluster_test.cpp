@@ -18,7 +18,7 @@ using Nodes = std::vector<std::uint64_t>;
 TrackTree treeOf(std::uint64_t number, const std::vector<Nodes>& leaves) {
   TrackTree tree;
   for (const Nodes& nodes : leaves) {
-    Leaf leaf{targetAt(0.0, 0.0, number), {}, {}, {}};
+    Leaf leaf(Leaf::Nodes{}, targetAt(0.0, 0.0, number));
     std::copy(nodes.begin(), nodes.end(), leaf.nodes.begin());
     tree.leaves.push_back(leaf);
   }
@@ -153,7 +153,8 @@ HypothesisCluster threeTargets() {
   return cluster;
 }
 
-std::vector<HypothesisCluster> partsOf(const HypothesisCluster& cluster, std::uint64_t oldest_scan) {
+std::vector<HypothesisCluster> partsOf(const HypothesisCluster& cluster,
+                                       std::uint64_t oldest_scan) {
   std::vector<HypothesisCluster> parts;
   split(cluster, oldest_scan, parts);
   return parts;

@@ -24,7 +24,7 @@ class SplitMergeReadings : public testing::Test {
  protected:
   void follow(const Object& object, bool confirmed = true) {
     const std::uint64_t number = cluster_.trees.size() + 1;
-    Leaf leaf{Target(object, 0, number, TargetOptions()), {}, {}, {}};
+    Leaf leaf(Leaf::Nodes{}, object, 0, number, TargetOptions());
     if (confirmed) {
       leaf.target.confirm(static_cast<std::uint32_t>(number), true);
     }
