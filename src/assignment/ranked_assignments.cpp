@@ -11,29 +11,17 @@
 
 #include "augmenting_path.h"
 #include "priced_assignment.h"
+#include "ranked_part.h"
 
 namespace datmo {
 
 namespace {
-
-constexpr int kNone = -1;
 
 /// The first memory of a ranking, bytes: enough for the first few assignments of a tiny problem.
 constexpr std::size_t kFirstMemory = 4096;
 
 /// Parts of fewer rows are split faster than they are ordered.
 constexpr int kRowsWorthOrdering = 8;
-
-/// Some of all assignments, and the best one of them: those where the rows before `position`, in
-/// the parent's order, have what they have in the parent's best, and `row`, which is there, has
-/// not.
-struct Part {
-  int parent = kNone;
-  int position = 0;
-  int row = kNone;
-  double cost = 0.0;
-  int order = 0;  ///< of the rows: the parent's, until the part gets one of its own
-};
 
 /// In the queue: a part, or one that a part was split into and that was not searched yet.
 struct Candidate {
@@ -79,7 +67,7 @@ class RankedAssignments::State {
  private:
   Assignment first();
   Assignment best(int part) const;
-  void keep(const Part& part);
+  void keep(const RankedPart& part);
   void load(int part, int position);
   void split(int part);
   void orderRows(int part);
@@ -95,7 +83,7 @@ class RankedAssignments::State {
   const int* columnsOf(int part) const {
     return columns_.data() + std::ptrdiff_t{part} * costs_.rows();
   }
-  const int* orderOf(const Part& part) const {
+  const int* orderOf(const RankedPart& part) const {
     return orders_.data() + std::ptrdiff_t{part.order} * costs_.rows();
   }
 
@@ -117,7 +105,7 @@ class RankedAssignments::State {
   std::pmr::vector<RowBound> bounds_;
 
   // Of all parts, one after the other.
-  std::pmr::vector<Part> parts_;
+  std::pmr::vector<RankedPart> parts_;
   std::pmr::vector<double> prices_;  ///< of the rows, then of the columns
   std::pmr::vector<int> columns_;    ///< of the rows
   std::pmr::vector<int> orders_;     ///< of the rows, only of those that got their own
@@ -166,7 +154,7 @@ Assignment RankedAssignments::State::best(int part) const {
 }
 
 /// Keeps the present assignment as the best of a new part.
-void RankedAssignments::State::keep(const Part& part) {
+void RankedAssignments::State::keep(const RankedPart& part) {
   own_work_ += entriesOfPart();
   parts_.push_back(part);
   parts_.back().cost = totalCost(present_.column_of_row, costs_);
@@ -239,7 +227,7 @@ void RankedAssignments::State::orderRows(int part) {
 
 /// Finds the best of a part of a part, and queues it.
 void RankedAssignments::State::search(const Candidate& candidate) {
-  const Part& whole = parts_[candidate.part];
+  const RankedPart& whole = parts_[candidate.part];
   const int row = orderOf(whole)[candidate.position];
   load(candidate.part, candidate.position);
   if (path_.replace(row, allowed(candidate.part, row), present_)) {
