@@ -130,6 +130,7 @@ set(DATMO_FUSION_CORE_SOURCES
   grid/occupancy_map.cpp
   grid/occupancy_map_evidence.cpp
   grid/occupancy_map_options.cpp
+  grid/tile_file.cpp
   risk/box_contact.cpp
   risk/contact_futures.cpp
   risk/criticality.cpp

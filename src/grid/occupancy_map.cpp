@@ -36,7 +36,7 @@ OccupancyMap::OccupancyMap(const Checked<OccupancyMapOptions>& options)
       free_log_odds_(logOdds(options->free_probability)),
       log_odds_limit_(-logOdds(options->min_probability)),
       cells_(options->window.window(), Cell{}),
-      outside_(options->max_tiles, Cell{}) {}
+      outside_(options->max_tiles, Cell{}, options->tile_file) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return hasSurface(cell) && maturity(cell) >= 1.0 &&

@@ -109,7 +109,11 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
 
 void OccupancyMap::setWindow(const GridWindow& window) {
   RollingGrid<Cell> cells(window, Cell{});
-  forEachCell(window, [&](CellIndex index) { cells.at(index) = outside_.at(index); });
+  outside_.forEach([&](CellIndex index, const Cell& cell) {
+    if (window.contains(index)) {
+      cells.at(index) = cell;
+    }
+  });
   // Only then, since what leaves the window may make tiles forgotten.
   forEachCell(cells_.window(), [&](CellIndex index) {
     if (!isKnown(cells_.at(index))) {

@@ -46,9 +46,10 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "no obstacle: what ends there again does not move; 0: forgets them"},
       ghost_after, {0, 1000});
   visitor.integer({"max_tiles", "1",
-                   "of 32 x 32 cells, 61 kB each, that are kept of what the window has left, for "
-                   "save_map; of more the first ones are forgotten"},
+                   "of 32 x 32 cells, 61 kB each, that are kept in memory of what the window has "
+                   "left, for save_map; of more the first ones go into a file"},
                   max_tiles, {1, 1000000});
+  visitor.group("tile_file", [&] { tile_file.visit(visitor); });
 }
 
 }  // namespace datmo

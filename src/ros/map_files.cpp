@@ -247,7 +247,7 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   } catch (const std::runtime_error& error) {
     throw MapFileError(error.what());
   }
-  return {evidence.cells.size(), map.forgottenTiles()};
+  return {evidence.cells.size(), map.forgottenTiles(), map.tileFileError()};
 }
 
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options) {

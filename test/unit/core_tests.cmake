@@ -129,6 +129,7 @@ datmo_fusion_add_core_test(grid
   grid/ray_walk_test.cpp
   grid/rectangle_walk_test.cpp
   grid/rolling_grid_test.cpp
+  grid/tile_store_test.cpp
 )
 
 datmo_fusion_add_core_test(sensor_model

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,7 +33,8 @@ struct OccupancyMapOptions {
   double static_after = 0.8;    ///< s, between first and last hit of a static cell
   int static_neighborhood = 1;  ///< cells around an end point that vouch for it
   int ghost_after = 2;          ///< ends that others have refuted
-  int max_tiles = 2000;         ///< of 32 x 32 cells that are kept outside of the window
+  int max_tiles = 2000;         ///< of 32 x 32 cells outside of the window, in memory
+  TileFileOptions tile_file;    ///< for those beyond
 
   void visit(OptionVisitor& visitor);
 };
@@ -89,8 +91,10 @@ class OccupancyMap {
   /// The same knowledge through another window, of at least one cell and of the same cell size.
   void setWindow(const GridWindow& window);
 
-  /// Tiles of 32 x 32 cells that evidence() lacks, since there was no room for them.
+  /// Tiles of 32 x 32 cells that evidence() lacks, since there was no room for them, neither in
+  /// memory nor in the file; and why the file had none.
   std::size_t forgottenTiles() const { return outside_.forgotten(); }
+  std::string tileFileError() const { return outside_.fileError(); }
 
   /// Occupancy probability of a cell, 0 to 1; 0.5 where nothing is known.
   double occupancy(CellIndex cell) const {

@@ -2,72 +2,103 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "datmo_fusion/grid/cell_index.h"
 #include "datmo_fusion/grid/row_major.h"
+#include "datmo_fusion/grid/tile_file.h"
 
 namespace datmo {
 
 /// Cells of the lattice outside of a rolling window, in square tiles, so that memory grows with the
-/// area that was visited. Of more than so many tiles the first ones are forgotten, but for those
-/// that are kept for good.
+/// area that was visited. Of more than so many tiles the first ones go into a file, from where they
+/// come back when something is put into them; without room there they are forgotten. Tiles that are
+/// kept for good stay in memory.
 template <typename Cell>
 class TileStore {
  public:
-  /// `max_tiles`: 1 and more. `empty`: a cell that was never put.
-  TileStore(int max_tiles, const Cell& empty)
-      : max_tiles_(static_cast<std::size_t>(max_tiles)), empty_(empty) {}
+  // Of Eigen's small matrices, too, which are not trivially copyable and are nothing but numbers.
+  static_assert(std::is_standard_layout_v<Cell> && std::is_trivially_destructible_v<Cell>,
+                "cells are written as they lie in memory");
+
+  /// `max_tiles`: in memory, 1 and more. `empty`: a cell that was never put.
+  TileStore(int max_tiles, const Cell& empty, const TileFileOptions& file)
+      : max_tiles_(static_cast<std::size_t>(max_tiles)),
+        empty_(empty),
+        file_(std::make_shared<TileFile>(file)) {}
 
   void put(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
-      tile->second.assign(rowMajorSize(kSide, kSide), empty_);
+      tile->second = takeFromFile(tile->first);
       order_.push_back(tile->first);
     }
     tile->second[slotOf(cell)] = content;
     if (order_.size() > max_tiles_) {
-      tiles_.erase(order_.front());
+      moveToFile(order_.front());
       order_.pop_front();
-      ++forgotten_;
     }
   }
 
-  /// As put(), in a tile that is never forgotten, and does not count.
+  /// As put(), in a tile that stays in memory, and does not count.
   void putPermanently(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
-      tile->second.assign(rowMajorSize(kSide, kSide), empty_);
+      tile->second = takeFromFile(tile->first);
     }
     tile->second[slotOf(cell)] = content;
   }
 
-  /// Empty where nothing was put.
-  const Cell& at(CellIndex cell) const {
-    const auto tile = tiles_.find(keyOf(cell));
-    return tile == tiles_.end() ? empty_ : tile->second[slotOf(cell)];
+  /// Empty where nothing was put, and where it cannot be read.
+  Cell at(CellIndex cell) const {
+    const Key key = keyOf(cell);
+    const auto tile = tiles_.find(key);
+    if (tile != tiles_.end()) {
+      return tile->second[slotOf(cell)];
+    }
+    const auto filed = filed_.find(key);
+    Cell content;
+    const bool is_read =
+        filed != filed_.end() &&
+        file_->read(filed->second + slotOf(cell) * sizeof(Cell), &content, sizeof(Cell));
+    return is_read ? content : empty_;
   }
 
   /// `visit(CellIndex, const Cell&)` for all cells of all tiles, in a fixed order.
   template <typename Visit>
   void forEach(Visit&& visit) const {
+    std::set<Key> keys;
     for (const auto& [key, cells] : tiles_) {
-      for (int row = 0; row < kSide; ++row) {
-        for (int column = 0; column < kSide; ++column) {
-          visit(CellIndex{key.first * kSide + column, key.second * kSide + row},
-                cells[rowMajorIndex(column, row, kSide)]);
-        }
+      keys.insert(key);
+    }
+    for (const auto& [key, offset] : filed_) {
+      keys.insert(key);
+    }
+    for (const Key& key : keys) {
+      const auto tile = tiles_.find(key);
+      if (tile != tiles_.end()) {
+        visitTile(key, tile->second, visit);
+      } else if (const auto cells = readTile(key)) {
+        visitTile(key, *cells, visit);
       }
     }
   }
 
-  std::size_t size() const { return tiles_.size(); }
+  /// In memory and in the file.
+  std::size_t size() const { return tiles_.size() + filed_.size(); }
 
-  /// How many tiles there was no room for.
+  /// How many tiles there was no room for; why: fileError().
   std::size_t forgotten() const { return forgotten_; }
+  std::string fileError() const { return file_->error(); }
 
   static constexpr int kSide = 32;  ///< cells
 
@@ -78,16 +109,57 @@ class TileStore {
   static Key keyOf(CellIndex cell) { return {tileOf(cell.column), tileOf(cell.row)}; }
 
  private:
+  using Tile = std::vector<Cell>;
+  static constexpr std::size_t kCells = rowMajorSize(kSide, kSide);
+
   static int tileOf(int index) { return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide; }
   static std::size_t slotOf(CellIndex cell) {
     const Key key = keyOf(cell);
     return rowMajorIndex(cell.column - key.first * kSide, cell.row - key.second * kSide, kSide);
   }
 
+  template <typename Visit>
+  static void visitTile(const Key& key, const Tile& cells, Visit& visit) {
+    for (int row = 0; row < kSide; ++row) {
+      for (int column = 0; column < kSide; ++column) {
+        visit(CellIndex{key.first * kSide + column, key.second * kSide + row},
+              cells[rowMajorIndex(column, row, kSide)]);
+      }
+    }
+  }
+
+  std::optional<Tile> readTile(const Key& key) const {
+    const auto filed = filed_.find(key);
+    Tile cells(kCells, empty_);
+    const bool is_read =
+        filed != filed_.end() && file_->read(filed->second, cells.data(), kCells * sizeof(Cell));
+    return is_read ? std::make_optional(std::move(cells)) : std::nullopt;
+  }
+
+  /// An empty tile if it is not there.
+  Tile takeFromFile(const Key& key) {
+    std::optional<Tile> cells = readTile(key);
+    const bool was_filed = filed_.erase(key) > 0;
+    forgotten_ += was_filed && !cells ? 1 : 0;
+    return cells ? std::move(*cells) : Tile(kCells, empty_);
+  }
+
+  void moveToFile(const Key& key) {
+    const auto tile = tiles_.find(key);
+    if (const auto offset = file_->append(tile->second.data(), kCells * sizeof(Cell))) {
+      filed_[key] = *offset;
+    } else {
+      ++forgotten_;
+    }
+    tiles_.erase(tile);
+  }
+
   std::size_t max_tiles_;
   Cell empty_;
-  std::map<Key, std::vector<Cell>> tiles_;
-  std::deque<Key> order_;  ///< as they were made
+  std::map<Key, Tile> tiles_;
+  std::deque<Key> order_;               ///< as they were made or came back
+  std::map<Key, std::uint64_t> filed_;  ///< where in the file a tile is that is not in memory
+  std::shared_ptr<TileFile> file_;      ///< of all copies: what was written does not change
   std::size_t forgotten_ = 0;
 };
 

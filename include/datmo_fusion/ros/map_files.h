@@ -17,8 +17,9 @@ class MapFileError : public std::runtime_error {
 
 /// What of a file has been written.
 struct SavedMap {
-  std::size_t cells = 0;            ///< of which anything is known
-  std::size_t forgotten_tiles = 0;  ///< that the map had no room for: OccupancyMapOptions
+  std::size_t cells = 0;             ///< of which anything is known
+  std::size_t forgotten_tiles = 0;   ///< that the map had no room for: OccupancyMapOptions
+  std::string tile_file_error = {};  ///< why their file had none
 };
 
 /// What is written beside a map.

@@ -142,6 +142,7 @@ void GridSlamStage::reset() {
   last_map_.reset();
   degenerate_scans_ = 0;
   maps_begun_ = 0;
+  forgotten_tiles_ = 0;
 }
 
 std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {

@@ -45,6 +45,7 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
     return nullptr;
   }
   last_map_ = stamp;
+  showForgottenTiles();
   return boost::make_shared<nav_msgs::OccupancyGrid>(
       toMessage(slam_.map(), stamp, options_.frames.map));
 }

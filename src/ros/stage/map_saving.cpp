@@ -13,7 +13,8 @@ std::string savedMapText(const std::string& file, const OccupancyMap& map) {
   std::string text = file + ": " + std::to_string(saved.cells) + " cells";
   if (saved.forgotten_tiles > 0) {
     text += "; " + std::to_string(saved.forgotten_tiles) +
-            " tiles were forgotten before, since there are more than map/max_tiles";
+            " tiles were forgotten before, since there are more than map/max_tiles, and " +
+            saved.tile_file_error;
   }
   return text;
 }

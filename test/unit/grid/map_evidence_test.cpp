@@ -2,64 +2,12 @@
 #include "small_map.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/grid/tile_store.h"
-
 namespace datmo::map_evidence_test {
 namespace {
 
 using samples::scanTo;
 using samples::smallMap;
 using samples::updateWith;
-
-TEST(TileStoreTest, CellsComeBackOnBothSidesOfTheOrigin) {
-  TileStore<int> store(100, -1);
-  int content = 0;
-  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
-    for (const int row : {-40, -1, 0, 40}) {
-      store.put({column, row}, ++content);
-    }
-  }
-  content = 0;
-  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
-    for (const int row : {-40, -1, 0, 40}) {
-      EXPECT_EQ(store.at({column, row}), ++content) << column << ", " << row;
-    }
-  }
-  EXPECT_EQ(store.at({5, 5}), -1);
-  EXPECT_EQ(store.at({1000, 1000}), -1);
-  int visited = 0;
-  store.forEach([&](CellIndex cell, int value) {
-    visited += value >= 0 ? 1 : 0;
-    EXPECT_EQ(store.at(cell), value);
-  });
-  EXPECT_EQ(visited, content);
-}
-
-TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
-  TileStore<int> store(2, 0);
-  store.put({0, 0}, 1);
-  store.put({100, 0}, 2);
-  EXPECT_EQ(store.forgotten(), 0U);
-  store.put({200, 0}, 3);
-  EXPECT_EQ(store.forgotten(), 1U);
-  EXPECT_EQ(store.at({0, 0}), 0);
-  EXPECT_EQ(store.at({100, 0}), 2);
-  EXPECT_EQ(store.at({200, 0}), 3);
-}
-
-TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
-  TileStore<int> store(2, 0);
-  store.putPermanently({0, 0}, 1);
-  for (int i = 1; i <= 5; ++i) {
-    store.put({100 * i, 0}, i);
-  }
-  store.put({1, 0}, 6);
-  EXPECT_EQ(store.size(), 3U);
-  EXPECT_EQ(store.forgotten(), 3U);
-  EXPECT_EQ(store.at({0, 0}), 1);
-  EXPECT_EQ(store.at({1, 0}), 6);
-  EXPECT_EQ(store.at({500, 0}), 5);
-}
 
 /// A static surface 4 m ahead of the origin, and free cells before it.
 OccupancyMap mapWithSurface() {
@@ -129,6 +77,7 @@ TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
 TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 4;
+  options.tile_file.folder.clear();
   OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
   const std::size_t restored = map.evidence().cells.size();
   std::size_t max_known = 0;
@@ -153,6 +102,7 @@ TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
 TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 1;
+  options.tile_file.folder.clear();
   OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
   for (int i = 1; i <= 3; ++i) {
     const Pose2 pose(40.0 * i, 0.0, 0.0);
@@ -163,6 +113,36 @@ TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
   map.setWindow(map.extent());
   EXPECT_EQ(map.evidence().cells.size(), known);
   expectSurface(map);
+}
+
+TEST(MapEvidenceTest, WhatMemoryHasNoRoomForIsInTheFile) {
+  OccupancyMapOptions options = smallMap();
+  const auto drive = [](OccupancyMap& map) {
+    for (int i = 0; i <= 20; ++i) {
+      const Pose2 pose(40.0 * i, 0.0, 0.0);
+      map.centerOn(pose.position());
+      for (const double seconds : {0.0, 0.5, 1.0, 1.5}) {
+        updateWith(map, scanTo({{4.3, 0.4}}, 2.0 * i + seconds), PointState::kUnknown, pose);
+      }
+    }
+  };
+  OccupancyMap in_memory{options};
+  drive(in_memory);
+  options.max_tiles = 3;
+  options.tile_file.folder = testing::TempDir();
+  OccupancyMap in_file{options};
+  drive(in_file);
+  EXPECT_EQ(in_file.forgottenTiles(), 0U) << in_file.tileFileError();
+  const MapEvidence expected = in_memory.evidence();
+  const MapEvidence evidence = in_file.evidence();
+  ASSERT_EQ(evidence.cells.size(), expected.cells.size());
+  for (std::size_t i = 0; i < evidence.cells.size(); ++i) {
+    EXPECT_EQ(evidence.cells[i].cell, expected.cells[i].cell);
+    EXPECT_EQ(evidence.cells[i].log_odds, expected.cells[i].log_odds);
+    EXPECT_EQ(evidence.cells[i].hits.count, expected.cells[i].hits.count);
+  }
+  in_file.setWindow(in_file.extent());
+  expectSurface(in_file);
 }
 
 TEST(MapEvidenceTest, ARestoredMapIsUpdated) {

@@ -127,6 +127,7 @@ class GridSlamStage : public Stage {
   void showMatch(const SlamResult& result);
   void showLocalization(const SlamResult& result);
   void showSearch(const SlamResult& result);
+  void showForgottenTiles();
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   /// By the odometry's poses.
@@ -150,6 +151,7 @@ class GridSlamStage : public Stage {
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
   int maps_begun_ = 0;
+  std::size_t forgotten_tiles_ = 0;
 };
 
 }  // namespace datmo

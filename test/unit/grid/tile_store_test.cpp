@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/grid/tile_store.h"
+
+#include <csignal>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+namespace datmo::tile_store_test {
+namespace {
+
+constexpr int kEmpty = -1;
+constexpr double kTileSize = 32.0 * 32.0 * sizeof(int) / (1024.0 * 1024.0);  // MiB
+
+TileFileOptions noFile() { return {"", 0.0}; }
+
+TileFileOptions fileOf(double tiles) { return {testing::TempDir(), tiles * kTileSize}; }
+
+/// A tile each, of which two are in memory.
+TileStore<int> storeWithTiles(int tiles, const TileFileOptions& file) {
+  TileStore<int> store(2, kEmpty, file);
+  for (int i = 0; i < tiles; ++i) {
+    store.put({100 * i, 0}, i);
+  }
+  return store;
+}
+
+void expectTiles(const TileStore<int>& store, int first, int end) {
+  for (int i = first; i < end; ++i) {
+    EXPECT_EQ(store.at({100 * i, 0}), i);
+    EXPECT_EQ(store.at({100 * i + 1, 0}), kEmpty);
+  }
+  int visited = 0;
+  CellIndex last{-1000, 0};
+  store.forEach([&](CellIndex cell, int content) {
+    EXPECT_GE(cell.column / 32, last.column / 32) << "by columns, wherever a tile lies";
+    last = cell;
+    visited += content == kEmpty ? 0 : 1;
+  });
+  EXPECT_EQ(visited, end - first);
+}
+
+TEST(TileStoreTest, CellsComeBackOnBothSidesOfTheOrigin) {
+  TileStore<int> store(100, -1, noFile());
+  int content = 0;
+  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
+    for (const int row : {-40, -1, 0, 40}) {
+      store.put({column, row}, ++content);
+    }
+  }
+  content = 0;
+  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
+    for (const int row : {-40, -1, 0, 40}) {
+      EXPECT_EQ(store.at({column, row}), ++content) << column << ", " << row;
+    }
+  }
+  EXPECT_EQ(store.at({5, 5}), -1);
+  EXPECT_EQ(store.at({1000, 1000}), -1);
+  int visited = 0;
+  store.forEach([&](CellIndex cell, int value) {
+    visited += value >= 0 ? 1 : 0;
+    EXPECT_EQ(store.at(cell), value);
+  });
+  EXPECT_EQ(visited, content);
+}
+
+TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
+  TileStore<int> store(2, 0, noFile());
+  store.put({0, 0}, 1);
+  store.put({100, 0}, 2);
+  EXPECT_EQ(store.forgotten(), 0U);
+  store.put({200, 0}, 3);
+  EXPECT_EQ(store.forgotten(), 1U);
+  EXPECT_EQ(store.at({0, 0}), 0);
+  EXPECT_EQ(store.at({100, 0}), 2);
+  EXPECT_EQ(store.at({200, 0}), 3);
+}
+
+TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
+  TileStore<int> store(2, 0, noFile());
+  store.putPermanently({0, 0}, 1);
+  for (int i = 1; i <= 5; ++i) {
+    store.put({100 * i, 0}, i);
+  }
+  store.put({1, 0}, 6);
+  EXPECT_EQ(store.size(), 3U);
+  EXPECT_EQ(store.forgotten(), 3U);
+  EXPECT_EQ(store.at({0, 0}), 1);
+  EXPECT_EQ(store.at({1, 0}), 6);
+  EXPECT_EQ(store.at({500, 0}), 5);
+}
+
+TEST(TileStoreTest, WhatMemoryHasNoRoomForIsInTheFile) {
+  const TileStore<int> store = storeWithTiles(6, fileOf(100.0));
+  expectTiles(store, 0, 6);
+  EXPECT_EQ(store.size(), 6U);
+  EXPECT_EQ(store.forgotten(), 0U);
+  EXPECT_EQ(store.fileError(), "");
+}
+
+TEST(TileStoreTest, ATileComesBackFromTheFileWithAllThatItHeld) {
+  TileStore<int> store = storeWithTiles(4, fileOf(100.0));
+  store.put({1, 0}, 77);
+  EXPECT_EQ(store.at({0, 0}), 0);
+  EXPECT_EQ(store.at({1, 0}), 77);
+  for (int i = 4; i < 8; ++i) {  // and goes there again, changed
+    store.put({100 * i, 0}, i);
+  }
+  EXPECT_EQ(store.at({0, 0}), 0);
+  EXPECT_EQ(store.at({1, 0}), 77);
+  EXPECT_EQ(store.size(), 8U);
+}
+
+TEST(TileStoreTest, ACopySharesTheFileAndNotItsChanges) {
+  TileStore<int> store = storeWithTiles(4, fileOf(100.0));
+  TileStore<int> copy = store;
+  copy.put({0, 0}, 50);
+  for (int i = 1; i < 4; ++i) {  // the first tile goes into the file again
+    copy.put({100 * i, 0}, 50 + i);
+  }
+  expectTiles(store, 0, 4);
+  EXPECT_EQ(copy.at({0, 0}), 50);
+  EXPECT_EQ(copy.at({100, 0}), 51);
+}
+
+TEST(TileStoreTest, AFullFileForgetsAndSaysWhy) {
+  const TileStore<int> store = storeWithTiles(6, fileOf(1.5));
+  EXPECT_EQ(store.forgotten(), 3U) << "two in memory, one in the file";
+  EXPECT_EQ(store.at({0, 0}), 0);
+  EXPECT_EQ(store.at({100, 0}), kEmpty);
+  EXPECT_EQ(store.at({500, 0}), 5);
+  EXPECT_NE(store.fileError().find("max_size"), std::string::npos) << store.fileError();
+}
+
+TEST(TileStoreTest, AFolderThatIsNotThereForgetsAndSaysWhy) {
+  const TileStore<int> store = storeWithTiles(4, {"/nowhere/at/all", 100.0});
+  EXPECT_EQ(store.forgotten(), 2U);
+  EXPECT_NE(store.fileError().find("'/nowhere/at/all'"), std::string::npos) << store.fileError();
+}
+
+/// The system refuses to let a file grow beyond a limit as it does on a full disk.
+TEST(TileStoreTest, AFullDiskForgetsAndSaysWhy) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{static_cast<rlim_t>(1.5 * 32 * 32 * sizeof(int)), before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  TileStore<int> store = storeWithTiles(6, fileOf(100.0));
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(store.forgotten(), 3U);
+  EXPECT_EQ(store.at({0, 0}), 0) << "what was written before";
+  EXPECT_NE(store.fileError().find("cannot grow"), std::string::npos) << store.fileError();
+  store.put({600, 0}, 6);
+  EXPECT_EQ(store.forgotten(), 3U) << "there is room again";
+  EXPECT_EQ(store.at({400, 0}), 4);
+}
+
+TEST(TileStoreTest, TheFileHasNoName) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tiles";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  const TileStore<int> store = storeWithTiles(6, {folder.string(), 100.0});
+  EXPECT_EQ(store.forgotten(), 0U);
+  EXPECT_TRUE(std::filesystem::is_empty(folder)) << "it is gone with the process";
+}
+
+}  // namespace
+}  // namespace datmo::tile_store_test
