@@ -17,7 +17,11 @@ set(DATMO_FUSION_FILES_TOGETHER 12)
 function(datmo_fusion_compile_as_ours target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual
-    -Wcast-align -Wold-style-cast -Wduplicated-cond -Wlogical-op -Wnull-dereference)
+    -Wcast-align -Wold-style-cast
+    $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond> $<$<CXX_COMPILER_ID:GNU>:-Wlogical-op> -Wnull-dereference
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>) # in Clang alone it is a part of -Wconversion
+  # ccache knows a precompiled header by what is in it, not by when it was compiled.
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
   # Same results, faster: calls within a library need not go where a preloaded one might have put itself,
   # and nobody reads errno or the floating-point exceptions.
   target_compile_options(${target} PRIVATE
@@ -34,7 +38,7 @@ endfunction()
 function(datmo_fusion_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # A class of a source file may have members of its unnamed namespace; GCC takes the file for a header.
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     get_filename_component(folder ${source} DIRECTORY)

@@ -3,10 +3,12 @@ set(DATMO_FUSION_SANITIZE "" CACHE STRING "sanitizers: address,undefined or thre
 if(DATMO_FUSION_SANITIZE)
   add_compile_options(-fsanitize=${DATMO_FUSION_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
-  # These warnings judge code after optimization, which sanitizers make another: told, but no errors.
-  foreach(warning array-bounds free-nonheap-object maybe-uninitialized null-dereference stringop-overflow)
-    add_compile_options(-Wno-error=${warning})
-  endforeach()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # These warnings judge code after optimization, which sanitizers make another: told, but no errors.
+    foreach(warning array-bounds free-nonheap-object maybe-uninitialized null-dereference stringop-overflow)
+      add_compile_options(-Wno-error=${warning})
+    endforeach()
+  endif()
   # As Debian's libpcl allocates, so that what one side allocates the other may free.
   add_compile_definitions(EIGEN_HAS_CXX17_OVERALIGN=0 EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_link_options(-fsanitize=${DATMO_FUSION_SANITIZE})

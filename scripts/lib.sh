@@ -76,7 +76,8 @@ configure_tree() {
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
-  cmake "${options[@]}" "${@:2}"
+  # Messages for the languages that something here is written in.
+  ROS_LANG_DISABLE=geneus:genlisp:gennodejs cmake "${options[@]}" "${@:2}"
 }
 
 # The environment of a built tree, for everything that talks ROS. A master of its own on a free port

@@ -16,9 +16,8 @@ constexpr double kDentSigmas = 2.5;
 
 }  // namespace
 
-DentSplitter::DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
-                           const SurfaceGroupOptions& options)
-    : columns_(columns), options_(options), noise_(camera.noise) {}
+DentSplitter::DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera)
+    : columns_(columns), noise_(camera.noise) {}
 
 void DentSplitter::split(SurfaceGroup group, std::vector<SurfaceGroup>& parts) {
   std::vector<SurfaceGroup> wholes{std::move(group)};

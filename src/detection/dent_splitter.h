@@ -17,8 +17,7 @@ using SurfaceGroup = std::vector<std::size_t>;
 class DentSplitter {
  public:
   /// What is passed must outlive this.
-  DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
-               const SurfaceGroupOptions& options);
+  DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera);
 
   /// Adds the parts of a group to `parts`, left ones first.
   void split(SurfaceGroup group, std::vector<SurfaceGroup>& parts);
@@ -36,7 +35,6 @@ class DentSplitter {
   double above(std::size_t first, std::size_t middle, std::size_t last) const;
 
   const SurfaceColumns& columns_;
-  const SurfaceGroupOptions& options_;
   DepthNoise noise_;
   std::vector<ProfilePoint> profile_;
   std::vector<ProfilePoint> raw_profile_;

@@ -142,7 +142,7 @@ class SurfaceLinks {
 
 std::vector<SurfaceGroup> groupSurfaces(const SurfaceColumns& columns, const StereoCamera& camera,
                                         const SurfaceGroupOptions& options) {
-  DentSplitter splitter(columns, camera, options);
+  DentSplitter splitter(columns, camera);
   std::vector<SurfaceGroup> groups;
   for (SurfaceGroup& group : SurfaceLinks(columns, camera, options).groups()) {
     splitter.split(std::move(group), groups);

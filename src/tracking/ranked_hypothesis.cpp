@@ -18,7 +18,6 @@ RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const Assoc
                                    const GlobalHypothesis& parent,
                                    const Interpretation& interpretation)
     : cluster_(&cluster),
-      scan_(&scan),
       parent_(&parent),
       interpretation_(&interpretation),
       base_(parent.log_weight) {

@@ -46,7 +46,6 @@ class RankedHypothesis {
   bool isComplete() const;
 
   const HypothesisCluster* cluster_;
-  const AssociationScan* scan_;
   const GlobalHypothesis* parent_;
   const Interpretation* interpretation_;
   double base_;                    ///< logarithm of the weight if all targets are missed

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """False tracks where the input is bad: none of it may bring a burst of them."""
 
+import io
 import math
 import random
 import tempfile
@@ -70,18 +71,24 @@ def mounted_wrong(topic, message, _):
     return message
 
 
+def serialized(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
 def changed(recorded, name, change):
     """The drive with its messages as change(topic, message, seconds since the begin) has them."""
     result = recorded.with_name(f"{recorded.stem}_{name}.bag")
     changes = 0
     with rosbag.Bag(str(recorded)) as bag, rosbag.Bag(str(result), "w") as out:
         begin = bag.get_start_time()
-        for topic, message, stamp in bag.read_messages():
-            before = repr(message)
-            after = change(topic, message, stamp.to_sec() - begin)
-            changes += after is None or repr(after) != before
+        for topic, (kind, before, digest, *_, of_kind), stamp in bag.read_messages(raw=True):
+            message = change(topic, of_kind().deserialize(before), stamp.to_sec() - begin)
+            after = serialized(message) if message is not None else None
+            changes += after != before
             if after is not None:
-                out.write(topic, after, stamp)
+                out.write(topic, (kind, after, digest, of_kind), stamp, raw=True)
     if changes == 0:
         raise RuntimeError(f"{name}: nothing was changed in {recorded}")
     return result

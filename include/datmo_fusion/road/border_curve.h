@@ -49,7 +49,6 @@ class CurveTable {
 
   double first_;
   Pose2 anchor_;
-  std::size_t anchor_station_ = 0;
   std::vector<Station> stations_;
 };
 
