@@ -28,7 +28,36 @@ ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
   return relative;
 }
 
+ClassProbabilities normalized(ClassProbabilities relative) {
+  const double total = std::accumulate(relative.begin(), relative.end(), 0.0);
+  for (double& probability : relative) {
+    probability /= total;
+  }
+  return relative;
+}
+
 }  // namespace
+
+ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods) {
+  const double mean = (likelihoods.pedestrian + likelihoods.cyclist + likelihoods.vehicle) / 3.0;
+  ClassProbabilities result;
+  result.fill(1.0);
+  result[indexOf(ObjectClass::kPedestrian)] = likelihoods.pedestrian / mean;
+  result[indexOf(ObjectClass::kCyclist)] = likelihoods.cyclist / mean;
+  result[indexOf(ObjectClass::kVehicle)] = likelihoods.vehicle / mean;
+  return result;
+}
+
+ClassProbabilities posterior(ClassProbabilities said, const ClassProbabilities& factors) {
+  std::transform(said.begin(), said.end(), factors.begin(), said.begin(), std::multiplies<>());
+  return normalized(said);
+}
+
+ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabilities& factors) {
+  std::transform(weighed.begin(), weighed.end(), factors.begin(), weighed.begin(),
+                 std::divides<>());
+  return normalized(weighed);
+}
 
 ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs) {
   if (beliefs.size() == 1) {

@@ -93,6 +93,14 @@ void BoxSizeOptions::visit(OptionVisitor& visitor) {
        "sides' variances: mirrors, round corners, another height"},
       extent_std, {0.001, 2.0});
   visitor.number(
+      {"correlation_time", "s",
+       "in which what is seen of a body errs alike, so that all scans of it count as one"},
+      correlation_time, {0.0, 10.0});
+  visitor.number({"wrong_size", "1",
+                  "share of sizes that say nothing of the class: of several things as one, or of a "
+                  "part"},
+                 wrong_size, {1e-3, 1.0});
+  visitor.number(
       {"drift", "m^2/s", "growth of the variance of each size: other parts come in view"}, drift,
       {0.0, 10.0});
 }
@@ -106,9 +114,9 @@ BoxSize::BoxSize(const BoxSizeOptions& options) {
     const double width_variance = square(prior.width_std);
     const double log_weight = std::log(prior.share);
     hypotheses_[kAxes * kind] = {
-        log_weight, {prior.length, prior.width}, {length_variance, width_variance}};
+        log_weight, 0.0, {prior.length, prior.width}, {length_variance, width_variance}};
     hypotheses_[kAxes * kind + 1] = {
-        log_weight, {prior.width, prior.length}, {width_variance, length_variance}};
+        log_weight, 0.0, {prior.width, prior.length}, {width_variance, length_variance}};
   }
   summarize();
 }
@@ -128,19 +136,40 @@ void BoxSize::classify(ObjectClass object_class, double probability) {
 
 void BoxSize::update(const std::array<VisibleExtent, 2>& seen, double seconds,
                      const BoxSizeOptions& options) {
+  const bool is_independent = !was_seen_ || seconds >= options.correlation_time;
+  const double news = is_independent ? 1.0 : seconds / options.correlation_time;
+  was_seen_ = true;
+  if (news <= 0.0) {
+    return;
+  }
   for (Hypothesis& hypothesis : hypotheses_) {
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       hypothesis.variance[axis] += options.drift * seconds;
-      hypothesis.log_weight += ingest(seen[axis], seen[axis].variance + square(options.extent_std),
-                                      hypothesis.mean[axis], hypothesis.variance[axis]);
+      const double noise = (seen[axis].variance + square(options.extent_std)) / news;
+      hypothesis.add(ingest(seen[axis], noise, hypothesis.mean[axis], hypothesis.variance[axis]));
     }
   }
   summarize();
 }
 
+RoadUserLikelihoods BoxSize::likelihoods(const BoxSizeOptions& options) const {
+  const auto of = [&](std::size_t kind) {
+    return std::exp(hypotheses_[kAxes * kind].log_size) +
+           std::exp(hypotheses_[kAxes * kind + 1].log_size);
+  };
+  const double vehicles = options.vehicle.share + options.lorry.share;
+  const RoadUserLikelihoods seen{
+      of(3), of(2), (options.vehicle.share * of(0) + options.lorry.share * of(1)) / vehicles};
+  const double best = std::max({seen.pedestrian, seen.cyclist, seen.vehicle});
+  const auto unlessWrong = [&](double likelihood) {
+    return (1.0 - options.wrong_size) * likelihood / best + options.wrong_size;
+  };
+  return {unlessWrong(seen.pedestrian), unlessWrong(seen.cyclist), unlessWrong(seen.vehicle)};
+}
+
 void BoxSize::addOddsAlongFirst(double log_odds) {
   for (std::size_t i = 0; i < hypotheses_.size(); i += kAxes) {
-    hypotheses_[i].log_weight += log_odds;
+    hypotheses_[i].add(log_odds);
   }
   summarize();
 }
@@ -159,8 +188,10 @@ void BoxSize::swapAxes() {
 /// Weights relative to the best one, and the moments of the mixture.
 void BoxSize::summarize() {
   double best = hypotheses_[0].log_weight;
+  double best_size = hypotheses_[0].log_size;
   for (const Hypothesis& hypothesis : hypotheses_) {
     best = std::max(best, hypothesis.log_weight);
+    best_size = std::max(best_size, hypothesis.log_size);
   }
   const double min_weight = std::exp(kMinLogWeight);  // of most
   double total = 0.0;
@@ -170,6 +201,7 @@ void BoxSize::summarize() {
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     Hypothesis& hypothesis = hypotheses_[i];
     hypothesis.log_weight = std::max(hypothesis.log_weight - best, kMinLogWeight);
+    hypothesis.log_size = std::max(hypothesis.log_size - best_size, kMinLogWeight);
     const double weight =
         hypothesis.log_weight == kMinLogWeight ? min_weight : std::exp(hypothesis.log_weight);
     total += weight;

@@ -2,12 +2,8 @@
 #include "datmo_fusion/tracking/class_by_speed.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <string>
-#include <utility>
 
 #include "datmo_fusion/common/square.h"
 
@@ -24,36 +20,15 @@ double logDensity(const ClassSpeed& class_speed, const MeasuredSpeed& speed) {
   return -0.5 * (square(speed.value - class_speed.mean) / variance + std::log(variance));
 }
 
-/// Of each class, relative to the mean of the three road users.
-ClassProbabilities likelihoods(const MeasuredSpeed& speed, const ClassBySpeedOptions& options) {
-  using OfClass = std::pair<ObjectClass, double>;
-  const std::array<OfClass, 3> users = {
-      {{ObjectClass::kPedestrian, logDensity(options.pedestrian, speed)},
-       {ObjectClass::kCyclist, logDensity(options.cyclist, speed)},
-       {ObjectClass::kVehicle, logDensity(options.vehicle, speed)}}};
-  const double best =
-      std::max_element(users.begin(), users.end(), [](const OfClass& a, const OfClass& b) {
-        return a.second < b.second;
-      })->second;
-  ClassProbabilities result{};
-  double mean = 0.0;
-  for (const auto& [object_class, log_density] : users) {
-    const double likelihood = std::max(kMinLikelihood, std::exp(log_density - best));
-    result[static_cast<std::size_t>(object_class)] = likelihood;
-    mean += likelihood / static_cast<double>(users.size());
-  }
-  for (double& likelihood : result) {
-    likelihood = likelihood > 0.0 ? likelihood / mean : 1.0;
-  }
-  return result;
-}
-
-ClassProbabilities normalized(ClassProbabilities relative) {
-  const double total = std::accumulate(relative.begin(), relative.end(), 0.0);
-  for (double& probability : relative) {
-    probability /= total;
-  }
-  return relative;
+ClassProbabilities factors(const MeasuredSpeed& speed, const ClassBySpeedOptions& options) {
+  const double pedestrian = logDensity(options.pedestrian, speed);
+  const double cyclist = logDensity(options.cyclist, speed);
+  const double vehicle = logDensity(options.vehicle, speed);
+  const double best = std::max({pedestrian, cyclist, vehicle});
+  const auto likelihood = [best](double log_density) {
+    return std::max(kMinLikelihood, std::exp(log_density - best));
+  };
+  return ofEachClass({likelihood(pedestrian), likelihood(cyclist), likelihood(vehicle)});
 }
 
 }  // namespace
@@ -82,16 +57,12 @@ MeasuredSpeed speedOf(const StateEstimate& estimate) {
 
 ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed& speed,
                              const ClassBySpeedOptions& options) {
-  ClassProbabilities result = likelihoods(speed, options);
-  std::transform(said.begin(), said.end(), result.begin(), result.begin(), std::multiplies<>());
-  return normalized(result);
+  return posterior(said, factors(speed, options));
 }
 
 ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
                                 const ClassBySpeedOptions& options) {
-  ClassProbabilities result = likelihoods(speed, options);
-  std::transform(weighed.begin(), weighed.end(), result.begin(), result.begin(), std::divides<>());
-  return normalized(result);
+  return withoutFactors(weighed, factors(speed, options));
 }
 
 }  // namespace datmo

@@ -208,9 +208,11 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities =
-      moving_
-          ? withSpeed(class_.probabilities(), speedOf(filter_.estimate()), options.class_by_speed)
-          : class_.probabilities();
+      posterior(class_.probabilities(), ofEachClass(box_.sizeLikelihoods(options.box)));
+  if (moving_) {
+    track.class_probabilities =
+        withSpeed(track.class_probabilities, speedOf(filter_.estimate()), options.class_by_speed);
+  }
   track.age = age_;
   track.since_update = since_update_;
   track.hits = hits_;

@@ -17,6 +17,22 @@ using ClassProbabilities = std::array<double, kObjectClasses>;
 /// likely, as of none. One alone stays as it is.
 ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs);
 
+/// How likely something that was measured is of each of the three road users, relative to each
+/// other; each at least 0, and one above it.
+struct RoadUserLikelihoods {
+  double pedestrian;
+  double cyclist;
+  double vehicle;
+};
+
+/// The same of each class, relative to the mean of the three: of anything else it is as likely.
+ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods);
+
+/// What was said, and what was measured besides (Bayes): a factor for each class, or its inverse to
+/// take it out again. The result sums to 1.
+ClassProbabilities posterior(ClassProbabilities said, const ClassProbabilities& factors);
+ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabilities& factors);
+
 /// Whether one class is likelier than by chance, by more than the doubt that ClassBelief keeps.
 bool tellsAnything(const ClassProbabilities& belief);
 

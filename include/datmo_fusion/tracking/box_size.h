@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 
@@ -30,8 +31,10 @@ struct BoxSizeOptions {
   SizePrior two_wheeler{0.3, 1.8, 0.25, 0.6, 0.15};
   SizePrior person{0.3, 0.7, 0.25, 0.6, 0.2};
   SizePrior other{0.05, 3.0, 3.0, 1.5, 1.5};
-  double extent_std = 0.1;  ///< m
-  double drift = 1e-3;      ///< m^2/s
+  double extent_std = 0.1;         ///< m
+  double correlation_time = 0.25;  ///< s
+  double wrong_size = 0.05;        ///< 1
+  double drift = 1e-3;             ///< m^2/s
 
   void visit(OptionVisitor& visitor);
 };
@@ -51,6 +54,10 @@ struct VisibleExtent {
 /// that of something 4 m long, and a leg for part of something small, before anything has indicated
 /// their class (thesis 4.2.4 needs the class for that).
 ///
+/// What is seen of a body errs alike from scan to scan: the same mirror, the same neighbor that is
+/// taken for a part. So scans within `correlation_time` count together as one: the variance of each
+/// is larger in proportion.
+///
 /// Where an end is hidden, the visible extent less what may be noise is a lower bound: the size
 /// grows to it where it is longer than the estimate, and never shrinks by it. No heap: cheap to
 /// copy.
@@ -62,7 +69,7 @@ class BoxSize {
   void classify(ObjectClass object_class, double probability);
 
   /// Takes in what was seen along the first and the second axis, `seconds` >= 0 after the last
-  /// time.
+  /// time; after none it says nothing new.
   void update(const std::array<VisibleExtent, 2>& seen, double seconds,
               const BoxSizeOptions& options);
 
@@ -71,6 +78,9 @@ class BoxSize {
 
   /// Renames the axes: the first becomes the second.
   void swapAxes();
+
+  /// How likely what was seen is of each road user, by size alone: not by what classify() said.
+  RoadUserLikelihoods likelihoods(const BoxSizeOptions& options) const;
 
   /// m, along both axes.
   const Eigen::Vector2d& mean() const { return mean_; }
@@ -85,8 +95,14 @@ class BoxSize {
 
   struct Hypothesis {
     double log_weight;
+    double log_size;                     ///< the part of it that sizes and their axes have
     std::array<double, kAxes> mean;      ///< m, by axis
     std::array<double, kAxes> variance;  ///< m^2
+
+    void add(double log_likelihood) {
+      log_weight += log_likelihood;
+      log_size += log_likelihood;
+    }
   };
 
   void summarize();
@@ -96,6 +112,7 @@ class BoxSize {
   Eigen::Vector2d mean_;
   Eigen::Vector2d variance_;
   double along_first_ = 0.5;
+  bool was_seen_ = false;
 };
 
 }  // namespace datmo

@@ -72,6 +72,11 @@ class TrackedBox {
   /// Motion has decided which of the two ends is the front.
   bool signKnown() const { return sign_known_; }
 
+  /// How likely its size is of each road user.
+  RoadUserLikelihoods sizeLikelihoods(const TrackedBoxOptions& options) const {
+    return size_.likelihoods(options.size);
+  }
+
   /// m^2, of length and width.
   const Eigen::Vector2d& sizeVariance() const { return size_.variance(); }
 

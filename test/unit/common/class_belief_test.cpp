@@ -88,6 +88,23 @@ TEST(ClassBelief, TellsAnythingWhereOneClassIsAboveChanceByMoreThanTheDoubt) {
   EXPECT_TRUE(tellsAnything({0.18, 0.18, 0.18, 0.28, 0.18}));
 }
 
+TEST(ClassBelief, WhatWasMeasuredWeighsRoadUsersAndLeavesTheOthers) {
+  const ClassProbabilities factors = ofEachClass({0.5, 1.0, 0.3});
+  EXPECT_NEAR(factors[1], 0.5 / 0.6, kTolerance);
+  EXPECT_NEAR(factors[2], 1.0 / 0.6, kTolerance);
+  EXPECT_NEAR(factors[3], 0.3 / 0.6, kTolerance);
+  const ClassProbabilities said = {0.1, 0.2, 0.3, 0.3, 0.1};
+  const ClassProbabilities weighed = posterior(said, factors);
+  const double total = 0.1 + 0.2 * 0.5 / 0.6 + 0.3 / 0.6 + 0.3 * 0.3 / 0.6 + 0.1;
+  EXPECT_NEAR(weighed[0], 0.1 / total, kTolerance);
+  EXPECT_NEAR(weighed[2], 0.3 / 0.6 / total, kTolerance);
+  EXPECT_NEAR(std::accumulate(weighed.begin(), weighed.end(), 0.0), 1.0, kTolerance);
+  const ClassProbabilities back = withoutFactors(weighed, factors);
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    EXPECT_NEAR(back[i], said[i], kTolerance);
+  }
+}
+
 TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
   const ClassProbabilities a = {0.1, 0.1, 0.1, 0.6, 0.1};
   const ClassProbabilities b = {0.1, 0.1, 0.4, 0.3, 0.1};

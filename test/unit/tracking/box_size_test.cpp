@@ -131,6 +131,71 @@ TEST(BoxSize, OneScanThatIsFarOffCountsForLittle) {
   EXPECT_NEAR(size.mean().x(), 4.4, 0.2);
 }
 
+TEST(BoxSize, ScansOfOneMomentCountAsOne) {
+  const BoxSizeOptions options;
+  const auto after = [&](int scans, double seconds) {
+    BoxSize size(options);
+    size.update({whole(4.2), whole(1.75)}, 0.0, options);
+    for (int i = 0; i < scans; ++i) {
+      size.update({whole(4.6), whole(1.75)}, seconds / scans, options);
+    }
+    return size;
+  };
+  const BoxSize few = after(2, 0.2);
+  const BoxSize many = after(20, 0.2);
+  EXPECT_NEAR(many.mean().x(), few.mean().x(), 0.01);
+  EXPECT_NEAR(many.variance().x(), few.variance().x(), 0.1 * few.variance().x());
+  const BoxSize longer = after(20, 20.0);
+  EXPECT_LT(longer.variance().x(), 0.5 * few.variance().x()) << "as many, each of its own moment";
+}
+
+TEST(BoxSize, AScanWithoutTimeSaysNothingNew) {
+  const BoxSizeOptions options;
+  BoxSize size(options);
+  size.update({whole(4.2), whole(1.75)}, 0.0, options);
+  const Eigen::Vector2d before = size.mean();
+  size.update({whole(4.6), whole(1.9)}, 0.0, options);
+  EXPECT_EQ(size.mean(), before);
+}
+
+/// One kind has been seen, from both its sides: by hand.
+TEST(BoxSize, TheLikelihoodsAreThoseOfTheSizes) {
+  BoxSizeOptions options;
+  options.lorry.share = 1e-6;
+  options.wrong_size = 0.1;
+  BoxSize size(options);
+  const RoadUserLikelihoods unseen = size.likelihoods(options);
+  EXPECT_DOUBLE_EQ(unseen.pedestrian, 1.0);
+  EXPECT_DOUBLE_EQ(unseen.cyclist, 1.0);
+  EXPECT_NEAR(unseen.vehicle, 1.0, 1e-9);
+
+  size.addOddsAlongFirst(30.0);  // so that only one axis is left
+  size.update({atLeast(0.0), whole(0.9)}, 0.0, options);
+  const double noise = 0.01 + 0.1 * 0.1;
+  const auto density = [&](const SizePrior& prior) {
+    const double variance = prior.width_std * prior.width_std + noise;
+    const double distance2 = (0.9 - prior.width) * (0.9 - prior.width) / variance;
+    return std::exp(-0.5 * std::min(9.0, distance2)) / std::sqrt(variance);
+  };
+  const double best = density(options.person);
+  const RoadUserLikelihoods seen = size.likelihoods(options);
+  EXPECT_NEAR(seen.pedestrian, 1.0, 1e-6);
+  EXPECT_NEAR(seen.cyclist, 0.9 * density(options.two_wheeler) / best + 0.1, 1e-6);
+  EXPECT_NEAR(seen.vehicle, 0.9 * density(options.vehicle) / best + 0.1, 1e-6);
+}
+
+TEST(BoxSize, WhatWasSaidOfTheClassIsNotInTheLikelihoods) {
+  const BoxSizeOptions options;
+  BoxSize size = afterRear(1.8, options);
+  const RoadUserLikelihoods before = size.likelihoods(options);
+  EXPECT_EQ(before.vehicle, 1.0);
+  EXPECT_LT(before.cyclist, 0.1);
+  size.classify(ObjectClass::kCyclist, 0.9);
+  const RoadUserLikelihoods after = size.likelihoods(options);
+  EXPECT_EQ(after.cyclist, before.cyclist);
+  EXPECT_EQ(after.vehicle, before.vehicle);
+}
+
 TEST(BoxSize, SwappingTheAxesTwiceChangesNothing) {
   const BoxSizeOptions options;
   BoxSize size = afterRear(1.8, options);
