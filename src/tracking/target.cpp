@@ -207,8 +207,11 @@ Track Target::track(const TargetOptions& options) const {
                    (modes[static_cast<int>(MotionMode::kLeftTurn)] -
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
-  track.class_probabilities =
-      posterior(class_.probabilities(), ofEachClass(box_.sizeLikelihoods(options.box)));
+  track.class_probabilities = class_.probabilities();
+  if (!tellsAnything(track.class_probabilities)) {  // detectors tell most classes by size, too
+    track.class_probabilities =
+        posterior(track.class_probabilities, ofEachClass(box_.sizeLikelihoods(options.box)));
+  }
   if (moving_) {
     track.class_probabilities =
         withSpeed(track.class_probabilities, speedOf(filter_.estimate()), options.class_by_speed);
