@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "datmo_fusion/common/square.h"
 
@@ -45,23 +44,27 @@ CenterBound::CenterBound(const Object& object)
   for (const double side : sides) {
     of_side = std::isfinite(side) ? std::max(of_side, side) : of_side;
   }
-  variance = object.delay == 0.0 ? maxVariance(object.position_covariance) + of_side
-                                 : std::numeric_limits<double>::infinity();
+  variance = maxVariance(object.position_covariance) + of_side;
+  delay = std::abs(object.delay);
 }
 
 void CenterBound::widen(const CenterBound& other) {
   diagonal = std::max(diagonal, other.diagonal);
   share = std::max(share, other.share);
   variance = std::max(variance, other.variance);
+  delay = std::max(delay, other.delay);
   hides_side = hides_side || other.hides_side;
 }
 
 double CenterGate::reach(const CenterBound& object) const {
-  double total = variance + object.variance + square(share + object.share) * size_variance;
+  // Position and velocity may err alike.
+  double total = square(position_std + object.delay * velocity_std) + object.variance +
+                 square(share + object.share) * size_variance;
   if (object.hides_side) {  // of opposite ones perhaps both
     total += kUniformVariance * (square(diagonal) + size_variance);
   }
-  const double apart = object.share * (diagonal + object.diagonal) + kRoundedDistance;
+  const double apart =
+      object.delay * speed + object.share * (diagonal + object.diagonal) + kRoundedDistance;
   return apart + std::sqrt(gate * total) * (1.0 + kRoundedShare);
 }
 

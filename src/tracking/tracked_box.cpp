@@ -161,8 +161,13 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
           object.position_covariance + alongAxes(seen_axes, variance), object.delay};
 }
 
-CenterGate TrackedBox::gateOf(const Eigen::Matrix2d& covariance, double gate) const {
-  return {gate, maxVariance(covariance), size_.mean().norm(), anchor_share_.cwiseAbs().maxCoeff(),
+CenterGate TrackedBox::gateOf(const StateEstimate& estimate, double gate) const {
+  return {gate,
+          std::sqrt(maxVariance(estimate.covariance.topLeftCorner<2, 2>())),
+          estimate.mean.segment<2>(2).norm(),
+          std::sqrt(maxVariance(estimate.covariance.block<2, 2>(2, 2))),
+          size_.mean().norm(),
+          anchor_share_.cwiseAbs().maxCoeff(),
           size_.variance().maxCoeff()};
 }
 

@@ -18,9 +18,9 @@ struct CenterBound {
 
   double diagonal = 0.0;  ///< m
   double share = 0.0;     ///< 0 to 0.5, by which the centers lie apart: of both sizes
-  /// m^2, in any direction, but for what the size of the target adds; infinite for an object with a
-  /// delay, which lies elsewhere by the velocity.
+  /// m^2, in any direction, but for what the size of the target adds.
   double variance = 0.0;
+  double delay = 0.0;       ///< s, at least 0: after or before the time of the targets
   bool hides_side = false;  ///< a side was not seen
 };
 
@@ -28,7 +28,9 @@ struct CenterBound {
 /// far outside of it, and what a target measures by an object takes long to work out.
 struct CenterGate {
   double gate;           ///< largest Mahalanobis distance squared
-  double variance;       ///< m^2, of the estimate, in any direction
+  double position_std;   ///< m, of the estimate, in any direction
+  double speed;          ///< m/s
+  double velocity_std;   ///< m/s, in any direction
   double diagonal;       ///< m, of the box
   double share;          ///< 0 to 0.5, largest anchor share
   double size_variance;  ///< m^2, of length or width

@@ -74,9 +74,7 @@ class Target {
   }
 
   /// Which objects may be measurements within this Mahalanobis distance squared.
-  CenterGate gateOf(double gate) const {
-    return box_.gateOf(filter_.estimate().covariance.topLeftCorner<2, 2>(), gate);
-  }
+  CenterGate gateOf(double gate) const { return box_.gateOf(filter_.estimate(), gate); }
 
   /// That an object is of this target's class, by the classes reported for both; of one whose class
   /// is not known it is chance: one in kObjectClasses.

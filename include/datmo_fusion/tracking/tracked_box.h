@@ -46,8 +46,8 @@ class TrackedBox {
   /// what the unknown size makes of that.
   PositionMeasurement measurementOf(const Object& object) const;
 
-  /// Of a center with this covariance (m^2), as far as `gate` (Mahalanobis distance squared).
-  CenterGate gateOf(const Eigen::Matrix2d& covariance, double gate) const;
+  /// Of a center that is estimated so, as far as `gate` (Mahalanobis distance squared).
+  CenterGate gateOf(const StateEstimate& estimate, double gate) const;
 
   /// Takes in the size, class and heading of an object, `seconds` >= 0 after the last one. Returns
   /// by how much the center moves (m, fixed frame), because size or heading are known better now

@@ -98,14 +98,22 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWhateverSidesAreSeen) {
     for (double& side : object.side_variance) {
       side = random.uniform(0.0, 1.0) < 0.5 ? kHiddenSide : random.uniform(0.0, 0.5);
     }
-    object.delay = random.uniform(0.0, 1.0) < 0.1 ? 0.05 : 0.0;
+    object.delay = random.uniform(0.0, 1.0) < 0.3 ? random.uniform(-0.3, 0.3) : 0.0;
     return object;
   };
   options_.max_candidates = 1000;
   std::size_t within = 0;
+  std::size_t late = 0;
   for (int i = 0; i < 300; ++i) {
     const TargetOptions options;
-    Target target(anyObject(), 0, 1, options);
+    Object born = anyObject();
+    born.velocity = MeasuredVelocity{
+        {random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0)}, Eigen::Matrix2d::Identity(), 0.0};
+    Target target(born, 0, 1, options);
+    for (int seen = i % 3; seen > 0; --seen) {  // from other sides, too
+      target.predict(0.1, immSteps(options.filter, 0.1), options);
+      target.update({anyObject(), {0}, 0.0, true, false}, 0, 0.9, options);
+    }
     target.predict(0.1, immSteps(options.filter, 0.1), options);
     const CenterGate gate = target.gateOf(options_.gate);
     for (int k = 0; k < 30; ++k) {
@@ -116,11 +124,13 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWhateverSidesAreSeen) {
           innovationOf(target.filter().estimate(), target.measurementOf(object));
       if (innovation.squaredDistance() <= options_.gate) {
         ++within;
+        late += object.delay == 0.0 ? 0 : 1;
         EXPECT_LE(distance, gate.reach(CenterBound(object)));
       }
     }
   }
   EXPECT_GT(within, 300U);
+  EXPECT_GT(late, 50U);
 }
 
 TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {
