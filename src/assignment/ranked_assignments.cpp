@@ -27,7 +27,8 @@ constexpr int kRowsWorthOrdering = 8;
 struct Candidate {
   double min_cost = 0.0;  ///< of a part: exact, else a lower bound
   int part = 0;
-  int position = kNone;  ///< of the row, in the order of `part`, that is to differ; kNone: a part
+  int position =
+      kNoIndex;  ///< of the row, in the order of `part`, that is to differ; kNoIndex: a part
   int number = 0;
 
   /// Order of the queue, which has the greatest on top.
@@ -112,7 +113,7 @@ class RankedAssignments::State {
 
   std::pmr::vector<Candidate> queue_;
   int pushed_ = 0;
-  int returned_ = kNone;  ///< the part whose best was returned last
+  int returned_ = kNoIndex;  ///< the part whose best was returned last
 };
 
 std::optional<Assignment> RankedAssignments::State::next() {
@@ -122,8 +123,8 @@ std::optional<Assignment> RankedAssignments::State::next() {
   if (parts_.empty()) {
     return first();
   }
-  if (returned_ != kNone) {
-    split(std::exchange(returned_, kNone));
+  if (returned_ != kNoIndex) {
+    split(std::exchange(returned_, kNoIndex));
   }
   while (!queue_.empty()) {
     if (path_.work() + own_work_ > max_work_) {
@@ -131,7 +132,7 @@ std::optional<Assignment> RankedAssignments::State::next() {
       return std::nullopt;
     }
     const Candidate candidate = pop();
-    if (candidate.position == kNone) {
+    if (candidate.position == kNoIndex) {
       returned_ = candidate.part;
       return best(candidate.part);
     }
@@ -207,7 +208,7 @@ void RankedAssignments::State::split(int part) {
 /// The row that must differ stays first; of the others those come first where another column costs
 /// most, so that the largest parts have the dearest best, and most of them are never searched.
 void RankedAssignments::State::orderRows(int part) {
-  const int kept = parts_[part].position + (parts_[part].row == kNone ? 0 : 1);
+  const int kept = parts_[part].position + (parts_[part].row == kNoIndex ? 0 : 1);
   const int* order = orderOf(parts_[part]);
   bounds_.clear();
   for (int position = kept; position < costs_.rows(); ++position) {
@@ -233,7 +234,7 @@ void RankedAssignments::State::search(const Candidate& candidate) {
   if (path_.replace(row, allowed(candidate.part, row), present_)) {
     const int part = static_cast<int>(parts_.size());
     keep({candidate.part, candidate.position, row, 0.0, whole.order});
-    push(parts_[part].cost, part, kNone);
+    push(parts_[part].cost, part, kNoIndex);
   }
 }
 

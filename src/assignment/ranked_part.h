@@ -4,15 +4,15 @@
 namespace datmo {
 
 /// No part, row or position.
-inline constexpr int kNone = -1;
+inline constexpr int kNoIndex = -1;
 
 /// Some of all assignments, and the best one of them: those where the rows before `position`, in
 /// the parent's order, have what they have in the parent's best, and `row`, which is there, has
 /// not.
 struct RankedPart {
-  int parent = kNone;
+  int parent = kNoIndex;
   int position = 0;
-  int row = kNone;
+  int row = kNoIndex;
   double cost = 0.0;
   int order = 0;  ///< of the rows: the parent's, until the part gets one of its own
 };

@@ -109,7 +109,7 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
 
 void OccupancyMap::setWindow(const GridWindow& window) {
   RollingGrid<Cell> cells(window, Cell{});
-  outside_.forEach([&](CellIndex index, const Cell& cell) {
+  outside_.forEachAround(window, [&](CellIndex index, const Cell& cell) {
     if (window.contains(index)) {
       cells.at(index) = cell;
     }

@@ -14,22 +14,37 @@ namespace {
 
 constexpr double kBytesPerMebibyte = 1024.0 * 1024.0;
 
-std::string systemError() { return std::generic_category().message(errno); }
+std::string systemError() {
+  return errno == 0 ? "it is cut" : std::generic_category().message(errno);
+}
 
-/// All bytes, as far as the system takes them in parts; false with errno if it takes no more.
-bool writeAll(int descriptor, const char* data, std::size_t bytes, std::uint64_t offset) {
-  while (bytes > 0) {
-    const ssize_t written = pwrite(descriptor, data, bytes, static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
-    if (written <= 0) {
+/// A file that has no name; where the file system knows no such, one whose name is taken away.
+int openUnnamed(const std::string& folder) {
+  constexpr mode_t kOwner = 0600;
+  const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kOwner);
+  if (unnamed >= 0) {
+    return unnamed;
+  }
+  std::string name = folder + "/datmo_fusion_tiles_XXXXXX";  // mkostemp's pattern
+  const int named = mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) {
+    unlink(name.c_str());
+  }
+  return named;
+}
+
+/// `transfer(done)`: pread or pwrite of what is left after `done` bytes. False with errno if there
+/// is no more.
+template <typename Transfer>
+bool transferAll(std::size_t bytes, Transfer&& transfer) {
+  for (std::size_t done = 0; done < bytes;) {
+    errno = 0;
+    const ssize_t part = transfer(done);
+    if (part > 0) {
+      done += static_cast<std::size_t>(part);
+    } else if (part == 0 || errno != EINTR) {
       return false;
     }
-    const auto part = static_cast<std::size_t>(written);
-    data += part;
-    bytes -= part;
-    offset += part;
   }
   return true;
 }
@@ -54,41 +69,53 @@ TileFile::~TileFile() {
   }
 }
 
-std::optional<std::uint64_t> TileFile::append(const void* data, std::size_t bytes) {
+std::shared_ptr<const TileFile::Tile> TileFile::write(const void* tile) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (options_.folder.empty()) {
-    return fail("tile_file/folder is empty");
-  }
-  if (static_cast<double>(size_ + bytes) > options_.max_size * kBytesPerMebibyte) {
-    return fail("the file of tiles has tile_file/max_size");
+    error_ = "map/tile_file/folder is empty, so there is no file for them";
+    return nullptr;
   }
   if (!open()) {
-    return fail("no file of tiles in '" + options_.folder + "': " + systemError());
+    error_ = "there is no file for them in map/tile_file/folder '" + options_.folder +
+             "': " + systemError();
+    return nullptr;
   }
-  if (!writeAll(descriptor_, static_cast<const char*>(data), bytes, size_)) {
-    return fail("the file of tiles in '" + options_.folder + "' cannot grow: " + systemError());
+  const std::uint64_t offset = free_.empty() ? size_ : free_.back();
+  if (static_cast<double>(offset + tile_bytes_) > options_.max_size * kBytesPerMebibyte) {
+    error_ = "their file has reached map/tile_file/max_size";
+    return nullptr;
   }
-  const std::uint64_t offset = size_;
-  size_ += bytes;
-  return offset;
+  const bool is_written = transferAll(tile_bytes_, [&](std::size_t done) {
+    return pwrite(descriptor_, static_cast<const char*>(tile) + done, tile_bytes_ - done,
+                  static_cast<off_t>(offset + done));
+  });
+  if (!is_written) {
+    error_ = "their file in '" + options_.folder + "' cannot grow: " + systemError();
+    return nullptr;
+  }
+  if (free_.empty()) {
+    size_ += tile_bytes_;
+  } else {
+    free_.pop_back();
+  }
+  return std::shared_ptr<const Tile>(new Tile(shared_from_this(), offset));
 }
 
-bool TileFile::read(std::uint64_t offset, void* data, std::size_t bytes) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto* next = static_cast<char*>(data);
-  while (bytes > 0) {
-    const ssize_t part = pread(descriptor_, next, bytes, static_cast<off_t>(offset));
-    if (part < 0 && errno == EINTR) {
-      continue;
-    }
-    if (part <= 0) {
-      return false;
-    }
-    next += part;
-    offset += static_cast<std::uint64_t>(part);
-    bytes -= static_cast<std::size_t>(part);
+bool TileFile::read(std::uint64_t offset, void* data, std::size_t bytes) {
+  const bool is_read = transferAll(bytes, [&](std::size_t done) {
+    return pread(descriptor_, static_cast<char*>(data) + done, bytes - done,
+                 static_cast<off_t>(offset + done));
+  });
+  if (!is_read) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    error_ = "their file in '" + options_.folder + "' cannot be read: " + systemError();
   }
-  return true;
+  return is_read;
+}
+
+void TileFile::release(std::uint64_t offset) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  free_.push_back(offset);
 }
 
 std::string TileFile::error() const {
@@ -98,18 +125,9 @@ std::string TileFile::error() const {
 
 bool TileFile::open() {
   if (descriptor_ < 0) {
-    std::string name = options_.folder + "/datmo_fusion_tiles_XXXXXX";  // mkostemp's pattern
-    descriptor_ = mkostemp(name.data(), O_CLOEXEC);
-    if (descriptor_ >= 0) {
-      unlink(name.c_str());
-    }
+    descriptor_ = openUnnamed(options_.folder);
   }
   return descriptor_ >= 0;
-}
-
-std::nullopt_t TileFile::fail(const std::string& what) {
-  error_ = what;
-  return std::nullopt;
 }
 
 }  // namespace datmo

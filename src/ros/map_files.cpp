@@ -239,15 +239,15 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   }
   try {
     checkWritable(file);
-    const MapServerFiles files =
-        toMapServerFiles(map, std::filesystem::path(image).filename().string());
+    const MapServerFiles files = toMapServerFiles(evidence, map.freeBelow(),
+                                                  std::filesystem::path(image).filename().string());
     writeWholeFile(image, files.image);
     writeWholeFile(yaml, files.yaml);
     writeWholeFile(file, textOf(evidence));
+    return {evidence.cells.size(), files.cells_of_pixel, map.forgottenTiles(), map.tileFileError()};
   } catch (const std::runtime_error& error) {
     throw MapFileError(error.what());
   }
-  return {evidence.cells.size(), map.forgottenTiles(), map.tileFileError()};
 }
 
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/map_server_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -168,35 +169,64 @@ void add(double occupancy, const Point2& center, const MapDescription& descripti
   }
 }
 
-}  // namespace
+/// Of the lattice whose cells are pixels of so many cells along each side.
+CellIndex pixelOf(CellIndex cell, int side) {
+  const auto index = [side](int of_cell) {
+    return of_cell >= 0 ? of_cell / side : -1 - (-1 - of_cell) / side;
+  };
+  return {index(cell.column), index(cell.row)};
+}
 
-MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name) {
-  const GridWindow extent = map.extent();
-  if (rowMajorSize(extent.columns, extent.rows) > kMaxPixels) {
-    throw MapFileError("an image of " + std::to_string(extent.columns) + " x " +
-                       std::to_string(extent.rows) + " pixels, expected at most " +
-                       std::to_string(kMaxPixels));
+/// The window of pixels that holds all cells; one pixel if there are none. Their side grows until
+/// there are not too many.
+GridWindow pixelsFor(const MapEvidence& evidence, int& side) {
+  CellIndex first = evidence.cells.empty() ? CellIndex{} : evidence.cells.front().cell;
+  CellIndex last = first;
+  for (const CellEvidence& known : evidence.cells) {
+    first = {std::min(first.column, known.cell.column), std::min(first.row, known.cell.row)};
+    last = {std::max(last.column, known.cell.column), std::max(last.row, known.cell.row)};
   }
-  map.setWindow(extent);
-  const GridWindow& window = map.window();
-  std::ostringstream image;
-  image << "P5\n" << window.columns << ' ' << window.rows << '\n' << kMaxPixelValue << '\n';
-  for (int row = window.corner.row + window.rows - 1; row >= window.corner.row; --row) {
-    for (int column = window.corner.column; column < window.corner.column + window.columns;
-         ++column) {
-      const CellIndex cell{column, row};
-      const bool is_occupied = map.occupancy(cell) > kOccupiedThreshold;
-      const bool is_free = map.stateOf(cell) == CellState::kFree;
-      image.put(is_occupied ? kOccupiedPixel : is_free ? kFreePixel : kUnknownPixel);
+  for (side = 1;; side *= 2) {
+    const CellIndex corner = pixelOf(first, side);
+    const CellIndex end = pixelOf(last, side);
+    const GridWindow window{side * evidence.cell_size, end.column - corner.column + 1,
+                            end.row - corner.row + 1, corner};
+    if (rowMajorSize(window.columns, window.rows) <= kMaxPixels) {
+      return window;
     }
   }
+}
+
+}  // namespace
+
+MapServerFiles toMapServerFiles(const MapEvidence& evidence, double free_below,
+                                const std::string& image_name) {
+  MapServerFiles files;
+  const GridWindow window = pixelsFor(evidence, files.cells_of_pixel);
+  std::string pixels(rowMajorSize(window.columns, window.rows), kUnknownPixel);
+  for (const CellEvidence& known : evidence.cells) {
+    const CellIndex pixel = pixelOf(known.cell, files.cells_of_pixel);
+    const int from_top = window.corner.row + window.rows - 1 - pixel.row;
+    char& value =
+        pixels[rowMajorIndex(pixel.column - window.corner.column, from_top, window.columns)];
+    const double occupancy = 1.0F / (1.0F + std::exp(-known.log_odds));
+    if (occupancy > kOccupiedThreshold) {
+      value = kOccupiedPixel;
+    } else if (occupancy < free_below && value == kUnknownPixel) {
+      value = kFreePixel;
+    }
+  }
+  std::ostringstream header;
+  header << "P5\n" << window.columns << ' ' << window.rows << '\n' << kMaxPixelValue << '\n';
+  files.image = header.str() + pixels;
   std::ostringstream yaml;
   yaml.precision(std::numeric_limits<double>::digits10);
   yaml << "image: \"" << image_name << "\"\nresolution: " << window.cell_size << "\norigin: ["
        << window.origin().x() << ", " << window.origin().y()
        << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupiedThreshold
        << "\nfree_thresh: " << kFreeThreshold << '\n';
-  return {yaml.str(), image.str()};
+  files.yaml = yaml.str();
+  return files;
 }
 
 MapEvidence readMapServerFiles(const std::string& file, const OccupancyMapOptions& options) {

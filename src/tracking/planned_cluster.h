@@ -36,9 +36,6 @@ struct PlannedTree {
   std::pmr::vector<PlannedLeaf> leaves;
 };
 
-/// Memory of the leaves of most clusters, bytes; for larger ones more is taken when needed.
-inline constexpr std::size_t kFirstMemory = 4096;
-
 /// The cluster of the next scan, as its hypotheses come in. All that it is made of must outlive it.
 class PlannedCluster {
  public:
@@ -58,6 +55,9 @@ class PlannedCluster {
   HypothesisCluster finish();
 
  private:
+  /// Memory of the leaves of most clusters, bytes; for larger ones more is taken when needed.
+  static constexpr std::size_t kFirstMemory = 4096;
+
   int find(std::size_t tree, int parent, std::size_t observation) const;
   bool hasRoomFor(const GlobalHypothesis& parent,
                   const std::vector<std::size_t>& measurement_index) const;

@@ -19,6 +19,7 @@ datmo_fusion_add_core_test(tracking
   tracking/association_test.cpp
   tracking/beam_evidence_test.cpp
   tracking/box_size_test.cpp
+  tracking/class_by_size_test.cpp
   tracking/class_by_speed_test.cpp
   tracking/class_motion_test.cpp
   tracking/clutter_map_test.cpp

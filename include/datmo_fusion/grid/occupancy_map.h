@@ -80,6 +80,9 @@ class OccupancyMap {
   /// All that is known, within the window and outside of it.
   MapEvidence evidence() const;
 
+  /// Occupancy below which a cell counts as seen free.
+  double freeBelow() const { return options_.moving_below; }
+
   /// The smallest window that holds all that is known; of one cell if nothing is.
   GridWindow extent() const;
 

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/common/options.h"
 
@@ -18,33 +19,59 @@ struct TileFileOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What memory has no room for, in a file without a name, which is gone with the process, however
-/// that ends. What was written stays as it is, so that copies of a map can share the file. It is
-/// made when something is written first. May be used by several threads.
-class TileFile {
+/// Tiles that memory has no room for, in a file without a name, which is gone with the process. It
+/// is made when the first one is written. May be used by several threads, and by copies of a map.
+class TileFile : public std::enable_shared_from_this<TileFile> {
  public:
-  explicit TileFile(TileFileOptions options) : options_(std::move(options)) {}
+  /// One tile in the file, which does not change. Its room is free again when nobody has it.
+  class Tile {
+   public:
+    ~Tile() { file_->release(offset_); }
+    Tile(const Tile&) = delete;
+    Tile& operator=(const Tile&) = delete;
+
+    /// Whether `bytes` from `begin` on could be read; if not: TileFile::error().
+    bool read(std::size_t begin, void* data, std::size_t bytes) const {
+      return file_->read(offset_ + begin, data, bytes);
+    }
+
+   private:
+    friend class TileFile;
+    Tile(std::shared_ptr<TileFile> file, std::uint64_t offset)
+        : file_(std::move(file)), offset_(offset) {}
+
+    std::shared_ptr<TileFile> file_;
+    std::uint64_t offset_;
+  };
+
+  /// `tile_bytes`: of each tile.
+  static std::shared_ptr<TileFile> make(const TileFileOptions& options, std::size_t tile_bytes) {
+    return std::shared_ptr<TileFile>(new TileFile(options, tile_bytes));
+  }
   ~TileFile();
   TileFile(const TileFile&) = delete;
   TileFile& operator=(const TileFile&) = delete;
 
-  /// Where in the file the bytes are now; none if there is no file or no room: see error().
-  std::optional<std::uint64_t> append(const void* data, std::size_t bytes);
+  /// Writes a tile; null if there is no file or no room: see error().
+  std::shared_ptr<const Tile> write(const void* tile);
 
-  /// Whether `bytes` from `offset` on could be read.
-  bool read(std::uint64_t offset, void* data, std::size_t bytes) const;
-
-  /// Why append() failed last, for users; empty if it never did.
+  /// What failed last, for users; empty if nothing ever did.
   std::string error() const;
 
  private:
+  TileFile(TileFileOptions options, std::size_t tile_bytes)
+      : options_(std::move(options)), tile_bytes_(tile_bytes) {}
+
   bool open();
-  std::nullopt_t fail(const std::string& what);
+  bool read(std::uint64_t offset, void* data, std::size_t bytes);
+  void release(std::uint64_t offset);
 
   TileFileOptions options_;
+  std::size_t tile_bytes_;
   mutable std::mutex mutex_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
+  std::vector<std::uint64_t> free_;  ///< offsets below size_
   std::string error_;
 };
 

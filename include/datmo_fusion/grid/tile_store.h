@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "datmo_fusion/grid/cell_index.h"
+#include "datmo_fusion/grid/grid_window.h"
 #include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/grid/tile_file.h"
 
@@ -34,7 +34,7 @@ class TileStore {
   TileStore(int max_tiles, const Cell& empty, const TileFileOptions& file)
       : max_tiles_(static_cast<std::size_t>(max_tiles)),
         empty_(empty),
-        file_(std::make_shared<TileFile>(file)) {}
+        file_(TileFile::make(file, kCells * sizeof(Cell))) {}
 
   void put(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
@@ -67,30 +67,29 @@ class TileStore {
     }
     const auto filed = filed_.find(key);
     Cell content;
-    const bool is_read =
-        filed != filed_.end() &&
-        file_->read(filed->second + slotOf(cell) * sizeof(Cell), &content, sizeof(Cell));
+    const bool is_read = filed != filed_.end() &&
+                         filed->second->read(slotOf(cell) * sizeof(Cell), &content, sizeof(Cell));
     return is_read ? content : empty_;
   }
 
-  /// `visit(CellIndex, const Cell&)` for all cells of all tiles, in a fixed order.
+  /// `visit(CellIndex, const Cell&)` for all cells of all tiles, in a fixed order; those that
+  /// cannot be read are left out: fileError().
   template <typename Visit>
   void forEach(Visit&& visit) const {
-    std::set<Key> keys;
-    for (const auto& [key, cells] : tiles_) {
-      keys.insert(key);
-    }
-    for (const auto& [key, offset] : filed_) {
-      keys.insert(key);
-    }
-    for (const Key& key : keys) {
-      const auto tile = tiles_.find(key);
-      if (tile != tiles_.end()) {
-        visitTile(key, tile->second, visit);
-      } else if (const auto cells = readTile(key)) {
-        visitTile(key, *cells, visit);
-      }
-    }
+    forEachOf([](const Key&) { return true; }, visit);
+  }
+
+  /// The same for all cells of those tiles that a window shows a part of.
+  template <typename Visit>
+  void forEachAround(const GridWindow& window, Visit&& visit) const {
+    const Key first = keyOf(window.corner);
+    const Key last =
+        keyOf({window.corner.column + window.columns - 1, window.corner.row + window.rows - 1});
+    const auto is_around = [&](const Key& key) {
+      return key.first >= first.first && key.first <= last.first && key.second >= first.second &&
+             key.second <= last.second;
+    };
+    forEachOf(is_around, visit);
   }
 
   /// In memory and in the file.
@@ -118,6 +117,28 @@ class TileStore {
     return rowMajorIndex(cell.column - key.first * kSide, cell.row - key.second * kSide, kSide);
   }
 
+  template <typename Wanted, typename Visit>
+  void forEachOf(Wanted&& wanted, Visit& visit) const {
+    std::set<Key> keys;
+    for (const auto& [key, cells] : tiles_) {
+      keys.insert(key);
+    }
+    for (const auto& [key, tile] : filed_) {
+      keys.insert(key);
+    }
+    for (const Key& key : keys) {
+      if (!wanted(key)) {
+        continue;
+      }
+      const auto tile = tiles_.find(key);
+      if (tile != tiles_.end()) {
+        visitTile(key, tile->second, visit);
+      } else if (const auto cells = readTile(key)) {
+        visitTile(key, *cells, visit);
+      }
+    }
+  }
+
   template <typename Visit>
   static void visitTile(const Key& key, const Tile& cells, Visit& visit) {
     for (int row = 0; row < kSide; ++row) {
@@ -132,7 +153,7 @@ class TileStore {
     const auto filed = filed_.find(key);
     Tile cells(kCells, empty_);
     const bool is_read =
-        filed != filed_.end() && file_->read(filed->second, cells.data(), kCells * sizeof(Cell));
+        filed != filed_.end() && filed->second->read(0, cells.data(), kCells * sizeof(Cell));
     return is_read ? std::make_optional(std::move(cells)) : std::nullopt;
   }
 
@@ -146,8 +167,8 @@ class TileStore {
 
   void moveToFile(const Key& key) {
     const auto tile = tiles_.find(key);
-    if (const auto offset = file_->append(tile->second.data(), kCells * sizeof(Cell))) {
-      filed_[key] = *offset;
+    if (auto filed = file_->write(tile->second.data())) {
+      filed_[key] = std::move(filed);
     } else {
       ++forgotten_;
     }
@@ -157,9 +178,9 @@ class TileStore {
   std::size_t max_tiles_;
   Cell empty_;
   std::map<Key, Tile> tiles_;
-  std::deque<Key> order_;               ///< as they were made or came back
-  std::map<Key, std::uint64_t> filed_;  ///< where in the file a tile is that is not in memory
-  std::shared_ptr<TileFile> file_;      ///< of all copies: what was written does not change
+  std::deque<Key> order_;                                       ///< as they were made or came back
+  std::map<Key, std::shared_ptr<const TileFile::Tile>> filed_;  ///< those not in memory
+  std::shared_ptr<TileFile> file_;                              ///< of all copies
   std::size_t forgotten_ = 0;
 };
 

@@ -18,8 +18,9 @@ class MapFileError : public std::runtime_error {
 /// What of a file has been written.
 struct SavedMap {
   std::size_t cells = 0;             ///< of which anything is known
+  int cells_of_pixel = 1;            ///< along each side of a pixel of the image
   std::size_t forgotten_tiles = 0;   ///< that the map had no room for: OccupancyMapOptions
-  std::string tile_file_error = {};  ///< why their file had none
+  std::string tile_file_error = {};  ///< what failed of their file; empty: nothing is missing
 };
 
 /// What is written beside a map.
@@ -32,7 +33,8 @@ MapServerNames mapServerNames(const std::string& file);
 /// Writes a map: `file` with all evidence, and beside it a yaml file and an image as map_server has
 /// them (mapServerNames). Each appears when it is complete, and what stood there before stays until
 /// then. Throws MapFileError: a name that ends in .yaml or .pgm, a yaml file beside it that is of
-/// no map, a folder, no rights, a full disk, an area too large for an image.
+/// no map, a folder, no rights, a full disk. Where an image with a pixel for each cell would be too
+/// large, its pixels are larger, and `file` has all cells.
 SavedMap writeMap(const std::string& file, const OccupancyMap& map);
 
 /// The map of a file that writeMap has written, or of a yaml file of map_server (its name ends in

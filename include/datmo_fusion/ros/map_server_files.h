@@ -10,12 +10,15 @@ namespace datmo {
 /// The two files of a map of map_server, as text.
 struct MapServerFiles {
   std::string yaml;
-  std::string image;  ///< PGM
+  std::string image;       ///< PGM
+  int cells_of_pixel = 1;  ///< along each side of a pixel
 };
 
 /// `image_name`: as the yaml file names the image. All that the map knows: occupied (0), free
-/// (254), unknown (205).
-MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name);
+/// (254), unknown (205). A pixel is a cell, or several where the image would be too large: then it
+/// is occupied if one of them is, and free if one is and none is occupied. `free_below`: occupancy.
+MapServerFiles toMapServerFiles(const MapEvidence& evidence, double free_below,
+                                const std::string& image_name);
 
 /// Evidence that is as sure as the options let it be, where a map of map_server says occupied or
 /// free; pixels are hits of the cells in which their centers lie. `file`: its yaml file. Throws

@@ -59,13 +59,13 @@ void GridSlamStage::showForgottenTiles() {
   const std::size_t forgotten = map.forgottenTiles();
   monitor_.figure("tiles of the map that were forgotten", static_cast<double>(forgotten));
   if (forgotten > forgotten_tiles_) {
+    forgotten_tiles_ = forgotten;
     monitor_.warned(
         InputError("forgotten_tile",
                    "the oldest tiles of the map are forgotten, and save_map will not have "
                    "them: there are more than map/max_tiles, and " +
                        map.tileFileError()));
   }
-  forgotten_tiles_ = forgotten;  // of a new map fewer
 }
 
 void GridSlamStage::showMatch(const SlamResult& result) {

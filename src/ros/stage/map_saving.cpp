@@ -11,10 +11,14 @@ namespace datmo {
 std::string savedMapText(const std::string& file, const OccupancyMap& map) {
   const SavedMap saved = writeMap(file, map);
   std::string text = file + ": " + std::to_string(saved.cells) + " cells";
-  if (saved.forgotten_tiles > 0) {
-    text += "; " + std::to_string(saved.forgotten_tiles) +
-            " tiles were forgotten before, since there are more than map/max_tiles, and " +
-            saved.tile_file_error;
+  if (saved.cells_of_pixel > 1) {
+    const std::string side = std::to_string(saved.cells_of_pixel);
+    text += "; the image beside it would be too large, so its pixels are of " + side + " x " +
+            side + " cells";
+  }
+  if (!saved.tile_file_error.empty()) {
+    text += "; tiles are missing (" + std::to_string(saved.forgotten_tiles) +
+            " were forgotten): there are more than map/max_tiles, and " + saved.tile_file_error;
   }
   return text;
 }

@@ -2,10 +2,13 @@
 #include "datmo_fusion/grid/tile_store.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace datmo::tile_store_test {
 namespace {
@@ -158,12 +161,57 @@ TEST(TileStoreTest, AFullDiskForgetsAndSaysWhy) {
 }
 
 TEST(TileStoreTest, TheFileHasNoName) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tiles";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directory(folder);
-  const TileStore<int> store = storeWithTiles(6, {folder.string(), 100.0});
+  std::string folder = testing::TempDir() + "/tiles_XXXXXX";  // mkdtemp's pattern
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const TileStore<int> store = storeWithTiles(6, {folder, 100.0});
   EXPECT_EQ(store.forgotten(), 0U);
   EXPECT_TRUE(std::filesystem::is_empty(folder)) << "it is gone with the process";
+  std::filesystem::remove(folder);
+}
+
+TEST(TileStoreTest, LapsOfTheSameStreetDoNotMakeTheFileGrow) {
+  TileStore<int> store(2, kEmpty, fileOf(5.0));
+  for (int lap = 0; lap < 10; ++lap) {
+    for (int i = 0; i < 6; ++i) {
+      store.put({100 * i, 0}, i);
+    }
+  }
+  EXPECT_EQ(store.forgotten(), 0U) << store.fileError();
+  expectTiles(store, 0, 6);
+}
+
+TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
+  TileStore<int> store = storeWithTiles(4, fileOf(3.0));
+  {
+    TileStore<int> copy = store;
+    copy.put({0, 0}, 10);  // its room stays, as the other one has it
+    EXPECT_EQ(copy.forgotten(), 0U) << "the third tile of the file";
+    copy.put({100, 0}, 11);
+    EXPECT_EQ(copy.forgotten(), 1U) << "full";
+  }
+  store.put({400, 0}, 4);
+  EXPECT_EQ(store.forgotten(), 0U);
+  expectTiles(store, 0, 5);
+}
+
+/// As of a disk that fails.
+TEST(TileStoreTest, WhatCannotBeReadIsLeftOutAndSaid) {
+  TileStore<int> store = storeWithTiles(4, fileOf(100.0));
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code none;
+    const std::string target = std::filesystem::read_symlink(entry.path(), none).string();
+    const bool is_tiles =
+        target.rfind(testing::TempDir(), 0) == 0 && target.find("(deleted)") != std::string::npos;
+    if (is_tiles) {
+      ASSERT_EQ(ftruncate(std::stoi(entry.path().filename()), 0), 0);
+    }
+  }
+  EXPECT_EQ(store.at({0, 0}), kEmpty);
+  EXPECT_NE(store.fileError().find("cannot be read"), std::string::npos) << store.fileError();
+  EXPECT_EQ(store.at({300, 0}), 3) << "in memory";
+  store.put({1, 0}, 7);
+  EXPECT_EQ(store.at({1, 0}), 7);
+  EXPECT_EQ(store.forgotten(), 1U);
 }
 
 }  // namespace

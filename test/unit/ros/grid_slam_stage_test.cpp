@@ -113,28 +113,6 @@ TEST_F(GridSlamStageTest, AMapOnlyWhenItIsItsTurn) {
   EXPECT_TRUE(mapAfterScanAt(101.0));
 }
 
-TEST_F(GridSlamStageTest, TilesOfTheMapThatAreForgottenAreWarnedOf) {
-  mountScanner();
-  const auto warnedAfterDrive = [this](const std::string& folder) {
-    StageMonitor monitor("grid_slam");
-    GridSlamStageOptions options;
-    options.slam.map.window = {20.0, 20.0, 0.2};
-    options.slam.map.max_tiles = 1;
-    options.slam.map.tile_file.folder = folder;
-    GridSlamStage stage(options, buffer_, monitor);
-    for (double seconds = 100.0; seconds < 105.0; seconds += 0.1) {
-      stage.takeOdometry(odometry(seconds));
-      auto scan = scanOfAWall();
-      scan.header.stamp = ros::Time(seconds);
-      stage.takeScan(scan);
-      stage.mapIfDue(Stamp::fromSeconds(seconds));
-    }
-    return samples::warnings(monitor, "forgotten_tile");
-  };
-  EXPECT_GE(warnedAfterDrive(""), 1U);
-  EXPECT_EQ(warnedAfterDrive(testing::TempDir()), 0U);
-}
-
 TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
   mountScanner();
   odometryAt(100.0);

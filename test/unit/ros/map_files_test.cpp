@@ -187,6 +187,26 @@ TEST_F(MapFilesTest, AllOfAFileIsKeptWhateverRoomThereIsForANewMap) {
   EXPECT_EQ(read.forgottenTiles(), 0U);
 }
 
+TEST_F(MapFilesTest, ALargeMapHasAnImageOfLargerPixels) {
+  MapEvidence evidence{0.5, {}};
+  evidence.cells.push_back({{-1, 0}, 3.0F, 2.0F, 0, 0, {}});   // occupied, and in its pixel
+  evidence.cells.push_back({{-2, 1}, -3.0F, 0.0F, 0, 0, {}});  // a free cell
+  evidence.cells.push_back({{4998, 4999}, -3.0F, 0.0F, 0, 0, {}});
+  const SavedMap saved = writeMap(file("a.map"), OccupancyMap::restored(smallMap(), evidence));
+  EXPECT_EQ(saved.cells, 3U);
+  EXPECT_EQ(saved.cells_of_pixel, 2);
+  EXPECT_EQ(readMap(file("a.map"), smallMap()).evidence().cells.size(), 3U);
+  expectIn("resolution: 1\norigin: [-1, 0, 0.0]", content("a.yaml"));
+  const std::string image = content("a.pgm");
+  const std::string header = "P5\n2501 2500\n255\n";
+  ASSERT_EQ(image.size(), header.size() + 2501U * 2500U);
+  EXPECT_EQ(image.substr(0, header.size()), header);
+  const std::string pixels = image.substr(header.size());
+  EXPECT_EQ(pixels[2499U * 2501U], 0) << "lower left: one of two cells is occupied";
+  EXPECT_EQ(pixels[2500U], static_cast<char>(254)) << "upper right: free";
+  EXPECT_EQ(pixels[0], static_cast<char>(205));
+}
+
 TEST_F(MapFilesTest, AYamlFileThatIsOfNoMapIsNotOverwritten) {
   write("street.yaml", "scanner:\n  range_sigma: 0.1\n");
   try {

@@ -55,6 +55,31 @@ TEST_F(SaveMapTest, TheMapIsWrittenAndCanBeReadAgain) {
   EXPECT_FALSE(readMap(file("hall.map"), GridSlamStageOptions().slam.map).evidence().cells.empty());
 }
 
+/// Of a drive of 40 m with hardly any room for the map, in memory and in a file in this folder.
+TEST_F(SaveMapTest, TilesThatAreForgottenAreWarnedOfAndSaid) {
+  const auto answerAfterDrive = [this](const std::string& folder) {
+    GridSlamStageOptions options;
+    options.slam.map.window = {20.0, 20.0, 0.2};
+    options.slam.map.max_tiles = 1;
+    options.slam.map.tile_file.folder = folder;
+    GridSlamStage stage(options, buffer_, monitor_);
+    for (double seconds = 100.0; seconds < 105.0; seconds += 0.1) {
+      stage.takeOdometry(samples::odometry(seconds, 8.0));
+      auto scan = samples::laserScan();
+      scan.header.stamp = ros::Time(seconds);
+      stage.takeScan(scan);
+      stage.mapIfDue(Stamp::fromSeconds(seconds));
+    }
+    datmo_fusion::SaveMap::Request request;
+    request.file = file("street.map");
+    return stage.answer(request).message;
+  };
+  EXPECT_EQ(answerAfterDrive(file("")).find("missing"), std::string::npos);
+  EXPECT_EQ(samples::warnings(monitor_, "forgotten_tile"), 0U);
+  EXPECT_NE(answerAfterDrive("").find("tile_file/folder is empty"), std::string::npos);
+  EXPECT_GE(samples::warnings(monitor_, "forgotten_tile"), 1U);
+}
+
 TEST_F(SaveMapTest, ARelativePathIsRefused) {
   const auto response = answer("hall.map");
   EXPECT_FALSE(response.success);

@@ -66,7 +66,7 @@ TEST(TrackedBox, SizeConvergesToWhatIsSeen) {
   const TrackedBox box = convergedOn(wholeBox(0.3, 4.9, 2.0), options);
   EXPECT_NEAR(box.at(Point2::Zero()).length, 4.9, 0.02);
   EXPECT_NEAR(box.at(Point2::Zero()).width, 2.0, 0.02);
-  EXPECT_LT(std::sqrt(box.sizeVariance().maxCoeff()), 0.06);
+  EXPECT_LT(std::sqrt(box.sizeVariance().maxCoeff()), 0.08) << "2.5 scans of 0.1 s are as one";
 }
 
 TEST(TrackedBox, BetweenTwoSidesTheCenterIsMeasuredByBoth) {

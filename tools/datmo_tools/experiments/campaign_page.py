@@ -112,7 +112,7 @@ def _soak_lines(soaked):
         "",
         f"`soak_stack`: {stack['hours']:.2f} hours of a drive without end, all levels of fusion, in one process as fast as it goes;",
         f"{stack['dropped']} messages dropped, at least {stack['tracks_least']} tracks in the lists of each minute. Growth: of a straight line through",
-        "the minutes' samples, once the map is full (`map/max_tiles`: the first half, or half an hour), +- its standard error. Loop closing",
+        "the minutes' samples, once memory holds all tiles that it may (`map/max_tiles`: the first half, or half an hour), +- its standard error. Loop closing",
         "is left out, which keeps the drive ([limits.md](limits.md)). Times are those of a computer that does other things, too.",
         "",
         "| | median | growth an hour of data |",
