@@ -110,9 +110,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   for (const std::vector<std::size_t>& group : groups.sets(2)) {
     HypothesisCluster& all = clusters_[group.front()];
     for (std::size_t i = 1; i < group.size(); ++i) {
-      HypothesisCluster& other = clusters_[group[i]];
-      all = merge(std::move(all), std::move(other), max);
-      other.trees.clear();
+      all = merge(std::move(all), std::exchange(clusters_[group[i]], HypothesisCluster()), max);
     }
     findObjects(all);  // leaves may be gone
   }
