@@ -239,8 +239,8 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   }
   try {
     checkWritable(file);
-    const MapServerFiles files = toMapServerFiles(evidence, map.freeBelow(),
-                                                  std::filesystem::path(image).filename().string());
+    const MapServerFiles files =
+        toMapServerFiles(map, evidence, std::filesystem::path(image).filename().string());
     writeWholeFile(image, files.image);
     writeWholeFile(yaml, files.yaml);
     writeWholeFile(file, textOf(evidence));

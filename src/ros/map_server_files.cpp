@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/map_server_files.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -169,27 +168,14 @@ void add(double occupancy, const Point2& center, const MapDescription& descripti
   }
 }
 
-/// Of the lattice whose cells are pixels of so many cells along each side.
-CellIndex pixelOf(CellIndex cell, int side) {
-  const auto index = [side](int of_cell) {
-    return of_cell >= 0 ? of_cell / side : -1 - (-1 - of_cell) / side;
-  };
-  return {index(cell.column), index(cell.row)};
-}
-
-/// The window of pixels that holds all cells; one pixel if there are none. Their side grows until
-/// there are not too many.
-GridWindow pixelsFor(const MapEvidence& evidence, int& side) {
-  CellIndex first = evidence.cells.empty() ? CellIndex{} : evidence.cells.front().cell;
-  CellIndex last = first;
-  for (const CellEvidence& known : evidence.cells) {
-    first = {std::min(first.column, known.cell.column), std::min(first.row, known.cell.row)};
-    last = {std::max(last.column, known.cell.column), std::max(last.row, known.cell.row)};
-  }
+/// The window of pixels that holds all cells, of the least side (in cells) of which there are not
+/// too many.
+GridWindow pixelsFor(const GridWindow& cells, int& side) {
+  const CellIndex last{cells.corner.column + cells.columns - 1, cells.corner.row + cells.rows - 1};
   for (side = 1;; side *= 2) {
-    const CellIndex corner = pixelOf(first, side);
-    const CellIndex end = pixelOf(last, side);
-    const GridWindow window{side * evidence.cell_size, end.column - corner.column + 1,
+    const CellIndex corner = inCoarserLattice(cells.corner, side);
+    const CellIndex end = inCoarserLattice(last, side);
+    const GridWindow window{side * cells.cell_size, end.column - corner.column + 1,
                             end.row - corner.row + 1, corner};
     if (rowMajorSize(window.columns, window.rows) <= kMaxPixels) {
       return window;
@@ -199,20 +185,20 @@ GridWindow pixelsFor(const MapEvidence& evidence, int& side) {
 
 }  // namespace
 
-MapServerFiles toMapServerFiles(const MapEvidence& evidence, double free_below,
+MapServerFiles toMapServerFiles(const OccupancyMap& map, const MapEvidence& evidence,
                                 const std::string& image_name) {
   MapServerFiles files;
-  const GridWindow window = pixelsFor(evidence, files.cells_of_pixel);
+  const GridWindow window = pixelsFor(map.extent(), files.cells_of_pixel);
   std::string pixels(rowMajorSize(window.columns, window.rows), kUnknownPixel);
   for (const CellEvidence& known : evidence.cells) {
-    const CellIndex pixel = pixelOf(known.cell, files.cells_of_pixel);
+    const CellIndex pixel = inCoarserLattice(known.cell, files.cells_of_pixel);
     const int from_top = window.corner.row + window.rows - 1 - pixel.row;
     char& value =
         pixels[rowMajorIndex(pixel.column - window.corner.column, from_top, window.columns)];
     const double occupancy = 1.0F / (1.0F + std::exp(-known.log_odds));
     if (occupancy > kOccupiedThreshold) {
       value = kOccupiedPixel;
-    } else if (occupancy < free_below && value == kUnknownPixel) {
+    } else if (occupancy < map.freeBelow() && value == kUnknownPixel) {
       value = kFreePixel;
     }
   }

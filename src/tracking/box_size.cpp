@@ -27,6 +27,11 @@ constexpr double kMinClass = 1e-6;
 /// Vehicle, cyclist, pedestrian, anything else.
 constexpr int kClasses = 4;
 
+/// By kind.
+std::array<const SizePrior*, 5> priorsOf(const BoxSizeOptions& options) {
+  return {&options.vehicle, &options.lorry, &options.two_wheeler, &options.person, &options.other};
+}
+
 /// Whether objects of the kind (index as in BoxSizeOptions) are of the class.
 bool isOfClass(std::size_t kind, ObjectClass object_class) {
   switch (object_class) {
@@ -106,8 +111,7 @@ void BoxSizeOptions::visit(OptionVisitor& visitor) {
 }
 
 BoxSize::BoxSize(const BoxSizeOptions& options) {
-  const std::array<const SizePrior*, kKinds> priors = {
-      &options.vehicle, &options.lorry, &options.two_wheeler, &options.person, &options.other};
+  const auto priors = priorsOf(options);
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     const SizePrior& prior = *priors[kind];
     const double length_variance = square(prior.length_std);
@@ -153,13 +157,21 @@ void BoxSize::update(const std::array<VisibleExtent, 2>& seen, double seconds,
 }
 
 RoadUserLikelihoods BoxSize::likelihoods(const BoxSizeOptions& options) const {
-  const auto of = [&](std::size_t kind) {
-    return std::exp(hypotheses_[kAxes * kind].log_size) +
-           std::exp(hypotheses_[kAxes * kind + 1].log_size);
+  const auto priors = priorsOf(options);
+  const auto of = [&](ObjectClass object_class) {
+    double shares = 0.0;
+    double sum = 0.0;
+    for (std::size_t kind = 0; kind < kKinds; ++kind) {
+      if (isOfClass(kind, object_class)) {
+        shares += priors[kind]->share;
+        sum += priors[kind]->share * (std::exp(hypotheses_[kAxes * kind].log_size) +
+                                      std::exp(hypotheses_[kAxes * kind + 1].log_size));
+      }
+    }
+    return sum / shares;
   };
-  const double vehicles = options.vehicle.share + options.lorry.share;
-  const RoadUserLikelihoods seen{
-      of(3), of(2), (options.vehicle.share * of(0) + options.lorry.share * of(1)) / vehicles};
+  const RoadUserLikelihoods seen{of(ObjectClass::kPedestrian), of(ObjectClass::kCyclist),
+                                 of(ObjectClass::kVehicle)};
   const double best = std::max({seen.pedestrian, seen.cyclist, seen.vehicle});
   const auto unlessWrong = [&](double likelihood) {
     return (1.0 - options.wrong_size) * likelihood / best + options.wrong_size;

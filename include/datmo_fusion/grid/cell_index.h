@@ -14,4 +14,11 @@ struct CellIndex {
 inline bool operator==(CellIndex a, CellIndex b) { return a.column == b.column && a.row == b.row; }
 inline bool operator!=(CellIndex a, CellIndex b) { return !(a == b); }
 
+/// The cell that holds this one in a lattice of the same origin whose cells are `side` >= 1 times
+/// as large.
+inline CellIndex inCoarserLattice(CellIndex cell, int side) {
+  const auto index = [side](int fine) { return fine >= 0 ? fine / side : -1 - (-1 - fine) / side; };
+  return {index(cell.column), index(cell.row)};
+}
+
 }  // namespace datmo

@@ -105,13 +105,15 @@ class TileStore {
   using Key = std::pair<int, int>;
 
   /// Of the tile of a cell.
-  static Key keyOf(CellIndex cell) { return {tileOf(cell.column), tileOf(cell.row)}; }
+  static Key keyOf(CellIndex cell) {
+    const CellIndex tile = inCoarserLattice(cell, kSide);
+    return {tile.column, tile.row};
+  }
 
  private:
   using Tile = std::vector<Cell>;
   static constexpr std::size_t kCells = rowMajorSize(kSide, kSide);
 
-  static int tileOf(int index) { return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide; }
   static std::size_t slotOf(CellIndex cell) {
     const Key key = keyOf(cell);
     return rowMajorIndex(cell.column - key.first * kSide, cell.row - key.second * kSide, kSide);

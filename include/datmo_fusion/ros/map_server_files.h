@@ -14,10 +14,10 @@ struct MapServerFiles {
   int cells_of_pixel = 1;  ///< along each side of a pixel
 };
 
-/// `image_name`: as the yaml file names the image. All that the map knows: occupied (0), free
+/// `evidence`: all of the map's. `image_name`: as the yaml file names the image: occupied (0), free
 /// (254), unknown (205). A pixel is a cell, or several where the image would be too large: then it
-/// is occupied if one of them is, and free if one is and none is occupied. `free_below`: occupancy.
-MapServerFiles toMapServerFiles(const MapEvidence& evidence, double free_below,
+/// is occupied if one of them is, and free if one is and none is occupied.
+MapServerFiles toMapServerFiles(const OccupancyMap& map, const MapEvidence& evidence,
                                 const std::string& image_name);
 
 /// Evidence that is as sure as the options let it be, where a map of map_server says occupied or
