@@ -225,18 +225,25 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
   std::vector<FutureContact> contacts;
+  std::vector<FutureContact> touching;
   for (std::size_t future = 0; future < host.paths().size(); ++future) {
     if (future == kFirstFutures && contacts.empty()) {
       break;
     }
     if (const auto contact = contactOf(host.paths()[future], host_size, object, size, future)) {
-      contacts.push_back(*contact);
+      (contact->time > 0.0 ? contacts : touching).push_back(*contact);
     }
+  }
+  // Nothing has been struck yet: where the bodies overlap already, the state drawn is a wrong one.
+  std::size_t possible = host.paths().size() - touching.size();
+  if (possible == 0) {
+    contacts = std::move(touching);
+    possible = contacts.size();
   }
   if (contacts.empty()) {
     return risk;
   }
-  summarize(contacts, host.paths().size(), track.existence_probability, risk);
+  summarize(contacts, possible, track.existence_probability, risk);
   const std::size_t median = contacts[(contacts.size() - 1) / 2].future;
   setCriticality({host.paths()[median], host_size, object.path(median), size}, options_.vehicle,
                  risk);
