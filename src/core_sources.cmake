@@ -137,6 +137,7 @@ set(DATMO_FUSION_CORE_SOURCES
   risk/host_futures.cpp
   risk/host_motion.cpp
   risk/object_futures.cpp
+  risk/object_start.cpp
   risk/random_draws.cpp
   risk/risk_assessor.cpp
   risk/rule_methods.cpp

@@ -23,6 +23,23 @@ StruckSide sideOf(const std::vector<FutureContact>& contacts) {
   return static_cast<StruckSide>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
+/// A path, continued as it ends for as long again. Braking that only puts contact off avoids none:
+/// what is met within T at speed v needs v / (2 T) at least, which stops within 2 T.
+BodyPath continued(const BodyPath& path) {
+  BodyPath result = path;
+  const std::size_t steps = path.poses.size() - 1;
+  if (steps == 0) {
+    return result;
+  }
+  const Point2 step = path.velocity(steps - 1) * path.step;
+  for (std::size_t i = 0; i < steps; ++i) {
+    BodyPose next = result.poses.back();
+    next.center += step;
+    result.poses.push_back(next);
+  }
+  return result;
+}
+
 }  // namespace
 
 void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double weight,
@@ -51,8 +68,9 @@ void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double
   risk.contact = contacts[(contacts.size() - 1) / 2].position;
 }
 
-void setCriticality(const Encounter& encounter, const HostVehicleOptions& vehicle,
-                    ObjectRisk& risk) {
+void setCriticality(const Encounter& met, const HostVehicleOptions& vehicle, ObjectRisk& risk) {
+  const Encounter encounter{continued(met.host), met.host_size, continued(met.other),
+                            met.other_size};
   risk.time_to_brake = timeToBrake(encounter, vehicle.max_braking);
   risk.brake_threat = brakeThreat(encounter, vehicle.max_braking);
   risk.steer_threat = steerThreat(encounter, vehicle.max_lateral);

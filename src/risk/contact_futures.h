@@ -24,8 +24,7 @@ struct FutureContact {
 void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double weight,
                ObjectRisk& risk);
 
-/// Puts time to brake and threat numbers of an encounter into the risk.
-void setCriticality(const Encounter& encounter, const HostVehicleOptions& vehicle,
-                    ObjectRisk& risk);
+/// Puts time to brake and threat numbers of an encounter, which goes on evenly, into the risk.
+void setCriticality(const Encounter& met, const HostVehicleOptions& vehicle, ObjectRisk& risk);
 
 }  // namespace datmo

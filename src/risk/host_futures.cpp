@@ -51,27 +51,45 @@ class DriverVariation {
   double lateral_ = 0.0;
 };
 
-/// A border in the host's frame.
-std::vector<Point2> inFrame(const RoadBorder& border, const Pose2& base) {
+/// m; no border is known better.
+constexpr double kMinSigma = 0.02;
+
+/// A border's points in the host's frame.
+std::vector<BorderPoint> inFrame(const RoadBorder& border, const Pose2& base) {
   const Pose2 fixed_in_base = base.inverse();
-  std::vector<Point2> points;
+  std::vector<BorderPoint> points;
   points.reserve(border.points.size());
   for (const BorderPoint& point : border.points) {
-    points.push_back(fixed_in_base * point.position);
+    points.push_back({fixed_in_base * point.position, point.sigma});
   }
   return points;
 }
 
-/// Offset to the left at which a line passes the axis through `ahead` (m), square to the heading.
-std::optional<double> offsetAt(const std::vector<Point2>& line, double ahead) {
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Point2& a = line[i];
-    const Point2& b = line[i + 1];
+/// Where a border passes the axis through `ahead` (m), square to the heading.
+std::optional<BorderPoint> pointAt(const std::vector<BorderPoint>& border, double ahead) {
+  for (std::size_t i = 0; i + 1 < border.size(); ++i) {
+    const Point2& a = border[i].position;
+    const Point2& b = border[i + 1].position;
     if (a.x() <= ahead && b.x() >= ahead && b.x() > a.x()) {
-      return a.y() + (b.y() - a.y()) * (ahead - a.x()) / (b.x() - a.x());
+      const double share = (ahead - a.x()) / (b.x() - a.x());
+      return BorderPoint{a + share * (b - a), std::max(border[i].sigma, border[i + 1].sigma)};
     }
   }
   return std::nullopt;
+}
+
+/// Curvature of the arc that leads from here to as far beside a border as it is here, 1/m.
+struct Curvature {
+  double value = 0.0;
+  double variance = 0.0;
+};
+
+/// `here`, `there`: of one border, in the host's frame.
+Curvature curvatureBetween(const BorderPoint& here, const BorderPoint& there) {
+  const double aside = there.position.y() - here.position.y();
+  const double per_offset = 2.0 / (square(there.position.x()) + square(aside));
+  return {per_offset * aside,
+          square(per_offset) * (square(here.sigma) + square(there.sigma) + square(kMinSigma))};
 }
 
 }  // namespace
@@ -108,9 +126,9 @@ void HostFutureOptions::visit(OptionVisitor& visitor) {
                  border_probability, {0.0, 1.0});
 }
 
-std::optional<double> courseSteering(const HostState& host, const RoadModel& road,
-                                     const HostVehicleOptions& vehicle,
-                                     const HostFutureOptions& options) {
+std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
+                                             const HostVehicleOptions& vehicle,
+                                             const HostFutureOptions& options) {
   if (host.speed <= 0.0) {
     return std::nullopt;
   }
@@ -121,31 +139,35 @@ std::optional<double> courseSteering(const HostState& host, const RoadModel& roa
     if (border.side_street || border.probability < options.border_probability) {
       continue;
     }
-    const std::vector<Point2> line = inFrame(border, host.pose);
-    const auto here = offsetAt(line, 0.0);
-    const auto there = offsetAt(line, ahead);
+    const std::vector<BorderPoint> points = inFrame(border, host.pose);
+    const auto here = pointAt(points, 0.0);
+    const auto there = pointAt(points, ahead);
     if (here && there) {
-      const double aside = *there - *here;
-      curvature += border.probability * 2.0 * aside / (square(ahead) + square(aside));
-      weights += border.probability;
+      const Curvature arc = curvatureBetween(*here, *there);
+      const double weight = border.probability / arc.variance;
+      curvature += weight * arc.value;
+      weights += weight;
     }
   }
   if (weights == 0.0) {
     return std::nullopt;
   }
-  return std::clamp(std::atan(vehicle.wheelbase * curvature / weights), -vehicle.max_steering,
-                    vehicle.max_steering);
+  return CourseSteering{std::clamp(std::atan(vehicle.wheelbase * curvature / weights),
+                                   -vehicle.max_steering, vehicle.max_steering),
+                        vehicle.wheelbase / std::sqrt(weights)};
 }
 
-HostFutures::HostFutures(const HostState& host, const std::optional<double>& course,
+HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
                          const HostVehicleOptions& vehicle, const HostFutureOptions& options,
                          const HorizonOptions& horizon, const RandomDraws& draws)
     : host_(host), vehicle_(vehicle), options_(options), horizon_(horizon) {
-  const double steering = course.value_or(host.steering);
+  const double steering = course ? course->angle : host.steering;
   // Of the bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());
-  const double spread = std::min(options.max_steering_spread,
-                                 options.steering_spread * vehicle.wheelbase / squared_speed);
+  const double spread =
+      std::hypot(std::min(options.max_steering_spread,
+                          options.steering_spread * vehicle.wheelbase / squared_speed),
+                 course ? course->sigma : 0.0);
   nominal_ = nominalPath(steering);
   paths_.reserve(static_cast<std::size_t>(horizon.futures));
   for (int i = 0; i < horizon.futures; ++i) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 namespace datmo {
 
 namespace {
@@ -17,6 +15,7 @@ enum ObjectDraw : std::uint32_t {
   kDrawFirstMode,
   kDrawStep,
   kDrawEntered,
+  kDrawRoad,
 };
 
 /// rad; a box whose heading is less sure than this is turned no farther: beyond, the velocity says
@@ -40,6 +39,16 @@ double turningOf(ObjectClass object_class, const ObjectFutureOptions& options) {
       break;
   }
   return options.vehicle_turning;
+}
+
+bool isTurn(MotionMode mode) {
+  return mode == MotionMode::kLeftTurn || mode == MotionMode::kRightTurn;
+}
+
+double turningProbability(const Track& track) {
+  const auto& modes = track.mode_probabilities;
+  return modes[static_cast<std::size_t>(MotionMode::kLeftTurn)] +
+         modes[static_cast<std::size_t>(MotionMode::kRightTurn)];
 }
 
 /// Turns of most steps are small: their series is right to 1e-5, and much faster.
@@ -106,6 +115,7 @@ void ObjectFutureOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_acceleration", "m/s^2", "no road user accelerates or brakes harder"},
                  max_acceleration, {0.1, 15.0});
   visitor.number({"max_lateral", "m/s^2", "no road user turns harder"}, max_lateral, {0.1, 12.0});
+  visitor.group("road_following", [&] { road_following.visit(visitor); });
 }
 
 ObjectClass likeliestClass(const Track& track) {
@@ -118,14 +128,15 @@ MotionMode likeliestMode(const Track& track) {
   return static_cast<MotionMode>(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
-ObjectFutures::ObjectFutures(const Track& track, const ObjectFutureOptions& options,
-                             const HorizonOptions& horizon, const RandomDraws& draws)
+ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
+                             const ObjectFutureOptions& options, const HorizonOptions& horizon,
+                             const RandomDraws& draws)
     : track_(track),
       options_(options),
       horizon_(horizon),
       draws_(draws),
       class_(likeliestClass(track)),
-      root_(track.covariance.llt().matrixL()),
+      start_(startOf(track, kMaxHeadingSigma)),
       cumulated_(transitionMatrix(countsOfSojourns(options.transitions), horizon.step)) {
   for (int mode = 1; mode < kMotionModes; ++mode) {
     cumulated_.col(mode) += cumulated_.col(mode - 1);
@@ -136,7 +147,16 @@ ObjectFutures::ObjectFutures(const Track& track, const ObjectFutureOptions& opti
       class_ == ObjectClass::kPedestrian ? 1.0 : std::exp(-horizon.step / options.turning_time);
   speed_noise_ = std::sqrt(motion.acceleration_density * horizon.step);
   class_turn_rate_ = motion.turn_rate;
-  heading_sigma_ = std::min(kMaxHeadingSigma, std::sqrt(track.heading_variance));
+  if (road) {
+    follower_ =
+        roadFollower(track, start_, *road, turningProbability(track), options.road_following)
+            .value_or(RoadFollower());
+  }
+}
+
+/// A turn would lead off the road.
+MotionMode ObjectFutures::modeIn(bool follows_road, MotionMode mode) const {
+  return follows_road && isTurn(mode) ? MotionMode::kConstantVelocity : mode;
 }
 
 /// `mode` standing: at rest, whatever the velocity.
@@ -170,9 +190,14 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
   }
   key.kind = kDrawFirstMode;
   const MotionMode mode = modeAt(cumulated, draws_.uniform(key) * cumulated.back());
+  key.kind = kDrawRoad;
+  const bool follows_road = draws_.uniform(key) < follower_.probability;
+  const ObjectStart& start = follows_road ? follower_.start : start_;
   key.kind = kDrawHeading;
-  const double heading = track_.box.center.heading() + heading_sigma_ * draws_.normal(key);
-  return stateOf(track_.state + root_ * normals, heading, mode);
+  const double heading = start.heading + start.heading_sigma * draws_.normal(key);
+  State state = stateOf(start.state + start.root * normals, heading, modeIn(follows_road, mode));
+  state.follows_road = follows_road;
+  return state;
 }
 
 void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) const {
@@ -191,7 +216,7 @@ void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) con
 }
 
 double ObjectFutures::turnRate(const State& state) const {
-  if (state.mode != MotionMode::kLeftTurn && state.mode != MotionMode::kRightTurn) {
+  if (!isTurn(state.mode)) {
     return 0.0;
   }
   const double rate =
@@ -224,7 +249,8 @@ ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
   State after = state;
   DrawKey key{track_.id, narrow(future), narrow(step) + 1, kDrawStep};
   const StepDraws drawn = draws_.step(key);
-  const MotionMode mode = modeAt(cumulated_.row(static_cast<int>(state.mode)), drawn.uniform);
+  const MotionMode mode = modeIn(
+      state.follows_road, modeAt(cumulated_.row(static_cast<int>(state.mode)), drawn.uniform));
   if (mode != state.mode) {
     key.kind = kDrawEntered;
     enter(after, mode, key);
@@ -255,7 +281,9 @@ BodyPath ObjectFutures::path(std::size_t future) const {
 BodyPath ObjectFutures::nominalPath() const { return nominalPath(likeliestMode(track_)); }
 
 BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
-  State state = stateOf(track_.state, track_.box.center.heading(), mode);
+  const bool follows_road = follower_.probability > 0.5;
+  const ObjectStart& start = follows_road ? follower_.start : start_;
+  State state = stateOf(start.state, start.heading, modeIn(follows_road, mode));
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
     advance(state, turnRate(state) * horizon_.step);

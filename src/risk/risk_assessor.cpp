@@ -13,9 +13,6 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower the host stands, and braking changes nothing.
-constexpr double kStanding = 0.1;
-
 /// Of an object that none of so many futures meets, no more are drawn: contact is less probable
 /// than 5 % then (with 95 % confidence), far below what any level asks for, and most objects are
 /// such.
@@ -81,6 +78,16 @@ FutureContact contactWith(const StandingPoints::Contact& contact, const BodyPath
   return {future, contact.time,
           struckSide(move.at(share), host_size, bodyPose(contact.point, 0.0), BodySize()),
           host.velocity(i).norm(), contact.point};
+}
+
+/// Direction of the road beside a point: that in which the host passes, rad. It follows the
+/// borders' course where they are known.
+std::optional<double> roadBeside(const Point2& point, const BodyPath& host) {
+  const auto nearest = std::min_element(
+      host.poses.begin(), host.poses.end(), [&](const BodyPose& a, const BodyPose& b) {
+        return (a.center - point).squaredNorm() < (b.center - point).squaredNorm();
+      });
+  return nearest == host.poses.end() ? std::nullopt : std::optional(nearest->heading);
 }
 
 /// The points without those of tracks, which have a risk of their own.
@@ -170,7 +177,7 @@ RiskReport RiskAssessor::assess(const RiskInput& input) {
       report.objects.push_back(by_futures ? byFutures(track, host) : byRule(track, host));
     }
   }
-  level_.judge(report, std::abs(input.host.speed) > kStanding);
+  level_.judge(report, input.host.speed);
   return report;
 }
 
@@ -221,7 +228,8 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   risk.mode = likeliestMode(track);
   const BodySize host_size = options_.vehicle.size();
   const BodySize size = sizeOf(track, options_.default_size);
-  const ObjectFutures object(track, options_.objects, options_.horizon, draws_);
+  const ObjectFutures object(track, roadBeside(track.state.head<2>(), host.nominal()),
+                             options_.objects, options_.horizon, draws_);
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
   std::vector<FutureContact> contacts;

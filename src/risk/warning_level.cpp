@@ -11,10 +11,19 @@ namespace datmo {
 
 namespace {
 
-const ObjectRisk* mostUrgent(const RiskReport& report, bool host_moves,
+/// m/s; slower the host stands, and braking changes nothing.
+constexpr double kStanding = 0.1;
+
+/// Not where the host stands, or is struck from behind as it moves.
+bool brakingHelps(const ObjectRisk& risk, double host_speed) {
+  const StruckSide behind = host_speed < 0.0 ? StruckSide::kFront : StruckSide::kRear;
+  return std::abs(host_speed) > kStanding && risk.side != behind;
+}
+
+const ObjectRisk* mostUrgent(const RiskReport& report, double host_speed,
                              const WarningOptions& options, double ease) {
   const auto urgency = [&](const ObjectRisk& risk) {
-    return std::make_tuple(levelOf(risk, host_moves, options, ease), -risk.time_to_brake,
+    return std::make_tuple(levelOf(risk, host_speed, options, ease), -risk.time_to_brake,
                            risk.probability());
   };
   const auto most = std::max_element(
@@ -77,12 +86,12 @@ void WarningOptions::visit(OptionVisitor& visitor) {
                  release, {0.1, 1.0});
 }
 
-RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions& options,
+RiskLevel levelOf(const ObjectRisk& risk, double host_speed, const WarningOptions& options,
                   double ease) {
   const double probability = ease * risk.probability();
   const double time = risk.time_to_brake / ease;
-  const bool braking_helps = host_moves && risk.side != StruckSide::kRear;
-  if (probability >= options.warning_probability && probability > 0.0 && braking_helps) {
+  if (probability >= options.warning_probability && probability > 0.0 &&
+      brakingHelps(risk, host_speed)) {
     if (time <= options.imminent_time) {
       return RiskLevel::kImminent;
     }
@@ -105,12 +114,12 @@ void WarningLevel::reset() {
   reason_.clear();
 }
 
-void WarningLevel::judge(RiskReport& report, bool host_moves) {
-  const ObjectRisk* now = mostUrgent(report, host_moves, options_, 1.0);
-  const RiskLevel asked = now ? levelOf(*now, host_moves, options_) : RiskLevel::kNone;
+void WarningLevel::judge(RiskReport& report, double host_speed) {
+  const ObjectRisk* now = mostUrgent(report, host_speed, options_, 1.0);
+  const RiskLevel asked = now ? levelOf(*now, host_speed, options_) : RiskLevel::kNone;
   const double ease = 1.0 / options_.release;
-  const ObjectRisk* eased = mostUrgent(report, host_moves, options_, ease);
-  const RiskLevel kept = eased ? levelOf(*eased, host_moves, options_, ease) : RiskLevel::kNone;
+  const ObjectRisk* eased = mostUrgent(report, host_speed, options_, ease);
+  const RiskLevel kept = eased ? levelOf(*eased, host_speed, options_, ease) : RiskLevel::kNone;
   if (asked > level_) {
     asked_since_ = asked_since_.value_or(report.stamp);
     if (secondsBetween(*asked_since_, report.stamp) >= options_.raise_time) {
@@ -126,9 +135,10 @@ void WarningLevel::judge(RiskReport& report, bool host_moves) {
     level_ = kept;
     kept_at_ = report.stamp;
   }
-  if (kept != RiskLevel::kNone) {
+  // While a level is held, what asked for it stays its reason, whatever else asks for less.
+  if (kept != RiskLevel::kNone && kept >= level_) {
     cause_ = eased->id;
-    reason_ = reasonOf(*eased);
+    reason_ = reasonOf(*eased, host_speed);
   }
   report.level = level_;
   if (level_ != RiskLevel::kNone) {
@@ -137,7 +147,7 @@ void WarningLevel::judge(RiskReport& report, bool host_moves) {
   }
 }
 
-std::string reasonOf(const ObjectRisk& risk) {
+std::string reasonOf(const ObjectRisk& risk, double host_speed) {
   const std::string what = risk.id == kStandingId
                                ? "what stands"
                                : nameOf(risk.object_class) + (" " + std::to_string(risk.id));
@@ -148,7 +158,7 @@ std::string reasonOf(const ObjectRisk& risk) {
   std::string contact = what + " at the " + nameOf(risk.side) + " with " +
                         decimal(risk.strike_speed) + " m/s in " + decimal(risk.median_ttc) +
                         " s (" + percent + ")";
-  if (risk.side == StruckSide::kRear) {
+  if (!brakingHelps(risk, host_speed)) {
     return contact;
   }
   return risk.time_to_brake > 0.0 ? contact + ": brake within " + decimal(risk.time_to_brake) + " s"

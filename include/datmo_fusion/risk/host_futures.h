@@ -20,20 +20,27 @@ struct HostFutureOptions {
   double steering_spread = 0.1;       ///< m/s^2
   double max_steering_spread = 0.02;  ///< rad
   double steering_time = 0.5;         ///< s
-  double course_time = 1.5;           ///< s
+  double course_time = 3.0;           ///< s
   double min_course_distance = 6.0;   ///< m
   double border_probability = 0.7;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// The steering (rad) that follows the course of the road: pure pursuit (Coulter 1992) of the point
-/// ahead that lies beside each border as the vehicle does now; the mean over the borders, weighted
-/// by their probability. None without borders that are likely enough, are not of a side street, and
-/// reach from beside the vehicle to that far ahead.
-std::optional<double> courseSteering(const HostState& host, const RoadModel& road,
-                                     const HostVehicleOptions& vehicle,
-                                     const HostFutureOptions& options);
+/// A steering to come to, and its standard deviation.
+struct CourseSteering {
+  double angle = 0.0;  ///< rad
+  double sigma = 0.0;  ///< rad
+};
+
+/// The steering that follows the course of the road: pure pursuit (Coulter 1992) of the point ahead
+/// that lies beside each border as the vehicle does now; the mean over the borders, weighted by
+/// their probability and, inversely, by the variance that their points' makes. None without borders
+/// that are likely enough, are not of a side street, and reach from beside the vehicle to that far
+/// ahead.
+std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
+                                             const HostVehicleOptions& vehicle,
+                                             const HostFutureOptions& options);
 
 /// Possible futures of the host: it keeps its acceleration and its steering, or turns to the course
 /// of the road. Its acceleration varies about the present one (first-order Gauss-Markov). About its
@@ -43,8 +50,8 @@ std::optional<double> courseSteering(const HostState& host, const RoadModel& roa
 /// it.
 class HostFutures {
  public:
-  /// `course`: the steering to come to, rad; none: the present one.
-  HostFutures(const HostState& host, const std::optional<double>& course,
+  /// `course`: the steering to come to; none: the present one.
+  HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
               const HostVehicleOptions& vehicle, const HostFutureOptions& options,
               const HorizonOptions& horizon, const RandomDraws& draws);
 

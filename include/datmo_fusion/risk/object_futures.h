@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/risk/host_motion.h"
+#include "datmo_fusion/risk/object_start.h"
 #include "datmo_fusion/risk/random_draws.h"
 #include "datmo_fusion/tracking/class_motion.h"
 #include "datmo_fusion/tracking/track.h"
@@ -34,8 +36,9 @@ struct ObjectFutureOptions {
   double stop_deceleration = 3.0;    ///< m/s^2
   double max_acceleration = 8.0;     ///< m/s^2
   double max_lateral = 4.0;          ///< m/s^2
-  ClassMotionOptions motion;         ///< the tracker's
-  TransitionOptions transitions;     ///< the tracker's sojourn times
+  RoadFollowingOptions road_following;
+  ClassMotionOptions motion;      ///< the tracker's
+  TransitionOptions transitions;  ///< the tracker's sojourn times
 
   void visit(OptionVisitor& visitor);
 };
@@ -50,12 +53,14 @@ MotionMode likeliestMode(const Track& track);
 /// switch by their sojourn times (Markov jumps, as the tracker's IMM has them). In a mode the
 /// object goes as that mode says, with the tracker's noise on its speed, and turns at random as its
 /// class does: pedestrians freely, who drives or rides about his course, to which he comes back.
+/// Who drives or rides may follow the road (RoadFollowingOptions): then he does not turn off it.
 /// Beyond the tracker's models an object that brakes comes to rest and does not reverse, one that
 /// comes to stand brakes until it does, and no turn is sharper than tires hold.
 class ObjectFutures {
  public:
-  /// `track`: valid (isValid), at the time at which the futures begin. All must outlive this.
-  ObjectFutures(const Track& track, const ObjectFutureOptions& options,
+  /// `track`: valid (isValid), at the time at which the futures begin. `road`: direction of the
+  /// road beside it, rad; none: not known. All must outlive this.
+  ObjectFutures(const Track& track, std::optional<double> road, const ObjectFutureOptions& options,
                 const HorizonOptions& horizon, const RandomDraws& draws);
 
   /// One object at one time of one future.
@@ -67,6 +72,7 @@ class ObjectFutures {
     double acceleration = 0.0;         ///< m/s^2, along the course
     double sway = 0.0;                 ///< rad, of the course from where the mode leads
     MotionMode mode = MotionMode::kConstantVelocity;
+    bool follows_road = false;  ///< it does not turn off
   };
 
   /// Where a future begins.
@@ -83,6 +89,7 @@ class ObjectFutures {
 
  private:
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
+  MotionMode modeIn(bool follows_road, MotionMode mode) const;
   void advance(State& state, double turn) const;
   void enter(State& state, MotionMode mode, const DrawKey& key) const;
   double turnRate(const State& state) const;
@@ -92,12 +99,12 @@ class ObjectFutures {
   const HorizonOptions& horizon_;
   const RandomDraws& draws_;
   ObjectClass class_;
-  TrackCovariance root_;          ///< of the covariance
+  ObjectStart start_;
+  RoadFollower follower_;
   ModeMatrix cumulated_;          ///< rows: sums of the transition probabilities
   double turning_ = 0.0;          ///< rad, standard deviation of a step
   double sway_kept_ = 1.0;        ///< share of the sway that is left after a step
   double speed_noise_ = 0.0;      ///< m/s, of a step
-  double heading_sigma_ = 0.0;    ///< rad
   double class_turn_rate_ = 0.0;  ///< rad/s
 };
 

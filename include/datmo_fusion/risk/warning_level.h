@@ -30,8 +30,9 @@ struct WarningOptions {
 /// `warning_ttc`, or every parked car in a bend would warn. Braking must help: of who is struck
 /// from behind, or stands, the driver is informed only.
 ///
-/// `ease`: 1, or more to keep a level: probabilities count so many times, times the inverse.
-RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions& options,
+/// `host_speed`: m/s, below 0 in reverse, where behind is its front. `ease`: 1, or more to keep a
+/// level: probabilities count so many times, times the inverse.
+RiskLevel levelOf(const ObjectRisk& risk, double host_speed, const WarningOptions& options,
                   double ease = 1.0);
 
 /// The overall level with hysteresis. It rises when it has been asked for over `raise_time`, and
@@ -42,8 +43,8 @@ class WarningLevel {
   /// Throws OptionError.
   explicit WarningLevel(const Checked<WarningOptions>& options);
 
-  /// Puts level, cause and reason into the report. Stamps rise.
-  void judge(RiskReport& report, bool host_moves);
+  /// Puts level, cause and reason into the report; `host_speed`: m/s. Stamps rise.
+  void judge(RiskReport& report, double host_speed);
 
   void reset();
 
@@ -56,8 +57,8 @@ class WarningLevel {
   std::string reason_;
 };
 
-/// The reason of a level in words: "pedestrian 7 strikes the front at 8.3 m/s in 1.6 s (82 %):
-/// brake within 0.4 s".
-std::string reasonOf(const ObjectRisk& risk);
+/// The reason of a level in words: "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): brake
+/// within 0.4 s"; of braking only where it helps at `host_speed` (m/s).
+std::string reasonOf(const ObjectRisk& risk, double host_speed);
 
 }  // namespace datmo

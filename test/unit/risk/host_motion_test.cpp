@@ -89,7 +89,9 @@ TEST(CourseSteering, KeepsBesideABorderThatGoesStraight) {
   host.speed = 10.0;
   const auto steering = courseSteering(host, roadAlong({{-10, 3}, {40, 3}}), kVehicle, {});
   ASSERT_TRUE(steering);
-  EXPECT_NEAR(*steering, 0.0, 1e-12);
+  EXPECT_NEAR(steering->angle, 0.0, 1e-12);
+  // Two points of 0.1 m (0.02 m more): 2 / 30^2 of 0.1414 m, over the wheelbase.
+  EXPECT_NEAR(steering->sigma, kVehicle.wheelbase * 2.0 / 900.0 * std::sqrt(0.0204 / 0.9), 1e-6);
 }
 
 TEST(CourseSteering, TurnsWithTheBorder) {
@@ -102,7 +104,23 @@ TEST(CourseSteering, TurnsWithTheBorder) {
   }
   const auto steering = courseSteering(host, roadAlong(points), kVehicle, {});
   ASSERT_TRUE(steering);
-  EXPECT_NEAR(std::tan(*steering) / kVehicle.wheelbase, 1.0 / 50.0, 0.002);
+  EXPECT_NEAR(std::tan(steering->angle) / kVehicle.wheelbase, 1.0 / 50.0, 0.002);
+}
+
+TEST(CourseSteering, FollowsTheBorderThatIsKnownBetter) {
+  HostState host;
+  host.speed = 10.0;
+  RoadModel road = roadAlong({{-10, 3}, {40, 3}});
+  const double straight = courseSteering(host, road, kVehicle, {})->sigma;
+  RoadModel vague = roadAlong({{-10, -3}, {40, 2}});
+  for (BorderPoint& point : vague.borders.front().points) {
+    point.sigma = 1.0;
+  }
+  road.borders.push_back(vague.borders.front());
+  const auto steering = courseSteering(host, road, kVehicle, {});
+  const auto by_vague = courseSteering(host, vague, kVehicle, {});
+  EXPECT_LT(steering->angle, 0.03 * by_vague->angle);
+  EXPECT_LT(steering->sigma, straight);
 }
 
 TEST(CourseSteering, IsUnknownWithoutABorderThatIsSure) {

@@ -2,6 +2,7 @@
 #include "datmo_fusion/risk/object_futures.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "risk/risk_samples.h"
@@ -68,7 +69,7 @@ TEST(RandomDraws, OfOneKeyAreTheSame) {
 TEST(ObjectFutures, KeepTheirVelocityOnAverage) {
   const Track track = knownTrack(1, {5, 2}, {10, 0});
   const ObjectFutureOptions options = withoutSwitching();
-  const Spread spread = endsOf(ObjectFutures(track, options, kHorizon, kDraws));
+  const Spread spread = endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws));
   EXPECT_NEAR(spread.mean.x(), 45.0, 0.6);
   EXPECT_NEAR(spread.mean.y(), 2.0, 0.6);
 }
@@ -76,16 +77,17 @@ TEST(ObjectFutures, KeepTheirVelocityOnAverage) {
 TEST(ObjectFutures, SpreadWithTheCovariance) {
   Track track = knownTrack(1, {0, 0}, {10, 0});
   const ObjectFutureOptions options = withoutSwitching();
-  const double known = endsOf(ObjectFutures(track, options, kHorizon, kDraws)).sigma;
+  const double known = endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).sigma;
   track.covariance(3, 3) = 4.0;  // 2 m/s to the side, 8 m after 4 s
-  const double uncertain = endsOf(ObjectFutures(track, options, kHorizon, kDraws)).sigma;
+  const double uncertain =
+      endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).sigma;
   EXPECT_NEAR(std::sqrt(uncertain * uncertain - known * known), 8.0, 1.2);
 }
 
 TEST(ObjectFutures, WhatStandsStays) {
   const Track track = knownTrack(1, {5, 2}, {0, 0});
   const ObjectFutureOptions options = withoutSwitching();
-  const Spread spread = endsOf(ObjectFutures(track, options, kHorizon, kDraws));
+  const Spread spread = endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws));
   EXPECT_NEAR(spread.mean.x(), 5.0, 0.01);
   EXPECT_LT(spread.sigma, 0.05);
 }
@@ -105,7 +107,7 @@ TEST(ObjectFutures, TurnToTheSideOfTheMode) {
   Track track = knownTrack(1, {0, 0}, {5, 0});
   track.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
   const ObjectFutureOptions options = withoutSwitching();
-  const BodyPath path = ObjectFutures(track, options, kHorizon, kDraws).nominalPath();
+  const BodyPath path = ObjectFutures(track, std::nullopt, options, kHorizon, kDraws).nominalPath();
   const double rate = options.motion.motion.turn_rate;
   EXPECT_NEAR(path.poses.back().heading, 4.0 * rate, 1e-9);
   EXPECT_GT(path.poses.back().center.y(), 5.0);
@@ -115,18 +117,18 @@ TEST(ObjectFutures, PedestriansTurnMoreFreely) {
   const Track car = knownTrack(1, {0, 0}, {1.5, 0});
   const Track pedestrian = knownTrack(1, {0, 0}, {1.5, 0}, ObjectClass::kPedestrian);
   const ObjectFutureOptions options = withoutSwitching();
-  EXPECT_GT(endsOf(ObjectFutures(pedestrian, options, kHorizon, kDraws)).sigma,
-            1.2 * endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma);
+  EXPECT_GT(endsOf(ObjectFutures(pedestrian, std::nullopt, options, kHorizon, kDraws)).sigma,
+            1.2 * endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma);
 }
 
 TEST(ObjectFutures, WhoDrivesComesBackToHisCourse) {
   const Track car = knownTrack(1, {0, 0}, {14, 0});
   ObjectFutureOptions options = withoutSwitching();
   options.motion.motion.acceleration_density = 1e-6;
-  const double back = endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma;
+  const double back = endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma;
   options.turning_time = 100.0;
   // A random walk of the course: v s sqrt(t^3 / 3).
-  const double walk = endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma;
+  const double walk = endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma;
   EXPECT_NEAR(walk, 14.0 * options.vehicle_turning * std::sqrt(64.0 / 3.0), 0.35);
   EXPECT_LT(back, 0.75 * walk);
 }
@@ -135,8 +137,8 @@ TEST(ObjectFutures, SwitchingModesSpreadThem) {
   const Track track = knownTrack(1, {0, 0}, {10, 0});
   const ObjectFutureOptions kept = withoutSwitching();
   const ObjectFutureOptions switching;
-  EXPECT_GT(endsOf(ObjectFutures(track, switching, kHorizon, kDraws)).sigma,
-            1.5 * endsOf(ObjectFutures(track, kept, kHorizon, kDraws)).sigma);
+  EXPECT_GT(endsOf(ObjectFutures(track, std::nullopt, switching, kHorizon, kDraws)).sigma,
+            1.5 * endsOf(ObjectFutures(track, std::nullopt, kept, kHorizon, kDraws)).sigma);
 }
 
 TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {
@@ -144,6 +146,58 @@ TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {
   EXPECT_EQ(options.steps(), 20U);
   options.step = 0.3;
   EXPECT_EQ(options.steps(), 14U);
+}
+
+/// An oncoming car in its lane whose velocity is little known, and seems to lead across the road.
+Track vagueOncoming(double across) {
+  Track track = knownTrack(1, {40, 3.5}, {-10.0, -across});
+  track.covariance.diagonal() << 1.0, 0.25, 1.0, 1.0, 1e-4, 1e-4;
+  track.heading_variance = 0.04;
+  return track;
+}
+
+TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
+  const Track track = vagueOncoming(1.5);
+  const ObjectStart start = startOf(track, 0.3);
+  const auto follower = roadFollower(track, start, 0.0, 0.0, RoadFollowingOptions());
+  ASSERT_TRUE(follower);
+  EXPECT_GT(follower->probability, 0.9);
+  // Kalman: of 1.5 m/s with a variance of 1, and (0.05 10.1)^2 of the road's.
+  const double variance = std::pow(0.05 * std::hypot(10.0, 1.5), 2);
+  EXPECT_NEAR(follower->start.state[3], -1.5 * variance / (1.0 + variance), 1e-9);
+  EXPECT_EQ(follower->start.state[2], -10.0);
+}
+
+TEST(RoadFollower, WhoLeavesItForSureDoes) {
+  Track track = vagueOncoming(4.0);
+  track.covariance(3, 3) = 0.04;
+  const auto follower = roadFollower(track, startOf(track, 0.3), 0.0, 0.0, RoadFollowingOptions());
+  ASSERT_TRUE(follower);
+  EXPECT_LT(follower->probability, 1e-6);
+}
+
+TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
+  const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
+  EXPECT_FALSE(roadFollower(walks, startOf(walks, 0.3), 0.0, 0.0, RoadFollowingOptions()));
+  const Track stands = knownTrack(2, {20, 3}, {0, 0});
+  EXPECT_FALSE(roadFollower(stands, startOf(stands, 0.3), 0.0, 0.0, RoadFollowingOptions()));
+}
+
+TEST(RoadFollower, WhoTurnsFollowsItLessProbably) {
+  const Track track = vagueOncoming(1.5);
+  const ObjectStart start = startOf(track, 0.3);
+  EXPECT_LT(roadFollower(track, start, 0.0, 0.9, RoadFollowingOptions())->probability,
+            roadFollower(track, start, 0.0, 0.1, RoadFollowingOptions())->probability);
+}
+
+TEST(ObjectFutures, AlongTheRoadStayInTheirLane) {
+  const Track track = vagueOncoming(1.5);
+  const ObjectFutureOptions options = withoutSwitching();
+  const double free =
+      endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).mean.y();
+  const double along = endsOf(ObjectFutures(track, 0.0, options, kHorizon, kDraws)).mean.y();
+  EXPECT_LT(free, -2.0);
+  EXPECT_NEAR(along, 3.5, 1.5);
 }
 
 }  // namespace

@@ -127,6 +127,26 @@ TEST(RiskAssessor, AReversingHostMeetsWhatIsBehind) {
   EXPECT_EQ(risk.side, StruckSide::kRear);
 }
 
+// A cyclist beside the host, so near that half of what may be true of him overlaps with it.
+TEST(RiskAssessor, WhatWouldHaveBeenStruckAlreadyIsNotTrue) {
+  Track beside = knownTrack(1, {1.4, -1.35}, {8, 0}, ObjectClass::kCyclist);
+  beside.box.length = 1.8;
+  beside.box.width = 0.6;
+  beside.covariance(1, 1) = 0.09;
+  EXPECT_LT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.35);
+  beside.state[3] = 1.5;  // it comes nearer
+  EXPECT_GT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.9);
+}
+
+// The needed deceleration is that which stops, and not one that puts contact off beyond 4 s.
+TEST(RiskAssessor, ThreatOfAContactFarAheadIsThatOfAStop) {
+  const ObjectRisk slow = riskOfFirst(inputAt(10.0, {knownTrack(1, {35.7, 0}, {0, 0})}));
+  EXPECT_NEAR(slow.brake_threat, 100.0 / (2.0 * 30.0) / 6.0, 0.04);
+  const ObjectRisk fast = riskOfFirst(inputAt(36.0, {knownTrack(1, {125.7, 0}, {0, 0})}));
+  // 120 m, of which 36^2 / (2 6) are braking distance.
+  EXPECT_NEAR(fast.time_to_brake, (120.0 - 108.0) / 36.0, 0.15);
+}
+
 TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Track not_a_number = knownTrack(1, {20, 0}, {0, 0});

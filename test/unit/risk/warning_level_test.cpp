@@ -8,6 +8,8 @@
 namespace datmo::warning_level_test {
 namespace {
 
+constexpr double kSpeed = 8.0;  // m/s, of the host
+
 ObjectRisk riskWith(double probability, double time_to_brake) {
   ObjectRisk risk;
   risk.id = 7;
@@ -26,7 +28,7 @@ class HeldLevel : public ::testing::Test {
     RiskReport report;
     report.stamp = Stamp::fromSeconds(seconds);
     report.objects = {risk};
-    level_.judge(report, true);
+    level_.judge(report, kSpeed);
     return report;
   }
 
@@ -35,28 +37,52 @@ class HeldLevel : public ::testing::Test {
 
 TEST(Level, NeedsProbabilityAndTime) {
   const WarningOptions options;
-  EXPECT_EQ(levelOf(riskWith(0.1, 0.0), true, options), RiskLevel::kNone);
-  EXPECT_EQ(levelOf(riskWith(0.4, 0.0), true, options), RiskLevel::kInformation);
-  EXPECT_EQ(levelOf(riskWith(0.9, 3.0), true, options), RiskLevel::kInformation);
-  EXPECT_EQ(levelOf(riskWith(0.9, 1.0), true, options), RiskLevel::kWarning);
-  EXPECT_EQ(levelOf(riskWith(0.9, 0.1), true, options), RiskLevel::kImminent);
+  EXPECT_EQ(levelOf(riskWith(0.1, 0.0), kSpeed, options), RiskLevel::kNone);
+  EXPECT_EQ(levelOf(riskWith(0.4, 0.0), kSpeed, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(riskWith(0.9, 3.0), kSpeed, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(riskWith(0.9, 1.0), kSpeed, options), RiskLevel::kWarning);
+  EXPECT_EQ(levelOf(riskWith(0.9, 0.1), kSpeed, options), RiskLevel::kImminent);
 }
 
 TEST(Level, WarnsOfASlowApproachByTheTimeToContact) {
   const WarningOptions options;
   ObjectRisk slow = riskWith(0.9, 1.7);
   slow.median_ttc = 1.85;  // 1.8 m/s over it: braking takes but 0.15 s
-  EXPECT_EQ(levelOf(slow, true, options), RiskLevel::kWarning);
+  EXPECT_EQ(levelOf(slow, kSpeed, options), RiskLevel::kWarning);
   slow.median_ttc = 2.0;
-  EXPECT_EQ(levelOf(slow, true, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(slow, kSpeed, options), RiskLevel::kInformation);
 }
 
 TEST(Level, InformsWhereBrakingDoesNotHelp) {
   const WarningOptions options;
-  EXPECT_EQ(levelOf(riskWith(0.9, 0.0), false, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(riskWith(0.9, 0.0), 0.0, options), RiskLevel::kInformation);
   ObjectRisk from_behind = riskWith(0.9, 0.0);
   from_behind.side = StruckSide::kRear;
-  EXPECT_EQ(levelOf(from_behind, true, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(from_behind, kSpeed, options), RiskLevel::kInformation);
+}
+
+TEST(Level, InReverseBrakingHelpsAgainstWhatIsBehind) {
+  const WarningOptions options;
+  ObjectRisk behind = riskWith(0.9, 0.1);
+  behind.side = StruckSide::kRear;
+  EXPECT_EQ(levelOf(behind, -2.0, options), RiskLevel::kImminent);
+  EXPECT_NE(reasonOf(behind, -2.0).find("brake within"), std::string::npos);
+  EXPECT_EQ(reasonOf(behind, 2.0).find("brake within"), std::string::npos);
+  EXPECT_EQ(levelOf(riskWith(0.9, 0.1), -2.0, options), RiskLevel::kInformation);
+}
+
+TEST_F(HeldLevel, ItsReasonIsThatOfWhatAskedForIt) {
+  at(0.0, riskWith(0.9, 1.0));
+  ASSERT_EQ(at(0.1, riskWith(0.9, 1.0)).level, RiskLevel::kWarning);
+  ObjectRisk other = riskWith(0.4, 3.0);
+  other.id = 8;
+  const RiskReport held = at(0.3, other);
+  EXPECT_EQ(held.level, RiskLevel::kWarning);
+  EXPECT_EQ(held.cause, 7U);
+  EXPECT_NE(held.reason.find("pedestrian 7"), std::string::npos) << held.reason;
+  const RiskReport after = at(1.2, other);
+  EXPECT_EQ(after.level, RiskLevel::kInformation);
+  EXPECT_EQ(after.cause, 8U);
 }
 
 TEST_F(HeldLevel, RisesWhenItIsAskedForLongEnough) {
@@ -100,9 +126,9 @@ TEST_F(HeldLevel, ForgetsOnReset) {
 }
 
 TEST(Reason, SaysWhatWhereAndWhatToDo) {
-  EXPECT_EQ(reasonOf(riskWith(0.82, 0.4)),
+  EXPECT_EQ(reasonOf(riskWith(0.82, 0.4), kSpeed),
             "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): brake within 0.4 s");
-  EXPECT_EQ(reasonOf(riskWith(0.82, 0.0)),
+  EXPECT_EQ(reasonOf(riskWith(0.82, 0.0), kSpeed),
             "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): braking no longer avoids it");
 }
 

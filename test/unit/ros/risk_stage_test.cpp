@@ -73,6 +73,27 @@ TEST_F(RiskStageTest, WarnsAndSaysWhy) {
   EXPECT_NE(risks->reason.find("vehicle 7"), std::string::npos) << risks->reason;
 }
 
+// What comes into view is a road user as likely as a wall, until it is a track or map.
+TEST_F(RiskStageTest, PointsThatTheMapDoesNotKnowWarnOfNothing) {
+  const auto levelWith = [&](PointState state, double start) {
+    RiskArrayPtr risks;
+    for (const double seconds : {start, start + 0.2, start + 0.4}) {
+      LabeledScan scan = samples::scanBetweenWalls(seconds);
+      for (const double y : {-0.4, 0.0, 0.4}) {
+        scan.points.push_back({{10.0, y}, 10.0, 0.0, 0, state});
+      }
+      odometryAt(seconds);
+      stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+      TrackArray none = carAhead(seconds, 17.0);
+      none.tracks.clear();
+      risks = stage_.takeTracks(none);
+    }
+    return risks->level;
+  };
+  EXPECT_EQ(levelWith(PointState::kUnknown, 0.0), RiskArray::LEVEL_NONE);
+  EXPECT_GE(levelWith(PointState::kStatic, 1.0), RiskArray::LEVEL_WARNING);
+}
+
 TEST_F(RiskStageTest, WithoutOdometryTheMotionIsThatOfThePoses) {
   scanAt(0.0);
   scanAt(0.1);

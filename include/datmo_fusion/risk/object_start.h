@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/track.h"
+
+namespace datmo {
+
+/// Who drives or rides keeps to the direction of the road, more often than not.
+struct RoadFollowingOptions {
+  double probability = 0.9;       ///< 1
+  double direction_sigma = 0.05;  ///< rad
+  double min_speed = 1.0;         ///< m/s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What the futures of one object are drawn from.
+struct ObjectStart {
+  TrackState state = TrackState::Zero();               ///< fixed frame
+  TrackCovariance root = TrackCovariance::Identity();  ///< Cholesky factor of its covariance
+  double heading = 0.0;                                ///< rad, of the box
+  double heading_sigma = 0.0;                          ///< rad
+};
+
+/// The track as it is. `max_heading_sigma`: rad.
+ObjectStart startOf(const Track& track, double max_heading_sigma);
+
+/// The same object, if it follows the road.
+struct RoadFollower {
+  ObjectStart start;
+  double probability = 0.0;  ///< that it does
+};
+
+/// Whether an object follows the road, either way: who drives or rides does so by a prior, and
+/// whose velocity leads off the road does not. Bayes over two hypotheses: along the road the
+/// velocity across it is a Gaussian, else all directions are alike; in the first one state and
+/// heading are conditioned on it (Kalman). None for who cannot be one: a pedestrian, or what has no
+/// speed.
+///
+/// `road`: direction of the road beside the object, rad, fixed frame. `turning`: probability, by
+/// the track's modes, that it turns.
+std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
+                                         double turning, const RoadFollowingOptions& options);
+
+}  // namespace datmo
