@@ -13,9 +13,9 @@ namespace datmo {
 
 namespace {
 
-/// Of an object that none of so many futures meets, no more are drawn: contact is less probable
-/// than 5 % then (with 95 % confidence), far below what any level asks for, and most objects are
-/// such.
+/// Of an object that none of so many possible futures meets, no more are drawn: contact is less
+/// probable than 5 % then (with 95 % confidence), far below what any level asks for, and most
+/// objects are such.
 constexpr std::size_t kFirstFutures = 64;
 
 /// Standard deviations by which a state may be off for an object to be within reach.
@@ -232,17 +232,17 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
                              options_.objects, options_.horizon, draws_);
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
+  // Nothing has been struck yet: a future in which the bodies overlap already is of a wrong state.
   std::vector<FutureContact> contacts;
   std::vector<FutureContact> touching;
   for (std::size_t future = 0; future < host.paths().size(); ++future) {
-    if (future == kFirstFutures && contacts.empty()) {
-      break;
+    if (contacts.empty() && future - touching.size() == kFirstFutures) {
+      return risk;
     }
     if (const auto contact = contactOf(host.paths()[future], host_size, object, size, future)) {
       (contact->time > 0.0 ? contacts : touching).push_back(*contact);
     }
   }
-  // Nothing has been struck yet: where the bodies overlap already, the state drawn is a wrong one.
   std::size_t possible = host.paths().size() - touching.size();
   if (possible == 0) {
     contacts = std::move(touching);

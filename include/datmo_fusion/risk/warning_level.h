@@ -14,7 +14,7 @@ namespace datmo {
 /// When a driver is warned.
 struct WarningOptions {
   double information_probability = 0.3;  ///< 1
-  double warning_probability = 0.5;      ///< 1
+  double warning_probability = 0.6;      ///< 1
   double warning_time = 1.4;             ///< s
   double warning_ttc = 1.9;              ///< s
   double imminent_time = 0.3;            ///< s

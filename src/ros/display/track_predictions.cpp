@@ -49,7 +49,7 @@ MarkerArray predictionsOf(const TrackArray& message, const TrackStyle& style) {
     if (!isValid(track) || track.existence_probability < style.min_existence) {
       continue;
     }
-    const ObjectFutures futures(track, options, horizon, draws);
+    const ObjectFutures futures(track, std::nullopt, options, horizon, draws);
     for (int mode = 0; mode < kMotionModes; ++mode) {
       const double share = track.mode_probabilities[static_cast<std::size_t>(mode)];
       if (share < style.min_mode) {

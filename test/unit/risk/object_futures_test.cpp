@@ -97,7 +97,7 @@ TEST(ObjectFutures, WhatBrakesComesToRest) {
   track.mode_probabilities = {0.0, 1.0, 0.0, 0.0, 0.0};
   track.state[4] = -3.0;
   const ObjectFutureOptions options = withoutSwitching();
-  const ObjectFutures futures(track, options, kHorizon, kDraws);
+  const ObjectFutures futures(track, std::nullopt, options, kHorizon, kDraws);
   // v^2 / (2 a).
   EXPECT_NEAR(futures.nominalPath().poses.back().center.x(), 6.0, 0.1);
   EXPECT_NEAR(endsOf(futures).mean.x(), 6.0, 0.4);

@@ -136,6 +136,9 @@ TEST(RiskAssessor, WhatWouldHaveBeenStruckAlreadyIsNotTrue) {
   EXPECT_LT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.35);
   beside.state[3] = 1.5;  // it comes nearer
   EXPECT_GT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.9);
+  beside.state[1] = -0.5;  // no future is free of it
+  beside.covariance(1, 1) = 1e-4;
+  EXPECT_EQ(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 1.0);
 }
 
 // The needed deceleration is that which stops, and not one that puts contact off beyond 4 s.

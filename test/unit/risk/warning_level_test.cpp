@@ -100,10 +100,10 @@ TEST_F(HeldLevel, ASingleFrameRaisesNothing) {
 }
 
 TEST_F(HeldLevel, StaysAboutItsThreshold) {
-  at(0.0, riskWith(0.55, 1.3));
-  ASSERT_EQ(at(0.2, riskWith(0.55, 1.3)).level, RiskLevel::kWarning);
+  at(0.0, riskWith(0.65, 1.3));
+  ASSERT_EQ(at(0.2, riskWith(0.65, 1.3)).level, RiskLevel::kWarning);
   for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(at(0.4 + 0.2 * i, riskWith(i % 2 == 0 ? 0.45 : 0.52, 1.6)).level,
+    EXPECT_EQ(at(0.4 + 0.2 * i, riskWith(i % 2 == 0 ? 0.55 : 0.62, 1.6)).level,
               RiskLevel::kWarning);
   }
 }
