@@ -98,6 +98,13 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     checkAge(*message);
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
+    if (!classifier_->tellsAnything()) {
+      monitor_.warned(InputError("detector_tells_nothing",
+                                 "no object gets a class by the image: the reports of this "
+                                 "detector are right no more often than by chance (`reliability`); "
+                                 "expected detector: dnn with a model, or a reliability that "
+                                 "calibrate_classes measured on your images"));
+    }
     if (!wait_.addImage(message, now)) {
       monitor_.dropped(InputError("superseded_image",
                                   "a newer image came before objects of its time: expected objects "

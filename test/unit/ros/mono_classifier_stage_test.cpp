@@ -103,6 +103,17 @@ TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
   EXPECT_EQ(monitor_.processedCount(), 1U);
 }
 
+TEST_F(MonoClassifierStageTest, ADetectorWithoutWeightIsWarnedOf) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_NE(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 0U);
+  MonoClassifierStage by_default(MonoClassifierStageOptions(), transforms_, monitor_);
+  by_default.takeCameraInfo(cameraInfo());
+  by_default.takeImage(imageAt(kStart), Stamp::fromSeconds(kStart));
+  EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 1U);
+}
+
 TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());

@@ -52,7 +52,8 @@ struct MonoClassifierStageOptions {
 /// Bad input is dropped through the monitor, never thrown: what CameraInput and grayOrColor refuse,
 /// `blank_image` (black, white), `frozen_image` (the same pixels again), `old_image` (older than
 /// the newest objects by more than `max_age`), `superseded_image` (a newer one came before the
-/// detector had time), `missing_transform`. When the clock jumps back all objects are forgotten.
+/// detector had time), `missing_transform`. When the clock jumps back all objects are forgotten. A
+/// detector that is right no more often than by chance is warned of (`detector_tells_nothing`).
 class MonoClassifierStage : public Stage {
  public:
   using Options = MonoClassifierStageOptions;
