@@ -184,7 +184,8 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
     }
   }
   for (std::size_t i = 0; i < detections.size(); ++i) {
-    auto alone = is_matched[i] ? std::nullopt : objectOf(camera, detections[i], options_.range);
+    auto alone =
+        is_matched[i] ? std::nullopt : objectOf(camera, detections[i], options_.range, detections);
     if (!alone) {
       continue;
     }
