@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 
+#include <algorithm>
 #include <functional>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +13,10 @@
 #include "vision/image_samples.h"
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
+#include <opencv2/core/utility.hpp>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
@@ -56,8 +62,12 @@ class MonoClassifierStageTest : public testing::Test {
   }
 
   std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock = {}) {
-    auto detector = std::make_unique<test::FixedDetector>(std::vector<ImageDetection>{
-        test::detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275)});
+    return makeStage(clock, std::make_unique<test::FixedDetector>(std::vector<ImageDetection>{
+                                test::detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275)}));
+  }
+
+  std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock,
+                                                 std::unique_ptr<ImageDetector> detector) {
     auto classifier =
         std::make_unique<MonoClassifier>(stageOptions().classifier, std::move(detector));
     return std::make_unique<MonoClassifierStage>(stageOptions(), transforms_, monitor_, clock,
@@ -153,6 +163,66 @@ TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
   ASSERT_NE(late, nullptr);
   EXPECT_EQ(late->header.stamp, ros::Time(kStart));
   EXPECT_EQ(late->objects.size(), 1U);
+}
+
+/// Does what it is told in place of looking, and sees nothing.
+class ToldDetector : public ImageDetector {
+ public:
+  explicit ToldDetector(std::function<void()> told) : told_(std::move(told)) {}
+
+  std::vector<ImageDetection> detect(const cv::Mat& /*image*/,
+                                     const std::vector<ImageRegion>& /*regions*/) override {
+    told_();
+    return {};
+  }
+
+ private:
+  std::function<void()> told_;
+};
+
+TEST_F(MonoClassifierStageTest, TheDetectorGivesWayToAllOtherThreads) {
+  const int threads_before = cv::getNumThreads();
+  int nice = 0;
+  stage_ = makeStage([] { return 0.0; }, std::make_unique<ToldDetector>([&] {
+                       nice = getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)));
+                     }));
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  look(imageAt(kStart), 1.0);
+  stage_->waitUntilIdle();
+  EXPECT_GE(nice, MonoClassifierStageOptions().detector_nice);
+  EXPECT_LT(getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid))), nice)
+      << "only that thread";
+  EXPECT_EQ(cv::getNumThreads(), MonoClassifierStageOptions().detector_threads);
+  cv::setNumThreads(threads_before);
+}
+
+TEST_F(MonoClassifierStageTest, ADetectorThatIsTooSlowIsNamed) {
+  std::promise<void> waited_enough;
+  const std::shared_future<void> released = waited_enough.get_future().share();
+  stage_ = makeStage([] { return 0.0; },
+                     std::make_unique<ToldDetector>([released] { released.wait(); }));
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  for (int i = 0; i < 3; ++i) {
+    stage_->takeObjects(objectsAt(kStart + 0.1 * i));
+    look(imageAt(kStart + 0.1 * i));
+  }
+  EXPECT_GE(drops(monitor_, "slow_detector"), 1U) << "one is looked at, one waits";
+  EXPECT_EQ(drops(monitor_, "superseded_image"), 0U);
+  waited_enough.set_value();
+  stage_->waitUntilIdle();
+}
+
+TEST_F(MonoClassifierStageTest, AHalfImageIsDroppedAndABurntOutSkyIsNot) {
+  const auto filled = [](double seconds, std::uint32_t from, std::uint32_t to, int gray) {
+    const auto image = imageAt(seconds);
+    std::fill(image->data.begin() + from * image->step, image->data.begin() + to * image->step,
+              static_cast<std::uint8_t>(gray));
+    return image;
+  };
+  expectDropped(filled(kStart, kCamera.height / 2, kCamera.height, 128), "half_image");
+  EXPECT_NE(look(filled(kStart + 0.2, 0, kCamera.height / 3, 255), 1.0), nullptr);
 }
 
 TEST_F(MonoClassifierStageTest, OfImagesThatWaitTheNewestStays) {
