@@ -82,7 +82,7 @@ class Documents(unittest.TestCase):
 
     def test_yaml_names_parameters_that_there_are(self):
         parameters = documented_parameters()
-        for page in PAGES:
+        for page in LINKED_PAGES:
             for block in blocks_of(page.read_text()):
                 if block.language == "yaml":
                     for key in keys_of(yaml.safe_load(block.text)):
