@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What roslaunch does not check in a command line: arguments that no launch file takes, and a stack that
-runs on the same master already.
+"""What roslaunch does not check in a command line: arguments that no launch file takes, values that no
+argument has, names of sensor sets without a file, and a stack that already runs on the same master.
 
 usage: check_launch [--devices lidar:=KIND camera:=KIND odometry:=KIND]
 
@@ -86,6 +86,28 @@ def bad_choice(words):
     return None
 
 
+def missing_configuration(words, folder):
+    """A sentence on the first of sensors, preset and config without a file, or None.
+
+    folder: the sensor sets and presets (Path). sensors counts only without config, as in
+    perception.launch.
+    """
+    given = dict(word.split(":=", 1) for word in words if is_argument(word))
+    config = given.pop("config", None)
+    if config is not None:
+        given.pop("sensors", None)
+        if not Path(config).is_file():
+            return f"config:={config}: no such file; expected the path of a yaml file"
+    sets = sorted(file.stem for file in folder.glob("*.yaml"))
+    for name in ("sensors", "preset"):
+        value = given.get(name, "")
+        if value and value not in sets:
+            near = difflib.get_close_matches(value, sets, n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            return f"{name}:={value}: no {value}.yaml in {folder}: {hint}There are {', '.join(sets)}"
+    return None
+
+
 def missing_device(words):
     """A sentence on the first device (lidar:=KIND) of a kind that there is not, or None."""
     for name, kind in (word.split(":=", 1) for word in words):
@@ -114,7 +136,10 @@ def check_words(words):
     known = set()
     for file in resolve_launch_arguments(plain):
         known |= arguments_of(file, resolve_args)
-    return refusal(given, known) or bad_choice(words)
+    error = refusal(given, known) or bad_choice(words)
+    if error or "sensors" not in known:
+        return error
+    return missing_configuration(words, Path(resolve_args("$(find datmo_fusion)/config")))
 
 
 def runs(manager, master_uri):
