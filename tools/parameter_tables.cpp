@@ -54,9 +54,11 @@ constexpr const char* kHead =
     "or a value out of range, is refused with a message that names it.\n\n"
     "*Public* ones depend on sensor, vehicle or city; those that say *live* may be changed while "
     "the nodelet runs\n"
-    "(`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with rqt_reconfigure, which "
+    "(`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with rqt_reconfigure, "
+    "which "
     "Debian 12 does\n"
-    "not have). *Expert* ones, below, belong to the method: each default has a source, which should "
+    "not have). *Expert* ones, below, belong to the method: each default has a source, which "
+    "should "
     "be read before\n"
     "the value is changed.\n\n";
 

@@ -5,7 +5,7 @@ argument has, names of sensor sets without a file, and a stack that already runs
 usage: check_launch [--devices lidar:=KIND camera:=KIND odometry:=KIND]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
-included by pass_all_args takes arguments, too; includes of a launch file of somebody else's without it
+included by pass_all_args takes arguments, too; includes of other packages' launch files without it
 are checked by roslaunch itself.
 """
 
@@ -79,7 +79,7 @@ def refusal(given, known):
 
 
 def bad_choice(words):
-    """A sentence on the first argument whose value is none of its words, or None."""
+    """A sentence on the first argument whose value is not one of its choices, or None."""
     for name, value in (word.split(":=", 1) for word in words if is_argument(word)):
         if name in CHOICES and value not in CHOICES[name]:
             return f"{name}:={value}: expected one of {', '.join(CHOICES[name])}"
@@ -109,7 +109,7 @@ def missing_configuration(words, folder):
 
 
 def missing_device(words):
-    """A sentence on the first device (lidar:=KIND) of a kind that there is not, or None."""
+    """A sentence on the first device (lidar:=KIND) of an unknown kind, or None."""
     for name, kind in (word.split(":=", 1) for word in words):
         kinds = DEVICES[name]
         if kind not in kinds:
