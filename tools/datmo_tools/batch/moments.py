@@ -64,7 +64,7 @@ def _drops(run):
     period = run["duration_s"] / max(run["scans"], 1)
     for one in run["dropped"]:
         yield _moment(one["max_from_s"], WINDOW, min(WINDOW, one["max_count"] * period),
-                      f"{one['stage']} dropped {one['most']} messages: {one['reason']}")  # fmt: skip
+                      f"{one['stage']} dropped {one['max_count']} messages: {one['reason']}")  # fmt: skip
 
 
 def _windows(series, offset):
