@@ -17,13 +17,6 @@
 namespace datmo::object_fuser_test {
 namespace {
 
-const Stamp kReference = Stamp::fromSeconds(5.0);
-
-SourceObjects received(const std::string& source, std::vector<Object> objects, double seconds = 5.0,
-                       const Pose2& base_in_reference = Pose2()) {
-  return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
-}
-
 /// Everything within 40 m in front of the vehicle.
 SensorView ahead(const std::string& sensor) {
   return {sensor, {Pose2(1.0, 0.0, 0.0), -0.6, 0.6, 40.0, 50.0}};
@@ -34,19 +27,6 @@ Object poleAt(double x, double y, double probability) {
   object.object_class = ObjectClass::kPole;
   object.class_probability = probability;
   return object;
-}
-
-/// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
-LabeledScan scanAhead(double range, PointState state) {
-  LabeledScan scan;
-  scan.stamp = kReference;
-  scan.field = {-degrees(40.0), degrees(1.0), 81, 0.5, 80.0, 80.0, 0.0};
-  for (std::uint32_t beam = 35; beam <= 45; ++beam) {
-    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
-    scan.points.push_back(
-        {range * Point2(std::cos(bearing), std::sin(bearing)), range, bearing, beam, state});
-  }
-  return scan;
 }
 
 ObjectFusionResult fuse(const std::vector<SourceObjects>& sources,
@@ -68,51 +48,6 @@ TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
   for (const Object& object : list.objects) {
     EXPECT_TRUE(isValid(object));
   }
-}
-
-/// What MonoClassifier makes of a scanner's object that the image shows to be a vehicle.
-Object nameOfVehicle(const Object& of) {
-  Object name = of;
-  name.position_covariance *= 100.0;
-  name.side_variance.fill(kHiddenSide);
-  name.object_class = ObjectClass::kVehicle;
-  name.class_probability = 0.8;
-  return name;
-}
-
-ObjectFusionResult fuseNames(std::vector<Object> seen, std::vector<Object> names,
-                             const LabeledScan* scan = nullptr) {
-  ObjectFuserOptions options;
-  options.sources["mono"];
-  return ObjectFuser(options).fuse(
-      {received("lidar", std::move(seen)), received("mono", std::move(names))}, scan);
-}
-
-TEST(ObjectFuserTest, ANameAddsAClassAndNothingElse) {
-  Object seen = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
-  hide(seen, BoxSide::kFront);
-  seen.moving_fraction = 0.25;
-  const LabeledScan scan = scanAhead(30.0, PointState::kStatic);
-  const auto named = fuseNames({seen}, {nameOfVehicle(seen)}, &scan);
-  const auto alone = fuseNames({seen}, {}, &scan);
-  ASSERT_EQ(named.list.objects.size(), 1U);
-  EXPECT_EQ(named.counts.fused, 1U);
-  const Object& object = named.list.objects[0];
-  const Object& expected = alone.list.objects[0];
-  EXPECT_EQ(object.object_class, ObjectClass::kVehicle);
-  EXPECT_EQ(object.class_probability, 0.8);
-  EXPECT_EQ(object.log_odds, expected.log_odds) << "it exists no more surely";
-  EXPECT_EQ(object.moving_fraction, expected.moving_fraction);
-  EXPECT_EQ(object.position_covariance, expected.position_covariance);
-  EXPECT_EQ(object.side_variance, expected.side_variance);
-}
-
-TEST(ObjectFuserTest, ANameOfWhatIsGoneIsNoObject) {
-  const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
-  EXPECT_TRUE(fuseNames({}, {nameOfVehicle(gone)}).list.objects.empty());
-  Object alone = nameOfVehicle(gone);
-  alone.sensors = {"mono"};
-  EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
 }
 
 TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {

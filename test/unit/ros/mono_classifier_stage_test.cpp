@@ -3,101 +3,25 @@
 
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "camera_samples.h"
 #include "monitor_counts.h"
-#include "vision/image_samples.h"
-#include <boost/make_shared.hpp>
+#include "mono_classifier_case.h"
 #include <gtest/gtest.h>
-#include <opencv2/core/utility.hpp>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::mono_classifier_stage_test {
 namespace {
 
+using mono_classifier_case::cameraInfo;
+using mono_classifier_case::imageAt;
+using mono_classifier_case::kCamera;
+using mono_classifier_case::kStart;
+using mono_classifier_case::MonoClassifierStageTest;
+using mono_classifier_case::objectsAt;
 using samples::drops;
 using samples::warnings;
-
-constexpr double kStart = 100.0;  // s
-
-/// As test::levelCamera.
-constexpr samples::CameraSample kCamera{1000, 400, 500.0};
-
-sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
-
-/// Stripes; of another gray each time.
-sensor_msgs::ImagePtr imageAt(double seconds) {
-  static std::uint8_t gray = 0;
-  auto message = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, ++gray));
-  for (std::size_t i = 0; i < message->data.size(); i += 2) {
-    message->data[i] = 255;
-  }
-  return message;
-}
-
-ObjectArray objectsAt(double seconds) {
-  ObjectList list;
-  list.stamp = Stamp::fromSeconds(seconds);
-  list.objects = {test::objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
-  return toMessage(list, "base_link");
-}
-
-/// A person 10 m ahead in each image.
-class MonoClassifierStageTest : public testing::Test {
- protected:
-  static MonoClassifierStageOptions stageOptions() {
-    MonoClassifierStageOptions options;
-    options.classifier.detector = ImageDetectorKind::kDnn;
-    options.classifier.dnn_reliability.scores = {0.0};
-    options.classifier.dnn_reliability.right = {0.8};
-    return options;
-  }
-
-  std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock = {}) {
-    return makeStage(clock, std::make_unique<test::FixedDetector>(std::vector<ImageDetection>{
-                                test::detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275)}));
-  }
-
-  std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock,
-                                                 std::unique_ptr<ImageDetector> detector) {
-    auto classifier =
-        std::make_unique<MonoClassifier>(stageOptions().classifier, std::move(detector));
-    return std::make_unique<MonoClassifierStage>(stageOptions(), transforms_, monitor_, clock,
-                                                 std::move(classifier));
-  }
-
-  void mountCamera() {
-    transforms_.addStatic(
-        samples::transforms({samples::cameraMount("base_link", test::kCameraHeight)}));
-  }
-
-  ObjectArrayPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
-    const Stamp stamp = toStamp(image->header.stamp);
-    stage_->takeImage(image, stamp);
-    return stage_->next(stamp + waited);
-  }
-
-  /// Whether an image like this is dropped for this reason, and the next good one is not.
-  void expectDropped(const sensor_msgs::ImagePtr& image, const std::string& reason) {
-    mountCamera();
-    stage_->takeCameraInfo(cameraInfo());
-    EXPECT_EQ(look(image, 1.0), nullptr) << reason;
-    EXPECT_EQ(drops(monitor_, reason), 1U) << reason;
-    EXPECT_NE(look(imageAt(kStart + 0.1), 1.0), nullptr);
-  }
-
-  TransformBuffer transforms_{1.0};
-  StageMonitor monitor_{"mono_classifier"};
-  std::unique_ptr<MonoClassifierStage> stage_ = makeStage();
-};
 
 TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
   mountCamera();
@@ -163,55 +87,6 @@ TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
   ASSERT_NE(late, nullptr);
   EXPECT_EQ(late->header.stamp, ros::Time(kStart));
   EXPECT_EQ(late->objects.size(), 1U);
-}
-
-/// Does what it is told in place of looking, and sees nothing.
-class ToldDetector : public ImageDetector {
- public:
-  explicit ToldDetector(std::function<void()> told) : told_(std::move(told)) {}
-
-  std::vector<ImageDetection> detect(const cv::Mat& /*image*/,
-                                     const std::vector<ImageRegion>& /*regions*/) override {
-    told_();
-    return {};
-  }
-
- private:
-  std::function<void()> told_;
-};
-
-TEST_F(MonoClassifierStageTest, TheDetectorGivesWayToAllOtherThreads) {
-  const int threads_before = cv::getNumThreads();
-  int nice = 0;
-  stage_ = makeStage([] { return 0.0; }, std::make_unique<ToldDetector>([&] {
-                       nice = getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)));
-                     }));
-  mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  look(imageAt(kStart), 1.0);
-  stage_->waitUntilIdle();
-  EXPECT_GE(nice, MonoClassifierStageOptions().detector_nice);
-  EXPECT_LT(getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid))), nice)
-      << "only that thread";
-  EXPECT_EQ(cv::getNumThreads(), MonoClassifierStageOptions().detector_threads);
-  cv::setNumThreads(threads_before);
-}
-
-TEST_F(MonoClassifierStageTest, ADetectorThatIsTooSlowIsNamed) {
-  std::promise<void> waited_enough;
-  const std::shared_future<void> released = waited_enough.get_future().share();
-  stage_ = makeStage([] { return 0.0; },
-                     std::make_unique<ToldDetector>([released] { released.wait(); }));
-  mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  for (int i = 0; i < 3; ++i) {
-    stage_->takeObjects(objectsAt(kStart + 0.1 * i));
-    look(imageAt(kStart + 0.1 * i));
-  }
-  EXPECT_GE(drops(monitor_, "slow_detector"), 1U) << "one is looked at, one waits";
-  EXPECT_EQ(drops(monitor_, "superseded_image"), 0U);
-  waited_enough.set_value();
-  stage_->waitUntilIdle();
 }
 
 TEST_F(MonoClassifierStageTest, AHalfImageIsDroppedAndABurntOutSkyIsNot) {
