@@ -69,6 +69,15 @@ std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane() const {
 }
 
 void EarthFrameFilter::add(const EarthFix& fix) {
+  take(fix);
+  // Of a pose and a fix whose numbers are far apart no digit may be left.
+  if (has_started_ && !(state_.allFinite() && covariance_.allFinite())) {
+    ++counts_.restarts;
+    reset();
+  }
+}
+
+void EarthFrameFilter::take(const EarthFix& fix) {
   if (!has_started_) {
     first_fixes_.push_back(fix);
     ++counts_.used;

@@ -8,6 +8,7 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/tracking/track_check.h"
 
 namespace datmo {
 
@@ -164,8 +165,19 @@ StationTracksMessagePtr V2xStage::takeTracks(const TrackArray& message) {
       self.existence_probability = 1.0;
       list.tracks.push_back(toStation(self, frame.map_in_plane));
     }
+    std::uint64_t invalid = 0;
     for (const Track& track : tracks.tracks) {
-      list.tracks.push_back(toStation(track, frame.map_in_plane));
+      if (isValid(track)) {
+        list.tracks.push_back(toStation(track, frame.map_in_plane));
+      } else {
+        ++invalid;
+      }
+    }
+    if (invalid > 0) {
+      monitor_.warned({"bad_own_track", std::to_string(invalid) +
+                                            " of our tracks with numbers that are none, or a "
+                                            "covariance that is none: other stations do not get "
+                                            "them"});
     }
     return boost::make_shared<StationTracksMessage>(toMessage(list, frame.plane));
   });

@@ -140,6 +140,23 @@ TEST(EarthFrameFilter, FixFarOffIsLeftOut) {
       3.0);
 }
 
+TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
+  for (const double far : {1e9, 1e150, 1e300}) {
+    Drive drive(3, 0.5, EarthFrameOptions());
+    EarthFrameFilter filter{EarthFrameOptions()};
+    for (int i = 0; i < 600; ++i) {
+      EarthFix fix = drive.next();
+      if (i == 200) {
+        fix.base_in_map = {Pose2(far, -far, 0.0), far * Eigen::Matrix3d::Identity()};
+      }
+      filter.add(fix);
+      const auto map = filter.mapInPlane();
+      ASSERT_TRUE(!map || (map->pose.position().allFinite() && map->covariance.allFinite())) << far;
+    }
+    EXPECT_TRUE(filter.mapInPlane()) << "it comes back after " << far;
+  }
+}
+
 TEST(EarthFrameFilter, StartsOverWhenTheMapIsAnother) {
   const EarthFrameOptions options;
   Drive drive(2, 0.5, options);

@@ -3,12 +3,14 @@
 #include "datmo_fusion/ros/stage/v2x_stage.h"
 
 #include <cmath>
+#include <limits>
 
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/earth_frame_stage.h"
+#include "datmo_fusion/ros/stage/output_check.h"
 
 namespace datmo::v2x_stage_test {
 namespace {
@@ -140,6 +142,22 @@ TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
   EXPECT_LT((received.tracks[0].position - kMap * middle).norm(), 0.1);
 }
 
+TEST_F(V2xStageTest, OfOursThoseThatAreNoneDoNotGoOut) {
+  drive(0, kSteps);
+  Track track;
+  track.id = 4;
+  TrackList list;
+  list.stamp = stampAt(kSteps - 1);
+  list.tracks.assign(3, track);
+  list.tracks[1].height = std::numeric_limits<double>::max();  // none that a float could hold
+  list.tracks[2].state[2] = std::nan("");
+  const StationTracksMessagePtr ours = stage_.takeTracks(toMessage(list, "map"));
+  ASSERT_TRUE(ours);
+  EXPECT_EQ(ours->tracks.size(), 2U) << "the vehicle, and the first track";
+  EXPECT_EQ(contentFault(*ours), "");
+  EXPECT_EQ(samples::warnings(monitor_, "bad_own_track"), 1U);
+}
+
 TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   sensor_msgs::NavSatFix fix;
   fix.header.stamp = toTime(stampAt(0));
@@ -155,6 +173,18 @@ TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   fix.header.frame_id = "elsewhere";
   earth_.takeFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
+}
+
+TEST(NavSatFixCovariance, ThatNoReceiverCanHaveIsNotTaken) {
+  sensor_msgs::NavSatFix fix;
+  fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  const Eigen::Matrix2d assumed = 9.0 * Eigen::Matrix2d::Identity();
+  for (const double variance : {std::numeric_limits<double>::denorm_min(), 1e308}) {
+    fix.position_covariance = {variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, 1.0};
+    EXPECT_EQ(covarianceOf(fix, 3.0), assumed) << variance;
+  }
+  fix.position_covariance = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  EXPECT_EQ(covarianceOf(fix, 3.0), Eigen::Matrix2d::Identity());
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ class EarthFrameFilter {
   using State = Eigen::Matrix<double, kState, 1>;
   using Covariance = Eigen::Matrix<double, kState, kState>;
 
+  void take(const EarthFix& fix);
   void start();
   void predict(const EarthFix& fix);
   bool update(const EarthFix& fix);
