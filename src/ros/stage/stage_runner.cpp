@@ -19,6 +19,7 @@ void StageRunner::check(const std::string& input, const ros::Time& stamp) {
     return;
   }
   streams_.clear();
+  monitor_.forgetInputs();
   arrivalOf(input, stamp);
   reset("clock_restart",
         std::string("the clock jumped ") + (arrival == Arrival::kRestart ? "back" : "ahead"));
@@ -32,6 +33,7 @@ Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp)
   stream.last = toStamp(stamp);
   stream.came = now;
   const Arrival arrival = stream.stamps.check(stamp, now, lastOfOthers(input));
+  monitor_.noteInput(toStamp(stamp));
   return arrival;
 }
 

@@ -111,6 +111,7 @@ TrackArrayPtr V2xStage::takeStation(const StationTracksMessage& message, Stamp n
       throw InputError("repeated_list", "station " + std::to_string(message.station) +
                                             ": tracks that are not newer than its last ones");
     }
+    monitor_.noteInput(list.stamp);
     stations_.toMap(list, frame.map_in_plane, ownAt(list.stamp));
     report();
     runner_.processed(list.stamp);
