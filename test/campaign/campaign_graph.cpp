@@ -43,7 +43,7 @@ const std::vector<CampaignGraph>& campaignGraphs() {
       {"an Imu and wheels", withRisk(), "imu_and_wheels"},
       {"images", imageSwitches()},
       {"two scanners, radar and stations", otherSensors()},
-      {"several echoes", allLevels(), "odometry", true},
+      {"several echoes, and a twist", allLevels(), "twist", true},
       {"all switches", allSwitches()}};
   return graphs;
 }
