@@ -12,6 +12,8 @@ from launch_files import PACKAGE, load
 
 from datmo_tools.launch_arguments import missing_device
 
+MACHINES = f"machines:={PACKAGE}/test/nodelets/parts_machines.launch"
+
 
 def loaded(*words):
     """The nodes by name, and the parameters."""
@@ -67,9 +69,38 @@ class LiveLaunch(unittest.TestCase):
         files = ("camera:=images", "left_images:=/l", "left_info:=/l.yaml")
         nodes, _ = loaded(*files)
         self.assertIsNone(nodes["play_images"].machine_name)
-        machines = PACKAGE / "test/nodelets/parts_machines.launch"
-        nodes, _ = loaded(*files, f"machines:={machines}", "stereo_machine:=stereo")
+        nodes, _ = loaded(*files, MACHINES, "stereo_machine:=stereo")
         self.assertEqual(nodes["play_images"].machine_name, "stereo")
+
+    def assert_place(self, node, process, machine):
+        """A nodelet's process, and the machine of both."""
+        self.assertEqual((node.args.split()[2], node.machine_name), (process, machine))
+
+    def test_devices_are_served_where_they_are_connected(self):
+        devices = ("lidar:=velodyne", MACHINES)
+        for odometry, name in (("gps_imu", "satellite_receiver"), ("can", "vehicle_bus"), ("can_imu", "vehicle_bus")):
+            with self.subTest(odometry):
+                words = (*devices, f"odometry:={odometry}")
+                nodes, _ = loaded(*words)
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception", None)
+                nodes, _ = loaded(*words, "perception_machine:=perception")
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception", "perception")
+                nodes, _ = loaded(*words, "perception_machine:=perception", "sensors_machine:=sensors")
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception_sensors", "sensors")
+                    self.assertEqual(nodes["perception_sensors"].machine_name, "sensors")
+
+    def test_other_stations_are_heard_where_it_is_said(self):
+        words = ("v2x_wire:=true", "track_fusion:=true", MACHINES, "perception_machine:=perception")
+        nodes, _ = loaded(*words, "sensors_machine:=sensors")
+        self.assert_place(nodes["v2x_wire"], "perception", "perception")
+        for part in ("sensors", "stereo", "risk"):
+            nodes, _ = loaded(*words, f"v2x_part:={part}", f"{part}_machine:={part}")
+            self.assert_place(nodes["v2x_wire"], f"perception_{part}", part)
+            nodes, _ = loaded(*words, f"v2x_part:={part}")
+            self.assert_place(nodes["v2x_wire"], "perception", "perception")
 
     def test_without_odometry_the_motion_comes_from_the_scans(self):
         _, parameters = loaded("odometry:=none")

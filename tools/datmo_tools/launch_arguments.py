@@ -20,7 +20,8 @@ from xml.etree import ElementTree
 MANAGER = "perception"
 CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
-CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
+CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
+           "v2x_part": ("perception", "sensors", "stereo", "risk")}
 # Devices of live.launch: the kinds that there are, and what to do for others that people have.
 DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 INSTEAD = {
