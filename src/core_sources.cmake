@@ -68,6 +68,7 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/stereo_object_maker.cpp
   detection/stereo_surfaces.cpp
   detection/surface_groups.cpp
+  fusion/earth/consistent_pairs.cpp
   fusion/earth/earth_frame_filter.cpp
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp

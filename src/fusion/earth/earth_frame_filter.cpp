@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/earth/earth_frame_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/perpendicular.h"
+#include "datmo_fusion/fusion/earth/consistent_pairs.h"
 
 namespace datmo {
 
@@ -49,6 +51,12 @@ void EarthFrameOptions::visit(OptionVisitor& visitor) {
                   "root mean square distance of the first fixes from their mean, below which poses "
                   "that tremble could pass for a drive"},
                  start_spread, {0.01, 1000.0});
+  visitor.integer({"start_fixes", "",
+                   "so many first fixes that fit together at least: with fewer one that is far off "
+                   "bends the rest to itself"},
+                  start_fixes, {3.0, 400.0});
+  visitor.number({"start_share", "1", "share of the first fixes that fit together at least"},
+                 start_share, {0.5, 1.0});
   visitor.number(
       {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
       {0.1, 3600.0});
@@ -96,54 +104,113 @@ void EarthFrameFilter::add(const EarthFix& fix) {
   }
 }
 
-/// Least squares over all first fixes; the error that they share moves them all together.
-void EarthFrameFilter::start() {
-  double weights = 0.0;
-  Point2 mean_in_plane = Point2::Zero();
-  Point2 mean_in_map = Point2::Zero();
-  for (const EarthFix& fix : first_fixes_) {
-    const double weight = 1.0 / (0.5 * fix.covariance.trace());
-    weights += weight;
-    mean_in_plane += weight * fix.in_plane;
-    mean_in_map += weight * antennaInMap(fix);
+/// Share of a fix's variance that the fixes had in common at first and have no more.
+double EarthFrameFilter::changedShare(const std::vector<EarthFix>& fixes) const {
+  const double seconds = secondsBetween(fixes.front().stamp, fixes.back().stamp);
+  return options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
+}
+
+/// How far the map drifted from the mean of the fixes to the first and to the last one, along one
+/// axis, m^2: a third of what a random walk is from end to end.
+double EarthFrameFilter::driftAmong(const std::vector<EarthFix>& fixes) const {
+  double distance = 0.0;
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    distance += (antennaInMap(fixes[i]) - antennaInMap(fixes[i - 1])).norm();
   }
-  mean_in_plane /= weights;
-  mean_in_map /= weights;
+  const double turned = options_.map_turn * distance;
+  return distance * (options_.map_drift * options_.map_drift + turned * turned) / 3.0;
+}
+
+std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
+    const std::vector<EarthFix>& fixes) const {
+  if (fixes.size() < static_cast<std::size_t>(options_.start_fixes)) {
+    return std::nullopt;
+  }
+  Start start;
+  for (const EarthFix& fix : fixes) {
+    const double weight = 1.0 / (0.5 * fix.covariance.trace());
+    start.weights += weight;
+    start.mean_in_plane += weight * fix.in_plane;
+    start.mean_in_map += weight * antennaInMap(fix);
+  }
+  start.mean_in_plane /= start.weights;
+  start.mean_in_map /= start.weights;
   double along = 0.0;
   double across = 0.0;
   double spread = 0.0;  // m^2 weighted
-  for (const EarthFix& fix : first_fixes_) {
+  for (const EarthFix& fix : fixes) {
     const double weight = 1.0 / (0.5 * fix.covariance.trace());
-    const Point2 a = antennaInMap(fix) - mean_in_map;
-    const Point2 b = fix.in_plane - mean_in_plane;
+    const Point2 a = antennaInMap(fix) - start.mean_in_map;
+    const Point2 b = fix.in_plane - start.mean_in_plane;
     along += weight * a.dot(b);
     across += weight * (a.x() * b.y() - a.y() * b.x());
     spread += weight * a.squaredNorm();
   }
   // Within the correlation time the shared error turns nothing; what of it changes meanwhile is as
-  // the rest of a fix, and counts but once for all fixes.
-  const double seconds = secondsBetween(first_fixes_.front().stamp, first_fixes_.back().stamp);
-  const double changed =
-      options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
-  const auto count = static_cast<double>(first_fixes_.size());
-  const double inflation = (1.0 - options_.correlated_share) + changed * count;
-  if (spread < options_.start_spread * options_.start_spread * weights ||
-      std::sqrt(inflation / spread) > options_.start_heading_sigma) {
+  // the rest of a fix, and counts but once for all fixes. So does what the map drifts.
+  start.count = static_cast<double>(fixes.size());
+  start.drift = driftAmong(fixes);
+  const double inflation = (1.0 - options_.correlated_share) + changedShare(fixes) * start.count +
+                           start.drift * start.weights;
+  start.heading = std::atan2(across, along);
+  start.heading_variance = inflation / spread;
+  if (spread < options_.start_spread * options_.start_spread * start.weights ||
+      std::sqrt(start.heading_variance) > options_.start_heading_sigma) {
+    return std::nullopt;
+  }
+  return start;
+}
+
+/// Least squares over the first fixes that fit together; the error that they share moves them all.
+void EarthFrameFilter::start() {
+  if (!startOf(first_fixes_)) {
     return;
   }
-  const double heading = std::atan2(across, along);
-  const double heading_variance = inflation / spread;
-  const Pose2 turned_map(0.0, 0.0, heading);
-  const double mean_variance = count / weights;  // m^2, of one fix along one axis
+  // Against each other, without what they share.
+  const double share = 1.0 - options_.correlated_share + changedShare(first_fixes_);
+  const double drift = driftAmong(first_fixes_);
+  std::vector<PointPair> pairs;
+  for (const EarthFix& fix : first_fixes_) {
+    const double fix_variance = 0.5 * fix.covariance.trace();
+    const double antenna_variance = 0.5 * antennaCovariance(fix).trace();
+    pairs.push_back(
+        {antennaInMap(fix), fix.in_plane, share * fix_variance + antenna_variance + drift});
+  }
+  const ConsistentPairs consistent = consistentPairs(pairs, options_.gate);
+  std::vector<EarthFix> fixes;
+  for (std::size_t i = 0; i < first_fixes_.size(); ++i) {
+    if (consistent.fits[i]) {
+      fixes.push_back(first_fixes_[i]);
+    }
+  }
+  const auto found = startOf(fixes);
+  if (!found || static_cast<double>(fixes.size()) <
+                    options_.start_share * static_cast<double>(first_fixes_.size())) {
+    return;
+  }
+  const std::size_t left_out = first_fixes_.size() - fixes.size();
+  counts_.used -= left_out;
+  counts_.gated += left_out;
+  last_ = first_fixes_.back();
+  first_fixes_.clear();
+  begin(*found, std::max(1.0, consistent.variance_factor));
+}
+
+/// `factor`: by which their residuals' variance is larger than expected.
+void EarthFrameFilter::begin(const Start& start, double factor) {
+  const Pose2 turned_map(0.0, 0.0, start.heading);
+  const double heading_variance = factor * start.heading_variance;
+  const double mean_variance = start.count / start.weights;  // m^2, of one fix along one axis
   const double shared = options_.correlated_share * mean_variance;
-  const Point2 arm = perpendicular(turned_map.rotate(mean_in_map));
+  const Point2 arm = perpendicular(turned_map.rotate(start.mean_in_map));
   state_.setZero();
-  state_.head<2>() = mean_in_plane - turned_map.rotate(mean_in_map);
-  state_(2) = heading;
+  state_.head<2>() = start.mean_in_plane - turned_map.rotate(start.mean_in_map);
+  state_(2) = start.heading;
   covariance_.setZero();
   covariance_.topLeftCorner<2, 2>() =
       Eigen::Matrix2d::Identity() *
-      ((1.0 - options_.correlated_share) * mean_variance / count + shared);
+      (factor * (1.0 - options_.correlated_share) * mean_variance / start.count + start.drift +
+       shared);
   // The mean of the antenna in the map is where the heading has no lever.
   covariance_.topLeftCorner<2, 2>() += arm * arm.transpose() * heading_variance;
   covariance_.block<2, 1>(0, 2) = -arm * heading_variance;
@@ -153,8 +220,6 @@ void EarthFrameFilter::start() {
   covariance_.bottomRightCorner<2, 2>() = shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(0, 3) = -shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(3, 0) = -shared * Eigen::Matrix2d::Identity();
-  last_ = first_fixes_.back();
-  first_fixes_.clear();
   has_started_ = true;
 }
 
