@@ -69,11 +69,14 @@ void EarthFrameFilter::reset() {
 }
 
 std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane() const {
+  return mapInPlane(last_.base_in_map.pose);
+}
+
+std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base_in_map) const {
   if (!has_started_) {
     return std::nullopt;
   }
-  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)),
-                            covariance_.topLeftCorner<3, 3>()};
+  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)), driftedTo(base_in_map)};
 }
 
 void EarthFrameFilter::add(const EarthFix& fix) {
@@ -223,10 +226,21 @@ void EarthFrameFilter::begin(const Start& start, double factor) {
   has_started_ = true;
 }
 
+/// The covariance of the map's pose after what it has drifted since the last fix.
+Eigen::Matrix3d EarthFrameFilter::driftedTo(const Pose2& base_in_map) const {
+  const double distance = (base_in_map.position() - last_.base_in_map.pose.position()).norm();
+  const Pose2 map(state_(0), state_(1), state_(2));
+  Eigen::Vector3d turn;  // about the vehicle
+  turn << -perpendicular(map.rotate(base_in_map.position())), 1.0;
+  Eigen::Matrix3d covariance = covariance_.topLeftCorner<3, 3>();
+  covariance += distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
+  covariance.topLeftCorner<2, 2>() +=
+      distance * options_.map_drift * options_.map_drift * Eigen::Matrix2d::Identity();
+  return covariance;
+}
+
 void EarthFrameFilter::predict(const EarthFix& fix) {
   const double seconds = secondsBetween(last_.stamp, fix.stamp);
-  const double distance =
-      (fix.base_in_map.pose.position() - last_.base_in_map.pose.position()).norm();
   const double kept = std::exp(-seconds / options_.correlation_time);
   const double shared = options_.correlated_share * 0.5 * fix.covariance.trace();
   Covariance transition = Covariance::Identity();
@@ -235,13 +249,7 @@ void EarthFrameFilter::predict(const EarthFix& fix) {
   covariance_ = transition * covariance_ * transition.transpose();
   covariance_.bottomRightCorner<2, 2>() +=
       shared * (1.0 - kept * kept) * Eigen::Matrix2d::Identity();
-  const Pose2 map(state_(0), state_(1), state_(2));
-  Eigen::Vector3d turn;  // about the vehicle
-  turn << -perpendicular(map.rotate(fix.base_in_map.pose.position())), 1.0;
-  covariance_.topLeftCorner<3, 3>() +=
-      distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
-  covariance_.topLeftCorner<2, 2>() +=
-      distance * options_.map_drift * options_.map_drift * Eigen::Matrix2d::Identity();
+  covariance_.topLeftCorner<3, 3>() = driftedTo(fix.base_in_map.pose);
   last_ = fix;
 }
 

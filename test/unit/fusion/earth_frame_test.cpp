@@ -43,8 +43,8 @@ TEST(LocalPlane, WhatIsNotOnTheEarth) {
 // A drive along a curve, seen by a receiver with white noise and an error that drifts.
 class Drive {
  public:
-  Drive(unsigned seed, double sigma, const EarthFrameOptions& options)
-      : random_(seed), sigma_(sigma), options_(options) {
+  Drive(unsigned seed, double sigma, const EarthFrameOptions& options, bool drifts = false)
+      : random_(seed), sigma_(sigma), options_(options), drifts_(drifts) {
     shared_ = std::sqrt(options.correlated_share) * sigma_ * draw2();
   }
 
@@ -54,10 +54,17 @@ class Drive {
               std::sqrt(options_.correlated_share * (1.0 - keep * keep)) * sigma_ * draw2();
     time_ += kPeriod;
     const double angle = 0.02 * time_;
+    const Pose2 base(500.0 * std::sin(angle), 500.0 * (1.0 - std::cos(angle)), angle);
+    const double distance = drifts_ ? 500.0 * 0.02 * kPeriod : 0.0;
+    const double turn = std::sqrt(distance) * options_.map_turn * normal_(random_);
+    const Point2 there = truth_ * base.position();  // about which the map turns
+    const Pose2 turned(0.0, 0.0, truth_.heading() + turn);
+    truth_ = Pose2(
+        there - turned.rotate(base.position()) + std::sqrt(distance) * options_.map_drift * draw2(),
+        turned.heading());
     EarthFix fix;
     fix.stamp = Stamp::fromSeconds(100.0 + time_);
-    fix.base_in_map = {Pose2(500.0 * std::sin(angle), 500.0 * (1.0 - std::cos(angle)), angle),
-                       1e-4 * Eigen::Matrix3d::Identity()};
+    fix.base_in_map = {base, 1e-4 * Eigen::Matrix3d::Identity()};
     fix.antenna_in_base = {1.2, 0.3};
     fix.in_plane = truth_ * (fix.base_in_map.pose * fix.antenna_in_base) + shared_ +
                    std::sqrt(1.0 - options_.correlated_share) * sigma_ * draw2();
@@ -78,6 +85,7 @@ class Drive {
   std::normal_distribution<double> normal_;
   double sigma_;
   EarthFrameOptions options_;
+  bool drifts_;  ///< the map, as the options say
   Pose2 truth_{120.0, -60.0, 2.2};
   Point2 shared_ = Point2::Zero();
   double time_ = 0.0;
@@ -139,6 +147,33 @@ TEST(EarthFrameFilter, FixFarOffIsLeftOut) {
       (filter.mapInPlane()->pose * Point2(400.0, 200.0) - drive.truth() * Point2(400.0, 200.0))
           .norm(),
       3.0);
+}
+
+// 4 s without a fix, 40 m of drift: what is said of the map then grows by it.
+TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
+  const EarthFrameOptions options;
+  double nees = 0.0;
+  double nees_of_last = 0.0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    Drive drive(static_cast<unsigned>(run + 1), 0.1, options, true);
+    EarthFrameFilter filter(options);
+    for (int i = 0; i < 150; ++i) {
+      filter.add(drive.next());
+    }
+    Pose2 base;
+    for (int i = 0; i < 20; ++i) {
+      base = drive.next().base_in_map.pose;
+    }
+    const auto map = filter.mapInPlane(base);
+    ASSERT_TRUE(map);
+    const Eigen::Vector3d error = errorOf(map->pose, drive.truth());
+    nees += error.dot(map->covariance.inverse() * error) / kRuns;
+    nees_of_last += error.dot(filter.mapInPlane()->covariance.inverse() * error) / kRuns;
+  }
+  EXPECT_GT(nees, 2.0);
+  EXPECT_LT(nees, 3.6);
+  EXPECT_GT(nees_of_last, 6.0) << "else the outage is too short to tell";
 }
 
 // In standard deviations, of three degrees of freedom together: 99.9 % are below 4.03.

@@ -60,8 +60,11 @@ class EarthFrameFilter {
   /// Takes the next fix, by rising stamps.
   void add(const EarthFix& fix);
 
-  /// Of the map's frame in the plane; none until the heading is known.
+  /// Of the map's frame in the plane at the last fix; none until the heading is known.
   std::optional<PoseWithCovariance> mapInPlane() const;
+
+  /// The same since then, with what the map has drifted on the vehicle's way to this pose.
+  std::optional<PoseWithCovariance> mapInPlane(const Pose2& base_in_map) const;
 
   const EarthFrameCounts& counts() const { return counts_; }
 
@@ -90,6 +93,7 @@ class EarthFrameFilter {
   std::optional<Start> startOf(const std::vector<EarthFix>& fixes) const;
   void start();
   void begin(const Start& start, double factor);
+  Eigen::Matrix3d driftedTo(const Pose2& base_in_map) const;
   void predict(const EarthFix& fix);
   bool update(const EarthFix& fix);
 
