@@ -76,6 +76,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/earth/signal_advice.cpp
   fusion/earth/signal_advice_options.cpp
   fusion/earth/signal_times.cpp
+  fusion/earth/station_conversion.cpp
   fusion/earth/station_tracks.cpp
   fusion/wire/cam.cpp
   fusion/wire/cam_decoding.cpp
