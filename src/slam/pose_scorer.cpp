@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace datmo {
 
@@ -17,6 +18,8 @@ constexpr double kRounding = 1e-6;
 /// The most occupied cell is looked for where that takes no more than this share of what the poses
 /// would look up.
 constexpr double kSearchShare = 0.1;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -34,7 +37,8 @@ PoseScorer::PoseScorer(const OccupancyMap& map, const std::vector<EndPoint>& poi
     }
   }
   for (const EndPoint& point : points) {
-    max_range_ = std::max(max_range_, point.position.norm());
+    const double range = point.position.norm();
+    max_range_ = std::isfinite(range) ? std::max(max_range_, range) : kUnbounded;
   }
   x_.resize(blocks * kBlock, 0.0);
   y_.resize(blocks * kBlock, 0.0);
@@ -77,7 +81,8 @@ double PoseScorer::sumOfBlock(std::size_t begin, const Pose2& pose,
   const std::size_t count = std::min(kBlock, count_ - begin);
   double sum = 0.0;
   // In this order NaN counts as far away.
-  if (std::abs(pose.x()) + std::abs(pose.y()) + max_range_ < max_distance_) {
+  if (std::abs(pose.x()) + std::abs(pose.y()) + max_range_ < max_distance_ &&
+      std::isfinite(pose.heading())) {
     const Cells cells = cellsOfBlock(begin, pose, rotation);
     for (std::size_t i = 0; i < count; ++i) {
       sum += map_.occupancy({cells.columns[i], cells.rows[i]});

@@ -157,8 +157,11 @@ Pose2 ScanMatcher::bestSample(const Task& task, Random& random) const {
   std::vector<Pose2> samples{prediction.pose};
   samples.reserve(static_cast<std::size_t>(options_.samples));
   for (int i = 1; i < options_.samples; ++i) {
-    const Eigen::Vector3d standard(random.normal(1.0), random.normal(1.0), random.normal(1.0));
-    samples.push_back(shifted(prediction.pose, spread * standard));
+    // One after the other: the order of arguments is the compiler's.
+    const double turn = random.normal(1.0);
+    const double y = random.normal(1.0);
+    const double x = random.normal(1.0);
+    samples.push_back(shifted(prediction.pose, spread * Eigen::Vector3d(x, y, turn)));
   }
   return task.scorer.bestOf(samples);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/pose_scorer.h"
 
+#include <limits>
+
 #include "grid/small_map.h"
 #include <gtest/gtest.h>
 
@@ -112,6 +114,25 @@ TEST(PoseScorer, FarAwayNothingIsKnown) {
   const auto points = ends(20, random);
   const OccupancyMap map = mapOf(points);
   EXPECT_EQ(PoseScorer(map, points).score(Pose2(1e12, -1e300, 0.0)), 0.5);
+}
+
+// Under the undefined-behavior sanitizer: none of it is cast to a cell.
+TEST(PoseScorer, WhatIsNotFiniteIsNowhereInTheMap) {
+  Random random(5);
+  auto points = ends(20, random);
+  const OccupancyMap map = mapOf(points);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(PoseScorer(map, points).score(Pose2(0.0, 0.0, kNan)), 0.5);
+  const double front = map.occupancy(map.window().cellAt(points.front().position));
+  const double expected =
+      meanOccupancy(map, points, Pose2()) + (0.5 - front) / static_cast<double>(points.size());
+  for (const double spoiled : {kNan, std::numeric_limits<double>::infinity()}) {
+    auto some = points;
+    some.front().position.x() = spoiled;
+    const PoseScorer scorer(map, some);
+    EXPECT_NEAR(scorer.score(Pose2()), expected, 1e-12);
+    EXPECT_EQ(scorer.bestOf({Pose2(1e12, 0.0, 0.0), Pose2()}).x(), 0.0);
+  }
 }
 
 }  // namespace

@@ -135,9 +135,9 @@ TEST(PriorMapTest, AWrongGuessIsGivenUp) {
   guess.prior.covariance = Eigen::Vector3d(1.0, 1.0, 0.03).asDiagonal();
   slam.startIn({mapOfYard(), guess});
   Vehicle vehicle{Pose2(2.0, 1.0, 0.1)};
-  SlamResult result = vehicle.step(slam, {1.5, 0.1});
+  SlamResult result = vehicle.step(slam, {1.5, 0.25});
   for (int i = 0; i < 150; ++i) {
-    result = vehicle.step(slam, {1.5, 0.1});
+    result = vehicle.step(slam, {1.5, 0.25});
     EXPECT_FALSE(isConfidentlyWrong(result, vehicle.truth()));
   }
   EXPECT_EQ(result.localization, Localization::kLocated);

@@ -14,7 +14,8 @@ namespace datmo {
 class Yard {
  public:
   /// A scan with 2-degree beams over 160 degrees from this pose, at this time. `box`: something
-  /// that stands in the yard in this scan only.
+  /// that stands in the yard in this scan only. Beams that meet nothing, from beyond a wall, are no
+  /// hits.
   Scan scan(const Pose2& base_in_map, double seconds, const Box2* box = nullptr) const {
     Scan scan;
     scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
@@ -33,11 +34,11 @@ class Yard {
       if (box != nullptr) {
         range = std::min(range, rangeToBox(*box, scanner.position(), direction));
       }
-      ray.range = range;
-      ray.hit = true;
+      ray.hit = range <= scan.field.range;
+      ray.range = std::min(range, scan.field.range);
       ray.origin = scan.scanner_in_base.position();
       ray.end = scan.scanner_in_base *
-                Point2(range * std::cos(ray.bearing), range * std::sin(ray.bearing));
+                Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
       scan.rays.push_back(ray);
     }
     return scan;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <random>
 
@@ -20,14 +21,15 @@ inline StateEstimate startAt(const Point2& position) {
 
 /// Follows a path (m, by time in s) with noisy measurements for `seconds`.
 inline ImmFilter follow(const std::function<Point2(double)>& path, double seconds,
-                        const ImmOptions& options = ImmOptions()) {
-  std::mt19937_64 engine(23);
+                        const ImmOptions& options = ImmOptions(), std::uint64_t seed = 23) {
+  std::mt19937_64 engine(seed);
   std::normal_distribution<double> noise(0.0, kSigma);
   ImmFilter filter(startAt(path(0.0)), priorModeProbabilities(options));
   const ImmStep step = immStep(options, kPeriod);
   for (double time = kPeriod; time < seconds; time += kPeriod) {
     filter.predict(step);
-    const Point2 seen = path(time) + Point2(noise(engine), noise(engine));
+    const double aside = noise(engine);  // first, whatever a compiler's order of arguments is
+    const Point2 seen = path(time) + Point2(noise(engine), aside);
     filter.update(PositionMeasurement{seen, Eigen::Matrix2d::Identity() * kSigma * kSigma},
                   options.outlier_probability);
   }
