@@ -114,14 +114,15 @@ double EarthFrameFilter::changedShare(const std::vector<EarthFix>& fixes) const 
 }
 
 /// How far the map drifted from the mean of the fixes to the first and to the last one, along one
-/// axis, m^2: a third of what a random walk is from end to end.
-double EarthFrameFilter::driftAmong(const std::vector<EarthFix>& fixes) const {
+/// axis, m^2: a third of what a random walk is from end to end. `lever`: m^2, of what turns.
+double EarthFrameFilter::driftAmong(const std::vector<EarthFix>& fixes, double lever) const {
   double distance = 0.0;
   for (std::size_t i = 1; i < fixes.size(); ++i) {
     distance += (antennaInMap(fixes[i]) - antennaInMap(fixes[i - 1])).norm();
   }
-  const double turned = options_.map_turn * distance;
-  return distance * (options_.map_drift * options_.map_drift + turned * turned) / 3.0;
+  return distance *
+         (options_.map_drift * options_.map_drift + options_.map_turn * options_.map_turn * lever) /
+         3.0;
 }
 
 std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
@@ -152,7 +153,7 @@ std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
   // Within the correlation time the shared error turns nothing; what of it changes meanwhile is as
   // the rest of a fix, and counts but once for all fixes. So does what the map drifts.
   start.count = static_cast<double>(fixes.size());
-  start.drift = driftAmong(fixes);
+  start.drift = driftAmong(fixes, spread / start.weights);
   const double inflation = (1.0 - options_.correlated_share) + changedShare(fixes) * start.count +
                            start.drift * start.weights;
   start.heading = std::atan2(across, along);
@@ -166,18 +167,18 @@ std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
 
 /// Least squares over the first fixes that fit together; the error that they share moves them all.
 void EarthFrameFilter::start() {
-  if (!startOf(first_fixes_)) {
+  const auto first = startOf(first_fixes_);
+  if (!first) {
     return;
   }
   // Against each other, without what they share.
   const double share = 1.0 - options_.correlated_share + changedShare(first_fixes_);
-  const double drift = driftAmong(first_fixes_);
   std::vector<PointPair> pairs;
   for (const EarthFix& fix : first_fixes_) {
     const double fix_variance = 0.5 * fix.covariance.trace();
     const double antenna_variance = 0.5 * antennaCovariance(fix).trace();
     pairs.push_back(
-        {antennaInMap(fix), fix.in_plane, share * fix_variance + antenna_variance + drift});
+        {antennaInMap(fix), fix.in_plane, share * fix_variance + antenna_variance + first->drift});
   }
   const ConsistentPairs consistent = consistentPairs(pairs, options_.gate);
   std::vector<EarthFix> fixes;

@@ -88,7 +88,7 @@ class EarthFrameFilter {
   };
 
   double changedShare(const std::vector<EarthFix>& fixes) const;
-  double driftAmong(const std::vector<EarthFix>& fixes) const;
+  double driftAmong(const std::vector<EarthFix>& fixes, double lever) const;
   /// None while they are too few, or do not tell the heading.
   std::optional<Start> startOf(const std::vector<EarthFix>& fixes) const;
   void start();
