@@ -23,9 +23,9 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Plays drives with truth through the stack with one fault of a sensor after the other, and writes what
-each of them did to poses and tracks, beside what mutated messages, hours of a drive, load and outages
-did to the stages, as a page and as JSON."""
+Plays drives with truth through the stack with one fault of a sensor after the other, and writes the
+effect of each on poses and tracks, together with the effects of mutated messages, hours of driving,
+load and outages on the stages, as a page and as JSON."""
 
 PROGRAMS = ("run_bag", "score_run")
 TRUTH = "/ground_truth/pose"
