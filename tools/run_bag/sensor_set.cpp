@@ -16,9 +16,9 @@ namespace datmo {
 namespace {
 
 /// Nodes that are no stages: they run live alone.
-const std::vector<std::string> kLiveNodes = {"markers",    "lidar_markers", "stereo_markers",
-                                             "grid_views", "camera_view",   "device",
-                                             "v2x_wire",   "stack"};
+const std::vector<std::string> kLiveNodes = {
+    "markers",     "lidar_markers",      "stereo_markers", "grid_views", "camera_view", "device",
+    "rear_device", "satellite_receiver", "vehicle_bus",    "v2x_wire",   "stack"};
 
 /// All stages that there may be.
 std::vector<GraphStage> wholeGraph() { return stageGraph(allSwitches()); }

@@ -59,7 +59,10 @@ void V2xStage::reset() {
 void V2xStage::takeFrame(const EarthFrameMessage& message) {
   runner_.serve([&] {
     EarthFrame frame = fromMessage(message);
-    runner_.check("earth_frame", message.header.stamp);
+    // By the same position as the last one: only its covariance is newer.
+    if (!frame_ || frame.stamp != frame_->stamp) {
+      runner_.check("earth_frame", message.header.stamp);
+    }
     frame_ = frame;
   });
 }
@@ -196,12 +199,15 @@ void V2xStage::report() {
   const StationTrackCounts& counts = stations_.counts();
   warn(counts.fast, reported_.fast, "fast_track", "faster than tracks/max_speed");
   warn(counts.jumped, reported_.jumped, "jumped_track", "that are not where they were going");
+  warn(counts.sudden, reported_.sudden, "sudden_track",
+       "with new numbers in nearly each message, where none was");
   warn(counts.invalid, reported_.invalid, "bad_track",
        "with numbers that are none, or a covariance that is none");
   warn(counts.many, reported_.many, "many_tracks", "beyond tracks/max_tracks");
   monitor_.figure("our own vehicle, as others see it", static_cast<double>(counts.own));
   monitor_.figure("tracks left out: too fast", static_cast<double>(counts.fast));
   monitor_.figure("tracks left out: jumped", static_cast<double>(counts.jumped));
+  monitor_.figure("tracks left out: new numbers", static_cast<double>(counts.sudden));
 }
 
 void V2xStage::connect(StagePorts& ports) {

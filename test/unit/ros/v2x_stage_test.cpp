@@ -31,8 +31,8 @@ class V2xStageTest : public testing::Test {
     transforms_.addStatic(mount);
   }
 
-  /// The vehicle at a step, and the receiver's position at it.
-  void drive(int from, int to) {
+  /// The vehicle at a step, and the receiver's position at it, if it has one.
+  void drive(int from, int to, bool has_fix = true) {
     for (int step = from; step < to; ++step) {
       const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
       sensor_msgs::NavSatFix fix;
@@ -44,7 +44,9 @@ class V2xStageTest : public testing::Test {
       fix.altitude = position.altitude;
       fix.position_covariance = {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01};
       fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
-      earth_.takeFix(fix);
+      if (has_fix) {
+        earth_.takeFix(fix);
+      }
       geometry_msgs::PoseWithCovarianceStamped pose;
       pose.header.stamp = fix.header.stamp;
       pose.header.frame_id = "map";
@@ -94,6 +96,24 @@ TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {
   EXPECT_EQ(tracks->header.frame_id, "map");
   EXPECT_NEAR(tracks->tracks[0].pose.position.x, there.x(), 0.1);
   EXPECT_NEAR(tracks->tracks[0].pose.position.y, there.y(), 0.1);
+}
+
+TEST_F(V2xStageTest, WhatTheMapDriftsWithoutReceiverIsInTheCovariance) {
+  drive(0, kSteps);
+  const int end = kSteps + 40;  // 4 s
+  const auto variance = [&](int step) {
+    const TrackArrayPtr tracks =
+        stage_.takeStation(listAt(step, {kSpeed * kPeriod * step + 20.0, 5.0}), stampAt(step));
+    return tracks ? tracks->tracks.at(0).covariance[0] : 0.0;
+  };
+  const double before = variance(kSteps);
+  drive(kSteps, end, false);
+  const double drift = EarthFrameOptions().map_drift;
+  EXPECT_GT(variance(end), before + 0.9 * drift * drift * kSpeed * kPeriod * (end - kSteps));
+  EXPECT_TRUE(monitor_.drops().empty());
+  drive(end, end + 15, false);
+  EXPECT_EQ(variance(end + 15), 0.0) << "older than max_frame_age";
+  EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
 }
 
 TEST_F(V2xStageTest, ListsThatDoNotServeAreDroppedByReason) {
