@@ -76,9 +76,7 @@ class EarthFrameFilter {
   using State = Eigen::Matrix<double, kState, 1>;
   using Covariance = Eigen::Matrix<double, kState, kState>;
 
-<<<<<<< HEAD
   void take(const EarthFix& fix);
-=======
   /// What least squares over first fixes say of the map.
   struct Start {
     double count = 0.0;    ///< of the fixes
@@ -94,7 +92,6 @@ class EarthFrameFilter {
   double driftAmong(const std::vector<EarthFix>& fixes, double lever) const;
   /// None while they are too few, or do not tell the heading.
   std::optional<Start> startOf(const std::vector<EarthFix>& fixes) const;
->>>>>>> 616cff93d8358f67fe58a7c2de9a4b8454b704b7
   void start();
   void begin(const Start& start, double factor);
   Eigen::Matrix3d driftedTo(const Pose2& base_in_map) const;
