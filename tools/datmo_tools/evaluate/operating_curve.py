@@ -13,6 +13,7 @@ from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import find_score_run, score
 from datmo_tools.text_table import percent, rounded
 from datmo_tools.whole_files import write_whole
+from datmo_tools.yaml_files import load_yaml
 
 DESCRIPTION = """\
 Plots missed frames against false tracks per minute for increasing values of the probability of
@@ -100,10 +101,7 @@ def _check(probabilities):
 
 
 def _read(path):
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from error
+    content = load_yaml(path)
     if not isinstance(content or {}, dict):
         raise InputError(f"{path}: holds no options, expected a mapping")
     return content or {}

@@ -14,13 +14,18 @@ SOAKED = 0.2
 
 def page(report):
     """The report (dict) as Markdown; parts that were not run are left out."""
-    parts = [["# Reliability", "", "Written by `scripts/campaign`."]]
+    made = f", {report['made']}" if report["made"] else ""
+    parts = [["# Reliability", "", f"Written by `scripts/campaign`{made}.", *_beyond_lines(report["beyond"])]]
     parts += [_fault_lines(report, drive) for drive in report["drives"]]
     for part, lines in (("silent", _silent_lines), ("outages", _outage_lines), ("load", _load_lines),
                         ("soak", _soak_lines), ("mutated", _mutated_lines)):  # fmt: skip
         if report[part]:
             parts.append(lines(report[part]))
     return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
+
+
+def _beyond_lines(beyond):
+    return ["", "Beyond the bounds of `test/campaign/fault_bounds.yaml`:", "", *(f"- {line}" for line in beyond)] if beyond else []
 
 
 def _fault_lines(report, drive):
@@ -30,12 +35,12 @@ def _fault_lines(report, drive):
         "",
         f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
         "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as accurate as",
-        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps back starts a new map:",
+        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps starts a new map:",
         "errors are since its first pose, and tracks whose time went back have no score. "
         f"{len(drive['runs']) - 1} of the campaign's {drive['of']} faults.",
         "",
-        "| fault | poses | largest error [m] | at the end [m] | largest sigma [m] | recovered [s] | MOTA | misses | false positives | id switches |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| fault | poses | largest error [m] | at the end [m] | largest sigma [m] | largest error [sigma] | recovered [s] | MOTA | misses | false positives | id switches |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     return lines + [_row(run) for run in drive["runs"]]
 
@@ -150,7 +155,7 @@ def _row(run):
     pose, tracks = run["pose"], run["tracks"]
     recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
     cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
-             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", recovered, _cell(tracks["mota"]),
+             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", rounded(pose["largest_error_sigmas"], 1), recovered, _cell(tracks["mota"]),
              *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
     return f"| {' | '.join(cells)} |"
 
@@ -166,14 +171,14 @@ def _mutated_lines(mutated):
     return [
         "## Mutated messages",
         "",
-        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} intact messages and",
-        f"{mutated['mutated']} with one to three corrupted fields (NaN, infinity, bounds of the type, other lengths, names and",
-        "stamps), at the inputs of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
-        "with 3 s without mutations, in which tracks have to reappear.",
+        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages of sensors, and",
+        f"{mutated['mutated']} of these or of those between stages with one to three corrupted fields (NaN, infinity, bounds of the type, other",
+        f"lengths, names and stamps), of {len(mutated['mutated_type'])} types, most in place of the intact message: at least {percent(mutated['past_stamp_checks'] / mutated['mutated'])} % of them passed the",
+        "checks of stamps, so that their content was tried. Each drive ends with 3 s without mutations, in which tracks have to reappear.",
         "",
         f"- faults found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
-        f"- slowest message, including all processing that it triggers: {mutated['slowest_s']:.2f} s ({mutated['slowest_on']})",
-        f"- peak memory: {mutated['peak_memory_mib']:.0f} MiB",
+        f"- slowest message, including all processing that it triggers: {mutated['slowest_s']:.2f} s of processor time ({mutated['slowest_on']}); limit {mutated['max_s']:g} s",
+        f"- peak memory: {mutated['peak_memory_mib']:.0f} MiB; limit {mutated['max_memory_mib']:g} MiB",
         "- rejected or warned about, by reason: "
         + ", ".join(f"{reason} {count}" for reason, count in refused),
     ]
