@@ -60,7 +60,7 @@ run_logged() {
   else
     printf 'FAILED (%d s)\n' $((SECONDS - started))
     tail -n 40 "$log" >&2
-    printf "error: step '%s' failed with exit code %d; all it said: %s\n" "$name" "$code" "$log" >&2
+    printf "error: step '%s' failed with exit code %d; full log: %s\n" "$name" "$code" "$log" >&2
   fi
   return "$code"
 }

@@ -48,6 +48,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/scip.cpp
   device/serial_line.cpp
   device/sick_scanner.cpp
+  device/stream_opener.cpp
   device/velodyne_lidar.cpp
   device/velodyne_model.cpp
   device/velodyne_packet.cpp
@@ -68,12 +69,14 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/stereo_object_maker.cpp
   detection/stereo_surfaces.cpp
   detection/surface_groups.cpp
+  fusion/earth/consistent_pairs.cpp
   fusion/earth/earth_frame_filter.cpp
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/signal_advice.cpp
   fusion/earth/signal_advice_options.cpp
   fusion/earth/signal_times.cpp
+  fusion/earth/station_conversion.cpp
   fusion/earth/station_tracks.cpp
   fusion/wire/cam.cpp
   fusion/wire/cam_decoding.cpp

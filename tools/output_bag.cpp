@@ -49,15 +49,24 @@ OutputBag::~OutputBag() {
 }
 
 void OutputBag::copy(const rosbag::MessageInstance& message) {
-  bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  guarded([&] {
+    bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  });
 }
 
 void OutputBag::finish() {
-  try {
+  guarded([this] {
     bag_->close();
     std::filesystem::rename(part_, file_);
+  });
+}
+
+void OutputBag::guarded(const std::function<void()>& write) const {
+  try {
+    write();
   } catch (const std::exception& error) {
-    throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");
+    throw std::runtime_error(file_ + ": cannot be written (" + error.what() +
+                             "): expected room on its disk");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -26,10 +27,11 @@ class OutputBag {
   OutputBag(const OutputBag&) = delete;
   OutputBag& operator=(const OutputBag&) = delete;
 
-  /// Stamps before the first that a bag can hold (ros::TIME_MIN) are raised to it.
+  /// Stamps before the first that a bag can hold (ros::TIME_MIN) are raised to it. This and the
+  /// following throw std::runtime_error that names the file when the disk is full.
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
-    bag_->write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message);
+    guarded([&] { bag_->write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message); });
   }
 
   /// The same for a latched topic: players publish it latched again.
@@ -40,13 +42,13 @@ class OutputBag {
     (*header)["type"] = ros::message_traits::datatype(message);
     (*header)["md5sum"] = ros::message_traits::md5sum(message);
     (*header)["message_definition"] = ros::message_traits::definition(message);
-    bag_->write(topic, time, message, header);
+    guarded([&] { bag_->write(topic, time, message, header); });
   }
 
   /// A message as it stands in another bag, latched connection and all.
   void copy(const rosbag::MessageInstance& message);
 
-  /// Closes the bag and gives it its name. Throws std::runtime_error that names the file.
+  /// Closes the bag and gives it its name.
   void finish();
 
  private:
@@ -54,6 +56,8 @@ class OutputBag {
   struct Closing {
     void operator()(rosbag::Bag* bag) const;
   };
+
+  void guarded(const std::function<void()>& write) const;
 
   std::string file_;
   std::string part_;

@@ -54,9 +54,13 @@ constexpr const char* kHead =
     "or a value out of range, is refused with a message that names it.\n\n"
     "*Public* ones depend on sensor, vehicle or city; those that say *live* may be changed while "
     "the nodelet runs\n"
-    "(`rosrun rqt_reconfigure rqt_reconfigure`). *Expert* ones, below, belong to the method: their "
-    "defaults have a\n"
-    "source, and are changed with its papers at hand.\n\n";
+    "(`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with rqt_reconfigure, "
+    "which "
+    "Debian 12 does\n"
+    "not have). *Expert* ones, below, belong to the method: each default has a source, which "
+    "should "
+    "be read before\n"
+    "the value is changed.\n\n";
 
 constexpr const char* kPublicHead = "# Public parameters\n\n";
 constexpr const char* kExpertHead = "# Expert parameters\n\n";

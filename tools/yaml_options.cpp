@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "yaml_options.h"
 
-#include <ios>
 #include <set>
+
+#include "datmo_fusion/ros/bounded_yaml.h"
 
 namespace datmo {
 
 namespace {
-
-const char* const kNoFile = ": expected a yaml file that can be read";
 
 /// yaml-cpp's mark of a plain scalar; quoted text has the tag "!".
 const char* const kPlainTag = "?";
@@ -57,16 +56,11 @@ void checkKeysOnce(const std::string& file, const YAML::Node& node) {
 
 YAML::Node loadYaml(const std::string& file) {
   try {
-    const YAML::Node root = YAML::LoadFile(file);
+    const YAML::Node root = loadYamlFile(file);
     checkKeysOnce(file, root);
     return root;
-  } catch (const YAML::BadFile&) {
-    throw OptionError(file + kNoFile);
-  } catch (const std::ios_base::failure&) {  // a folder
-    throw OptionError(file + kNoFile);
-  } catch (const YAML::ParserException& error) {
-    throw OptionError(file + ":" + std::to_string(error.mark.line + 1) + ": expected yaml, but " +
-                      error.msg);
+  } catch (const YamlError& error) {
+    throw OptionError(error.what());
   }
 }
 
@@ -119,10 +113,9 @@ OptionValues optionValues(const YAML::Node& section) {
 
 OptionValue parseOptionValue(const std::string& key, const std::string& text) {
   try {
-    return optionValue(key, YAML::Load(text));
-  } catch (const YAML::ParserException& error) {
-    throw OptionError(key + " = " + text + ": expected a value as in a yaml file, but " +
-                      error.msg);
+    return optionValue(key, parseYaml(key + " = " + text, text));
+  } catch (const YamlError& error) {
+    throw OptionError(error.what());
   }
 }
 

@@ -16,12 +16,15 @@ constexpr double kMaxSteps = 2.5;
 /// queues.
 constexpr double kTimeTolerance = 0.5;
 
+/// A jump ahead is one of the clock if ROS time has followed it by a smaller share.
+constexpr double kMinFollowed = 0.5;
+
 }  // namespace
 
 StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now,
                               const std::optional<Stamp>& others) {
   if (!newest_) {
-    accept(stamp, 0.0, now);
+    accept(stamp, 0.0, now, others);
     return StampVerdict::kAccept;
   }
   if (stamp == *newest_) {
@@ -32,15 +35,17 @@ StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now,
     if (step < 0.0) {
       return StampVerdict::kOld;
     }
-    accept(stamp, step, now);
+    accept(stamp, step, now, others);
     return StampVerdict::kAccept;
   }
   if (!isConfirmed(stamp, now, others)) {
     stray_ = stamp;
     return StampVerdict::kStray;
   }
-  accept(stamp, followsStray(stamp) ? secondsBetween(*stray_, stamp) : last_step_, now);
-  return step < 0.0 ? StampVerdict::kRestart : StampVerdict::kAccept;
+  const bool is_ahead = step > 0.0 && isAhead(stamp, now);
+  accept(stamp, followsStray(stamp) ? secondsBetween(*stray_, stamp) : last_step_, now, others);
+  return step < 0.0 ? StampVerdict::kRestart
+                    : (is_ahead ? StampVerdict::kAhead : StampVerdict::kAccept);
 }
 
 bool StampGate::isJump(double step) const {
@@ -70,9 +75,23 @@ bool StampGate::followsStray(Stamp stamp) const {
          std::max({restart_after_, kMaxSteps * last_step_, kMaxSteps * jump});
 }
 
-void StampGate::accept(Stamp stamp, double step, const std::optional<Stamp>& now) {
+bool StampGate::isAhead(Stamp stamp, const std::optional<Stamp>& now) const {
+  if (!now || !came_ || !followsStray(stamp)) {
+    return false;
+  }
+  const double jump = secondsBetween(*newest_, *stray_);
+  const bool is_slow = jump <= kMaxSteps * secondsBetween(*stray_, stamp);
+  const bool was_wrong = beside_ && std::abs(secondsBetween(*beside_, stamp)) <
+                                        std::abs(secondsBetween(*beside_, *newest_));
+  return !is_slow && !was_wrong && secondsBetween(*came_, *now) < kMinFollowed * jump &&
+         jump - secondsBetween(*came_, *now) >= restart_after_;
+}
+
+void StampGate::accept(Stamp stamp, double step, const std::optional<Stamp>& now,
+                       const std::optional<Stamp>& others) {
   newest_ = stamp;
   came_ = now;
+  beside_ = others;
   last_step_ = step;
   stray_.reset();
 }

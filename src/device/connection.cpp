@@ -86,7 +86,7 @@ int Connection::connectTo(const addrinfo& found) {
 
 Connection::~Connection() { close(socket_); }
 
-void Connection::send(std::string_view bytes) const {
+void Connection::send(std::string_view bytes) {
   // A command is far shorter than what a socket takes at once.
   const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (sent != static_cast<ssize_t>(bytes.size())) {

@@ -9,9 +9,8 @@
 #include "datmo_fusion/device/can_vehicle.h"
 #include "datmo_fusion/device/capture_file.h"
 #include "datmo_fusion/device/datagram_socket.h"
-#include "datmo_fusion/device/hokuyo_scanner.h"
-#include "datmo_fusion/device/serial_line.h"
 #include "datmo_fusion/device/sick_scanner.h"
+#include "datmo_fusion/device/stream_opener.h"
 
 namespace datmo {
 
@@ -21,10 +20,16 @@ DeviceAddress addressOf(const DeviceSetup& setup, int usual_port) {
   return {setup.address, setup.port == 0 ? usual_port : setup.port, setup.timeout};
 }
 
-template <typename Scanner>
-DeviceMaker scannerMaker(const DeviceSetup& setup) {
-  return [address = addressOf(setup, Scanner::kPort)](const DeviceHost& host) {
-    return std::make_unique<Scanner>(address, host);
+DeviceMaker hokuyoMaker(const DeviceSetup& setup) {
+  const DeviceAddress address = addressOf(setup, HokuyoScanner::kPort);
+  return [address, options = setup.hokuyo](const DeviceHost& host) {
+    return std::make_unique<HokuyoScanner>(address, options, host);
+  };
+}
+
+DeviceMaker sickMaker(const DeviceSetup& setup) {
+  return [address = addressOf(setup, SickScanner::kPort)](const DeviceHost& host) {
+    return std::make_unique<SickScanner>(address, host);
   };
 }
 
@@ -41,16 +46,11 @@ DeviceMaker velodyneMaker(const DeviceSetup& setup) {
   };
 }
 
-/// A file's name begins by a slash.
 DeviceMaker nmeaMaker(const DeviceSetup& setup) {
   const DeviceAddress address = addressOf(setup, NmeaReceiver::kPort);
   return [address, options = setup.nmea](const DeviceHost& host) {
-    const StreamOpener open = [=, &stop = host.stop]() -> std::unique_ptr<ByteStream> {
-      if (address.host.rfind('/', 0) == 0) {
-        return std::make_unique<SerialLine>(
-            SerialSettings{address.host, options.baud, address.timeout}, stop);
-      }
-      return std::make_unique<Connection>(address, stop);
+    const StreamOpener open = [=, &stop = host.stop] {
+      return openStream(address, options.baud, false, stop);
     };
     return std::make_unique<NmeaReceiver>(open, options, host);
   };
@@ -84,7 +84,7 @@ void DeviceSetup::visit(OptionVisitor& visitor) {
                                      {"can", DeviceKind::kCan}});
   visitor.text({"address", "",
                 "the device's name or address on the network; velodyne: empty for any that sends; "
-                "nmea: or the file of a serial port; can: the interface, can0"},
+                "hokuyo, nmea: or the file of a serial port; can: the interface, can0"},
                address, {});
   visitor.integer(
       {"port", "1", "its port; 0: the one that its make has (10940, 2111, 2368, 10110)"}, port,
@@ -97,6 +97,7 @@ void DeviceSetup::visit(OptionVisitor& visitor) {
        "of the frames of `address`, or all if that is empty; empty: the network, the bus"},
       recording, {});
   runner.visit(visitor);
+  visitor.group("hokuyo", [&] { hokuyo.visit(visitor); });
   visitor.group("velodyne", [&] { velodyne.visit(visitor); });
   visitor.group("nmea", [&] { nmea.visit(visitor); });
   visitor.group("can", [&] { can.visit(visitor); });
@@ -111,7 +112,7 @@ void DeviceSetup::check() const {
 DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup) {
   switch (setup->kind) {
     case DeviceKind::kSickLms:
-      return scannerMaker<SickScanner>(*setup);
+      return sickMaker(*setup);
     case DeviceKind::kVelodyne:
       return velodyneMaker(*setup);
     case DeviceKind::kNmea:
@@ -121,7 +122,7 @@ DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup) {
     case DeviceKind::kHokuyo:
       break;
   }
-  return scannerMaker<HokuyoScanner>(*setup);
+  return hokuyoMaker(*setup);
 }
 
 }  // namespace datmo

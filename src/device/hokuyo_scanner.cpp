@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "datmo_fusion/device/stream_opener.h"
+
 namespace datmo {
 
 namespace {
@@ -13,15 +15,28 @@ constexpr TickFormat kScipTicks{1e-3, std::uint64_t{1} << kScipClockBits};
 /// So many answers may still come of what was asked before.
 constexpr int kOldAnswers = 100;
 
+constexpr const char* kBadAnswer = "bad_answer";
+constexpr const char* kQuit = "QT";  ///< ends all scans
+
 }  // namespace
 
-HokuyoScanner::HokuyoScanner(DeviceAddress address, const DeviceHost& host)
-    : address_(std::move(address)), host_(host) {}
+void HokuyoOptions::visit(OptionVisitor& visitor) {
+  visitor.integer({"baud", "1", "bits per second of a serial port; on USB it does not matter"},
+                  baud, {4800.0, 460800.0});
+}
+
+HokuyoScanner::HokuyoScanner(DeviceAddress address, const HokuyoOptions& options,
+                             const DeviceHost& host)
+    : address_(std::move(address)), options_(options), host_(host) {}
 
 std::string HokuyoScanner::connect() {
-  connection_ = std::make_unique<Connection>(address_, host_.stop);
+  connection_ = openStream(address_, options_.baud, true, host_.stop);
   host_.clock.restart(kScipTicks);
-  ask("QT");
+  if (isSerial(address_)) {
+    beginAtSerialPort();
+  } else {
+    ask(kQuit);
+  }
   model_ = scipModel(ask("PP"));
   // 00: the laser is on now; 02: it was on.
   const ScipAnswer laser = ask("BM");
@@ -38,6 +53,26 @@ std::string HokuyoScanner::connect() {
   return model_.name + ", " + std::to_string(model_.beams()) + " beams, at " + address_.host;
 }
 
+void HokuyoScanner::beginAtSerialPort() {
+  // What speaks SCIP 2.0 already does not know this command, and says so.
+  connection_->send("SCIP2.0\n");
+  connection_->send(std::string(kQuit) + "\n");
+  for (int i = 0; i < kOldAnswers; ++i) {
+    try {
+      if (nextAnswer().command == kQuit) {
+        return;
+      }
+    } catch (const DeviceError& error) {
+      if (error.reason() != kBadAnswer) {
+        throw;
+      }
+    }
+  }
+  throw DeviceError(kBadAnswer, "no answer to " + std::string(kQuit) + " among " +
+                                    std::to_string(kOldAnswers) +
+                                    ": expected a scanner with SCIP 2.0");
+}
+
 ScipAnswer HokuyoScanner::ask(const std::string& command) {
   connection_->send(command + "\n");
   for (int i = 0; i < kOldAnswers; ++i) {
@@ -46,8 +81,8 @@ ScipAnswer HokuyoScanner::ask(const std::string& command) {
       return answer;
     }
   }
-  throw DeviceError("bad_answer", "no answer to " + command + " among " +
-                                      std::to_string(kOldAnswers) + ": expected one");
+  throw DeviceError(kBadAnswer, "no answer to " + command + " among " +
+                                    std::to_string(kOldAnswers) + ": expected one");
 }
 
 ScipAnswer HokuyoScanner::nextAnswer() {

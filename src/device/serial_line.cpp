@@ -32,9 +32,12 @@ constexpr std::array<BaudName, 8> kBauds = {{{4800, B4800},
                                              {230400, B230400},
                                              {460800, B460800}}};
 
-DeviceError noLine(const std::string& file, const std::string& cause) {
-  return {"no_connection", "no device at " + file + " (" + cause +
-                               "): expected a serial port that this user may read"};
+constexpr int kOpenFlags = O_NOCTTY | O_NONBLOCK | O_CLOEXEC;
+
+DeviceError noLine(const SerialSettings& settings, const std::string& cause) {
+  return {"no_connection", "no device at " + settings.file + " (" + cause +
+                               "): expected a serial port that this user may read" +
+                               (settings.commands ? " and write" : "")};
 }
 
 }  // namespace
@@ -42,9 +45,9 @@ DeviceError noLine(const std::string& file, const std::string& cause) {
 SerialLine::SerialLine(SerialSettings settings, const std::atomic<bool>& stop)
     : settings_(std::move(settings)),
       stop_(stop),
-      file_(open(settings_.file.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+      file_(open(settings_.file.c_str(), (settings_.commands ? O_RDWR : O_RDONLY) | kOpenFlags)) {
   if (file_ < 0) {
-    throw noLine(settings_.file, std::strerror(errno));
+    throw noLine(settings_, std::strerror(errno));
   }
   try {
     configure();
@@ -65,7 +68,7 @@ void SerialLine::configure() const {
       std::find_if(kBauds.begin(), kBauds.end(),
                    [this](const BaudName& known) { return known.baud == settings_.baud; });
   if (baud == kBauds.end()) {
-    throw noLine(settings_.file, std::to_string(settings_.baud) + " baud are not known here");
+    throw noLine(settings_, std::to_string(settings_.baud) + " baud are not known here");
   }
   cfmakeraw(&line);
   line.c_cflag |= CLOCAL | CREAD;
@@ -73,7 +76,21 @@ void SerialLine::configure() const {
   cfsetispeed(&line, baud->name);
   cfsetospeed(&line, baud->name);
   if (tcsetattr(file_, TCSANOW, &line) != 0) {
-    throw noLine(settings_.file, std::strerror(errno));
+    throw noLine(settings_, std::strerror(errno));
+  }
+}
+
+void SerialLine::send(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if (!waitForEvents(file_, POLLOUT, settings_.timeout, stop_) && stop_) {
+      throw DeviceStopped();
+    }
+    const ssize_t sent = write(file_, bytes.data(), bytes.size());
+    if (sent <= 0) {
+      throw DeviceError("lost_connection", settings_.file + " takes no command (" +
+                                               std::strerror(errno) + "): opens it again");
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
 }
 

@@ -9,10 +9,9 @@
 #include <sstream>
 #include <vector>
 
-#include <yaml-cpp/yaml.h>
-
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/grid/row_major.h"
+#include "datmo_fusion/ros/bounded_yaml.h"
 #include "datmo_fusion/ros/map_files.h"
 
 namespace datmo {
@@ -88,7 +87,7 @@ void check(const MapDescription& description, const std::string& file) {
 MapDescription readDescription(const std::string& file) {
   MapDescription description;
   try {
-    const YAML::Node yaml = YAML::LoadFile(file);
+    const YAML::Node yaml = loadYamlFile(file);
     description.image = yaml["image"].as<std::string>();
     description.resolution = yaml["resolution"].as<double>();
     const auto origin = yaml["origin"].as<std::vector<double>>();

@@ -13,12 +13,20 @@ namespace {
 /// m/s: a sensor that measures more is broken.
 constexpr double kMaxObjectSpeed = 100.0;
 
+/// m^2 and (m/s)^2: what is known no better than to a kilometer is not measured, and sums of such
+/// numbers with those of other sensors keep no digit of theirs.
+constexpr double kMaxVariance = 1e6;
+
 /// s, before or after its list's stamp: no sensor takes as long for one measurement.
 constexpr double kMaxDelay = 10.0;
 
+bool isPrecise(const Eigen::Matrix2d& covariance) {
+  return isCovariance(covariance) && covariance.diagonal().maxCoeff() <= kMaxVariance;
+}
+
 bool isVelocity(const MeasuredVelocity& measured) {
   // NaN compares false with everything.
-  return measured.velocity.norm() <= kMaxObjectSpeed && isCovariance(measured.covariance) &&
+  return measured.velocity.norm() <= kMaxObjectSpeed && isPrecise(measured.covariance) &&
          isShare(measured.wrong_probability);
 }
 
@@ -29,8 +37,9 @@ Eigen::Matrix2d turned(const Eigen::Matrix2d& rotation, const Eigen::Matrix2d& c
 }
 
 bool areSides(const std::array<double, kBoxSides>& variances) {
-  return std::all_of(variances.begin(), variances.end(),
-                     [](double variance) { return variance >= 0.0; });
+  return std::all_of(variances.begin(), variances.end(), [](double variance) {
+    return variance >= 0.0 && (variance <= kMaxVariance || std::isinf(variance));
+  });
 }
 
 }  // namespace
@@ -42,9 +51,9 @@ bool isValid(const Object& object) {
          std::all_of(object.points.begin(), object.points.end(), isPosition) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
          std::isfinite(object.log_odds) && std::isfinite(object.motion_log_odds) &&
-         isAmount(object.height) && std::abs(object.delay) <= kMaxDelay &&
+         isModerateAmount(object.height) && std::abs(object.delay) <= kMaxDelay &&
          isShare(object.moving_fraction) && isShare(object.class_probability) &&
-         isCovariance(object.position_covariance) &&
+         isPrecise(object.position_covariance) &&
          (!object.velocity || isVelocity(*object.velocity));
 }
 

@@ -40,6 +40,13 @@ double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
 
 }  // namespace
 
+void SensorClassOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"class_by_size", "",
+                  "whether the classes of its objects are told by their size: then it does not "
+                  "count once more; sensors not listed: true"},
+                 class_by_size);
+}
+
 void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("filter", [&] { filter.visit(visitor); });
   visitor.group("box", [&] { box.visit(visitor); });
@@ -52,6 +59,16 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                  birth_speed_std, {0.1, 100.0});
   visitor.number({"stop_speed", "m/s", "a moving object stands when it is slower"}, stop_speed,
                  {0.01, 100.0});
+  visitor.each({"sensors", "", "that see the objects"}, sensors);
+}
+
+bool TargetOptions::hasClassBySize(const Object& object) const {
+  const auto by_size = [this](const std::string& sensor) {
+    const auto found = sensors.find(sensor);
+    return found == sensors.end() || found->second.class_by_size;
+  };
+  return object.sensors.empty() ||
+         std::any_of(object.sensors.begin(), object.sensors.end(), by_size);
 }
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
@@ -64,7 +81,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       height_(object.height),
       motion_log_odds_(object.motion_log_odds),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
-  class_.update(object.object_class, object.class_probability);
+  takeClass(object, options);
   seen_points_.add(object, 0.0, options.motion_likelihood.window);
   if (object.velocity) {
     takeVelocity(*object.velocity, options);
@@ -105,7 +122,7 @@ void Target::update(const Observation& observation, std::size_t index, double de
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
-  class_.update(object.object_class, object.class_probability);
+  takeClass(object, options);
   if (!confirmed()) {
     seen_points_.add(object, age_, options.motion_likelihood.window);
   }
@@ -161,6 +178,13 @@ void Target::confirm(std::uint32_t id, bool moves) {
   seen_points_.clear();
 }
 
+void Target::takeClass(const Object& object, const TargetOptions& options) {
+  class_.update(object.object_class, object.class_probability);
+  if (object.object_class != ObjectClass::kUnknown && options.hasClassBySize(object)) {
+    class_by_size_.update(object.object_class, object.class_probability);
+  }
+}
+
 /// What was measured is its own velocity, or of something else: then any is as likely as that of a
 /// new object, and it is left out where that explains it better.
 void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
@@ -208,7 +232,7 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities = class_.probabilities();
-  if (!tellsAnything(track.class_probabilities)) {  // detectors tell most classes by size, too
+  if (!tellsAnything(class_by_size_.probabilities())) {  // those have it in them
     track.class_probabilities =
         posterior(track.class_probabilities, ofEachClass(box_.sizeLikelihoods(options.box)));
   }

@@ -33,11 +33,11 @@ bool areShares(const std::array<double, count>& values) {
 }  // namespace
 
 bool isValid(const Track& track) {
-  return isState(track.state, track.covariance) && isBox(track.box) && isAmount(track.height) &&
-         isModerate(track.yaw_rate) && isAmount(track.heading_variance) &&
-         areShares(track.mode_probabilities) && areShares(track.class_probabilities) &&
-         isShare(track.existence_probability) && isModerateAmount(track.age) &&
-         isModerateAmount(track.since_update) &&
+  return isState(track.state, track.covariance) && isBox(track.box) &&
+         isModerateAmount(track.height) && isModerate(track.yaw_rate) &&
+         isAmount(track.heading_variance) && areShares(track.mode_probabilities) &&
+         areShares(track.class_probabilities) && isShare(track.existence_probability) &&
+         isModerateAmount(track.age) && isModerateAmount(track.since_update) &&
          std::all_of(track.history.begin(), track.history.end(),
                      [](const PathPoint& point) { return isPose(point.pose); });
 }

@@ -15,6 +15,9 @@ namespace {
 constexpr std::array<ObjectClass, 3> kReported = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
                                                   ObjectClass::kVehicle};
 
+/// That a class is right which was drawn by lot.
+constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
+
 }  // namespace
 
 void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
@@ -49,6 +52,11 @@ void ClassReliabilityOptions::check() const {
 ClassReliability::ClassReliability(const Checked<ClassReliabilityOptions>& options)
     : options_(*options) {}
 
+bool ClassReliability::tellsAnything() const {
+  return std::any_of(options_.right.begin(), options_.right.end(),
+                     [](double share) { return share > kChance; });
+}
+
 double ClassReliability::right(double score) const {
   const auto& scores = options_.scores;
   const auto& shares = options_.right;
@@ -77,6 +85,9 @@ ClassProbabilities ClassReliability::probabilities(ObjectClass reported, double 
     others += i == own ? 0.0 : options_.mistaken[row + i];
   }
   const double is_right = right(score);
+  if (is_right <= kChance) {
+    return result;
+  }
   const double equally = 1.0 / static_cast<double>(kObjectClasses - 1);
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     const double share = others > 0.0 ? options_.mistaken[row + i] / others : equally;

@@ -16,6 +16,12 @@ namespace {
 
 constexpr double kBorder = 2.0;  ///< px: an edge this near to the image's border was cut by it
 
+// Of an object's width, standard deviations over all headings (rectangles of these sizes, turned by
+// all angles): how far the middle of its near side is behind its nearest corner, where the
+// rectangle's lower edge is, and how far an end of that side is inside of the rectangle.
+constexpr double kNearCorner = 0.25;
+constexpr double kNearEnd = 0.35;
+
 /// Mean and standard deviation of a mixture of vehicles.
 struct Mixture {
   double share = 0.0, sum = 0.0, squares = 0.0;
@@ -52,49 +58,87 @@ double edgeSigma(const Eigen::AlignedBox2d& box, const ImageRangeOptions& option
   return std::hypot(options.edge_sigma, options.edge_share * box.sizes().y());
 }
 
-std::optional<ImageRange> rangeBySize(const MountedCamera& camera, const ImageDetection& detection,
-                                      const ImageRangeOptions& options) {
-  const Eigen::AlignedBox2d& box = detection.box;
-  if (box.min().y() < kBorder) {
-    return std::nullopt;
-  }
-  const ClassSize size = sizeOf(detection.object_class);
-  const double pixels = box.sizes().y();
-  const double range = camera.pinhole.focal_y * size.height / pixels;
-  const double share = std::hypot(size.height_sigma / size.height,
-                                  std::sqrt(2.0) * edgeSigma(box, options) / pixels);
-  return ImageRange{range, range * share};
+/// px, the same of its left and right edge.
+double sideEdgeSigma(const Eigen::AlignedBox2d& box, const ImageRangeOptions& options) {
+  return std::hypot(options.edge_sigma, options.edge_share * box.sizes().x());
 }
 
-/// Line of sight of a pixel, in the base frame.
+/// Line of sight of a pixel, in the base frame, as long as it is 1 m deep.
 Eigen::Vector3d rayOf(const MountedCamera& camera, double column, double row) {
   const PinholeCamera& p = camera.pinhole;
   return camera.in_base.linear() *
          Eigen::Vector3d((column - p.center_x) / p.focal_x, (row - p.center_y) / p.focal_y, 1.0);
 }
 
-std::optional<ImageRange> rangeByGround(const MountedCamera& camera,
-                                        const ImageDetection& detection,
-                                        const ImageRangeOptions& options) {
+/// The line of sight to the middle of the rectangle's lower edge.
+Eigen::Vector3d rayToFoot(const MountedCamera& camera, const Eigen::AlignedBox2d& box) {
+  return rayOf(camera, box.center().x(), box.max().y());
+}
+
+/// A range by one of both ways, and how much nearer it is for each pixel that the rectangle's lower
+/// edge lies lower (m/px): they have that edge in common.
+struct RangeByEdge {
+  ImageRange range;
+  double per_pixel = 0.0;
+};
+
+std::optional<RangeByEdge> rangeBySize(const MountedCamera& camera, const ImageDetection& detection,
+                                       const ImageRangeOptions& options) {
   const Eigen::AlignedBox2d& box = detection.box;
-  const Eigen::Vector3d ray = rayOf(camera, box.center().x(), box.max().y());
+  if (box.min().y() < kBorder) {
+    return std::nullopt;
+  }
+  const ClassSize size = sizeOf(detection.object_class);
+  const double pixels = box.sizes().y();
+  const double depth = camera.pinhole.focal_y * size.height / pixels;
+  const double range = depth * rayToFoot(camera, box).head<2>().norm();
+  const double share = std::hypot(size.height_sigma / size.height,
+                                  std::sqrt(2.0) * edgeSigma(box, options) / pixels);
+  return RangeByEdge{{range, range * share}, range / pixels};
+}
+
+std::optional<RangeByEdge> rangeByGround(const MountedCamera& camera,
+                                         const ImageDetection& detection,
+                                         const ImageRangeOptions& options) {
+  const Eigen::AlignedBox2d& box = detection.box;
+  const Eigen::Vector3d ray = rayToFoot(camera, box);
   const double height = camera.in_base.translation().z();
   if (ray.z() >= 0.0 || height <= 0.0) {
     return std::nullopt;  // above the horizon
   }
   const double range = -height / ray.z() * ray.head<2>().norm();
-  const double angle =
-      std::hypot(options.pitch_sigma, edgeSigma(box, options) / camera.pinhole.focal_y);
-  return ImageRange{range, angle * (square(range) + square(height)) / height};
+  const double per_angle = (square(range) + square(height)) / height;
+  const double per_pixel = per_angle / camera.pinhole.focal_y;
+  const double sigma =
+      std::hypot(per_angle * options.pitch_sigma, per_pixel * edgeSigma(box, options));
+  return RangeByEdge{{range, sigma}, per_pixel};
 }
 
-ImageRange fused(const ImageRange& a, const ImageRange& b) {
-  const double variance_a = square(a.sigma);
-  const double variance_b = square(b.sigma);
-  const double sum = variance_a + variance_b;
-  const double contradiction = std::max(1.0, square(a.range - b.range) / sum);
-  return {(variance_b * a.range + variance_a * b.range) / sum,
-          std::sqrt(contradiction * variance_a * variance_b / sum)};
+/// Least squares with what the lower edge makes them err alike. Neither one is left out for more
+/// than it is worth: no weight is below 0.
+ImageRange fused(const RangeByEdge& a, const RangeByEdge& b, double edge_sigma) {
+  const double variance_a = square(a.range.sigma);
+  const double variance_b = square(b.range.sigma);
+  const double common = a.per_pixel * b.per_pixel * square(edge_sigma);
+  const double of_difference = variance_a + variance_b - 2.0 * common;
+  const double weight_a = std::clamp((variance_b - common) / of_difference, 0.0, 1.0);
+  const double weight_b = 1.0 - weight_a;
+  const double variance = square(weight_a) * variance_a + square(weight_b) * variance_b +
+                          2.0 * weight_a * weight_b * common;
+  const double contradiction = std::max(1.0, square(a.range.range - b.range.range) / of_difference);
+  return {weight_a * a.range.range + weight_b * b.range.range, std::sqrt(contradiction * variance)};
+}
+
+/// Whether something nearer, whose rectangle reaches farther down, is before a pixel of a
+/// rectangle.
+bool isCovered(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& pixel,
+               const std::vector<ImageDetection>& seen, const ImageRangeOptions& options) {
+  return std::any_of(seen.begin(), seen.end(), [&](const ImageDetection& other) {
+    const double nearer = other.box.max().y() - box.max().y();
+    const double beside = other.box.exteriorDistance(pixel);
+    return nearer > std::hypot(edgeSigma(box, options), edgeSigma(other.box, options)) &&
+           beside <= sideEdgeSigma(other.box, options);
+  });
 }
 
 }  // namespace
@@ -135,38 +179,49 @@ std::optional<ImageRange> rangeOf(const MountedCamera& camera, const ImageDetect
   if (box.isEmpty() || box.volume() <= 0.0 || box.max().y() > camera.height - kBorder) {
     return std::nullopt;
   }
-  std::optional<ImageRange> result = rangeBySize(camera, detection, options);
-  if (const auto by_ground = rangeByGround(camera, detection, options)) {
-    result = result ? fused(*result, *by_ground) : *by_ground;
+  const auto by_size = rangeBySize(camera, detection, options);
+  const auto by_ground = rangeByGround(camera, detection, options);
+  if (!by_size && !by_ground) {
+    return std::nullopt;
   }
-  return result && result->range <= options.max_range ? result : std::nullopt;
+  const ImageRange result = by_size && by_ground
+                                ? fused(*by_size, *by_ground, edgeSigma(box, options))
+                                : (by_size ? by_size : by_ground)->range;
+  return result.range <= options.max_range ? std::optional(result) : std::nullopt;
 }
 
 std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection& detection,
-                               const ImageRangeOptions& options) {
+                               const ImageRangeOptions& options,
+                               const std::vector<ImageDetection>& seen) {
   const auto near = rangeOf(camera, detection, options);
-  if (!near) {
+  const Eigen::AlignedBox2d& box = detection.box;
+  if (!near || isCovered(box, {box.center().x(), box.max().y()}, seen, options)) {
     return std::nullopt;
   }
   const ClassSize size = sizeOf(detection.object_class);
-  const Eigen::AlignedBox2d& box = detection.box;
-  const Point2 ahead = rayOf(camera, box.center().x(), box.max().y()).head<2>().normalized();
-  // Its center is half a width to half a length behind its near side, by how it is turned.
-  const double behind = 0.25 * (size.length + size.width);
-  const double depth_sigma = std::hypot(near->sigma, 0.25 * (size.length - size.width));
-  const double side_sigma = near->range *
-                            std::hypot(options.edge_sigma, options.edge_share * box.sizes().x()) /
-                            camera.pinhole.focal_x;
+  const Point2 ahead = rayToFoot(camera, box).head<2>().normalized();
+  const double per_pixel = near->range / camera.pinhole.focal_x;  // m
+  const double across = per_pixel * box.sizes().x();
+  // However it is turned, it reaches as far behind its near side as it is wide.
   Object object;
-  object.box = {Pose2(camera.in_base.translation().head<2>() + (near->range + behind) * ahead,
-                      std::atan2(ahead.y(), ahead.x())),
-                size.length, size.width};
+  object.box = {
+      Pose2(camera.in_base.translation().head<2>() + (near->range + 0.5 * size.width) * ahead,
+            std::atan2(ahead.y(), ahead.x())),
+      size.width, across};
+  const double edge_sigma = per_pixel * sideEdgeSigma(box, options);
   const Point2 aside = perpendicular(ahead);
-  object.position_covariance = square(depth_sigma) * ahead * ahead.transpose() +
-                               square(side_sigma) * aside * aside.transpose();
-  const double across = square(0.5 * size.width_sigma);
-  const double along = square(0.5 * size.length_sigma);
-  object.side_variance = {along, along, across, across};
+  // Half of what each edge errs by moves the rectangle as a whole.
+  object.position_covariance = square(near->sigma) * ahead * ahead.transpose() +
+                               0.5 * square(edge_sigma) * aside * aside.transpose();
+  const double side = 0.5 * square(edge_sigma) + square(kNearEnd * size.width) +
+                      square(0.5 * across * near->sigma / near->range);
+  const auto of_edge = [&](double column) {
+    const bool is_cut = column < kBorder || column > camera.width - kBorder ||
+                        isCovered(box, {column, box.center().y()}, seen, options);
+    return is_cut ? kHiddenSide : side;
+  };
+  object.side_variance = {kHiddenSide, square(kNearCorner * size.width), of_edge(box.min().x()),
+                          of_edge(box.max().x())};
   object.height = size.height;
   object.object_class = detection.object_class;
   return object;

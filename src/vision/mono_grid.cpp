@@ -139,7 +139,7 @@ std::size_t MonoGridModel::learn(const cv::Mat& image, const MountedCamera& came
       }
     }
   }
-  color_.learn(colors);
+  color_.learn(colors, scanned.stamp());
   return colors.size();
 }
 

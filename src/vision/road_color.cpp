@@ -41,11 +41,10 @@ void RoadColorOptions::visit(OptionVisitor& visitor) {
                    "Gaussians of the mixture of the road's colors: sun, shade, asphalt, grass; "
                    "thesis (4.1.4): 1"},
                   components, {1.0, 16.0});
-  visitor.number({"learning_share", "1",
-                  "weight of the newest image's samples against all that was learned before; at 10 "
-                  "Hz a fifth is "
-                  "half a second: a vehicle is in the shade so soon"},
-                 learning_share, {0.0001, 1.0});
+  visitor.number({"learning_time", "s",
+                  "in which what was learned loses all but 1/e of its weight to newer images, "
+                  "whatever their rate: a vehicle is in the shade so soon"},
+                 learning_time, {0.01, 1000.0});
   visitor.number({"min_new_share", "1",
                   "colors that the mixture does not have become its newest component if so many of "
                   "an image's samples are of them"},
@@ -85,15 +84,18 @@ double RoadColor::Gaussian::density(const PixelColor& color) const {
   return peak * std::exp(-0.5 * squaredDistance(color));
 }
 
-void RoadColor::learn(const PixelColors& samples) {
+void RoadColor::learn(const PixelColors& samples, Stamp stamp) {
   if (samples.size() < kMinSamples) {
     return;
   }
   if (!isKnown(samples.front().size())) {
     begin(samples);
   } else {
-    shift(samples, options_.learning_share, options_.components > 1);
+    const double seconds = std::max(0.0, secondsBetween(learned_, stamp));
+    const double share = -std::expm1(-seconds / options_.learning_time);
+    shift(samples, share, options_.components > 1);
   }
+  learned_ = stamp;
 }
 
 void RoadColor::begin(PixelColors samples) {

@@ -1,64 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mutated_drive.h"
 
+#include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <iterator>
 #include <utility>
 
-#include "all_levels.h"
 #include "message_mutation.h"
-#include "stereo_pair_sample.h"
 #include <boost/make_shared.hpp>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
 
+#include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
+#include "datmo_fusion/ros/stage/radar_objects_stage.h"
 
 namespace datmo::campaign {
 
 namespace {
 
-constexpr double kStep = 1.0 / 16.0;   // s
-constexpr int kMutatedSteps = 40;      // 2.5 s
-constexpr int kCleanSteps = 48;        // longer than a map that starts over needs for its tracks
-constexpr double kTooLong = 20.0;      // s for one message: a hang
-constexpr unsigned kMaxMutations = 3;  // a step
-constexpr int kImageSteps = 4;         // from image to image
-constexpr const char* kImages = "images";
+constexpr double kStep = CampaignSensors::kStep;
+constexpr int kMutatedSteps = 40;  // 2.5 s
+constexpr int kCleanSteps = 48;    // longer than a map that starts over needs for its tracks
+constexpr double kInPlace = 0.1;   // probability for each message; two or three a step
+constexpr double kCopies = 0.25;   // probability of a copy behind its message, a step
+constexpr const char* kClock = "clock_answer";
 
-/// Graphs, so that each input of each stage is one of them: by name.
-const std::array<std::pair<const char*, GraphSwitches>, 5>& graphs() {
-  static const auto made = [] {
-    GraphSwitches cloud;
-    cloud.scan_from_cloud = cloud.cloud_objects = true;
-    GraphSwitches alone;
-    alone.road_border = alone.risk = true;
-    GraphSwitches images;
-    images.stereo = StereoPoints::kRectifiedImages;
-    images.stereo_objects = images.mono = true;
-    return std::array<std::pair<const char*, GraphSwitches>, 5>{{{"all levels", allLevels()},
-                                                                 {"a 3D lidar", cloud},
-                                                                 {"a twist", alone},
-                                                                 {"an Imu and wheels", alone},
-                                                                 {kImages, images}}};
-  }();
-  return made;
-}
+/// Why messages are dropped before anything else of them is looked at.
+constexpr std::array<const char*, 5> kStampReasons{"zero_stamp", "stamp_out_of_range",
+                                                   "repeated_stamp", "old_stamp", "stray_stamp"};
 
-/// The sensor set's, with the source of motion that the graph is there for.
-SensorSet sensorsOf(const std::string& config, const std::string& graph) {
-  SensorSet sensors(config);
-  if (graph == "a twist") {
-    sensors.set("motion", "source", std::string("twist"));
-  } else if (graph == "an Imu and wheels") {
-    sensors.set("motion", "source", std::string("imu_and_wheels"));
-  }
-  return sensors;
+/// s, of this process: other load of the machine does not count.
+double processorSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 template <typename Message>
@@ -90,165 +74,169 @@ const std::map<std::string, MutatedDrive::Mutate>& MutatedDrive::mutations() {
       mutationOf<nav_msgs::Odometry>(),
       mutationOf<nav_msgs::OccupancyGrid>(),
       mutationOf<sensor_msgs::LaserScan>(),
+      mutationOf<sensor_msgs::MultiEchoLaserScan>(),
       mutationOf<sensor_msgs::PointCloud2>(),
       mutationOf<sensor_msgs::CameraInfo>(),
       mutationOf<sensor_msgs::Image>(),
-      mutationOf<StereoAlignmentMessage>(),
       mutationOf<sensor_msgs::Imu>(),
       mutationOf<sensor_msgs::JointState>(),
+      mutationOf<sensor_msgs::NavSatFix>(),
       mutationOf<geometry_msgs::TwistStamped>(),
+      mutationOf<geometry_msgs::TwistWithCovarianceStamped>(),
       mutationOf<geometry_msgs::PoseWithCovarianceStamped>(),
       mutationOf<tf2_msgs::TFMessage>(),
+      mutationOf<EarthFrameMessage>(),
       mutationOf<LabeledScanMessage>(),
-      mutationOf<RoadBorders>(),
       mutationOf<ObjectArray>(),
+      mutationOf<PartClock>(),
+      mutationOf<RadarScanMessage>(),
+      mutationOf<RoadBorders>(),
+      mutationOf<StationTracksMessage>(),
+      mutationOf<StereoAlignmentMessage>(),
       mutationOf<TrackArray>()};
   return by_type;
 }
 
-MutatedDrive::MutatedDrive(const std::string& config, unsigned seed, Tally& tally)
+MutatedDrive::MutatedDrive(const std::string& config, unsigned seed, double max_seconds,
+                           Tally& tally)
     : random_(seed),
-      graph_(graphs()[seed % graphs().size()].first),
-      runner_(sensorsOf(config, graph_), graphs()[seed % graphs().size()].second),
-      tally_(tally) {}
+      graph_(campaignGraphs()[seed % campaignGraphs().size()]),
+      runner_(sensorsOf(config, graph_), graph_.switches),
+      sensors_(graph_),
+      clocks_(PartClocksOptions()),
+      max_seconds_(max_seconds),
+      tally_(tally) {
+  runner_.changeInputs([this](const Publication& message) { return givenFor(message); });
+}
 
 std::vector<std::string> MutatedDrive::run() {
-  int index = 0;
-  for (; index < kMutatedSteps; ++index) {
-    step(kStep * index);
-    for (auto left = random_() % (kMaxMutations + 1); left > 0; --left) {
-      mutateOne(kStep * index);
-    }
+  for (int index = 0; index < kMutatedSteps + kCleanSteps; ++index) {
+    step(index, index < kMutatedSteps);
   }
-  for (; index < kMutatedSteps + kCleanSteps; ++index) {
-    step(kStep * index);
-  }
-  now_ = "at the end";
+  step_ = "at the end";
   last_ = "nothing more";
   if (last_tracks_ < kStep * (kMutatedSteps + kCleanSteps / 2)) {
     note("no tracks again after " + std::to_string(kCleanSteps * kStep) + " s without mutations");
   }
-  findFaults();
+  bookRefused();
   return std::move(faults_);
 }
 
-void MutatedDrive::step(double seconds) {
-  now_ = "step " + std::to_string(static_cast<int>(seconds / kStep));
-  sendTransforms({world_.scannerInBase(), world_.cameraInBase()}, true, seconds);
-  sendTransforms({world_.baseInOdom(seconds)}, false, seconds);
-  const nav_msgs::Odometry odometry = world_.odometry(seconds);
-  send("odometry", odometry, seconds);
-  geometry_msgs::TwistStamped twist;
-  twist.header.stamp = odometry.header.stamp;
-  twist.header.frame_id = "base_link";
-  twist.twist = odometry.twist.twist;
-  send("twist", twist, seconds);
-  sensor_msgs::JointState wheels;
-  wheels.header = twist.header;
-  wheels.velocity = {odometry.twist.twist.linear.x / 0.3, odometry.twist.twist.linear.x / 0.3};
-  send("joint_states", wheels, seconds);
-  sensor_msgs::Imu imu;
-  imu.header = twist.header;
-  imu.angular_velocity = odometry.twist.twist.angular;
-  send("imu", imu, seconds);
-  if (graph_ == kImages) {
-    sendImages(seconds);
-    send("scan", world_.scan(seconds), seconds);
-    return;
+void MutatedDrive::step(int index, bool mutates) {
+  step_ = "step " + std::to_string(index);
+  now_ = Stamp::fromSeconds(World::kStart + kStep * index + 0.01);
+  mutates_ = mutates;
+  for (const Publication& message : sensors_.at(index)) {
+    last_ = message.topic;
+    ++tally_.messages;
+    deliver(message);
   }
-  send("stereo/right/camera_info", World::rightCameraInfo(), seconds);
-  const sensor_msgs::PointCloud2 cloud = world_.cloud(seconds);
-  send("stereo/points2", cloud, seconds);
-  send("cloud", cloud, seconds);
-  send("scan", world_.scan(seconds), seconds);
-}
-
-void MutatedDrive::sendImages(double seconds) {
-  const int index = static_cast<int>(seconds / kStep) / kImageSteps;
-  if (static_cast<int>(seconds / kStep) % kImageSteps != 0) {
-    return;
-  }
-  StereoPairSample pair;
-  pair.disparity += index % 4;  // else the camera is frozen, as with the same first pixel
-  const Stamp stamp = Stamp::fromSeconds(World::kStart + seconds);
-  for (const auto& [side, is_right] :
-       {std::pair<std::string, bool>("left", false), {"right", true}}) {
-    send("stereo/" + side + "/camera_info", *pair.info(stamp, is_right), seconds);
-    sensor_msgs::Image image = *pair.image(stamp, is_right, "mono8");
-    image.data.front() = static_cast<std::uint8_t>(index);
-    send("stereo/" + side + "/image_rect", image, seconds);
+  askClock();
+  if (mutates && isTurn(kCopies)) {
+    sendCopy();
   }
 }
 
-void MutatedDrive::sendTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms,
-                                  bool is_static, double seconds) {
-  tf2_msgs::TFMessage message;
-  message.transforms = transforms;
-  const std::string topic = is_static ? "/tf_static" : "/tf";
-  samples_[topic] = {ros::message_traits::datatype<tf2_msgs::TFMessage>(),
-                     boost::make_shared<tf2_msgs::TFMessage>(message)};
-  deliver(topic, samples_[topic], seconds);
-  ++tally_.messages;
+bool MutatedDrive::isTurn(double probability) {
+  return std::uniform_real_distribution<double>()(random_) < probability;
 }
 
-template <typename Message>
-void MutatedDrive::send(const std::string& topic, const Message& message, double seconds) {
-  samples_[topic] = {ros::message_traits::datatype<Message>(),
-                     boost::make_shared<Message>(message)};
-  last_ = topic;
-  deliver(topic, samples_[topic], seconds);
-  ++tally_.messages;
+AnyMessage MutatedDrive::givenFor(const Publication& message) {
+  samples_[message.topic] = message;
+  return mutates_ && isTurn(kInPlace) ? mutatedOf(message) : message.message;
 }
 
-void MutatedDrive::mutateOne(double seconds) {
+AnyMessage MutatedDrive::mutatedOf(const Publication& message) {
+  const auto mutation = mutations().find(message.data_type);
+  if (mutation == mutations().end()) {
+    note("nothing mutates a " + message.data_type);
+    return message.message;
+  }
+  last_ = "mutated " + message.topic;
+  ++tally_.mutated;
+  ++tally_.mutated_on[message.topic];
+  ++tally_.mutated_type[message.data_type];
+  return mutation->second(message.message, random_);
+}
+
+/// A spoiled one of what was there already.
+void MutatedDrive::sendCopy() {
   auto sample = samples_.begin();
   std::advance(sample, static_cast<std::ptrdiff_t>(random_() % samples_.size()));
-  const auto mutation = mutations().find(sample->second.data_type);
-  if (mutation == mutations().end()) {
-    return;
-  }
-  last_ = "mutated " + sample->first;
-  ++tally_.mutated;
-  ++tally_.mutated_on[sample->first];
-  deliver(sample->first,
-          {sample->second.data_type, mutation->second(sample->second.message, random_)}, seconds);
+  Publication copy = sample->second;
+  copy.message = mutatedOf(copy);
+  ++tally_.messages;
+  mutates_ = false;
+  deliver(copy);
 }
 
-void MutatedDrive::deliver(const std::string& topic, Sample sample, double seconds) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Stamp now = Stamp::fromSeconds(World::kStart + seconds + 0.01);
-  const auto transforms = [&] {
-    return boost::static_pointer_cast<const tf2_msgs::TFMessage>(sample.message);
-  };
+/// The answer of a part of the stack, which is no stage's input.
+void MutatedDrive::askClock() {
+  PartClock answer;
+  answer.process = "/perception_manager";
+  answer.asked = toTime(now_ + -0.002);
+  answer.answered = toTime(now_ + -0.001);
+  deliver(
+      {kClock, ros::message_traits::datatype<PartClock>(), boost::make_shared<PartClock>(answer)});
+}
+
+void MutatedDrive::deliver(const Publication& message) {
+  const double begin = processorSeconds();
+  const std::uint64_t mutated_before = tally_.mutated;
   try {
-    if (topic == "/tf_static") {
-      runner_.takeStaticTransforms(*transforms());
-    } else if (topic == "/tf") {
-      take(runner_.takeTransforms(*transforms(), now));
+    if (message.topic == "/tf_static") {
+      runner_.takeStaticTransforms(
+          *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)));
+    } else if (message.topic == "/tf") {
+      take(runner_.takeTransforms(
+          *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)), now_));
+    } else if (message.topic == kClock) {
+      clocks_.take(*boost::static_pointer_cast<const PartClock>(givenFor(message)), now_);
+      clocks_.judged({}, now_);
+      clocks_.descriptions(now_);
     } else {
-      take(runner_.take({topic, sample.data_type, sample.message}, now));
+      take(runner_.take(message, now_));
     }
   } catch (const std::exception& error) {
     note(std::string("an exception left the graph: ") + error.what());
   }
-  const double took =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (took > tally_.slowest) {
-    tally_.slowest = took;
-    tally_.slowest_on = last_;
+  finish(processorSeconds() - begin, mutated_before);
+}
+
+void MutatedDrive::finish(double seconds, std::uint64_t mutated_before) {
+  if (seconds > tally_.slowest) {
+    tally_.slowest = seconds;
+    tally_.slowest_on = graph_.name + ", " + last_;
   }
-  if (took > kTooLong) {
-    note("took " + std::to_string(took) + " s");
+  if (seconds > max_seconds_) {
+    note("took " + std::to_string(seconds) + " s of a processor, expected at most " +
+         std::to_string(max_seconds_) + " s");
   }
+  findFaults();
+  // Of one that several stages took, each may have dropped it: at the most so many got no further.
+  const std::uint64_t drops = stampDrops();
+  tally_.stopped_by_stamp += std::min(drops - stamp_drops_, tally_.mutated - mutated_before);
+  stamp_drops_ = drops;
+}
+
+std::uint64_t MutatedDrive::stampDrops() const {
+  std::uint64_t drops = 0;
+  for (const StageMonitor* monitor : runner_.monitors()) {
+    for (const char* const reason : kStampReasons) {
+      const auto found = monitor->drops().find(reason);
+      drops += found == monitor->drops().end() ? 0 : found->second;
+    }
+  }
+  return drops;
 }
 
 void MutatedDrive::take(const Publications& published) {
   for (const Publication& publication : published) {
-    samples_[publication.topic] = {publication.data_type, publication.message};
     const std::string fault =
         faultOf<nav_msgs::Odometry, tf2_msgs::TFMessage, geometry_msgs::PoseWithCovarianceStamped,
                 LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                StereoAlignmentMessage, RiskArray>(publication);
+                StereoAlignmentMessage, RiskArray, EarthFrameMessage, StationTracksMessage,
+                sensor_msgs::LaserScan>(publication);
     if (!fault.empty()) {
       note("published on " + publication.topic + " " + fault);
     }
@@ -260,26 +248,31 @@ void MutatedDrive::take(const Publications& published) {
   }
 }
 
-/// What the code did not expect of itself.
+/// What the code did not expect of itself, since the last call.
 void MutatedDrive::findFaults() {
+  for (const StageMonitor* monitor : runner_.monitors()) {
+    for (const char* const reason : {"unexpected_error", "bad_output"}) {
+      const auto found = monitor->drops().find(reason);
+      if (found != monitor->drops().end() && found->second > unexpected_[monitor][reason]) {
+        unexpected_[monitor][reason] = found->second;
+        note(monitor->stage() + ": " + reason + ": " + monitor->lastDrop());
+      }
+    }
+  }
+}
+
+void MutatedDrive::bookRefused() {
   for (const StageMonitor* monitor : runner_.monitors()) {
     for (const auto* counts : {&monitor->drops(), &monitor->warnings()}) {
       for (const auto& [reason, count] : *counts) {
         tally_.refused[reason] += count;
       }
     }
-    for (const char* const reason : {"unexpected_error", "bad_output"}) {
-      const auto found = monitor->drops().find(reason);
-      if (found != monitor->drops().end()) {
-        note(monitor->stage() + ": " + reason + " " + std::to_string(found->second) +
-             " times, last " + monitor->lastDrop());
-      }
-    }
   }
 }
 
 void MutatedDrive::note(const std::string& what) {
-  faults_.push_back(graph_ + ", " + now_ + ", " + last_ + ": " + what);
+  faults_.push_back(graph_.name + ", " + step_ + ", " + last_ + ": " + what);
 }
 
 }  // namespace datmo::campaign

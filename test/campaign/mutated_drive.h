@@ -8,64 +8,76 @@
 #include <string>
 #include <vector>
 
-#include "run_bag/graph_runner.h"
-#include "world.h"
+#include "campaign_sensors.h"
+
+#include "datmo_fusion/ros/stage/part_clocks.h"
 
 namespace datmo::campaign {
 
 /// What a campaign has done so far.
 struct Tally {
-  std::uint64_t messages = 0;  ///< that were as they should be
-  std::uint64_t mutated = 0;
-  std::map<std::string, std::uint64_t> mutated_on;  ///< by topic
-  std::map<std::string, std::uint64_t> refused;     ///< by reason, warnings included
-  double slowest = 0.0;                             ///< s, for one message and all that follows
+  std::uint64_t messages = 0;  ///< of sensors, as they should be or mutated
+  std::uint64_t mutated = 0;   ///< those between stages included
+  /// Of these, dropped for their stamp alone: nothing else of them was tried.
+  std::uint64_t stopped_by_stamp = 0;
+  std::map<std::string, std::uint64_t> mutated_on;    ///< by topic
+  std::map<std::string, std::uint64_t> mutated_type;  ///< by type of message
+  std::map<std::string, std::uint64_t> refused;       ///< by reason, warnings included
+  double slowest = 0.0;  ///< s of a processor, for one message and all that follows
   std::string slowest_on;
 };
 
-/// One drive through a World and one graph of stages, with mutated messages at its inputs.
+/// One drive with all sensors through one graph of stages, with mutated messages at its inputs and
+/// between its stages.
+///
+/// Most mutations stand in place of the message that they are made of: a spoiled copy behind it has
+/// a stamp that was there, and is dropped for it.
 class MutatedDrive {
  public:
-  /// `seed`: of all that is drawn, the graph included.
-  MutatedDrive(const std::string& config, unsigned seed, Tally& tally);
+  /// `seed`: of all that is drawn, the graph included; `max_seconds`: of a processor, for one
+  /// message and all that follows from it.
+  MutatedDrive(const std::string& config, unsigned seed, double max_seconds, Tally& tally);
 
   /// Drives on with mutations, then without. Returns what must not be: "step 12, mutated scan:
   /// ..."; empty: nothing.
   std::vector<std::string> run();
 
-  std::string graph() const { return graph_; }
-
  private:
   using Mutate = std::function<AnyMessage(const AnyMessage& message, std::mt19937& random)>;
-  struct Sample {
-    std::string data_type;
-    AnyMessage message;
-  };
 
   static const std::map<std::string, Mutate>& mutations();
 
-  void step(double seconds);
-  /// Of a stereo camera that is slower than the scanner.
-  void sendImages(double seconds);
-  void mutateOne(double seconds);
-  template <typename Message>
-  void send(const std::string& topic, const Message& message, double seconds);
-  void deliver(const std::string& topic, Sample sample, double seconds);
-  void sendTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms,
-                      bool is_static, double seconds);
+  bool isTurn(double probability);
+  /// What a stage gets in place of a message.
+  AnyMessage givenFor(const Publication& message);
+  AnyMessage mutatedOf(const Publication& message);
+  void step(int index, bool mutates);
+  void sendCopy();
+  void askClock();
+  void deliver(const Publication& message);
+  /// Books how long it took, and what was dropped.
+  void finish(double seconds, std::uint64_t mutated_before);
+  std::uint64_t stampDrops() const;
   void take(const Publications& published);
   void findFaults();
+  void bookRefused();
   void note(const std::string& what);
 
   std::mt19937 random_;
-  std::string graph_;
+  const CampaignGraph& graph_;
   GraphRunner runner_;
-  World world_;
+  CampaignSensors sensors_;
+  PartClocks clocks_;
+  double max_seconds_;
   Tally& tally_;
-  std::map<std::string, Sample> samples_;  ///< the last good message by topic
-  std::string last_;                       ///< what was sent last
-  std::string now_;
-  double last_tracks_ = -1.0;  ///< s, stamp
+  std::map<std::string, Publication> samples_;  ///< the last good message by topic
+  bool mutates_ = false;
+  Stamp now_;
+  std::string step_;               ///< in words
+  std::string last_;               ///< what was sent last
+  std::uint64_t stamp_drops_ = 0;  ///< so far
+  std::map<const StageMonitor*, std::map<std::string, std::uint64_t>> unexpected_;  ///< so far
+  double last_tracks_ = -1.0;                                                       ///< s, stamp
   std::vector<std::string> faults_;
 };
 

@@ -197,7 +197,8 @@ TEST_F(InputBag, AFullDiskIsReportedAndLeavesNoBag) {
     output.finish();
   };
   fs::create_symlink("/dev/full", file_.string() + ".part");
-  EXPECT_NE(messageOf(write), "");
+  EXPECT_EQ(messageOf(write).rfind(file_.string() + ": cannot be written (", 0), 0U)
+      << messageOf(write);
   EXPECT_FALSE(fs::exists(file_));
   EXPECT_FALSE(fs::exists(fs::symlink_status(file_.string() + ".part")));
 }

@@ -126,14 +126,21 @@ TEST_F(RunBagFaults, ALoopedBagBeginsANewMapAtItsSecondMessage) {
   EXPECT_NEAR(x.back(), kDriven - kPeriod * kSpeed, 0.3) << "from where the new map begins";
 }
 
-TEST_F(RunBagFaults, AClockThatJumpsAheadIsFollowedFromItsSecondMessage) {
-  runSpoiled([](int i, Step& step) {
-    const ros::Duration off(i < kBad ? 0.0 : 50.0);
-    step.odometry.header.stamp += off;
-    step.transform.transforms[0].header.stamp += off;
-    step.scan.header.stamp += off;
-  });
-  EXPECT_EQ(poseCount(), kScans - 1U);
+TEST_F(RunBagFaults, AClockThatJumpsAheadBeginsANewMapAtItsSecondMessage) {
+  for (const double off : {2.0, 50.0, 100.0}) {
+    const std::string table = runSpoiled([off](int i, Step& step) {
+      const ros::Duration ahead(i < kBad ? 0.0 : off);
+      step.odometry.header.stamp += ahead;
+      step.transform.transforms[0].header.stamp += ahead;
+      step.scan.header.stamp += ahead;
+    });
+    const std::vector<double> x = poses();
+    ASSERT_EQ(x.size(), kScans - 1U) << off;
+    EXPECT_TRUE(holds(table, "clock_restart")) << "it is said";
+    EXPECT_NEAR(x.at(kBad - 1), (kBad - 1) * kPeriod * kSpeed, 0.1) << off;
+    EXPECT_NEAR(x.back(), (kScans - 1 - (kBad + 1)) * kPeriod * kSpeed, 0.3)
+        << off << " s: from where the new map begins";
+  }
 }
 
 }  // namespace

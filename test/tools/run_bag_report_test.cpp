@@ -62,7 +62,7 @@ TEST_F(RunBagReport, SilenceAndDropsHaveTheirTimes) {
   EXPECT_NEAR(silence.at("for_s"), (kFirstAfter - kLastBefore) * kPeriod, 1e-6);
   ASSERT_EQ(said.at("dropped").size(), 1U) << said;
   EXPECT_EQ(said.at("dropped")[0].at("count"), 1);
-  EXPECT_NEAR(said.at("dropped")[0].at("most_from_s"), kRepeated * kPeriod + 0.01, 1e-6);
+  EXPECT_NEAR(said.at("dropped")[0].at("max_from_s"), kRepeated * kPeriod + 0.01, 1e-6);
   EXPECT_NEAR(said.at("pose").at("longest_gap_s"), (kFirstAfter - kLastBefore) * kPeriod, 1e-6);
 }
 

@@ -50,6 +50,13 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
   }
 }
 
+TEST(SensorSets, WhatIsSetOfASharedSectionHoldsForAllStages) {
+  SensorSet sensors((kPackage / "config/demonstrator.yaml").string());
+  EXPECT_FALSE(sensors.shared().motion.usesImu());
+  sensors.set("motion", "source", std::string("imu_and_wheels"));
+  EXPECT_TRUE(sensors.shared().motion.usesImu());
+}
+
 TEST(ThesisPreset, IsLaidOverAnySensorSet) {
   const std::string thesis = kPackage / "config" / "thesis.yaml";
   for (const std::string& file : sensorSets()) {

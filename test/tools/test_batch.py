@@ -19,7 +19,7 @@ RUN = {
     "has_truth": True, "distance_m": 12.0, "tracks": 2, "silences": [], "conditions": [],
     "pose": {"longest_gap_s": 0.1, "longest_gap_from_s": 0.0, "first_s": 0.0,
              "widest_sigma_m": 0.1, "widest_sigma_at_s": 1.0},
-    "dropped": [{"stage": "tracker", "reason": "old", "count": 2, "most_from_s": 1.0, "most": 2}],
+    "dropped": [{"stage": "tracker", "reason": "old", "count": 2, "max_from_s": 1.0, "max_count": 2}],
 }  # fmt: skip
 SCORE = {
     "start_s": 100.5, "identity": {}, "hota": {}, "errors": {}, "pose": None,

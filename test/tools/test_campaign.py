@@ -3,6 +3,7 @@
 """The campaign: what each fault does to the messages of a drive, by hand, and what is said of the poses."""
 
 import unittest
+from pathlib import Path
 
 import numpy as np
 import rospy
@@ -13,10 +14,12 @@ from tf2_msgs.msg import TFMessage
 
 from datmo_tools.experiments import soak
 from datmo_tools.experiments.campaign import effect, page
+from datmo_tools.experiments.fault_bounds import beyond, read_bounds
 from datmo_tools.experiments.kept_ids import gap_effect
 from datmo_tools.experiments.line_faults import JUMP, STEREO_INPUTS, Message, faults, faulty
 
 BEGIN = 100.0  # s
+TABLE = Path(__file__).resolve().parents[1] / "campaign/fault_bounds.yaml"
 
 
 def drive():
@@ -163,13 +166,53 @@ class Effect(unittest.TestCase):
         self.assertFalse(result["recovered"])
         run = {"fault": "scan silent", "error": None, "pose": result,
                "tracks": {"mota": 0.5, "misses": 3, "false_positives": 0, "id_switches": 1}}  # fmt: skip
-        result["largest_sigma_m"] = 0.25
+        result.update(largest_sigma_m=0.25, largest_error_sigmas=12.0)
         drive = {"drive": "a.bag", "options": ("--fusion", "low"), "of": 3, "runs": [run]}
         parts = dict.fromkeys(("silent", "mutated", "soak", "load", "outages"))
-        text = page({"begin_s": 8.0, "drives": [drive], **parts})
-        self.assertIn("| scan silent | 200 | 3.00 | 3.00 | 0.25 | never | 0.500 | 3 | 0 | 1 |", text)
+        text = page({"made": "commit abc", "beyond": ["a.bag, scan silent: too far"], "begin_s": 8.0, "drives": [drive], **parts})
+        self.assertIn("| scan silent | 200 | 3.00 | 3.00 | 0.25 | 12.0 | never | 0.500 | 3 | 0 | 1 |", text)
         self.assertIn("run_bag --fusion low", text)
         self.assertNotIn("Soak", text)
+        self.assertIn("`scripts/campaign`, commit abc.", text)
+        self.assertIn("- a.bag, scan silent: too far", text)
+
+
+class Bounds(unittest.TestCase):
+    """A drive with a MOTA of 0.7, and one fault."""
+
+    LIMITS = {"largest_error_m": 1.0, "largest_error_sigmas": 3.0, "recovered_s": 0.5, "mota_loss": 0.1}
+
+    def beyond(self, limits, pose=None, mota=0.65, error=None):
+        good = {"largest_error_m": 0.5, "largest_error_sigmas": 2.0, "recovered_s": 0.0, "recovered": True}
+        clean = {"fault": "none", "error": None, "pose": good, "tracks": {"mota": 0.7}}
+        run = {"fault": "scan silent", "error": error, "pose": {**good, **(pose or {})}, "tracks": {"mota": mota}}
+        bounds = {"a.bag": {"default": self.LIMITS, "scan silent": limits}}
+        return beyond({"drive": "a.bag", "runs": [clean, run]}, bounds)
+
+    def test_within(self):
+        self.assertEqual(self.beyond({}), [])
+
+    def test_each_bound(self):
+        for pose in ({"largest_error_m": 1.1}, {"largest_error_sigmas": 3.5}, {"recovered_s": 0.6},
+                     {"recovered": False}):  # fmt: skip
+            self.assertEqual(len(self.beyond({}, pose)), 1, pose)
+        self.assertEqual(self.beyond({}, mota=0.5), ["a.bag, scan silent: mota_loss 0.200, expected at most 0.1"])
+        self.assertEqual(len(self.beyond({}, mota=None)), 1)
+
+    def test_a_fault_may_have_bounds_of_its_own_or_none(self):
+        self.assertEqual(self.beyond({"largest_error_m": 2.0}, {"largest_error_m": 1.1}), [])
+        self.assertEqual(self.beyond({"recovered_s": None}, {"recovered": False}), [])
+
+    def test_what_must_be_refused(self):
+        self.assertEqual(self.beyond("refused", error="all refused"), [])
+        self.assertEqual(len(self.beyond("refused")), 1)
+        self.assertEqual(self.beyond({}, error="ended"), ["a.bag, scan silent: ended"])
+
+    def test_the_table_of_the_package(self):
+        bounds = read_bounds(TABLE)
+        known = {fault.name for fault in [*faults(), *faults(STEREO_INPUTS)]} | {"default"}
+        for drive, of_drive in bounds.items():
+            self.assertLessEqual(set(of_drive), known, drive)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "test" / "documents"))
 
 from command_blocks import blocks_of  # noqa: E402
+from datmo_tools.evaluate.main import SUBCOMMANDS  # noqa: E402
 
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md"))]
 LINKED_PAGES = [*PAGES, SOURCE / "rosbag_fixtures" / "README.md"]
@@ -82,12 +83,18 @@ class Documents(unittest.TestCase):
 
     def test_yaml_names_parameters_that_there_are(self):
         parameters = documented_parameters()
-        for page in PAGES:
+        for page in LINKED_PAGES:
             for block in blocks_of(page.read_text()):
                 if block.language == "yaml":
                     for key in keys_of(yaml.safe_load(block.text)):
                         known = documented_name(key) in parameters
                         self.assertTrue(known, f"{page}:{block.line}: {key}")
+
+
+    def test_evaluation_names_every_subcommand(self):
+        page = (SOURCE / "doc" / "evaluation.md").read_text()
+        for name in SUBCOMMANDS:
+            self.assertRegex(page, rf"`evaluate {name}[ `]")
 
 
 class Changelog(unittest.TestCase):

@@ -88,7 +88,7 @@ class ImageFiles(unittest.TestCase):
             read_calibration(self.calibration(projection_matrix={"data": [1.0]}))
         with self.assertRaisesRegex(InputError, "image_width"):
             read_calibration(self.calibration(image_width="wide"))
-        with self.assertRaisesRegex(InputError, "no calibration"):
+        with self.assertRaisesRegex(InputError, "expected a yaml file that can be read"):
             read_calibration(self.folder / "missing.yaml")
 
     def test_images_of_another_size_are_refused(self):

@@ -8,6 +8,7 @@ import xmlrpc.client
 import xmlrpc.server
 import threading
 from pathlib import Path
+from xml.etree import ElementTree
 
 from datmo_tools import launch_arguments
 
@@ -43,6 +44,23 @@ class LaunchArguments(unittest.TestCase):
             self.assertEqual(launch_arguments.arguments_of(outer, str), {"bag"})
             outer.write_text(outer.read_text().replace("/></group>", ' pass_all_args="true"/></group>'))
             self.assertEqual(launch_arguments.arguments_of(outer, str), {"bag", "scan"})
+
+    def test_every_argument_has_a_doc_string(self):
+        for file in sorted((PACKAGE / "launch").glob("*.launch")):
+            for tag in ElementTree.parse(file).getroot().findall("arg"):
+                self.assertTrue(tag.get("doc"), f"{file}: {tag.get('name')}")
+                internal = tag.get("doc").startswith("internal: ")
+                self.assertEqual(internal, tag.get("value") is not None, f"{file}: {tag.get('name')}")
+
+    def test_a_sensor_set_without_a_file(self):
+        folder = PACKAGE / "config"
+        missing = launch_arguments.missing_configuration
+        self.assertIsNone(missing(["sensors:=kitti", "preset:=thesis"], folder))
+        self.assertIsNone(missing(["preset:=", f"config:={folder}/kitti.yaml", "sensors:=own"], folder))
+        self.assertIn("sensors:=kiti: no kiti.yaml in", missing(["sensors:=kiti"], folder))
+        self.assertIn("did you mean kitti? There are demonstrator, ", missing(["sensors:=kiti"], folder))
+        self.assertIn("preset:=thesi", missing(["preset:=thesi"], folder))
+        self.assertIn("config:=/none.yaml: no such file", missing(["config:=/none.yaml"], folder))
 
     def test_an_unknown_name_is_refused_with_the_nearest(self):
         known = {"sensors", "scan", "odometry"}

@@ -53,6 +53,11 @@ class LaunchRefusals(unittest.TestCase):
         said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
         self.assertIn("no argument odometri: did you mean odometry?", said)
 
+    def test_an_unknown_sensor_set(self):
+        said = self.refusal("perception.launch", "sensors:=kiti")
+        self.assertIn("sensors:=kiti: no kiti.yaml in", said)
+        self.assertIn("did you mean kitti?", said)
+
     def test_a_second_stack_on_the_same_master(self):
         with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as server:
             master = f"http://localhost:{server.server_address[1]}"

@@ -12,6 +12,8 @@ from launch_files import PACKAGE, load
 
 from datmo_tools.launch_arguments import missing_device
 
+MACHINES = f"machines:={PACKAGE}/test/nodelets/parts_machines.launch"
+
 
 def loaded(*words):
     """The nodes by name, and the parameters."""
@@ -54,6 +56,38 @@ class LiveLaunch(unittest.TestCase):
                          dict(nodes["cloud_to_scan"].remap_args)["cloud"])
         self.assertEqual(dict(nodes["grid_slam"].remap_args)["scan"], "cloud_scan")
 
+    def test_a_front_and_a_rear_scanner_are_merged(self):
+        nodes, parameters = loaded("lidar:=sick_lms", "rear_lidar:=hokuyo", "rear_lidar_address:=/dev/ttyACM0",
+                                   "rear_lidar_frame:=tail")
+        merged = dict(nodes["scan_merge"].remap_args)
+        for name, source in (("device", "front"), ("rear_device", "rear")):
+            self.assertEqual(nodes[name].args, "load datmo_fusion/device perception")
+            self.assertEqual(dict(nodes[name].remap_args)["scan"], merged[f"scans/{source}"])
+        self.assertEqual(dict(nodes["grid_slam"].remap_args)["scan"], merged["scan"])
+        self.assertEqual([parameters[f"/rear_device/{key}"] for key in ("kind", "address", "port", "frame")],
+                         ["hokuyo", "/dev/ttyACM0", 0, "tail"])
+        self.assertEqual(parameters["/device/kind"], "sick_lms")
+        nodes, _ = loaded("lidar:=hokuyo", "rear_lidar:=sick_lms", "rear_lidar_address:=192.168.0.2",
+                          "front_scan:=/front", "rear_scan:=/rear", MACHINES, "sensors_machine:=sensors")
+        self.assertEqual([dict(nodes[name].remap_args)["scan"] for name in ("device", "rear_device")],
+                         ["/front", "/rear"])
+        self.assert_place(nodes["rear_device"], "perception_sensors", "sensors")
+
+    def test_each_device_has_a_section_of_the_yaml_file(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
+            settings.write("rear_device: {hokuyo: {baud: 230400}}\nsatellite_receiver: {nmea: {sigma: 2.0}}\n"
+                           "vehicle_bus: {timeout: 2.0}\ndevice: {timeout: 0.5}\n")
+            settings.flush()
+            _, parameters = loaded(f"config:={settings.name}")
+        self.assertEqual(parameters["/rear_device/hokuyo/baud"], 230400)
+
+    def test_a_rear_scanner_may_have_another_driver(self):
+        nodes, _ = loaded("rear_lidar:=external", "rear_scan:=/rear")
+        self.assertEqual(dict(nodes["scan_merge"].remap_args)["scans/rear"], "/rear")
+        self.assertNotIn("rear_device", nodes)
+        nodes, _ = loaded()
+        self.assertNotIn("scan_merge", nodes)
+
     def test_images_of_files_are_played(self):
         nodes, _ = loaded("camera:=images", "left_images:=/a b/left", "left_info:=/l.yaml")
         self.assertEqual(shlex.split(nodes["play_images"].args),
@@ -67,9 +101,38 @@ class LiveLaunch(unittest.TestCase):
         files = ("camera:=images", "left_images:=/l", "left_info:=/l.yaml")
         nodes, _ = loaded(*files)
         self.assertIsNone(nodes["play_images"].machine_name)
-        machines = PACKAGE / "test/nodelets/parts_machines.launch"
-        nodes, _ = loaded(*files, f"machines:={machines}", "stereo_machine:=stereo")
+        nodes, _ = loaded(*files, MACHINES, "stereo_machine:=stereo")
         self.assertEqual(nodes["play_images"].machine_name, "stereo")
+
+    def assert_place(self, node, process, machine):
+        """A nodelet's process, and the machine of both."""
+        self.assertEqual((node.args.split()[2], node.machine_name), (process, machine))
+
+    def test_devices_are_served_where_they_are_connected(self):
+        devices = ("lidar:=velodyne", MACHINES)
+        for odometry, name in (("gps_imu", "satellite_receiver"), ("can", "vehicle_bus"), ("can_imu", "vehicle_bus")):
+            with self.subTest(odometry):
+                words = (*devices, f"odometry:={odometry}")
+                nodes, _ = loaded(*words)
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception", None)
+                nodes, _ = loaded(*words, "perception_machine:=perception")
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception", "perception")
+                nodes, _ = loaded(*words, "perception_machine:=perception", "sensors_machine:=sensors")
+                for device in (nodes["device"], nodes[name]):
+                    self.assert_place(device, "perception_sensors", "sensors")
+                    self.assertEqual(nodes["perception_sensors"].machine_name, "sensors")
+
+    def test_other_stations_are_heard_where_it_is_said(self):
+        words = ("v2x_wire:=true", "track_fusion:=true", MACHINES, "perception_machine:=perception")
+        nodes, _ = loaded(*words, "sensors_machine:=sensors")
+        self.assert_place(nodes["v2x_wire"], "perception", "perception")
+        for part in ("sensors", "stereo", "risk"):
+            nodes, _ = loaded(*words, f"v2x_part:={part}", f"{part}_machine:={part}")
+            self.assert_place(nodes["v2x_wire"], f"perception_{part}", part)
+            nodes, _ = loaded(*words, f"v2x_part:={part}")
+            self.assert_place(nodes["v2x_wire"], "perception", "perception")
 
     def test_without_odometry_the_motion_comes_from_the_scans(self):
         _, parameters = loaded("odometry:=none")
@@ -120,7 +183,7 @@ class LiveLaunch(unittest.TestCase):
         self.assertNotIn("v2x", nodes)
 
     def test_devices_that_there_are_not_end_it(self):
-        for word in ("lidar:=ouster", "camera:=webcam", "odometry:=magic"):
+        for word in ("lidar:=ouster", "camera:=webcam", "odometry:=magic", "rear_lidar:=velodyne"):
             with self.subTest(word):
                 with self.assertRaises(roslaunch.RLException):
                     loaded(word)
@@ -129,6 +192,13 @@ class LiveLaunch(unittest.TestCase):
 class MissingDevice(unittest.TestCase):
     def test_what_there_is_is_fine(self):
         self.assertIsNone(missing_device(["lidar:=hokuyo", "camera:=external", "odometry:=none"]))
+
+    def test_a_rear_scanner_needs_an_address_and_another_planar_one(self):
+        self.assertIn("rear_lidar:=hokuyo without rear_lidar_address",
+                      missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=", "cloud:="]))
+        self.assertIn("rear_lidar:=external with clouds on points",
+                      missing_device(["rear_lidar:=external", "rear_lidar_address:=", "cloud:=points"]))
+        self.assertIsNone(missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "cloud:="]))
 
     def test_the_sentence_says_what_there_is_and_what_to_do(self):
         said = missing_device(["lidar:=ouster"])

@@ -93,6 +93,15 @@ class RunReadme(unittest.TestCase):
         self.assertIn("0 blocks run, left out: 1 hours, 1 robot", output)
         self.assertIn("  1 hours: takes more than a few minutes", output)
 
+    def test_roslaunch_checks_the_arguments_of_what_needs_sensors(self):
+        code, output = self.run_on(
+            block('roslaunch() { echo "$@" >said; }')
+            + block("false\nroslaunch a b.launch config:=/path/to/x.yaml y:=/path/to/z", "robot")
+            + block('test "$(cat said)" = "--nodes a b.launch config:=config/demonstrator.yaml y:=$PWD/example.yaml"')
+        )
+        self.assertEqual(code, 0, output)
+        self.assertIn("3 blocks run", output)
+
     def test_marked_blocks_run_when_asked_for(self):
         code, output = self.run_on(block("false", "hours"), options=["--with", "hours"])
         self.assertEqual(code, 1, output)

@@ -3,15 +3,27 @@
 """config/perception.rviz shows what is published: each topic in it has a publisher, each namespace of
 markers is one that is drawn, and each that is drawn is named, so that none is on by accident."""
 
+import os
 import re
+import runpy
+import shlex
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from unittest import mock
 
 import yaml
+from launch_files import PACKAGE, load
 
-PACKAGE = Path(__file__).resolve().parents[2]
-VIEW = yaml.safe_load((PACKAGE / "config/perception.rviz").read_text(encoding="utf-8"))
+FILE = str(PACKAGE / "config/perception.rviz")
+
+
+def read(file):
+    return yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+
+
+VIEW = read(FILE)
 DISPLAYS = VIEW["Visualization Manager"]["Displays"]
 # What our own displays draw, or what is for who looks for a fault.
 OFF = {"dropped labels", "intersection", "objects", "object bodies", "object heads", "road borders",
@@ -94,6 +106,62 @@ class RvizView(unittest.TestCase):
                 self.assertIn(display["Name"].encode("utf-16-be"), state)
         for panel in VIEW["Panels"]:
             self.assertIn(panel["Name"].encode("utf-16-be"), state)
+
+
+class ViewOfAVehicle(unittest.TestCase):
+    """One of several vehicles on one master."""
+
+    def vehicle_view(self, prefix, namespace):
+        """What open_rviz shows."""
+        open_rviz = runpy.run_path(str(PACKAGE / "tools/launch/open_rviz"))
+        environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
+        with mock.patch.dict(os.environ, environment):
+            return open_rviz["vehicle_view"](FILE, prefix)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.home = folder.name
+
+    def test_of_one_that_is_alone_it_is_the_file_itself(self):
+        for namespace in ("", "/"):
+            self.assertEqual(self.vehicle_view("", namespace), FILE)
+
+    def test_frames_have_the_prefix_and_topics_are_in_the_namespace(self):
+        view = read(self.vehicle_view("car1/", "/car1/"))
+        manager = view["Visualization Manager"]
+        self.assertEqual(manager["Global Options"]["Fixed Frame"], "car1/map")
+        for each in (manager["Views"]["Current"], *manager["Views"]["Saved"]):
+            self.assertEqual(each["Target Frame"], "car1/base_link")
+        self.assertEqual([topic_of(each) for each in manager["Displays"]],
+                         [topic_of(each) and "/car1" + topic_of(each) for each in DISPLAYS])
+        panel = next(each for each in view["Panels"] if each["Class"] == "datmo_fusion/DriverView")
+        self.assertEqual((panel["Risks Topic"], panel["Tracks Topic"]), ("/car1/risks", "/car1/tracks"))
+
+    def test_all_else_is_as_it_was(self):
+        text = Path(self.vehicle_view("car1/", "/car1")).read_text(encoding="utf-8")
+        view = yaml.safe_load(text.replace("/car1/", "/").replace("car1/", ""))
+        self.assertEqual(view, VIEW)
+
+    def test_a_namespace_or_a_prefix_alone(self):
+        options = read(self.vehicle_view("car1/", ""))["Visualization Manager"]
+        self.assertEqual(options["Global Options"]["Fixed Frame"], "car1/map")
+        self.assertIn("/tracks", {topic_of(each) for each in options["Displays"]})
+        options = read(self.vehicle_view("", "/fleet/car2"))["Visualization Manager"]
+        self.assertEqual(options["Global Options"]["Fixed Frame"], "map")
+        self.assertIn("/fleet/car2/tracks", {topic_of(each) for each in options["Displays"]})
+
+    def test_each_vehicle_has_a_view_of_its_own(self):
+        self.assertEqual(len({self.vehicle_view(prefix, namespace) for prefix, namespace in
+                              (("car1/", "/car1"), ("car2/", "/car2"), ("", "/car3"), ("car4/", ""))}), 4)
+
+    def test_the_launch_file_hands_the_prefix_on(self):
+        nodes = load("live.launch", ["rviz:=true", "frame_prefix:=car1/"]).nodes
+        words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
+        self.assertEqual(words, ["--frame-prefix", "car1/", "-d", FILE])
+        nodes = load("live.launch", ["rviz:=true"]).nodes
+        words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
+        self.assertEqual(words, ["--frame-prefix", "", "-d", FILE])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What the package ships for other people's tools: the Foxglove layout and the groups of the diagnostics
-name topics and nodes that there are, and record.launch takes what the chain takes."""
+name topics and nodes that there are."""
 
 import itertools
 import json
@@ -9,9 +9,7 @@ import re
 import unittest
 
 import yaml
-from launch_files import PACKAGE, load
-
-from datmo_tools.launch_arguments import arguments_of
+from launch_files import PACKAGE
 
 
 def panels_of(node):
@@ -25,12 +23,6 @@ def node_names():
     """Of all nodelets of perception.launch."""
     text = (PACKAGE / "launch/perception.launch").read_text()
     return set(re.findall(r'name="(\w+)" args="load', text))
-
-
-def recorder(*words):
-    """The words of rosbag record."""
-    node, = load("record.launch", ["bag:=drive", *words]).nodes
-    return node.args.split()
 
 
 class ShippedViews(unittest.TestCase):
@@ -50,23 +42,6 @@ class ShippedViews(unittest.TestCase):
         starts = list(itertools.chain(*(group["startswith"] for group in groups.values())))
         self.assertEqual(len(starts), len(set(starts)))
         self.assertLessEqual(set(starts), node_names())
-
-    def test_record_takes_the_inputs_of_the_chain(self):
-        takes = arguments_of(PACKAGE / "launch/perception.launch", str)
-        inputs = {name for name in ("scan", "echoes", "odometry", "points2", "right_camera_info",
-                                    "imu", "twist", "joint_states", "cloud") if name in takes}
-        self.assertLessEqual(inputs, arguments_of(PACKAGE / "launch/record.launch", str))
-
-    def test_record_records_the_given_topics(self):
-        words = recorder("scan:=/front")
-        for word in ("/front", "odometry", "/tf", "/tf_static", "--lz4"):
-            self.assertIn(word, words)
-        for word in ("scan", "tracks", "--split"):
-            self.assertNotIn(word, words)
-        words = recorder("results:=true", "split:=1024", "compress:=false")
-        for word in ("tracks", "map", "--split", "--size=1024"):
-            self.assertIn(word, words)
-        self.assertNotIn("--lz4", words)
 
 
 if __name__ == "__main__":

@@ -210,6 +210,7 @@ datmo_fusion_add_core_test(fusion
   fusion/object_combination_test.cpp
   fusion/object_consistency_test.cpp
   fusion/object_fuser_test.cpp
+  fusion/object_names_test.cpp
   fusion/position_covariance_test.cpp
   fusion/source_matcher_test.cpp
   fusion/station_tracks_test.cpp
@@ -253,9 +254,11 @@ datmo_fusion_add_core_test(device
   device/device_runner_test.cpp
   device/fake_hokuyo.cpp
   device/fake_lidar.cpp
+  device/fake_serial.cpp
   device/fake_server.cpp
   device/fake_sick.cpp
   device/hokuyo_scanner_test.cpp
+  device/hokuyo_serial_test.cpp
   device/nmea_receiver_test.cpp
   device/nmea_test.cpp
   device/scip_test.cpp

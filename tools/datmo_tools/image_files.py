@@ -6,9 +6,9 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-import yaml
 
 from datmo_tools.errors import InputError
+from datmo_tools.yaml_files import load_yaml
 
 IMAGE_FILES = {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff"}
 MATRICES = {"camera_matrix": 9, "rectification_matrix": 9, "projection_matrix": 12}
@@ -65,10 +65,7 @@ def _numbers(tree, key, count, file):
 
 def read_calibration(file):
     """The fields of a sensor_msgs/CameraInfo (dict) of a yaml file. Raises InputError."""
-    try:
-        tree = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InputError(f"{file}: no calibration: {error}") from error
+    tree = load_yaml(file)
     if not isinstance(tree, dict):
         raise InputError(f"{file}: expected a calibration: image_width, camera_matrix and others")
     size = [tree.get("image_width"), tree.get("image_height")]

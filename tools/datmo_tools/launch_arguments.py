@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What roslaunch does not check in a command line: arguments that no launch file takes, and a stack that
-runs on the same master already.
+"""What roslaunch does not check in a command line: arguments that no launch file takes, values that no
+argument has, names of sensor sets without a file, and a stack that already runs on the same master.
 
-usage: check_launch [--devices lidar:=KIND camera:=KIND odometry:=KIND]
+usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC camera:=KIND odometry:=KIND]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
-included by pass_all_args takes arguments, too; includes of a launch file of somebody else's without it
+included by pass_all_args takes arguments, too; includes of other packages' launch files without it
 are checked by roslaunch itself.
 """
 
@@ -20,9 +20,11 @@ from xml.etree import ElementTree
 MANAGER = "perception"
 CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
-CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
+CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
+           "v2x_part": ("perception", "sensors", "stereo", "risk")}
 # Devices of live.launch: the kinds that there are, and what to do for others that people have.
-DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
+DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "rear_lidar": ("none", "external", "hokuyo", "sick_lms"),
+           "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
@@ -79,20 +81,49 @@ def refusal(given, known):
 
 
 def bad_choice(words):
-    """A sentence on the first argument whose value is none of its words, or None."""
+    """A sentence on the first argument whose value is not one of its choices, or None."""
     for name, value in (word.split(":=", 1) for word in words if is_argument(word)):
         if name in CHOICES and value not in CHOICES[name]:
             return f"{name}:={value}: expected one of {', '.join(CHOICES[name])}"
     return None
 
 
+def missing_configuration(words, folder):
+    """A sentence on the first of sensors, preset and config without a file, or None.
+
+    folder: the sensor sets and presets (Path). sensors counts only without config, as in
+    perception.launch.
+    """
+    given = dict(word.split(":=", 1) for word in words if is_argument(word))
+    config = given.pop("config", None)
+    if config is not None:
+        given.pop("sensors", None)
+        if not Path(config).is_file():
+            return f"config:={config}: no such file; expected the path of a yaml file"
+    sets = sorted(file.stem for file in folder.glob("*.yaml"))
+    for name in ("sensors", "preset"):
+        value = given.get(name, "")
+        if value and value not in sets:
+            near = difflib.get_close_matches(value, sets, n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            return f"{name}:={value}: no {value}.yaml in {folder}: {hint}There are {', '.join(sets)}"
+    return None
+
+
 def missing_device(words):
-    """A sentence on the first device (lidar:=KIND) of a kind that there is not, or None."""
-    for name, kind in (word.split(":=", 1) for word in words):
-        kinds = DEVICES[name]
+    """A sentence on the first device (lidar:=KIND) of an unknown kind, or that cannot work, or None."""
+    given = dict(word.split(":=", 1) for word in words)
+    for name, kinds in DEVICES.items():
+        kind = given.get(name, kinds[0])
         if kind not in kinds:
             remedy = f"; {INSTEAD[kind]} (doc/live.md)" if kind in INSTEAD else ""
             return f"{name}:={kind}: no driver of ours, expected one of {', '.join(kinds)}{remedy}"
+    rear = given.get("rear_lidar", "none")
+    if rear != "none" and given.get("cloud"):
+        return (f"rear_lidar:={rear} with clouds on {given['cloud']}: expected two planar scanners, the scan is made of "
+                "the clouds alone")
+    if rear not in ("none", "external") and not given.get("rear_lidar_address"):
+        return f"rear_lidar:={rear} without rear_lidar_address: expected where it is"
     return None
 
 
@@ -114,7 +145,10 @@ def check_words(words):
     known = set()
     for file in resolve_launch_arguments(plain):
         known |= arguments_of(file, resolve_args)
-    return refusal(given, known) or bad_choice(words)
+    error = refusal(given, known) or bad_choice(words)
+    if error or "sensors" not in known:
+        return error
+    return missing_configuration(words, Path(resolve_args("$(find datmo_fusion)/config")))
 
 
 def runs(manager, master_uri):

@@ -16,8 +16,8 @@ int main(int count, char** words) {
     std::string file;
     datmo::CommandLine line(
         "choose_pairs",
-        "Chooses, of each list of a JSON file, the pairs with the greatest sum "
-        "of gains in which no row and no column is twice; prints their indices.",
+        "For each list of a JSON file, chooses the pairs with the largest sum of gains "
+        "in which no row and no column occurs twice; prints their indices.",
         "files");
     line.addFile("LISTS.json", file, "lists of [row, column, gain], gain > 0")->required();
     line.read(given);

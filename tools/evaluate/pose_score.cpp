@@ -92,9 +92,14 @@ RelativePoseError relativeError(const PosePairs& pairs, double distance) {
   return result;
 }
 
+/// Without the pose at which run and truth are aligned, where its covariance is zero: a run's map
+/// begins there, so that it is known exactly, by definition.
 Consistency consistencyOf(const PosePairs& pairs) {
   NeesSum sum(3);
   for (const PosePair& pair : pairs) {
+    if (&pair == &pairs.front() && pair.covariance.isZero(0.0)) {
+      continue;
+    }
     const Point2 position = pair.estimated.position() - pair.truth.position();
     const Eigen::Vector3d error(position.x(), position.y(), pair.error().heading());
     sum.add(normalizedErrorSquared<3>(error, pair.covariance));

@@ -49,17 +49,17 @@ ScoreRunArguments parseScoreRunArguments(std::vector<std::string> words) {
       "score_run",
       "Scores the tracks and poses of a run against ground truth and writes a report as JSON.",
       "bags");
-  line.addFile("RUN.bag", given.run, "with tracks and poses")->required();
-  line.addFile("TRUTH.bag", given.truth, "holds /ground_truth/*; without it RUN.bag does");
-  line.addFile("--options", given.options, "what counts as found", "FILE.yaml");
+  line.addFile("RUN.bag", given.run, "the bag with tracks and poses")->required();
+  line.addFile("TRUTH.bag", given.truth, "the bag with /ground_truth/*; default: RUN.bag");
+  line.addFile("--options", given.options, "criteria of a match", "FILE.yaml");
   line.addRepeated("--set", given.assignments, "one of the options, e.g. matching/gate=1.5",
                    "KEY=VALUE");
-  line.addFile("--out", given.output, "else to standard output", "REPORT.json");
-  line.addFile("--matches", given.matches, "which track is of which object, frame by frame",
+  line.addFile("--out", given.output, "report; default: standard output", "REPORT.json");
+  line.addFile("--matches", given.matches, "which track is matched to which object, frame by frame",
                "MATCHES.json");
   line.addFile(
       "--attainable", given.scans,
-      "compares delays with the least that its scans allow, of an observer who knows which "
+      "compares delays with the minimum that its scans allow, for an observer who knows which "
       "beams end on which object",
       "DRIVE.bag");
   line.addAnswer("--list-options", optionTable<ScoreOptions>, "prints all options as a table");

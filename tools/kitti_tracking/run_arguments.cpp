@@ -12,7 +12,7 @@ namespace datmo::kitti {
 namespace {
 
 constexpr char kDescription[] =
-    "Follows the objects that a 3D detector has found in KITTI tracking sequences with the\n"
+    "Tracks the objects that a 3D detector has found in KITTI tracking sequences with the\n"
     "package's tracker, and writes RESULTS_DIR/NAME.txt in KITTI's format for each\n"
     "CALIBRATIONS_DIR/NAME.txt. The vehicle's motion is estimated from the detections.";
 
@@ -31,12 +31,12 @@ RunArguments parseRunArguments(std::vector<std::string> words) {
   std::string config;
   std::vector<std::string> assignments;
   CommandLine line("kitti_tracking_run", kDescription, "folders");
-  line.addFile("DETECTIONS_DIR", arguments.detections,
-               "has Car/NAME.txt, Pedestrian/NAME.txt and Cyclist/NAME.txt; a missing one: none")
+  line.addFile(
+          "DETECTIONS_DIR", arguments.detections,
+          "Car/NAME.txt, Pedestrian/NAME.txt and Cyclist/NAME.txt; a missing file: no detections")
       ->required();
-  line.addFile("CALIBRATIONS_DIR", arguments.calibrations, "has NAME.txt of each sequence")
-      ->required();
-  line.addFile("RESULTS_DIR", arguments.results, "made where it is missing")->required();
+  line.addFile("CALIBRATIONS_DIR", arguments.calibrations, "NAME.txt of each sequence")->required();
+  line.addFile("RESULTS_DIR", arguments.results, "created if missing")->required();
   line.addFile("--config", config, "options of each class: car.yaml, pedestrian.yaml, cyclist.yaml",
                "DIR");
   line.addRepeated("--set", assignments,

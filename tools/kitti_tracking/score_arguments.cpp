@@ -11,9 +11,9 @@ namespace datmo::kitti {
 namespace {
 
 constexpr char kDescription[] =
-    "Scores tracks in KITTI's tracking format (NAME.txt a sequence, with scores) against its\n"
+    "Scores tracks in KITTI's tracking format (NAME.txt per sequence, with scores) against its\n"
     "labels: the 3D metrics of Weng et al. 2020, averaged over 40 recalls, and CLEAR-MOT at the\n"
-    "threshold of the greatest MOTA.";
+    "threshold with the highest MOTA.";
 
 const std::vector<ObjectType> kAllClasses = {ObjectType::kCar, ObjectType::kPedestrian,
                                              ObjectType::kCyclist};
@@ -56,10 +56,11 @@ ScoreArguments parseScoreArguments(std::vector<std::string> words) {
           "--iou", [&overlaps](const std::string& text) { overlaps = parseOverlaps(text); },
           "3D overlap of a match, above 0 to 1, or all (default): 0.25, 0.5 and 0.7")
       ->option_text("OVERLAP");
-  line.addChoice("--averaging", arguments.averaging, kAveragings,
-                 "of a trajectory's scores: once (default), or repeated, with the rounding of\n"
-                 "the published evaluation",
-                 "HOW");
+  line.addChoice(
+      "--averaging", arguments.averaging, kAveragings,
+      "averaging of a trajectory's scores: once (default), or repeated, with the rounding of\n"
+      "the published evaluation",
+      "HOW");
   line.addFile("--out", arguments.output, "writes all figures, of each recall too", "REPORT.json");
   line.read(std::move(words));
   for (const ObjectType type : classes) {

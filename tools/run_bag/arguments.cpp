@@ -51,18 +51,18 @@ const Choices<FusionLevel> kFusionLevels = {{"none", FusionLevel::kNone},
                                             {"recommended", FusionLevel::kRecommended}};
 
 constexpr char kDescription[] =
-    "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and writes\n"
+    "Runs the stack on the scans and the odometry of a bag, as fast as possible, and writes\n"
     "/pose, /map, /labeled_scan, /objects, /tracks and /tf to another bag.";
 
 constexpr char kFooter[] =
-    "A topic of the bag under another name is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
-    "scan, cloud (a 3D lidar's, in place of scans), object_cloud (one for --cloud-objects beside\n"
+    "A topic with another name in the bag is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
+    "scan, cloud (of a 3D lidar, instead of scans), object_cloud (for --cloud-objects, beside\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
     "point_velocities, left_image, right_image, left_camera_info, right_camera_info, radar, gnss,\n"
     "stations, front_scan or rear_scan.\n"
-    "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
-    "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
-    "used or no tracks came out. After 1 and 2 no output bag is left.";
+    "Exit code: 0 on success; 1 for an invalid command line, yaml file or bag, a missing topic,\n"
+    "and when interrupted; 2 when all messages on a topic were rejected, no scan could be used or\n"
+    "no tracks were published. After 1 and 2 no output bag is left.";
 
 /// What is on by itself stays on.
 void switchOn(FusionLevel level, Arguments& arguments) {
@@ -79,48 +79,50 @@ std::string optionOf(std::string name) {
 }
 
 void addFiles(CommandLine& line, Arguments& arguments) {
-  line.addFile("IN.bag", arguments.input, "with scans and odometry")->required();
-  line.addFile("OUT.bag", arguments.output, "what the stages publish")->required();
+  line.addFile("IN.bag", arguments.input, "the bag with scans and odometry")->required();
+  line.addFile("OUT.bag", arguments.output, "the bag for the outputs of the stages")->required();
   line.addFile("--config", arguments.config,
                "the sensor set, e.g. config/demonstrator.yaml; required", "CONFIG.yaml")
       ->required();
   line.addRepeated("--preset", arguments.presets,
-                   "is laid over the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
-  line.addFile("--times", arguments.times, "how long each stage took for a message", "FILE.json");
+                   "overrides the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
+  line.addFile("--times", arguments.times, "processing time per message of each stage",
+               "FILE.json");
   line.addFile("--report", arguments.report,
                "what was processed, dropped and silent, when the pose was uncertain, and which\n"
                "loops were closed",
                "FILE.json");
   line.addFile("--tum", arguments.text.tum,
-               "the vehicle's poses as the TUM benchmark has them, base_link in map", "POSES.txt");
+               "the vehicle's poses in the format of the TUM benchmark, base_link in map",
+               "POSES.txt");
   line.addFile("--kitti", arguments.text.kitti,
-               "the tracks as labels of KITTI's tracking benchmark", "TRACKS.txt");
+               "the tracks as labels of the KITTI tracking benchmark", "TRACKS.txt");
   line.addFile("--mot", arguments.text.mot,
-               "the tracks as MOT Challenge has them, on the ground plane", "TRACKS.txt");
+               "the tracks in the format of the MOT Challenge, on the ground plane", "TRACKS.txt");
 }
 
 void addMaps(CommandLine& line, Arguments& arguments) {
   CLI::Option* map = line.addFile(
       "--map", arguments.map,
-      "a map to start in: one of --save-map or save_map, or a yaml file of map_server", "MAP");
+      "a map to localize in, from --save-map or save_map, or a yaml file of map_server", "MAP");
   line.add_option("--start", arguments.start,
-                  "where in --map the vehicle about starts, m and degrees; without: anywhere")
+                  "approximate start pose in --map, m and degrees; default: unknown")
       ->option_text("X Y HEADING")
       ->expected(3)
       ->needs(map);
   line.addFile("--save-map", arguments.save_map,
-               "the map at the end, and beside it .yaml and .pgm as map_server has them", "MAP");
+               "the final map, and beside it .yaml and .pgm files for map_server", "MAP");
 }
 
 void addStages(CommandLine& line, Arguments& arguments) {
   line.addChoice("--until", arguments.last_stage, kStages,
-                 "goes no further than grid_fusion, grid_slam, loop_closing, road_border,\n"
+                 "stops after grid_fusion, grid_slam, loop_closing, road_border,\n"
                  "moving_objects, object_fusion, tracker, track_fusion or risk",
                  "STAGE");
   line.addChoice(
       "--fusion", arguments.fusion, kFusionLevels,
-      "none, low, object or track: the level of fusion, as the single options below have\n"
-      "it; recommended: what measurements recommend, with the road's borders",
+      "level of fusion: none, low, object or track, as set by the single options below;\n"
+      "recommended: the level recommended by measurements, with road borders",
       "LEVEL");
   for (const NamedSwitch& each : stackSwitches()) {
     line.add_flag(optionOf(each.name), arguments.*each.value, each.help);
@@ -173,8 +175,8 @@ Arguments parseArguments(std::vector<std::string> words) {
   addStages(line, arguments);
   line.add_flag("--stereo-from-images", arguments.stereo_from_images,
                 "computes the stereo camera's points from its images, as stereo_image_proc does;\n"
-                "without it only where the bag has no points");
-  line.add_flag("--with-truth", arguments.with_truth, "copies /ground_truth/* along");
+                "default: only if the bag has no points");
+  line.add_flag("--with-truth", arguments.with_truth, "copies /ground_truth/*, too");
   line.add_flag("--quiet", arguments.quiet, "no progress bar and no table");
   line.read(std::move(words));
   switchOn(arguments.fusion, arguments);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,6 +50,11 @@ class GraphRunner {
   /// `last_stage`: the stages after it are left out; empty: none is. Throws OptionError.
   GraphRunner(const SensorSet& sensors, const GraphSwitches& switches,
               const std::string& last_stage = "");
+
+  /// What stages get from now on in place of a message; of those that some stage takes, also from
+  /// another stage. For trials of what a fault does.
+  using Change = std::function<AnyMessage(const Publication& message)>;
+  void changeInputs(Change change) { change_ = std::move(change); }
 
   void takeStaticTransforms(const tf2_msgs::TFMessage& message);
 
@@ -126,6 +132,7 @@ class GraphRunner {
   SharedOptions shared_;
   StageMonitor inputs_monitor_{"inputs"};
   TransformBuffer transforms_;
+  Change change_;  ///< empty: none
   std::vector<Node> nodes_;
   std::map<Turn, AnyMessage> waiting_;
   std::uint64_t delivered_ = 0;

@@ -161,8 +161,8 @@ nlohmann::json RunReport::dropped() const {
     list.push_back({{"stage", what.first},
                     {"reason", what.second},
                     {"count", times.size()},
-                    {"most_from_s", since(window.from)},
-                    {"most", window.count}});
+                    {"max_from_s", since(window.from)},
+                    {"max_count", window.count}});
   }
   return list;
 }

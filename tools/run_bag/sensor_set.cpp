@@ -16,9 +16,9 @@ namespace datmo {
 namespace {
 
 /// Nodes that are no stages: they run live alone.
-const std::vector<std::string> kLiveNodes = {"markers",    "lidar_markers", "stereo_markers",
-                                             "grid_views", "camera_view",   "device",
-                                             "v2x_wire",   "stack"};
+const std::vector<std::string> kLiveNodes = {
+    "markers",     "lidar_markers",      "stereo_markers", "grid_views", "camera_view", "device",
+    "rear_device", "satellite_receiver", "vehicle_bus",    "v2x_wire",   "stack"};
 
 /// All stages that there may be.
 std::vector<GraphStage> wholeGraph() { return stageGraph(allSwitches()); }
@@ -67,11 +67,7 @@ SensorSet::SensorSet(const std::string& file, const std::vector<std::string>& pr
     read(preset);
     file_ += " with " + preset;
   }
-  try {
-    shared_ = readSharedOptions([this](const std::string& section) { return values(section); });
-  } catch (const OptionError& error) {
-    throw OptionError(file_ + ": " + error.what());
-  }
+  readShared();
   for (const GraphStage& stage : wholeGraph()) {
     check(stage.name);
   }
@@ -102,7 +98,16 @@ OptionValues SensorSet::values(const std::string& section) const {
 
 void SensorSet::set(const std::string& section, const std::string& key, const OptionValue& value) {
   sections_[section][key] = value;
+  readShared();
   check(section);
+}
+
+void SensorSet::readShared() {
+  try {
+    shared_ = readSharedOptions([this](const std::string& section) { return values(section); });
+  } catch (const OptionError& error) {
+    throw OptionError(file_ + ": " + error.what());
+  }
 }
 
 void SensorSet::check(const std::string& section) const {

@@ -35,6 +35,7 @@ class SensorSet {
  private:
   /// Takes the values of a file in place of what there is.
   void read(const std::string& file);
+  void readShared();
   void check(const std::string& section) const;
 
   std::string file_;  ///< and the presets'

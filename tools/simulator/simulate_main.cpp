@@ -37,12 +37,12 @@ Arguments parse(const std::vector<std::string>& words) {
   std::string seed;
   std::vector<std::string> assignments;
   datmo::CommandLine line(
-      "simulate", "Makes a bag of the demonstrator's sensors, with ground truth, of a scene.",
+      "simulate",
+      "Simulates a scene and writes a bag with the demonstrator's sensors and ground truth.",
       "files");
   line.addFile("SCENE.yaml", arguments.scene, "roads, vehicles and options")->required();
   line.addFile("OUT.bag", arguments.bag, "the drive")->required();
-  line.add_option("--seed", seed, "of all random numbers, instead of the scene's")
-      ->option_text("N");
+  line.add_option("--seed", seed, "random seed, instead of the scene's")->option_text("N");
   line.addRepeated("--set", assignments,
                    "an option instead of the scene's, e.g. scanner/beam_spacing=1", "KEY=VALUE");
   line.add_flag("--quiet", arguments.quiet, "no progress bar");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace datmo {
 
@@ -13,6 +14,13 @@ class ByteStream {
   /// What has come, at least one byte. Throws DeviceError (`silent_device`, `lost_connection`),
   /// DeviceStopped.
   virtual std::string receive() = 0;
+};
+
+/// A device that takes commands, too.
+class CommandStream : public ByteStream {
+ public:
+  /// Throws DeviceError (`lost_connection`), DeviceStopped.
+  virtual void send(std::string_view bytes) = 0;
 };
 
 }  // namespace datmo

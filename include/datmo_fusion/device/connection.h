@@ -21,7 +21,7 @@ struct DeviceAddress {
 /// A TCP connection to a device, for the thread that serves it. But for the look-up of a name,
 /// which the system bounds, it never waits longer than the timeout at each of the name's addresses.
 /// POSIX alone.
-class Connection : public ByteStream {
+class Connection : public CommandStream {
  public:
   /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
   /// (`no_connection`), DeviceStopped.
@@ -30,9 +30,7 @@ class Connection : public ByteStream {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Throws DeviceError (`lost_connection`).
-  void send(std::string_view bytes) const;
-
+  void send(std::string_view bytes) override;
   std::string receive() override;
 
  private:

@@ -6,6 +6,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/device/can_motion.h"
 #include "datmo_fusion/device/device_runner.h"
+#include "datmo_fusion/device/hokuyo_scanner.h"
 #include "datmo_fusion/device/nmea_receiver.h"
 #include "datmo_fusion/device/velodyne_lidar.h"
 
@@ -22,6 +23,7 @@ struct DeviceSetup {
   double timeout = 1.0;   ///< s
   std::string recording;  ///< of a lidar's packets, a bus's frames; empty: there is none
   DeviceRunnerOptions runner;
+  HokuyoOptions hokuyo;
   VelodyneOptions velodyne;
   NmeaOptions nmea;
   CanOptions can;

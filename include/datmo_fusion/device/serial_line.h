@@ -3,20 +3,22 @@
 
 #include <atomic>
 #include <string>
+#include <string_view>
 
 #include "datmo_fusion/device/byte_stream.h"
 
 namespace datmo {
 
 struct SerialSettings {
-  std::string file;      ///< "/dev/ttyUSB0"
-  int baud = 9600;       ///< bits per second, one that the system has a name for
-  double timeout = 1.0;  ///< s
+  std::string file;       ///< "/dev/ttyUSB0"
+  int baud = 9600;        ///< bits per second, one that the system has a name for
+  double timeout = 1.0;   ///< s
+  bool commands = false;  ///< whether anything is sent to it
 };
 
 /// A serial port (8 data bits, no parity, 1 stop bit), for the thread that serves it; also a pipe,
-/// which has no such settings. POSIX alone.
-class SerialLine : public ByteStream {
+/// which has no such settings, and a scanner on USB, which needs none. POSIX alone.
+class SerialLine : public CommandStream {
  public:
   /// `stop`: true ends all waiting; must outlive the line. Throws DeviceError (`no_connection`).
   SerialLine(SerialSettings settings, const std::atomic<bool>& stop);
@@ -24,6 +26,7 @@ class SerialLine : public ByteStream {
   SerialLine(const SerialLine&) = delete;
   SerialLine& operator=(const SerialLine&) = delete;
 
+  void send(std::string_view bytes) override;
   std::string receive() override;
 
  private:

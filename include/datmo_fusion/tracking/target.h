@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,13 @@ namespace datmo {
 
 struct Observation;
 
+/// What the classes are made from that come with the objects of one sensor.
+struct SensorClassOptions {
+  bool class_by_size = true;
+
+  void visit(OptionVisitor& visitor);
+};
+
 struct TargetOptions {
   ImmOptions filter;
   TrackedBoxOptions box;
@@ -34,8 +42,16 @@ struct TargetOptions {
   MotionByClassOptions motion_by_class;
   double birth_speed_std = 8.0;  ///< m/s
   double stop_speed = 0.4;       ///< m/s
+  /// By Object::sensors. The scanner's objects have classes by what an image shows
+  /// (MonoClassifier).
+  std::map<std::string, SensorClassOptions> sensors = {
+      {"lidar", {false}}, {"mono", {false}}, {"radar", {false}}};
 
   void visit(OptionVisitor& visitor);
+
+  /// Whether the class of an object has its size in it already: one of its sensors tells classes by
+  /// it, or is not known.
+  bool hasClassBySize(const Object& object) const;
 };
 
 /// That two objects of which nothing is known are of the same class.
@@ -121,6 +137,7 @@ class Target {
   Track track(const TargetOptions& options) const;
 
  private:
+  void takeClass(const Object& object, const TargetOptions& options);
   void takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
   void judgeMotion(const TargetOptions& options);
   double falseMotion(const TargetOptions& options) const;
@@ -143,7 +160,8 @@ class Target {
   double standing_velocity_ratio_ = 1.0;
   double height_;
   double motion_log_odds_;
-  SeenPointHistory seen_points_;                             ///< until it is confirmed
+  ClassBelief class_by_size_;     ///< of `class_`, by the reports that have a size in them
+  SeenPointHistory seen_points_;  ///< until it is confirmed
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };
 

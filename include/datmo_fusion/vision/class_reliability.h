@@ -36,8 +36,11 @@ class ClassReliability {
   /// 0 to 1; not finite scores are worth as much as the lowest.
   double right(double score) const;
 
+  /// Whether a report of some score is right more often than by chance (one in kObjectClasses).
+  bool tellsAnything() const;
+
   /// Of all classes, given equal ones before; all equal for a class that no detector reports
-  /// (unknown, pole).
+  /// (unknown, pole), and for a score at which it is right no more often than by chance.
   ClassProbabilities probabilities(ObjectClass reported, double score) const;
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -39,19 +40,24 @@ struct ImageRange {
 };
 
 /// Range by size (the height of its class over the rectangle's) and by the ground plane (where the
-/// line of sight of the rectangle's lower edge meets the road), fused by their variances. Where
-/// they contradict each other the variance is raised by as much (Birge ratio). An edge at the
-/// image's border says nothing: without the upper one there is no range by size, without the lower
-/// one none at all by either.
+/// line of sight of the rectangle's lower edge meets the road), fused by their covariance: both err
+/// by that edge. Where they contradict each other the variance is raised by as much (Birge ratio).
+/// An edge at the image's border says nothing: without the upper one there is no range by size,
+/// without the lower one none at all by either.
 ///
 /// None where neither says anything, or the range is beyond `max_range`.
 std::optional<ImageRange> rangeOf(const MountedCamera& camera, const ImageDetection& detection,
                                   const ImageRangeOptions& options);
 
-/// What a detector sees where no other sensor has anything: an object of its class's mean size by
-/// bearing and range, as sure as it is. Base frame; heading not known. Of no sensor and of no class
-/// probability yet. None where there is no range (rangeOf).
+/// What a detector sees where no other sensor has anything: an object by bearing and range, as sure
+/// as it is, in the base frame. Its box stands across the line of sight, for its heading is not
+/// known: its rear is the near side, left and right are those of the rectangle, and the far side is
+/// hidden. A side is hidden, too, where the image or something nearer of what is `seen` cuts it off
+/// (its rectangle reaches farther down). Of no sensor and of no class probability yet.
+///
+/// None where there is no range (rangeOf), or its foot is behind something nearer.
 std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection& detection,
-                               const ImageRangeOptions& options);
+                               const ImageRangeOptions& options,
+                               const std::vector<ImageDetection>& seen = {});
 
 }  // namespace datmo

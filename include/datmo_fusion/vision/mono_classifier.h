@@ -81,6 +81,10 @@ class MonoClassifier {
   MonoClassification classify(const cv::Mat& image, const MountedCamera& camera,
                               const ObjectList& objects);
 
+  /// false: what the detector reports is right no more often than by chance, by its reliability;
+  /// then it does not look, and nothing is found.
+  bool tellsAnything() const;
+
  private:
   struct InView;
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
 
 namespace datmo {
 
@@ -15,7 +16,7 @@ using PixelColors = std::vector<PixelColor>;
 
 struct RoadColorOptions {
   int components = 4;
-  double learning_share = 0.2;  ///< 1
+  double learning_time = 0.45;  ///< s
   double min_new_share = 0.1;   ///< 1
   double min_sigma = 3.0;       ///< gray levels
 
@@ -26,18 +27,18 @@ struct RoadColorOptions {
 ///
 /// The thesis has one Gaussian, learned once from pixels that were segmented by hand (4.1.4, eq.
 /// 4.1.4 to 4.1.6): `components: 1`. A road in sun and shade has several colors, and they change:
-/// here each image's samples shift the components by their share (on-line EM; Cappe & Moulines,
-/// On-line expectation-maximization algorithm for latent data models, 2009), and a color that none
-/// of them has takes the place of the rarest one (Stauffer & Grimson, Adaptive background mixture
-/// models for real-time tracking, 1999).
+/// here each image's samples shift the components by the time that has passed (on-line EM; Cappe &
+/// Moulines, On-line expectation-maximization algorithm for latent data models, 2009), and a color
+/// that none of them has takes the place of the rarest one (Stauffer & Grimson, Adaptive background
+/// mixture models for real-time tracking, 1999).
 class RoadColor {
  public:
   /// Throws OptionError.
   explicit RoadColor(const Checked<RoadColorOptions>& options) : options_(*options) {}
 
-  /// One image's pixels of the road, all of one number of channels; another number than before
-  /// starts over, too few change nothing. Same input, same output.
-  void learn(const PixelColors& samples);
+  /// The pixels of the road of an image that was exposed at `stamp`, all of one number of channels;
+  /// another number than before starts over, too few change nothing. Same input, same output.
+  void learn(const PixelColors& samples, Stamp stamp);
 
   /// Whether it has learned anything of images with so many channels.
   bool isKnown(Eigen::Index channels) const {
@@ -91,6 +92,7 @@ class RoadColor {
 
   RoadColorOptions options_;
   std::vector<Gaussian> gaussians_;
+  Stamp learned_;  ///< when they learned last
 };
 
 }  // namespace datmo

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/earth/earth_frame_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/perpendicular.h"
+#include "datmo_fusion/fusion/earth/consistent_pairs.h"
 
 namespace datmo {
 
@@ -49,6 +51,12 @@ void EarthFrameOptions::visit(OptionVisitor& visitor) {
                   "root mean square distance of the first fixes from their mean, below which poses "
                   "that tremble could pass for a drive"},
                  start_spread, {0.01, 1000.0});
+  visitor.integer({"start_fixes", "",
+                   "so many first fixes that fit together at least: with fewer one that is far off "
+                   "bends the rest to itself"},
+                  start_fixes, {3.0, 400.0});
+  visitor.number({"start_share", "1", "share of the first fixes that fit together at least"},
+                 start_share, {0.5, 1.0});
   visitor.number(
       {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
       {0.1, 3600.0});
@@ -61,14 +69,26 @@ void EarthFrameFilter::reset() {
 }
 
 std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane() const {
+  return mapInPlane(last_.base_in_map.pose);
+}
+
+std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base_in_map) const {
   if (!has_started_) {
     return std::nullopt;
   }
-  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)),
-                            covariance_.topLeftCorner<3, 3>()};
+  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)), driftedTo(base_in_map)};
 }
 
 void EarthFrameFilter::add(const EarthFix& fix) {
+  take(fix);
+  // Of a pose and a fix whose numbers are far apart no digit may be left.
+  if (has_started_ && !(state_.allFinite() && covariance_.allFinite())) {
+    ++counts_.restarts;
+    reset();
+  }
+}
+
+void EarthFrameFilter::take(const EarthFix& fix) {
   if (!has_started_) {
     first_fixes_.push_back(fix);
     ++counts_.used;
@@ -96,54 +116,114 @@ void EarthFrameFilter::add(const EarthFix& fix) {
   }
 }
 
-/// Least squares over all first fixes; the error that they share moves them all together.
-void EarthFrameFilter::start() {
-  double weights = 0.0;
-  Point2 mean_in_plane = Point2::Zero();
-  Point2 mean_in_map = Point2::Zero();
-  for (const EarthFix& fix : first_fixes_) {
-    const double weight = 1.0 / (0.5 * fix.covariance.trace());
-    weights += weight;
-    mean_in_plane += weight * fix.in_plane;
-    mean_in_map += weight * antennaInMap(fix);
+/// Share of a fix's variance that the fixes had in common at first and have no more.
+double EarthFrameFilter::changedShare(const std::vector<EarthFix>& fixes) const {
+  const double seconds = secondsBetween(fixes.front().stamp, fixes.back().stamp);
+  return options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
+}
+
+/// How far the map drifted from the mean of the fixes to the first and to the last one, along one
+/// axis, m^2: a third of what a random walk is from end to end. `lever`: m^2, of what turns.
+double EarthFrameFilter::driftAmong(const std::vector<EarthFix>& fixes, double lever) const {
+  double distance = 0.0;
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    distance += (antennaInMap(fixes[i]) - antennaInMap(fixes[i - 1])).norm();
   }
-  mean_in_plane /= weights;
-  mean_in_map /= weights;
+  return distance *
+         (options_.map_drift * options_.map_drift + options_.map_turn * options_.map_turn * lever) /
+         3.0;
+}
+
+std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
+    const std::vector<EarthFix>& fixes) const {
+  if (fixes.size() < static_cast<std::size_t>(options_.start_fixes)) {
+    return std::nullopt;
+  }
+  Start start;
+  for (const EarthFix& fix : fixes) {
+    const double weight = 1.0 / (0.5 * fix.covariance.trace());
+    start.weights += weight;
+    start.mean_in_plane += weight * fix.in_plane;
+    start.mean_in_map += weight * antennaInMap(fix);
+  }
+  start.mean_in_plane /= start.weights;
+  start.mean_in_map /= start.weights;
   double along = 0.0;
   double across = 0.0;
   double spread = 0.0;  // m^2 weighted
-  for (const EarthFix& fix : first_fixes_) {
+  for (const EarthFix& fix : fixes) {
     const double weight = 1.0 / (0.5 * fix.covariance.trace());
-    const Point2 a = antennaInMap(fix) - mean_in_map;
-    const Point2 b = fix.in_plane - mean_in_plane;
+    const Point2 a = antennaInMap(fix) - start.mean_in_map;
+    const Point2 b = fix.in_plane - start.mean_in_plane;
     along += weight * a.dot(b);
     across += weight * (a.x() * b.y() - a.y() * b.x());
     spread += weight * a.squaredNorm();
   }
   // Within the correlation time the shared error turns nothing; what of it changes meanwhile is as
-  // the rest of a fix, and counts but once for all fixes.
-  const double seconds = secondsBetween(first_fixes_.front().stamp, first_fixes_.back().stamp);
-  const double changed =
-      options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
-  const auto count = static_cast<double>(first_fixes_.size());
-  const double inflation = (1.0 - options_.correlated_share) + changed * count;
-  if (spread < options_.start_spread * options_.start_spread * weights ||
-      std::sqrt(inflation / spread) > options_.start_heading_sigma) {
+  // the rest of a fix, and counts but once for all fixes. So does what the map drifts.
+  start.count = static_cast<double>(fixes.size());
+  start.drift = driftAmong(fixes, spread / start.weights);
+  const double inflation = (1.0 - options_.correlated_share) + changedShare(fixes) * start.count +
+                           start.drift * start.weights;
+  start.heading = std::atan2(across, along);
+  start.heading_variance = inflation / spread;
+  if (spread < options_.start_spread * options_.start_spread * start.weights ||
+      std::sqrt(start.heading_variance) > options_.start_heading_sigma) {
+    return std::nullopt;
+  }
+  return start;
+}
+
+/// Least squares over the first fixes that fit together; the error that they share moves them all.
+void EarthFrameFilter::start() {
+  const auto first = startOf(first_fixes_);
+  if (!first) {
     return;
   }
-  const double heading = std::atan2(across, along);
-  const double heading_variance = inflation / spread;
-  const Pose2 turned_map(0.0, 0.0, heading);
-  const double mean_variance = count / weights;  // m^2, of one fix along one axis
+  // Against each other, without what they share.
+  const double share = 1.0 - options_.correlated_share + changedShare(first_fixes_);
+  std::vector<PointPair> pairs;
+  for (const EarthFix& fix : first_fixes_) {
+    const double fix_variance = 0.5 * fix.covariance.trace();
+    const double antenna_variance = 0.5 * antennaCovariance(fix).trace();
+    pairs.push_back(
+        {antennaInMap(fix), fix.in_plane, share * fix_variance + antenna_variance + first->drift});
+  }
+  const ConsistentPairs consistent = consistentPairs(pairs, options_.gate);
+  std::vector<EarthFix> fixes;
+  for (std::size_t i = 0; i < first_fixes_.size(); ++i) {
+    if (consistent.fits[i]) {
+      fixes.push_back(first_fixes_[i]);
+    }
+  }
+  const auto found = startOf(fixes);
+  if (!found || static_cast<double>(fixes.size()) <
+                    options_.start_share * static_cast<double>(first_fixes_.size())) {
+    return;
+  }
+  const std::size_t left_out = first_fixes_.size() - fixes.size();
+  counts_.used -= left_out;
+  counts_.gated += left_out;
+  last_ = first_fixes_.back();
+  first_fixes_.clear();
+  begin(*found, std::max(1.0, consistent.variance_factor));
+}
+
+/// `factor`: by which their residuals' variance is larger than expected.
+void EarthFrameFilter::begin(const Start& start, double factor) {
+  const Pose2 turned_map(0.0, 0.0, start.heading);
+  const double heading_variance = factor * start.heading_variance;
+  const double mean_variance = start.count / start.weights;  // m^2, of one fix along one axis
   const double shared = options_.correlated_share * mean_variance;
-  const Point2 arm = perpendicular(turned_map.rotate(mean_in_map));
+  const Point2 arm = perpendicular(turned_map.rotate(start.mean_in_map));
   state_.setZero();
-  state_.head<2>() = mean_in_plane - turned_map.rotate(mean_in_map);
-  state_(2) = heading;
+  state_.head<2>() = start.mean_in_plane - turned_map.rotate(start.mean_in_map);
+  state_(2) = start.heading;
   covariance_.setZero();
   covariance_.topLeftCorner<2, 2>() =
       Eigen::Matrix2d::Identity() *
-      ((1.0 - options_.correlated_share) * mean_variance / count + shared);
+      (factor * (1.0 - options_.correlated_share) * mean_variance / start.count + start.drift +
+       shared);
   // The mean of the antenna in the map is where the heading has no lever.
   covariance_.topLeftCorner<2, 2>() += arm * arm.transpose() * heading_variance;
   covariance_.block<2, 1>(0, 2) = -arm * heading_variance;
@@ -153,15 +233,24 @@ void EarthFrameFilter::start() {
   covariance_.bottomRightCorner<2, 2>() = shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(0, 3) = -shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(3, 0) = -shared * Eigen::Matrix2d::Identity();
-  last_ = first_fixes_.back();
-  first_fixes_.clear();
   has_started_ = true;
+}
+
+/// The covariance of the map's pose after what it has drifted since the last fix.
+Eigen::Matrix3d EarthFrameFilter::driftedTo(const Pose2& base_in_map) const {
+  const double distance = (base_in_map.position() - last_.base_in_map.pose.position()).norm();
+  const Pose2 map(state_(0), state_(1), state_(2));
+  Eigen::Vector3d turn;  // about the vehicle
+  turn << -perpendicular(map.rotate(base_in_map.position())), 1.0;
+  Eigen::Matrix3d covariance = covariance_.topLeftCorner<3, 3>();
+  covariance += distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
+  covariance.topLeftCorner<2, 2>() +=
+      distance * options_.map_drift * options_.map_drift * Eigen::Matrix2d::Identity();
+  return covariance;
 }
 
 void EarthFrameFilter::predict(const EarthFix& fix) {
   const double seconds = secondsBetween(last_.stamp, fix.stamp);
-  const double distance =
-      (fix.base_in_map.pose.position() - last_.base_in_map.pose.position()).norm();
   const double kept = std::exp(-seconds / options_.correlation_time);
   const double shared = options_.correlated_share * 0.5 * fix.covariance.trace();
   Covariance transition = Covariance::Identity();
@@ -170,13 +259,7 @@ void EarthFrameFilter::predict(const EarthFix& fix) {
   covariance_ = transition * covariance_ * transition.transpose();
   covariance_.bottomRightCorner<2, 2>() +=
       shared * (1.0 - kept * kept) * Eigen::Matrix2d::Identity();
-  const Pose2 map(state_(0), state_(1), state_(2));
-  Eigen::Vector3d turn;  // about the vehicle
-  turn << -perpendicular(map.rotate(fix.base_in_map.pose.position())), 1.0;
-  covariance_.topLeftCorner<3, 3>() +=
-      distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
-  covariance_.topLeftCorner<2, 2>() +=
-      distance * options_.map_drift * options_.map_drift * Eigen::Matrix2d::Identity();
+  covariance_.topLeftCorner<3, 3>() = driftedTo(fix.base_in_map.pose);
   last_ = fix;
 }
 

@@ -9,7 +9,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -20,15 +19,6 @@ namespace {
 bool isCovariance(const Eigen::Matrix4d& covariance) {
   return covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
          Eigen::LLT<Eigen::Matrix4d>(covariance).info() == Eigen::Success;
-}
-
-/// Position and velocity of a vector of the plane in the map, or of one of the map in the plane, by
-/// the rotation there.
-Eigen::Matrix4d rotationOfBoth(const Eigen::Matrix2d& rotation) {
-  Eigen::Matrix4d both = Eigen::Matrix4d::Zero();
-  both.topLeftCorner<2, 2>() = rotation;
-  both.bottomRightCorner<2, 2>() = rotation;
-  return both;
 }
 
 double squaredDistance(const Point2& difference, const Eigen::Matrix2d& covariance) {
@@ -107,7 +97,28 @@ bool StationTracks::isNew(const StationTrackList& list) const {
   return known == lists_.end() || known->second.stamp < list.stamp;
 }
 
-bool StationTracks::isCredible(const StationTrackList& list, const StationTrack& track) {
+StationTracks::Before StationTracks::before(const StationTrackList& list) const {
+  const auto begin = claims_.lower_bound({list.station, 0});
+  const auto end = std::find_if(begin, claims_.end(), [&list](const auto& claim) {
+    return claim.first.first != list.station;
+  });
+  const auto once =
+      std::count_if(begin, end, [](const auto& claim) { return claim.second.messages == 1; });
+  Before before;
+  before.renames = once >= options_.probation && 2 * once > std::distance(begin, end);
+  const auto last_list = lists_.find({list.station, list.part});
+  if (before.renames && last_list != lists_.end()) {
+    for (auto claim = begin; claim != end; ++claim) {
+      if (claim->second.stamp == last_list->second.stamp) {
+        before.last.push_back(claim->second);
+      }
+    }
+  }
+  return before;
+}
+
+bool StationTracks::isCredible(const StationTrackList& list, const StationTrack& track,
+                               const Before& before) {
   const bool is_valid =
       track.position.allFinite() && track.velocity.allFinite() && isCovariance(track.covariance);
   counts_.invalid += is_valid ? 0 : 1;
@@ -118,14 +129,23 @@ bool StationTracks::isCredible(const StationTrackList& list, const StationTrack&
   Claim& claim = entry->second;
   if (is_first) {
     claim.id = next_id_++;
+    claim.is_sudden = before.renames &&
+                      std::none_of(before.last.begin(), before.last.end(), [&](const Claim& last) {
+                        return last.to_prove == 0 && follows(last, list.stamp, track);
+                      });
+    claim.to_prove = claim.is_sudden ? 1 : 0;
   } else if (!follows(claim, list.stamp, track)) {
     claim.to_prove = options_.probation;
+    claim.is_sudden = false;
   } else {
     claim.to_prove = std::max(0, claim.to_prove - 1);
   }
+  ++claim.messages;
   claim.stamp = list.stamp;
   claim.track = track;
-  counts_.jumped += claim.to_prove > 0 ? 1 : 0;
+  if (claim.to_prove > 0) {
+    ++(claim.is_sudden ? counts_.sudden : counts_.jumped);
+  }
   const bool is_fast = track.velocity.norm() > options_.max_speed;
   counts_.fast += is_fast ? 1 : 0;
   return claim.to_prove == 0 && !is_fast;
@@ -155,59 +175,19 @@ void StationTracks::forgetOld(Stamp now) {
   }
 }
 
-Track StationTracks::inMap(const StationTrackList& list, const StationTrack& theirs,
-                           const PoseWithCovariance& map_in_plane) const {
-  const Pose2 plane_in_map = map_in_plane.pose.inverse();
-  const Eigen::Matrix2d to_map = plane_in_map.rotation();
-  const double clock = list.clock_sigma > 0.0 ? list.clock_sigma : options_.clock_sigma;
-  const Point2 position = plane_in_map * theirs.position;
-  const Point2 velocity = to_map * theirs.velocity;
-  Eigen::Matrix<double, 4, 3> by_frame;           // of the map's x, y and heading in the plane
-  by_frame << -to_map, -perpendicular(position),  //
-      Eigen::Matrix2d::Zero(), -perpendicular(velocity);
-  Eigen::Vector4d by_clock;
-  by_clock << velocity, Point2::Zero();
-  Eigen::Matrix4d covariance =
-      rotationOfBoth(to_map) * theirs.covariance * rotationOfBoth(to_map).transpose() +
-      by_frame * map_in_plane.covariance * by_frame.transpose() +
-      square(clock) * by_clock * by_clock.transpose();
-  const double min_position_variance = square(options_.min_position_sigma);
-  const double min_velocity_variance = square(options_.min_velocity_sigma);
-  for (int axis = 0; axis < 2; ++axis) {
-    covariance(axis, axis) += std::max(0.0, min_position_variance - covariance(axis, axis));
-    covariance(2 + axis, 2 + axis) +=
-        std::max(0.0, min_velocity_variance - covariance(2 + axis, 2 + axis));
-  }
-  Track track;
-  track.id = claims_.at({list.station, theirs.id}).id;
-  track.state << position, velocity, Point2::Zero();
-  track.covariance.setZero();
-  track.covariance.topLeftCorner<4, 4>() = 0.5 * (covariance + covariance.transpose());
-  track.covariance.bottomRightCorner<2, 2>() =
-      square(options_.acceleration_sigma) * Eigen::Matrix2d::Identity();
-  track.box = {Pose2(position, theirs.heading + plane_in_map.heading()), theirs.length,
-               theirs.width};
-  track.height = theirs.height;
-  track.heading_variance = theirs.heading_variance + map_in_plane.covariance(2, 2);
-  track.moving = theirs.moving;
-  track.class_probabilities = theirs.class_probabilities;
-  track.existence_probability = theirs.existence_probability;
-  track.sensors = {"station " + std::to_string(list.station)};
-  return track;
-}
-
 TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovariance& map_in_plane,
                                const std::optional<OwnVehicle>& own) {
   forgetOld(list.stamp);
   TrackList result;
   result.stamp = list.stamp;
+  const Before before = this->before(list);
   for (std::size_t i = 0; i < list.tracks.size(); ++i) {
     if (i >= static_cast<std::size_t>(options_.max_tracks)) {
       counts_.many += list.tracks.size() - i;
       break;
     }
     const StationTrack& theirs = list.tracks[i];
-    if (!isCredible(list, theirs)) {
+    if (!isCredible(list, theirs, before)) {
       continue;
     }
     const Track track = inMap(list, theirs, map_in_plane);
@@ -267,32 +247,6 @@ TrackList StationTracks::merged(Stamp stamp) {
   std::sort(result.tracks.begin(), result.tracks.end(),
             [](const Track& a, const Track& b) { return a.id < b.id; });
   return result;
-}
-
-StationTrack toStation(const Track& track, const PoseWithCovariance& map_in_plane) {
-  const Eigen::Matrix2d to_plane = map_in_plane.pose.rotation();
-  StationTrack ours;
-  ours.id = track.id;
-  ours.position = map_in_plane.pose * track.box.center.position();
-  ours.velocity = to_plane * track.state.segment<2>(2);
-  Eigen::Matrix<double, 4, 3> by_frame;
-  by_frame << Eigen::Matrix2d::Identity(),
-      perpendicular(to_plane * track.box.center.position()),  //
-      Eigen::Matrix2d::Zero(), perpendicular(ours.velocity);
-  const Eigen::Matrix4d covariance = rotationOfBoth(to_plane) *
-                                         track.covariance.topLeftCorner<4, 4>() *
-                                         rotationOfBoth(to_plane).transpose() +
-                                     by_frame * map_in_plane.covariance * by_frame.transpose();
-  ours.covariance = 0.5 * (covariance + covariance.transpose());
-  ours.heading = normalizeAngle(track.box.center.heading() + map_in_plane.pose.heading());
-  ours.heading_variance = track.heading_variance + map_in_plane.covariance(2, 2);
-  ours.length = track.box.length;
-  ours.width = track.box.width;
-  ours.height = track.height;
-  ours.moving = track.moving;
-  ours.class_probabilities = track.class_probabilities;
-  ours.existence_probability = track.existence_probability;
-  return ours;
 }
 
 }  // namespace datmo

@@ -176,27 +176,6 @@ double combineGeometry(const Object& a, const Object& b, Object& result) {
   return sides.weight_of_b;
 }
 
-/// Class and probability: of one that says nothing the other's, else Bayes.
-void combineClass(const Object& a, const Object& b, Object& result) {
-  if (a.object_class == ObjectClass::kUnknown || b.object_class == ObjectClass::kUnknown) {
-    const Object& known = a.object_class == ObjectClass::kUnknown ? b : a;
-    result.object_class = known.object_class;
-    result.class_probability = known.class_probability;
-    return;
-  }
-  // The surer one last, whichever it is: the belief doubts what was said before.
-  const auto order = [](const Object& object) {
-    return std::make_tuple(object.class_probability, object.object_class);
-  };
-  ClassBelief belief;
-  const bool a_first = order(a) <= order(b);
-  for (const Object* object : {a_first ? &a : &b, a_first ? &b : &a}) {
-    belief.update(object->object_class, object->class_probability);
-  }
-  result.object_class = belief.mostLikely();
-  result.class_probability = belief.probability(result.object_class);
-}
-
 DynamicState combinedState(DynamicState a, DynamicState b) {
   for (const DynamicState state : {DynamicState::kMoving, DynamicState::kStatic}) {
     if (a == state || b == state) {
@@ -232,6 +211,26 @@ const std::vector<Point2>& surestPoints(const Object& a, const Object& b) {
 double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
 
 }  // namespace
+
+void combineClass(const Object& a, const Object& b, Object& result) {
+  if (a.object_class == ObjectClass::kUnknown || b.object_class == ObjectClass::kUnknown) {
+    const Object& known = a.object_class == ObjectClass::kUnknown ? b : a;
+    result.object_class = known.object_class;
+    result.class_probability = known.class_probability;
+    return;
+  }
+  // The surer one last, whichever it is: the belief doubts what was said before.
+  const auto order = [](const Object& object) {
+    return std::make_tuple(object.class_probability, object.object_class);
+  };
+  ClassBelief belief;
+  const bool a_first = order(a) <= order(b);
+  for (const Object* object : {a_first ? &a : &b, a_first ? &b : &a}) {
+    belief.update(object->object_class, object->class_probability);
+  }
+  result.object_class = belief.mostLikely();
+  result.class_probability = belief.probability(result.object_class);
+}
 
 Object combined(const Object& a, const Object& b) {
   Object result;

@@ -27,6 +27,16 @@ constexpr double kMaxLogOdds = 20.0;
 /// Of a class to be taken for known.
 constexpr double kKnownClass = 0.5;
 
+/// Whether it is the class of another source's object and no sighting of its own: it saw no side,
+/// and its source is none of its sensors (MonoClassifier). One detection may name several pieces of
+/// a vehicle, which exist no more surely for it, nor does any of them move.
+bool isName(const Object& object, const std::string& source) {
+  const auto& sides = object.side_variance;
+  return std::none_of(sides.begin(), sides.end(),
+                      [](double side) { return std::isfinite(side); }) &&
+         std::find(object.sensors.begin(), object.sensors.end(), source) == object.sensors.end();
+}
+
 /// An object of the result, and which sources see it.
 struct FusedObject {
   Object object;
@@ -167,16 +177,24 @@ class ObjectFuser::Fusion {
     const ObjectSourceOptions& own = optionsOf(source);
     const double seen_too = std::log(own.detection_probability / own.false_agreement_probability);
     for (std::size_t i = 0; i < matches.size(); ++i) {
+      const Object& object = intake.list.objects[i];
+      const bool is_name = isName(object, sources_[source].source);
       if (matches[i] == kUnassigned) {
-        objects_.push_back(
-            {intake.list.objects[i], std::vector<bool>(sources_.size(), false), 0, {}});
-        note(source, i, objects_.back());
+        if (!is_name) {  // else the object that it was given to is gone
+          objects_.push_back({object, std::vector<bool>(sources_.size(), false), 0, {}});
+          note(source, i, objects_.back());
+        }
         continue;
       }
       FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
       const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
       result_.counts.fused += first_pair ? 1 : 0;
-      fused.object = combined(fused.object, intake.list.objects[i]);
+      if (is_name) {
+        fused.seen_by[source] = true;
+        combineClass(fused.object, object, fused.object);
+        continue;
+      }
+      fused.object = combined(fused.object, object);
       fused.object.log_odds += std::max(0.0, seen_too);
       note(source, i, fused);
     }

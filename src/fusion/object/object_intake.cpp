@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -22,21 +21,26 @@ auto position(const Object& object) {
 }
 
 /// The objects that are valid, the nearest ones if there are too many, in an order of their own.
-std::vector<Object> accepted(const ObjectList& list, std::size_t max, ObjectFusionCounts& counts) {
-  std::vector<Object> objects;
-  std::copy_if(list.objects.begin(), list.objects.end(), std::back_inserter(objects), isValid);
+std::vector<const Object*> accepted(const ObjectList& list, std::size_t max,
+                                    ObjectFusionCounts& counts) {
+  std::vector<const Object*> objects;
+  for (const Object& object : list.objects) {
+    if (isValid(object)) {
+      objects.push_back(&object);
+    }
+  }
   counts.rejected += list.objects.size() - objects.size();
   if (objects.size() > max) {
-    std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-      const double to_a = a.box.center.position().norm();
-      const double to_b = b.box.center.position().norm();
-      return to_a < to_b || (to_a == to_b && position(a) < position(b));
+    std::sort(objects.begin(), objects.end(), [](const Object* a, const Object* b) {
+      const double to_a = a->box.center.position().norm();
+      const double to_b = b->box.center.position().norm();
+      return to_a < to_b || (to_a == to_b && position(*a) < position(*b));
     });
     counts.refused += objects.size() - max;
     objects.resize(max);
   }
   std::sort(objects.begin(), objects.end(),
-            [](const Object& a, const Object& b) { return position(a) < position(b); });
+            [](const Object* a, const Object* b) { return position(*a) < position(*b); });
   return objects;
 }
 
@@ -64,12 +68,13 @@ ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupp
   const double later = secondsBetween(reference, source.list.stamp);
   const Point2 sensor = sensorOf(source.list);
   ObjectIntake intake;
-  for (Object& listed :
+  for (const Object* listed :
        accepted(source.list, static_cast<std::size_t>(options.max_objects), counts)) {
+    Object own = *listed;
     if (!covariance.empty()) {
-      listed.position_covariance = covariance.at(listed.box.center.position(), sensor);
+      own.position_covariance = covariance.at(own.box.center.position(), sensor);
     }
-    Object object = transformed(source.base_in_reference, listed);
+    Object object = transformed(source.base_in_reference, own);
     object.delay += later;
     intake.scan_evidence.push_back(has_scan_evidence ? evidenceOf(object, *scan_support, options)
                                                      : PositionEvidence());

@@ -10,6 +10,14 @@
 
 namespace datmo {
 
+namespace {
+
+/// px, m, rad and s, of a term and of its standard deviation: a camera of which less is known is
+/// not mounted.
+constexpr double kMaxOffset = 1e3;
+
+}  // namespace
+
 StereoAlignmentMessagePtr toMessage(const StereoAlignment& alignment, const std::string& frame) {
   auto message = boost::make_shared<StereoAlignmentMessage>();
   message->header.stamp = toTime(alignment.stamp);
@@ -40,11 +48,13 @@ StereoAlignment fromMessage(const StereoAlignmentMessage& message) {
       message.heading_variance, message.time_variance;
   alignment.agreement = message.agreement;
   alignment.usable = message.usable != 0;
-  if (!alignment.mean.allFinite() || !variances.allFinite() || !(variances.minCoeff() >= 0.0)) {
+  // NaN compares false with everything.
+  if (!(alignment.mean.array().abs() <= kMaxOffset).all() || !(variances.array() >= 0.0).all() ||
+      !(variances.array() <= kMaxOffset * kMaxOffset).all()) {
     throw InputError(
         "bad_alignment",
-        "alignment of the stereo camera with numbers that are not finite, or variances "
-        "below 0: expected offsets and variances of all terms");
+        "alignment of the stereo camera with numbers that are not finite or beyond reason, or "
+        "variances below 0: expected offsets and variances of all terms");
   }
   alignment.covariance = variances.asDiagonal();
   alignment.surfaces = message.surfaces;

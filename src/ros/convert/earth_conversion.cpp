@@ -71,6 +71,10 @@ StationTrack fromMessage(const datmo_fusion::StationTrack& message, const LocalP
   return track;
 }
 
+/// m^2; no receiver is surer, and none on the earth less sure: its covariance is not filled.
+constexpr double kMinFixVariance = 1e-8;
+constexpr double kMaxFixVariance = 1e14;
+
 /// Our own track has this number.
 constexpr std::uint32_t kOwnId = 0;
 
@@ -127,7 +131,9 @@ Eigen::Matrix2d covarianceOf(const sensor_msgs::NavSatFix& message, double sigma
   covariance << values[0], values[1], values[kRow], values[kRow + 1];
   const bool is_known =
       message.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN &&
-      covariance.allFinite() && Eigen::LLT<Eigen::Matrix2d>(covariance).info() == Eigen::Success;
+      covariance.allFinite() && Eigen::LLT<Eigen::Matrix2d>(covariance).info() == Eigen::Success &&
+      covariance.diagonal().minCoeff() >= kMinFixVariance &&
+      covariance.diagonal().maxCoeff() <= kMaxFixVariance;
   return is_known ? covariance : Eigen::Matrix2d(sigma * sigma * Eigen::Matrix2d::Identity());
 }
 

@@ -8,11 +8,15 @@
 #include "message_parts.h"
 
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 
 namespace {
+
+/// m; nothing on the earth is farther away, and squares stay far from the limits of a double.
+constexpr double kMaxCoordinate = 1e9;
 
 /// Quaternions travel as doubles; one that is off by more than this was never normalized.
 constexpr double kUnitLengthTolerance = 1e-3;
@@ -109,11 +113,11 @@ Pose2 fromMessage(const geometry_msgs::Pose& pose) {
   const auto& p = pose.position;
   const auto& q = pose.orientation;
   const double length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-  const bool finite = std::isfinite(p.x) && std::isfinite(p.y);
-  if (!finite || !(std::abs(length - 1.0) < kUnitLengthTolerance)) {
+  const bool reasonable = std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate;
+  if (!reasonable || !(std::abs(length - 1.0) < kUnitLengthTolerance)) {
     throw InputError("bad_pose", "pose at " + std::to_string(p.x) + ", " + std::to_string(p.y) +
                                      " with a quaternion of length " + std::to_string(length) +
-                                     ": expected finite numbers and length 1");
+                                     ": expected numbers up to 1e9 m and length 1");
   }
   const double heading =
       std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
@@ -127,6 +131,12 @@ PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message)
     for (int column = 0; column < 3; ++column) {
       pose.covariance(row, column) = message.covariance.at(indexInSix(row, column));
     }
+  }
+  if (!isCovariance(pose.covariance.data(), 3) ||
+      pose.covariance.diagonal().maxCoeff() > kMaxCoordinate * kMaxCoordinate) {
+    throw InputError("bad_pose",
+                     "pose with a covariance of x, y and yaw that is none: expected finite "
+                     "numbers, symmetric and positive semidefinite");
   }
   return pose;
 }

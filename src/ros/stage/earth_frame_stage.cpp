@@ -78,7 +78,6 @@ EarthFrameMessagePtr EarthFrameStage::takePose(
   return runner_.serve([&]() -> EarthFrameMessagePtr {
     runner_.check("pose/local", message.header.stamp);
     const StampedPose now{toStamp(message.header.stamp), fromMessage(message.pose)};
-    bool is_new = false;
     while (!waiting_.empty() && waiting_.front().stamp <= now.stamp) {
       EarthFix fix = waiting_.front();
       waiting_.pop_front();
@@ -91,13 +90,12 @@ EarthFrameMessagePtr EarthFrameStage::takePose(
       fix.base_in_map = {between(last_pose_->pose.pose, now.pose.pose, share), now.pose.covariance};
       filter_.add(fix);
       report();
-      is_new = true;
       runner_.processed(fix.stamp);
       last_fix_ = fix.stamp;
     }
     last_pose_ = now;
-    const auto map = filter_.mapInPlane();
-    if (!is_new || !map) {
+    const auto map = filter_.mapInPlane(now.pose.pose);
+    if (!map) {
       return nullptr;
     }
     return boost::make_shared<EarthFrameMessage>(

@@ -14,11 +14,37 @@ namespace datmo {
 
 namespace {
 
-double contrastOf(const cv::Mat& image) {
+constexpr int kQuarters = 4;
+
+/// Gray levels: any exposure has more noise, unless it is clipped.
+constexpr double kLeastNoise = 0.5;
+constexpr double kBlack = 2.0;
+constexpr double kWhite = 253.0;
+
+struct Contrast {
+  double mean = 0.0;       ///< gray levels
+  double deviation = 0.0;  ///< gray levels, standard
+};
+
+Contrast contrastOf(const cv::Mat& image) {
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(image, mean, deviation);
-  return deviation[0];
+  return {mean[0], deviation[0]};
+}
+
+/// Whether a quarter of the image's height was not transmitted: all of one gray. Of the upper half,
+/// in which the sky is, black or white is none.
+bool lacksPart(const cv::Mat& image) {
+  for (int quarter = 0; quarter < kQuarters; ++quarter) {
+    const Contrast part = contrastOf(
+        image.rowRange(quarter * image.rows / kQuarters, (quarter + 1) * image.rows / kQuarters));
+    const bool may_be_sky = 2 * quarter < kQuarters && (part.mean < kBlack || part.mean > kWhite);
+    if (part.deviation < kLeastNoise && !may_be_sky) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -31,13 +57,19 @@ void ExposureCheckOptions::visit(OptionVisitor& visitor) {
 }
 
 void ExposureCheck::check(const sensor_msgs::ImageConstPtr& image) const {
-  const double contrast = contrastOf(grayOrColor(image)->image);
+  const auto pixels = grayOrColor(image);
+  const double contrast = contrastOf(pixels->image).deviation;
   if (contrast < options_.min_contrast) {
     throw InputError("blank_image", "image whose gray levels differ by " +
                                         std::to_string(contrast) +
                                         " (standard deviation): expected " +
                                         std::to_string(options_.min_contrast) +
                                         " or more; is the camera covered or not exposed?");
+  }
+  if (lacksPart(pixels->image)) {
+    throw InputError("half_image",
+                     "image of which a quarter or more has one gray: expected all of an exposure; "
+                     "is it cut on its way?");
   }
   if (last_ && last_->data == image->data && last_->header.stamp < image->header.stamp) {
     throw InputError("frozen_image",

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include <boost/make_shared.hpp>
+#include <opencv2/core/utility.hpp>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/sync/relative_motion.h"
@@ -26,6 +31,18 @@ std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& opti
   }
 }
 
+/// In the detector's thread, so that no scan waits for it. Where the process may not be that nice,
+/// it works on as it was.
+void giveWay(const MonoClassifierStageOptions& options) {
+  if (options.detector_threads > 0) {
+    cv::setNumThreads(options.detector_threads);
+  }
+  // Linux: of this thread alone, and of those that it starts.
+  const auto thread = static_cast<id_t>(syscall(SYS_gettid));
+  setpriority(PRIO_PROCESS, thread,
+              std::max(getpriority(PRIO_PROCESS, thread), options.detector_nice));
+}
+
 }  // namespace
 
 void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
@@ -41,6 +58,14 @@ void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"object_speed", "m/s",
                   "standard deviation of the objects' speed between their time and the exposure"},
                  object_speed, {0.0, 100.0});
+  visitor.integer({"detector_threads", "1",
+                   "that OpenCV may use, for the detector and, as it knows no other limit, for all "
+                   "else in the process; 0: as many as it likes. Not in run_bag"},
+                  detector_threads, {0.0, 256.0});
+  visitor.integer({"detector_nice", "1",
+                   "nice value of the detector's thread (setpriority): the higher, the more it "
+                   "gives way to all others"},
+                  detector_nice, {0.0, 19.0});
   exposure.visit(visitor);
   visitor.group("input", [&] { input.visit(visitor); });
   classifier.visit(visitor);
@@ -64,7 +89,8 @@ MonoClassifierStage::MonoClassifierStage(const Checked<MonoClassifierStageOption
       exposure_(options->exposure),
       wait_(options->tolerance, options->max_wait),
       classifier_(std::move(classifier)),
-      worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {}
+      worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr,
+              [this] { giveWay(options_); }) {}
 
 void MonoClassifierStage::reset() {
   motion_.reset();
@@ -98,6 +124,13 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     checkAge(*message);
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
+    if (!classifier_->tellsAnything()) {
+      monitor_.warned(InputError("detector_tells_nothing",
+                                 "no object gets a class by the image: the reports of this "
+                                 "detector are right no more often than by chance (`reliability`); "
+                                 "expected detector: dnn with a model, or a reliability that "
+                                 "calibrate_classes measured on your images"));
+    }
     if (!wait_.addImage(message, now)) {
       monitor_.dropped(InputError("superseded_image",
                                   "a newer image came before objects of its time: expected objects "
@@ -154,7 +187,7 @@ void MonoClassifierStage::startIfReady(Stamp now) {
   }
   if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
                      objectsAt(toStamp(image->header.stamp)), run_})) {
-    monitor_.dropped(InputError("superseded_image",
+    monitor_.dropped(InputError("slow_detector",
                                 "a newer image came before the detector had time for one: expected "
                                 "a faster machine, a smaller network or fewer images a second"));
   }

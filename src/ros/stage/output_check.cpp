@@ -13,6 +13,9 @@ namespace {
 /// Of the largest element: what sums of doubles may be off by.
 constexpr double kRounding = 1e-6;
 
+/// s, behind the newest input: results are of what was measured, not of what will be.
+constexpr double kMaxAhead = 1.0;
+
 }  // namespace
 
 bool isCovariance(const double* values, std::size_t size) {
@@ -52,6 +55,11 @@ std::string OutputCheck::faultOf(const OutputContent& content) const {
   if (newest_ && content.stamp && *content.stamp < *newest_) {
     return "the stamp " + std::to_string(content.stamp->seconds()) + " s after " +
            std::to_string(newest_->seconds()) + " s";
+  }
+  const std::optional<Stamp>& input = monitor_.newestInput();
+  if (input && content.stamp && secondsBetween(*input, *content.stamp) > kMaxAhead) {
+    return "the stamp " + std::to_string(content.stamp->seconds()) +
+           " s while its newest input is of " + std::to_string(input->seconds()) + " s";
   }
   return "";
 }

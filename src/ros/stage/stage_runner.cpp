@@ -14,12 +14,15 @@ StageRunner::StageRunner(StageMonitor& monitor, const StreamOptions& input, std:
       reset_(std::move(reset)) {}
 
 void StageRunner::check(const std::string& input, const ros::Time& stamp) {
-  if (arrivalOf(input, stamp) == Arrival::kNext) {
+  const Arrival arrival = arrivalOf(input, stamp);
+  if (arrival == Arrival::kNext) {
     return;
   }
   streams_.clear();
+  monitor_.forgetInputs();
   arrivalOf(input, stamp);
-  reset("clock_restart", "the clock jumped back");
+  reset("clock_restart",
+        std::string("the clock jumped ") + (arrival == Arrival::kRestart ? "back" : "ahead"));
 }
 
 Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp) {
@@ -29,7 +32,9 @@ Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp)
   StampCheck::checkValue(stamp);
   stream.last = toStamp(stamp);
   stream.came = now;
-  return stream.stamps.check(stamp, now, lastOfOthers(input));
+  const Arrival arrival = stream.stamps.check(stamp, now, lastOfOthers(input));
+  monitor_.noteInput(toStamp(stamp));
+  return arrival;
 }
 
 std::optional<Stamp> StageRunner::lastOfOthers(const std::string& input) const {

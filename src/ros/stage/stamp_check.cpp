@@ -53,6 +53,8 @@ Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now
                            "input contradicts it");
     case StampVerdict::kRestart:
       return Arrival::kRestart;
+    case StampVerdict::kAhead:
+      return Arrival::kAhead;
     case StampVerdict::kAccept:
       break;
   }

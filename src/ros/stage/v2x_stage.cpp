@@ -8,6 +8,7 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/tracking/track_check.h"
 
 namespace datmo {
 
@@ -58,7 +59,10 @@ void V2xStage::reset() {
 void V2xStage::takeFrame(const EarthFrameMessage& message) {
   runner_.serve([&] {
     EarthFrame frame = fromMessage(message);
-    runner_.check("earth_frame", message.header.stamp);
+    // By the same position as the last one: only its covariance is newer.
+    if (!frame_ || frame.stamp != frame_->stamp) {
+      runner_.check("earth_frame", message.header.stamp);
+    }
     frame_ = frame;
   });
 }
@@ -110,6 +114,7 @@ TrackArrayPtr V2xStage::takeStation(const StationTracksMessage& message, Stamp n
       throw InputError("repeated_list", "station " + std::to_string(message.station) +
                                             ": tracks that are not newer than its last ones");
     }
+    monitor_.noteInput(list.stamp);
     stations_.toMap(list, frame.map_in_plane, ownAt(list.stamp));
     report();
     runner_.processed(list.stamp);
@@ -164,8 +169,19 @@ StationTracksMessagePtr V2xStage::takeTracks(const TrackArray& message) {
       self.existence_probability = 1.0;
       list.tracks.push_back(toStation(self, frame.map_in_plane));
     }
+    std::uint64_t invalid = 0;
     for (const Track& track : tracks.tracks) {
-      list.tracks.push_back(toStation(track, frame.map_in_plane));
+      if (isValid(track)) {
+        list.tracks.push_back(toStation(track, frame.map_in_plane));
+      } else {
+        ++invalid;
+      }
+    }
+    if (invalid > 0) {
+      monitor_.warned({"bad_own_track", std::to_string(invalid) +
+                                            " of our tracks with numbers that are none, or a "
+                                            "covariance that is none: other stations do not get "
+                                            "them"});
     }
     return boost::make_shared<StationTracksMessage>(toMessage(list, frame.plane));
   });
@@ -183,12 +199,15 @@ void V2xStage::report() {
   const StationTrackCounts& counts = stations_.counts();
   warn(counts.fast, reported_.fast, "fast_track", "faster than tracks/max_speed");
   warn(counts.jumped, reported_.jumped, "jumped_track", "that are not where they were going");
+  warn(counts.sudden, reported_.sudden, "sudden_track",
+       "with new numbers in nearly each message, where none was");
   warn(counts.invalid, reported_.invalid, "bad_track",
        "with numbers that are none, or a covariance that is none");
   warn(counts.many, reported_.many, "many_tracks", "beyond tracks/max_tracks");
   monitor_.figure("our own vehicle, as others see it", static_cast<double>(counts.own));
   monitor_.figure("tracks left out: too fast", static_cast<double>(counts.fast));
   monitor_.figure("tracks left out: jumped", static_cast<double>(counts.jumped));
+  monitor_.figure("tracks left out: new numbers", static_cast<double>(counts.sudden));
 }
 
 void V2xStage::connect(StagePorts& ports) {

@@ -86,8 +86,15 @@ TEST(StampGate, AJumpAheadIsFollowedFromTheSecondMessageOn) {
   StampGate gate;
   judgeAt(gate, 100.0, 100.0);
   EXPECT_EQ(judgeAt(gate, 200.0, 100.1), StampVerdict::kStray);
-  EXPECT_EQ(judgeAt(gate, 200.1, 100.2), StampVerdict::kAccept);
+  EXPECT_EQ(judgeAt(gate, 200.1, 100.2), StampVerdict::kAhead) << "no time has passed";
   EXPECT_EQ(judgeAt(gate, 200.2, 100.3), StampVerdict::kAccept);
+}
+
+TEST(StampGate, ASilenceThatEndsLateIsNoJumpOfTheClock) {
+  StampGate gate;
+  judgeAt(gate, 100.0, 101.0);
+  EXPECT_EQ(judgeAt(gate, 103.1, 103.15), StampVerdict::kStray);
+  EXPECT_EQ(judgeAt(gate, 103.2, 103.25), StampVerdict::kAccept) << "the last one before was late";
 }
 
 TEST(StampGate, OneClockThatJumpsAmongOthersIsNotFollowed) {

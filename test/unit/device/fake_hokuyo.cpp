@@ -34,13 +34,13 @@ void FakeHokuyo::shakeHands(const std::vector<std::string>& model) {
   }
 }
 
-void FakeHokuyo::answer(const std::string& command, const std::string& status,
-                        const std::vector<std::string>& lines) {
+std::string FakeHokuyo::answerText(const std::string& command, const std::string& status,
+                                   const std::vector<std::string>& lines) {
   std::string text = command + "\n" + checked(status);
   for (const std::string& line : lines) {
     text += line + ";" + scipChecksum(line) + "\n";
   }
-  send(text + "\n");
+  return text + "\n";
 }
 
 std::string FakeHokuyo::scan(std::uint32_t clock, const std::vector<std::uint32_t>& ranges) {

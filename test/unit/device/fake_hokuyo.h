@@ -23,7 +23,12 @@ class FakeHokuyo : public FakeServer {
   std::string command() { return receive('\n'); }
 
   void answer(const std::string& command, const std::string& status,
-              const std::vector<std::string>& lines = {});
+              const std::vector<std::string>& lines = {}) {
+    send(answerText(command, status, lines));
+  }
+
+  static std::string answerText(const std::string& command, const std::string& status,
+                                const std::vector<std::string>& lines = {});
 
   /// A scan's message: `clock` in ms, of 24 bits; ranges in mm, one a beam.
   static std::string scan(std::uint32_t clock, const std::vector<std::uint32_t>& ranges);

@@ -3,15 +3,13 @@
 #include "datmo_fusion/device/nmea_receiver.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "device/device_probe.h"
+#include "device/fake_serial.h"
 #include "device/fake_server.h"
 #include "device/nmea_sentences.h"
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <termios.h>
-#include <unistd.h>
 
 #include "datmo_fusion/device/serial_line.h"
 
@@ -19,6 +17,7 @@ namespace datmo::nmea_receiver_test {
 namespace {
 
 using samples::DeviceProbe;
+using samples::FakeSerial;
 using samples::FakeServer;
 using samples::ggaLine;
 using samples::Measured;
@@ -150,38 +149,6 @@ TEST_F(NmeaReceiverTest, AReceiverThatIsGoneAndBackAndOneThatIsNoneAreReported) 
   EXPECT_EQ(probe_.faults.take(), "bad_sentence");
 }
 
-/// The other end of a serial port.
-class FakeSerial {
- public:
-  FakeSerial() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
-    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) {
-      throw std::runtime_error("no pseudo terminal for the fake receiver");
-    }
-    file_ = ptsname(master_);
-  }
-  ~FakeSerial() { close(master_); }
-  FakeSerial(const FakeSerial&) = delete;
-  FakeSerial& operator=(const FakeSerial&) = delete;
-
-  const std::string& file() const { return file_; }
-
-  void send(const std::string& bytes) const {
-    if (write(master_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
-      throw std::runtime_error("the pseudo terminal takes nothing");
-    }
-  }
-
-  speed_t speed() const {
-    termios line{};
-    tcgetattr(master_, &line);
-    return cfgetispeed(&line);
-  }
-
- private:
-  int master_;
-  std::string file_;
-};
-
 TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsReported) {
   DeviceProbe probe(DeviceKind::kNmea);
   auto serial = std::make_unique<FakeSerial>();
@@ -199,7 +166,7 @@ TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsReported) {
 TEST(SerialReceiverTest, ABaudRateThatThereIsNotIsReported) {
   const FakeSerial serial;
   const std::atomic<bool> stop{false};
-  EXPECT_THROW(SerialLine({serial.file(), 12345, 1.0}, stop), DeviceError);
+  EXPECT_THROW(SerialLine({serial.file(), 12345, 1.0, false}, stop), DeviceError);
 }
 
 }  // namespace

@@ -135,7 +135,18 @@ TEST(ScorePoses, WithoutCovarianceThereIsNoNees) {
   const auto score = scorePoses(truth(), truth());
   EXPECT_FALSE(score->consistency.mean_nees);
   EXPECT_EQ(score->consistency.samples, 0U);
-  EXPECT_EQ(score->consistency.unusable, truth().poses().size());
+  EXPECT_EQ(score->consistency.unusable, truth().poses().size() - 1) << "all but the alignment";
+}
+
+TEST(ScorePoses, TheOriginOfTheMapHasNoErrorAndNoCovariance) {
+  std::vector<StampedPose> poses = truth().poses();
+  for (auto pose = poses.begin() + 1; pose != poses.end(); ++pose) {
+    pose->pose.covariance.setIdentity();
+  }
+  const auto score = scorePoses({poses, kMaxGap}, truth());
+  ASSERT_TRUE(score);
+  EXPECT_EQ(score->consistency.samples, poses.size() - 1);
+  EXPECT_EQ(score->consistency.unusable, 0U);
 }
 
 TEST(ScorePoses, WithoutOverlapThereIsNoScore) {

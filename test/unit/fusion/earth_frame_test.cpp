@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/fusion/earth/consistent_pairs.h"
 #include "datmo_fusion/fusion/earth/earth_frame_filter.h"
 #include "datmo_fusion/fusion/earth/local_plane.h"
 
@@ -42,8 +43,8 @@ TEST(LocalPlane, WhatIsNotOnTheEarth) {
 // A drive along a curve, seen by a receiver with white noise and an error that drifts.
 class Drive {
  public:
-  Drive(unsigned seed, double sigma, const EarthFrameOptions& options)
-      : random_(seed), sigma_(sigma), options_(options) {
+  Drive(unsigned seed, double sigma, const EarthFrameOptions& options, bool drifts = false)
+      : random_(seed), sigma_(sigma), options_(options), drifts_(drifts) {
     shared_ = std::sqrt(options.correlated_share) * sigma_ * draw2();
   }
 
@@ -53,10 +54,17 @@ class Drive {
               std::sqrt(options_.correlated_share * (1.0 - keep * keep)) * sigma_ * draw2();
     time_ += kPeriod;
     const double angle = 0.02 * time_;
+    const Pose2 base(500.0 * std::sin(angle), 500.0 * (1.0 - std::cos(angle)), angle);
+    const double distance = drifts_ ? 500.0 * 0.02 * kPeriod : 0.0;
+    const double turn = std::sqrt(distance) * options_.map_turn * normal_(random_);
+    const Point2 there = truth_ * base.position();  // about which the map turns
+    const Pose2 turned(0.0, 0.0, truth_.heading() + turn);
+    truth_ = Pose2(
+        there - turned.rotate(base.position()) + std::sqrt(distance) * options_.map_drift * draw2(),
+        turned.heading());
     EarthFix fix;
     fix.stamp = Stamp::fromSeconds(100.0 + time_);
-    fix.base_in_map = {Pose2(500.0 * std::sin(angle), 500.0 * (1.0 - std::cos(angle)), angle),
-                       1e-4 * Eigen::Matrix3d::Identity()};
+    fix.base_in_map = {base, 1e-4 * Eigen::Matrix3d::Identity()};
     fix.antenna_in_base = {1.2, 0.3};
     fix.in_plane = truth_ * (fix.base_in_map.pose * fix.antenna_in_base) + shared_ +
                    std::sqrt(1.0 - options_.correlated_share) * sigma_ * draw2();
@@ -77,6 +85,7 @@ class Drive {
   std::normal_distribution<double> normal_;
   double sigma_;
   EarthFrameOptions options_;
+  bool drifts_;  ///< the map, as the options say
   Pose2 truth_{120.0, -60.0, 2.2};
   Point2 shared_ = Point2::Zero();
   double time_ = 0.0;
@@ -138,6 +147,141 @@ TEST(EarthFrameFilter, FixFarOffIsLeftOut) {
       (filter.mapInPlane()->pose * Point2(400.0, 200.0) - drive.truth() * Point2(400.0, 200.0))
           .norm(),
       3.0);
+}
+
+TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
+  for (const double far : {1e9, 1e150, 1e300}) {
+    Drive drive(3, 0.5, EarthFrameOptions());
+    EarthFrameFilter filter{EarthFrameOptions()};
+    for (int i = 0; i < 600; ++i) {
+      EarthFix fix = drive.next();
+      if (i == 200) {
+        fix.base_in_map = {Pose2(far, -far, 0.0), far * Eigen::Matrix3d::Identity()};
+      }
+      filter.add(fix);
+      const auto map = filter.mapInPlane();
+      ASSERT_TRUE(!map || (map->pose.position().allFinite() && map->covariance.allFinite())) << far;
+    }
+    EXPECT_TRUE(filter.mapInPlane()) << "it comes back after " << far;
+  }
+}
+
+// 4 s without a fix, 40 m of drift: what is said of the map then grows by it.
+TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
+  const EarthFrameOptions options;
+  double nees = 0.0;
+  double nees_of_last = 0.0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    Drive drive(static_cast<unsigned>(run + 1), 0.1, options, true);
+    EarthFrameFilter filter(options);
+    for (int i = 0; i < 150; ++i) {
+      filter.add(drive.next());
+    }
+    Pose2 base;
+    for (int i = 0; i < 20; ++i) {
+      base = drive.next().base_in_map.pose;
+    }
+    const auto map = filter.mapInPlane(base);
+    ASSERT_TRUE(map);
+    const Eigen::Vector3d error = errorOf(map->pose, drive.truth());
+    nees += error.dot(map->covariance.inverse() * error) / kRuns;
+    nees_of_last += error.dot(filter.mapInPlane()->covariance.inverse() * error) / kRuns;
+  }
+  EXPECT_GT(nees, 2.0);
+  EXPECT_LT(nees, 3.6);
+  EXPECT_GT(nees_of_last, 6.0) << "else the outage is too short to tell";
+}
+
+// In standard deviations, of three degrees of freedom together: 99.9 % are below 4.03.
+double deviationOf(const PoseWithCovariance& map, const Pose2& truth) {
+  const Eigen::Vector3d error = errorOf(map.pose, truth);
+  return std::sqrt(error.dot(map.covariance.inverse() * error));
+}
+
+// One position that is far off in some direction, anywhere at the start, is not in what is said
+// then: the error stays what is said of it, from the first frame on.
+TEST(EarthFrameFilter, FixFarOffAtTheStartIsLeftOut) {
+  EarthFrameOptions options;
+  options.map_drift = options.map_turn = 0.0;  // this map does not drift
+  int starts = 0;
+  int large = 0;
+  for (const double size : {1.0, 2.0, 5.0, 10.0, 30.0, 100.0}) {
+    for (int outlier = 0; outlier < 10; ++outlier) {
+      for (unsigned seed = 1; seed <= 20; ++seed) {
+        Drive drive(seed, 0.5, options);
+        EarthFrameFilter filter(options);
+        for (int i = 0; i < 60; ++i) {
+          EarthFix fix = drive.next();
+          if (i == outlier) {
+            fix.in_plane += size * Pose2(0.0, 0.0, 1.3 * seed).rotate({1.0, 0.0});
+          }
+          filter.add(fix);
+          if (const auto map = filter.mapInPlane()) {
+            const double deviation = deviationOf(*map, drive.truth());
+            ASSERT_LT(deviation, 6.0)
+                << size << " m off at " << outlier << ", seed " << seed << ", after " << i;
+            ++starts;
+            large += deviation > 4.0 ? 1 : 0;
+          }
+        }
+        ASSERT_TRUE(filter.mapInPlane()) << size << " m off at " << outlier;
+      }
+    }
+  }
+  EXPECT_LT(large, 0.005 * starts) << "of " << starts;
+}
+
+TEST(EarthFrameFilter, FixesThatContradictEachOtherStartNothing) {
+  const EarthFrameOptions options;
+  Drive drive(3, 0.5, options);
+  EarthFrameFilter filter(options);
+  for (int i = 0; i < 60; ++i) {
+    EarthFix fix = drive.next();
+    if (i % 2 == 0) {
+      fix.in_plane += Point2(0.0, 30.0);
+    }
+    filter.add(fix);
+    ASSERT_FALSE(filter.mapInPlane()) << i;
+  }
+}
+
+TEST(EarthFrameFilter, FixThatIsLeftOutAtTheStartIsCounted) {
+  const EarthFrameOptions options;
+  Drive drive(4, 0.5, options);
+  EarthFrameFilter filter(options);
+  for (int i = 0; i < 60; ++i) {
+    EarthFix fix = drive.next();
+    if (i == 3) {
+      fix.in_plane += Point2(0.0, 30.0);
+    }
+    filter.add(fix);
+  }
+  EXPECT_EQ(filter.counts().gated, 1U);
+  EXPECT_EQ(filter.counts().used, 59U);
+}
+
+TEST(ConsistentPairs, PairsThatBendTheFitToThemselvesAreFound) {
+  std::vector<PointPair> pairs;
+  const Pose2 motion(4e5, -3e5, 2.0);
+  for (int i = 0; i < 12; ++i) {
+    const Point2 a(2.0 * i, 0.1 * i * i);
+    pairs.push_back({a, motion * a, 0.01});
+  }
+  EXPECT_EQ(consistentPairs(pairs, 13.8).count, 12U);
+  EXPECT_LT(consistentPairs(pairs, 13.8).variance_factor, 1e-3);
+  pairs.front().b += Point2(0.0, 3.0);
+  pairs.back().b += Point2(0.0, 3.0);
+  const ConsistentPairs found = consistentPairs(pairs, 13.8);
+  EXPECT_EQ(found.count, 10U);
+  EXPECT_FALSE(found.fits.front());
+  EXPECT_FALSE(found.fits.back());
+  EXPECT_LT(found.variance_factor, 1e-3);
+}
+
+TEST(ConsistentPairs, FewAreTakenAsTheyAre) {
+  EXPECT_EQ(consistentPairs({}, 13.8).count, 0U);
+  EXPECT_EQ(consistentPairs({PointPair(), PointPair()}, 13.8).count, 2U);
 }
 
 TEST(EarthFrameFilter, StartsOverWhenTheMapIsAnother) {

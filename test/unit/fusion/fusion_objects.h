@@ -2,9 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/object.h"
+#include "datmo_fusion/fusion/object/object_fuser.h"
 
 namespace datmo {
 
@@ -33,6 +38,27 @@ inline Object boxObject(double x, double y, double length, double width, double 
 
 inline void hide(Object& object, BoxSide side) {
   object.side_variance[sideIndex(side)] = kHiddenSide;
+}
+
+inline const Stamp kReference = Stamp::fromSeconds(5.0);
+
+/// A source's list of this time, and where the vehicle was then.
+inline SourceObjects received(const std::string& source, std::vector<Object> objects,
+                              double seconds = 5.0, const Pose2& base_in_reference = Pose2()) {
+  return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
+}
+
+/// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
+inline LabeledScan scanAhead(double range, PointState state) {
+  LabeledScan scan;
+  scan.stamp = kReference;
+  scan.field = {-degrees(40.0), degrees(1.0), 81, 0.5, 80.0, 80.0, 0.0};
+  for (std::uint32_t beam = 35; beam <= 45; ++beam) {
+    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
+    scan.points.push_back(
+        {range * Point2(std::cos(bearing), std::sin(bearing)), range, bearing, beam, state});
+  }
+  return scan;
 }
 
 }  // namespace datmo

@@ -17,13 +17,6 @@
 namespace datmo::object_fuser_test {
 namespace {
 
-const Stamp kReference = Stamp::fromSeconds(5.0);
-
-SourceObjects received(const std::string& source, std::vector<Object> objects, double seconds = 5.0,
-                       const Pose2& base_in_reference = Pose2()) {
-  return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
-}
-
 /// Everything within 40 m in front of the vehicle.
 SensorView ahead(const std::string& sensor) {
   return {sensor, {Pose2(1.0, 0.0, 0.0), -0.6, 0.6, 40.0, 50.0}};
@@ -34,19 +27,6 @@ Object poleAt(double x, double y, double probability) {
   object.object_class = ObjectClass::kPole;
   object.class_probability = probability;
   return object;
-}
-
-/// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
-LabeledScan scanAhead(double range, PointState state) {
-  LabeledScan scan;
-  scan.stamp = kReference;
-  scan.field = {-degrees(40.0), degrees(1.0), 81, 0.5, 80.0, 80.0, 0.0};
-  for (std::uint32_t beam = 35; beam <= 45; ++beam) {
-    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
-    scan.points.push_back(
-        {range * Point2(std::cos(bearing), std::sin(bearing)), range, bearing, beam, state});
-  }
-  return scan;
 }
 
 ObjectFusionResult fuse(const std::vector<SourceObjects>& sources,

@@ -69,7 +69,7 @@ TEST(GridConversion, OriginsOfOthersMayBeRounded) {
 TEST(GridConversion, OriginsThatAreNotOnTheLatticeAreRefused) {
   EXPECT_EQ(reason([](auto& message) { message.info.origin.position.x += 0.1; }), "bad_grid");
   EXPECT_EQ(reason([](auto& message) { message.info.origin.position.y += 0.15; }), "bad_grid");
-  EXPECT_EQ(reason([](auto& message) { message.info.origin.position.x = 1e12; }), "bad_grid");
+  EXPECT_EQ(reason([](auto& message) { message.info.origin.position.x = 1e12; }), "bad_pose");
   EXPECT_EQ(reason([](auto& message) {
               message.info.origin.orientation.z = 1.0;
               message.info.origin.orientation.w = 0.0;

@@ -31,6 +31,19 @@ TEST(PoseConversion, WhatIsNoPoseIsRefused) {
   pose = toMessage(Pose2());
   pose.orientation.z = kNan;
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose");
+  pose = toMessage(Pose2());
+  pose.position.y = -1e308;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose") << "its square is none";
+}
+
+TEST(PoseConversion, WhatIsNoCovarianceIsRefused) {
+  const geometry_msgs::PoseWithCovariance good = toMessage(PoseWithCovariance());
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(good); }), "");
+  for (const double bad : {kNan, -1.0, 1e308}) {
+    geometry_msgs::PoseWithCovariance pose = good;
+    pose.covariance[7] = bad;
+    EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose") << bad;
+  }
 }
 
 TEST(PoseConversion, CovarianceStandsAtXYAndYaw) {

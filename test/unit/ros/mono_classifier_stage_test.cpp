@@ -1,93 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "camera_samples.h"
 #include "monitor_counts.h"
-#include "vision/image_samples.h"
-#include <boost/make_shared.hpp>
+#include "mono_classifier_case.h"
 #include <gtest/gtest.h>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::mono_classifier_stage_test {
 namespace {
 
+using mono_classifier_case::cameraInfo;
+using mono_classifier_case::imageAt;
+using mono_classifier_case::kCamera;
+using mono_classifier_case::kStart;
+using mono_classifier_case::MonoClassifierStageTest;
+using mono_classifier_case::objectsAt;
 using samples::drops;
 using samples::warnings;
-
-constexpr double kStart = 100.0;  // s
-
-/// As test::levelCamera.
-constexpr samples::CameraSample kCamera{1000, 400, 500.0};
-
-sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
-
-/// Stripes; of another gray each time.
-sensor_msgs::ImagePtr imageAt(double seconds) {
-  static std::uint8_t gray = 0;
-  auto message = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, ++gray));
-  for (std::size_t i = 0; i < message->data.size(); i += 2) {
-    message->data[i] = 255;
-  }
-  return message;
-}
-
-ObjectArray objectsAt(double seconds) {
-  ObjectList list;
-  list.stamp = Stamp::fromSeconds(seconds);
-  list.objects = {test::objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
-  return toMessage(list, "base_link");
-}
-
-/// A person 10 m ahead in each image.
-class MonoClassifierStageTest : public testing::Test {
- protected:
-  static MonoClassifierStageOptions stageOptions() {
-    MonoClassifierStageOptions options;
-    options.classifier.detector = ImageDetectorKind::kDnn;
-    options.classifier.dnn_reliability.scores = {0.0};
-    options.classifier.dnn_reliability.right = {0.8};
-    return options;
-  }
-
-  std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock = {}) {
-    auto detector = std::make_unique<test::FixedDetector>(std::vector<ImageDetection>{
-        test::detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275)});
-    auto classifier =
-        std::make_unique<MonoClassifier>(stageOptions().classifier, std::move(detector));
-    return std::make_unique<MonoClassifierStage>(stageOptions(), transforms_, monitor_, clock,
-                                                 std::move(classifier));
-  }
-
-  void mountCamera() {
-    transforms_.addStatic(
-        samples::transforms({samples::cameraMount("base_link", test::kCameraHeight)}));
-  }
-
-  ObjectArrayPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
-    const Stamp stamp = toStamp(image->header.stamp);
-    stage_->takeImage(image, stamp);
-    return stage_->next(stamp + waited);
-  }
-
-  /// Whether an image like this is dropped for this reason, and the next good one is not.
-  void expectDropped(const sensor_msgs::ImagePtr& image, const std::string& reason) {
-    mountCamera();
-    stage_->takeCameraInfo(cameraInfo());
-    EXPECT_EQ(look(image, 1.0), nullptr) << reason;
-    EXPECT_EQ(drops(monitor_, reason), 1U) << reason;
-    EXPECT_NE(look(imageAt(kStart + 0.1), 1.0), nullptr);
-  }
-
-  TransformBuffer transforms_{1.0};
-  StageMonitor monitor_{"mono_classifier"};
-  std::unique_ptr<MonoClassifierStage> stage_ = makeStage();
-};
 
 TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
   mountCamera();
@@ -101,6 +35,17 @@ TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
   EXPECT_EQ(named->objects[0].classification, ObjectMessage::CLASS_PEDESTRIAN);
   EXPECT_NEAR(named->objects[0].pose.position.x, 10.2, 1e-9);
   EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, ADetectorWithoutWeightIsWarnedOf) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_NE(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 0U);
+  MonoClassifierStage by_default(MonoClassifierStageOptions(), transforms_, monitor_);
+  by_default.takeCameraInfo(cameraInfo());
+  by_default.takeImage(imageAt(kStart), Stamp::fromSeconds(kStart));
+  EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 1U);
 }
 
 TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
@@ -142,6 +87,17 @@ TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
   ASSERT_NE(late, nullptr);
   EXPECT_EQ(late->header.stamp, ros::Time(kStart));
   EXPECT_EQ(late->objects.size(), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AHalfImageIsDroppedAndABurntOutSkyIsNot) {
+  const auto filled = [](double seconds, std::uint32_t from, std::uint32_t to, int gray) {
+    const auto image = imageAt(seconds);
+    std::fill(image->data.begin() + from * image->step, image->data.begin() + to * image->step,
+              static_cast<std::uint8_t>(gray));
+    return image;
+  };
+  expectDropped(filled(kStart, kCamera.height / 2, kCamera.height, 128), "half_image");
+  EXPECT_NE(look(filled(kStart + 0.2, 0, kCamera.height / 3, 255), 1.0), nullptr);
 }
 
 TEST_F(MonoClassifierStageTest, OfImagesThatWaitTheNewestStays) {

@@ -23,11 +23,14 @@ constexpr double kHeight = 1.5;   // m
 constexpr samples::CameraSample kCamera{1000, 400, 500.0};
 constexpr std::size_t kBeams = 81;
 
-/// A road below the horizon; its first pixel is another one in each image.
+/// A road below the horizon, with a sensor's noise; its first pixel is another one in each image.
 sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t number = 0;
   auto image = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, 110));
   std::fill(image->data.begin(), image->data.begin() + 200 * 1000, std::uint8_t{220});
+  for (std::size_t i = 0; i < image->data.size(); ++i) {
+    image->data[i] = static_cast<std::uint8_t>(image->data[i] + i % 3);
+  }
   image->data.front() = ++number;
   return image;
 }

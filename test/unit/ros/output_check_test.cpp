@@ -50,6 +50,18 @@ TEST(ContentFault, InfinityStaysWhereItHasAMeaning) {
   EXPECT_EQ(contentFault(scan), "") << "no measurement, by the message's definition";
 }
 
+TEST(ContentFault, WhereTheBeamsOfAScanLieIsANumber) {
+  for (float sensor_msgs::LaserScan::*const field :
+       {&sensor_msgs::LaserScan::angle_min, &sensor_msgs::LaserScan::angle_max,
+        &sensor_msgs::LaserScan::angle_increment, &sensor_msgs::LaserScan::time_increment,
+        &sensor_msgs::LaserScan::scan_time, &sensor_msgs::LaserScan::range_min,
+        &sensor_msgs::LaserScan::range_max}) {
+    sensor_msgs::LaserScan scan;
+    scan.*field = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(contentFault(scan), "a number that is nan");
+  }
+}
+
 TEST(ContentFault, ACovarianceIsPositiveSemidefinite) {
   geometry_msgs::PoseWithCovarianceStamped pose;
   EXPECT_EQ(contentFault(pose), "");
@@ -90,6 +102,22 @@ TEST(OutputCheck, TimeGoesBackOnlyAfterAReset) {
   EXPECT_TRUE(check.passes({std::nullopt, ""})) << "no stamp, no order";
   monitor.noteReset();
   EXPECT_TRUE(check.passes(at(5.0)));
+}
+
+TEST(OutputCheck, NoResultIsOfATimeThatIsStillToCome) {
+  StageMonitor monitor("tracker");
+  OutputCheck check("tracks", monitor);
+  EXPECT_TRUE(check.passes(at(10.0))) << "of inputs nothing is known";
+  monitor.noteInput(Stamp::fromSeconds(10.0));
+  EXPECT_TRUE(check.passes(at(10.2)));
+  EXPECT_FALSE(check.passes(at(110.0)));
+  EXPECT_TRUE(monitor.takeResetRequest());
+  EXPECT_TRUE(check.passes(at(10.3))) << "the next one is not late";
+  monitor.forgetInputs();
+  monitor.noteReset();
+  monitor.noteInput(Stamp::fromSeconds(5.0));
+  EXPECT_TRUE(check.passes(at(5.0)));
+  EXPECT_FALSE(check.passes(at(10.0)));
 }
 
 }  // namespace

@@ -186,6 +186,9 @@ TEST(StereoAlignmentMessage, WithNumbersThatAreNoneIsRefused) {
   message.time_variance = 0.0;
   message.heading_offset = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_alignment");
+  message.heading_offset = 0.0;
+  message.disparity_variance = 1e308;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_alignment");
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include "datmo_fusion/ros/stage/v2x_stage.h"
 
 #include <cmath>
+#include <limits>
 
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/earth_frame_stage.h"
+#include "datmo_fusion/ros/stage/output_check.h"
 
 namespace datmo::v2x_stage_test {
 namespace {
@@ -29,8 +31,8 @@ class V2xStageTest : public testing::Test {
     transforms_.addStatic(mount);
   }
 
-  /// The vehicle at a step, and the receiver's position at it.
-  void drive(int from, int to) {
+  /// The vehicle at a step, and the receiver's position at it, if it has one.
+  void drive(int from, int to, bool has_fix = true) {
     for (int step = from; step < to; ++step) {
       const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
       sensor_msgs::NavSatFix fix;
@@ -42,7 +44,9 @@ class V2xStageTest : public testing::Test {
       fix.altitude = position.altitude;
       fix.position_covariance = {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01};
       fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
-      earth_.takeFix(fix);
+      if (has_fix) {
+        earth_.takeFix(fix);
+      }
       geometry_msgs::PoseWithCovarianceStamped pose;
       pose.header.stamp = fix.header.stamp;
       pose.header.frame_id = "map";
@@ -94,6 +98,24 @@ TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {
   EXPECT_NEAR(tracks->tracks[0].pose.position.y, there.y(), 0.1);
 }
 
+TEST_F(V2xStageTest, WhatTheMapDriftsWithoutReceiverIsInTheCovariance) {
+  drive(0, kSteps);
+  const int end = kSteps + 40;  // 4 s
+  const auto variance = [&](int step) {
+    const TrackArrayPtr tracks =
+        stage_.takeStation(listAt(step, {kSpeed * kPeriod * step + 20.0, 5.0}), stampAt(step));
+    return tracks ? tracks->tracks.at(0).covariance[0] : 0.0;
+  };
+  const double before = variance(kSteps);
+  drive(kSteps, end, false);
+  const double drift = EarthFrameOptions().map_drift;
+  EXPECT_GT(variance(end), before + 0.9 * drift * drift * kSpeed * kPeriod * (end - kSteps));
+  EXPECT_TRUE(monitor_.drops().empty());
+  drive(end, end + 15, false);
+  EXPECT_EQ(variance(end + 15), 0.0) << "older than max_frame_age";
+  EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
+}
+
 TEST_F(V2xStageTest, ListsThatDoNotServeAreDroppedByReason) {
   drive(0, kSteps);
   const StationTracksMessage list = listAt(kSteps, {120.0, 5.0});
@@ -140,6 +162,22 @@ TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
   EXPECT_LT((received.tracks[0].position - kMap * middle).norm(), 0.1);
 }
 
+TEST_F(V2xStageTest, OfOursThoseThatAreNoneDoNotGoOut) {
+  drive(0, kSteps);
+  Track track;
+  track.id = 4;
+  TrackList list;
+  list.stamp = stampAt(kSteps - 1);
+  list.tracks.assign(3, track);
+  list.tracks[1].height = std::numeric_limits<double>::max();  // none that a float could hold
+  list.tracks[2].state[2] = std::nan("");
+  const StationTracksMessagePtr ours = stage_.takeTracks(toMessage(list, "map"));
+  ASSERT_TRUE(ours);
+  EXPECT_EQ(ours->tracks.size(), 2U) << "the vehicle, and the first track";
+  EXPECT_EQ(contentFault(*ours), "");
+  EXPECT_EQ(samples::warnings(monitor_, "bad_own_track"), 1U);
+}
+
 TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   sensor_msgs::NavSatFix fix;
   fix.header.stamp = toTime(stampAt(0));
@@ -155,6 +193,18 @@ TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   fix.header.frame_id = "elsewhere";
   earth_.takeFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
+}
+
+TEST(NavSatFixCovariance, ThatNoReceiverCanHaveIsNotTaken) {
+  sensor_msgs::NavSatFix fix;
+  fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  const Eigen::Matrix2d assumed = 9.0 * Eigen::Matrix2d::Identity();
+  for (const double variance : {std::numeric_limits<double>::denorm_min(), 1e308}) {
+    fix.position_covariance = {variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, 1.0};
+    EXPECT_EQ(covarianceOf(fix, 3.0), assumed) << variance;
+  }
+  fix.position_covariance = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  EXPECT_EQ(covarianceOf(fix, 3.0), Eigen::Matrix2d::Identity());
 }
 
 }  // namespace

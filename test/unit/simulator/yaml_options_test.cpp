@@ -12,6 +12,22 @@ namespace {
 
 OptionValues valuesOf(const std::string& text) { return optionValues(YAML::Load(text)); }
 
+/// What is said of a file with this text, behind its name; empty: nothing.
+std::string refusalOf(const std::string& text) {
+  const std::string file = testing::TempDir() + "yaml_options_test.yaml";
+  std::ofstream(file) << text;
+  std::string said;
+  try {
+    loadYaml(file);
+  } catch (const OptionError& error) {
+    said = error.what();
+    EXPECT_EQ(said.rfind(file, 0), 0U) << said;
+    said.erase(0, file.size());
+  }
+  std::remove(file.c_str());
+  return said;
+}
+
 TEST(OptionValues, TypesAsWritten) {
   const OptionValues values = valuesOf("{a: true, b: 3, c: 3.5, d: word, e: '3', f: 1e-3}");
   EXPECT_EQ(std::get<bool>(values.at("a")), true);
@@ -56,20 +72,45 @@ TEST(ParseOptionValue, IsReadAsYaml) {
 }
 
 TEST(LoadYaml, SectionsAndKeysOfOneNameAreRefused) {
-  const std::string file = testing::TempDir() + "yaml_options_test.yaml";
   for (const auto& [text, said] : std::map<std::string, std::string>{
            {"a: {b: 1}\nc: 2\na: {d: 3}\n", ":3: a is given twice: expected once"},
            {"a:\n  b: 1\n  b: 2\n", ":3: b is given twice: expected once"},
            {"a:\n  - {b: 1, b: 2}\n", ":2: b is given twice: expected once"}}) {
-    std::ofstream(file) << text;
-    try {
-      loadYaml(file);
-      ADD_FAILURE() << text;
-    } catch (const OptionError& error) {
-      EXPECT_EQ(error.what(), file + said);
-    }
+    EXPECT_EQ(refusalOf(text), said) << text;
   }
-  std::remove(file.c_str());
+}
+
+TEST(LoadYaml, AnAliasOfWhatItStandsInIsRefused) {
+  const std::string said = ":2: expected yaml, but an alias stands for what it stands in";
+  EXPECT_EQ(refusalOf("b: 1\na: &a [*a]\n"), said);
+  EXPECT_EQ(refusalOf("b: 1\na: &a {b: {c: *a}}\n"), said);
+}
+
+TEST(LoadYaml, AliasesMayStandForSoMuch) {
+  std::string text = "a0: &a0 [1, 1]\n";
+  for (int level = 1; level <= 27; ++level) {
+    const std::string below = "*a" + std::to_string(level - 1);
+    const std::string name = "a" + std::to_string(level);
+    text += name + ": &" + name + " [" + below + ", " + below + "]\n";
+  }
+  EXPECT_EQ(
+      refusalOf(text),
+      ":15: expected yaml, but there are more than 100000 values, with what aliases stand for");
+  EXPECT_EQ(refusalOf("a: &a [1, 2]\nb: *a\nc: [*a, *a]\n"), "");
+}
+
+TEST(LoadYaml, DepthAndSizeAreBounded) {
+  EXPECT_EQ(refusalOf("a: " + std::string(20000, '[')),
+            ":1: expected yaml, but lists and maps are more than 100 deep");
+  EXPECT_EQ(refusalOf("a: " + std::string(90, '[') + std::string(90, ']')), "");
+  EXPECT_EQ(refusalOf("a: 1 #" + std::string(2'000'000, ' ')),
+            ": expected yaml, but it has more than 1048576 bytes");
+}
+
+TEST(LoadYaml, WhatIsNoFileIsRefused) {
+  EXPECT_THROW(loadYaml(testing::TempDir()), OptionError);
+  EXPECT_THROW(loadYaml(testing::TempDir() + "nowhere.yaml"), OptionError);
+  EXPECT_THROW(loadYaml("/dev/zero"), OptionError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/tracking/association_scan.h"
 #include "datmo_fusion/tracking/target.h"
 
 namespace datmo::class_by_size_test {
@@ -18,12 +19,43 @@ Object objectOf(double length, double width) {
   return object;
 }
 
-ObjectClass classOf(const Object& object) {
-  const TargetOptions options;
-  const ClassProbabilities belief =
-      Target(object, 0, 1, options).track(options).class_probabilities;
+/// The same as a sensor reports it, of this class.
+Object reportOf(double length, double width, const char* sensor, ObjectClass object_class,
+                double probability) {
+  Object object = objectOf(length, width);
+  object.sensors = {sensor};
+  object.object_class = object_class;
+  object.class_probability = probability;
+  return object;
+}
+
+ObjectClass classOf(const Target& target) {
+  const ClassProbabilities belief = target.track(TargetOptions()).class_probabilities;
   return static_cast<ObjectClass>(std::max_element(belief.begin(), belief.end()) - belief.begin());
 }
+
+ObjectClass classOf(const Object& object) { return classOf(Target(object, 0, 1, TargetOptions())); }
+
+/// Seen once, and again every tenth of a second.
+class Seen {
+ public:
+  explicit Seen(const Object& object) : target_(object, 0, 1, options_) {}
+
+  void again(const Object& object, int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      target_.predict(kPeriod, immSteps(options_.filter, kPeriod), options_);
+      target_.update({object, {}, kLogDensity}, 0, 0.9, options_);
+    }
+  }
+  const Target& target() const { return target_; }
+
+ private:
+  static constexpr double kPeriod = 0.1;       // s
+  static constexpr double kLogDensity = -5.0;  // of others, 1/m^2
+
+  TargetOptions options_;
+  Target target_;
+};
 
 TEST(ClassBySize, OfWhatNoDetectorHasClassifiedTheSizeTells) {
   EXPECT_EQ(classOf(objectOf(4.2, 1.75)), ObjectClass::kVehicle);
@@ -34,12 +66,36 @@ TEST(ClassBySize, OfWhatNoDetectorHasClassifiedTheSizeTells) {
 
 TEST(ClassBySize, ADetectorsClassIsNotWeighedByTheSizeOnceMore) {
   const TargetOptions options;
-  Object object = objectOf(4.2, 1.75);
-  object.object_class = ObjectClass::kCyclist;
-  object.class_probability = 0.6;
+  const Object object = reportOf(4.2, 1.75, "stereo", ObjectClass::kCyclist, 0.6);
   ClassBelief said;
   said.update(object.object_class, object.class_probability);
   EXPECT_EQ(Target(object, 0, 1, options).track(options).class_probabilities, said.probabilities());
+}
+
+TEST(ClassBySize, OneWeakReportByAnImageDoesNotUndoAllSizes) {
+  Seen seen(objectOf(4.2, 1.75));
+  seen.again(objectOf(4.2, 1.75), 50);
+  seen.again(reportOf(4.2, 1.75, "lidar", ObjectClass::kPedestrian, 0.28));
+  EXPECT_EQ(classOf(seen.target()), ObjectClass::kVehicle);
+}
+
+TEST(ClassBySize, ReportsByAnImageWinOverASizeThatFitsAnotherClass) {
+  Seen seen(objectOf(4.2, 1.75));  // people side by side
+  seen.again(reportOf(4.2, 1.75, "lidar", ObjectClass::kPedestrian, 0.8), 10);
+  EXPECT_EQ(classOf(seen.target()), ObjectClass::kPedestrian);
+}
+
+TEST(ClassBySize, OfFusedObjectsOneSensorThatTellsByTheSizeIsEnough) {
+  Object object = reportOf(4.2, 1.75, "lidar", ObjectClass::kCyclist, 0.6);
+  EXPECT_FALSE(TargetOptions().hasClassBySize(object));
+  object.sensors = {"lidar", "stereo"};
+  EXPECT_TRUE(TargetOptions().hasClassBySize(object));
+  object.sensors = {"mono", "radar"};
+  EXPECT_FALSE(TargetOptions().hasClassBySize(object));
+  object.sensors = {"somebody's"};
+  EXPECT_TRUE(TargetOptions().hasClassBySize(object));
+  object.sensors.clear();
+  EXPECT_TRUE(TargetOptions().hasClassBySize(object)) << "nobody knows";
 }
 
 }  // namespace

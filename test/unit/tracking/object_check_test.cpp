@@ -86,12 +86,23 @@ TEST(ObjectCheck, RefusesACovarianceWithoutSpread) {
   EXPECT_FALSE(isValid(object));
 }
 
+TEST(ObjectCheck, RefusesWhatIsNotMeasuredWithinAKilometer) {
+  for (const double variance : {1e9, 1e308}) {
+    Object object = objectAt(1.0, 2.0);
+    object.position_covariance(1, 1) = variance;
+    EXPECT_FALSE(isValid(object)) << "sums with others lose all digits: " << variance;
+    object = objectAt(1.0, 2.0);
+    object.velocity = MeasuredVelocity{{3.0, 0.0}, variance * Eigen::Matrix2d::Identity()};
+    EXPECT_FALSE(isValid(object)) << variance;
+  }
+}
+
 TEST(ObjectCheck, SidesAreKnownOrHidden) {
   Object object = objectAt(1.0, 2.0);
   object.side_variance = {0.0, kHiddenSide, 0.25, kHiddenSide};
   EXPECT_TRUE(isValid(object));
   for (std::size_t side = 0; side < kBoxSides; ++side) {
-    for (const double bad : {-0.1, kNan, -kHiddenSide}) {
+    for (const double bad : {-0.1, kNan, -kHiddenSide, 1e308}) {
       Object spoiled = object;
       spoiled.side_variance[side] = bad;
       EXPECT_FALSE(isValid(spoiled)) << "side " << side << ": " << bad;

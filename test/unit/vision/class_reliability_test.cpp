@@ -43,6 +43,18 @@ TEST(ClassReliability, WhatIsWrongIsSharedAsMeasured) {
   EXPECT_NEAR(cyclist[0], 0.125, 1e-12);
 }
 
+TEST(ClassReliability, NoBetterThanChanceIsNothing) {
+  ClassReliabilityOptions options = curve();
+  options.right = {0.05, 0.2, 0.9};
+  const ClassReliability reliability(options);
+  const auto nothing = reliability.probabilities(ObjectClass::kPedestrian, 0.3);
+  EXPECT_EQ(nothing, ClassBelief().probabilities());
+  EXPECT_GT(reliability.probabilities(ObjectClass::kPedestrian, 0.8)[1], 0.89);
+  EXPECT_TRUE(reliability.tellsAnything());
+  options.right = {0.05, 0.1, 0.2};
+  EXPECT_FALSE(ClassReliability(options).tellsAnything());
+}
+
 TEST(ClassReliability, ProbabilitiesSumToOne) {
   const ClassReliability reliability(curve());
   for (std::size_t i = 0; i < kObjectClasses; ++i) {

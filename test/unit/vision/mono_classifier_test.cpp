@@ -98,8 +98,34 @@ TEST(MonoClassifier, RefusesAnImageOfAnotherSize) {
                std::invalid_argument);
 }
 
+TEST(MonoClassifier, ADetectorThatIsRightByChanceAloneSaysNothing) {
+  MonoClassifierOptions options = dnnOptions();
+  options.min_alone = 0.0;
+  options.dnn_reliability.scores = {0.0, 0.5};
+  options.dnn_reliability.right = {0.03, 0.2};
+  // What it was mostly where it was wrong must not be taken for what it is.
+  options.dnn_reliability.mistaken = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0};
+  ObjectList objects;
+  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
+  EXPECT_TRUE(classified({kPerson, kCar}, objects, options).list.objects.empty());
+  const MonoClassifier classifier(options,
+                                  std::make_unique<FixedDetector>(std::vector<ImageDetection>()));
+  EXPECT_FALSE(classifier.tellsAnything());
+  options.dnn_reliability.right[1] = 0.9;
+  EXPECT_EQ(classified({kPerson}, objects, options).classified, 1U) << "of a high score";
+}
+
+TEST(MonoClassifier, OpenCVsPeopleDetectorHasNoWeight) {
+  EXPECT_FALSE(MonoClassifier{MonoClassifierOptions()}.tellsAnything()) << "as measured";
+  MonoClassifierOptions options;
+  options.calibrated = false;
+  EXPECT_TRUE(MonoClassifier{options}.tellsAnything()) << "to be measured";
+}
+
 TEST(HogDetector, SeesNobodyInEmptyImages) {
-  MonoClassifier classifier{MonoClassifierOptions()};
+  MonoClassifierOptions options;
+  options.calibrated = false;
+  MonoClassifier classifier{options};
   ObjectList objects;
   objects.objects = {objectAt(8.0, 0.0, 0.5, 0.5, 0.0), objectAt(8.0, 7.9, 0.5, 0.5, 0.0)};
   for (const int gray : {0, 100, 255}) {

@@ -19,10 +19,10 @@ from datmo_tools.evaluate import report
 
 DESCRIPTION = """\
 Takes every recording (*.bag) of a folder through run_bag and, where its truth is in it or beside it
-(NAME.truth.bag), score_run; writes batch.html and batch.json, the worst moments of all first. Started
-again it goes on where it was, and does again only what has changed: recordings, sensor set, options,
-programs. A recording that cannot be used is one line of the report, and the others go on; the exit
-code is then 1. Words behind -- are options of run_bag for all recordings."""
+(NAME.truth.bag), score_run; writes batch.html and batch.json, with the worst moments of all first.
+When restarted it resumes, and repeats only what has changed: recordings, sensor set, options,
+programs. A recording that cannot be used is one line in the report, and the others continue; the
+exit code is then 1. Words after -- are options of run_bag for all recordings."""
 
 HERE = Path(__file__).parent
 PROFILES = HERE / "profiles"
@@ -131,14 +131,14 @@ def _check_disk(out, batch):
     undone = sum(not one["finished"] for one in batch["failed"])
     disk = os.statvfs(out)
     if undone and disk.f_bavail * disk.f_frsize < MIN_FREE:
-        raise InputError(f"{out}: its disk is full, {undone} recordings are not done; make room and"
-                         " start the same again, it goes on where it was")  # fmt: skip
+        raise InputError(f"{out}: its disk is full, {undone} recordings are not done; make room and start"
+                         " the same command again, it resumes")  # fmt: skip
 
 
 def _parser():
     parser = command_line.new_parser("batch", DESCRIPTION)
     add = parser.add_argument
-    add("folder", type=Path, metavar="FOLDER", help="with recordings, also in folders below it")
+    add("folder", type=Path, metavar="FOLDER", help="folder of recordings, subfolders included")
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of run_bag and score_run")  # fmt: skip
     add("--config", type=Path, metavar="CONFIG.yaml",

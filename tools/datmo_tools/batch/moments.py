@@ -63,8 +63,8 @@ def _drops(run):
     """Where most messages of a stage were dropped; each counts as one period of the scans."""
     period = run["duration_s"] / max(run["scans"], 1)
     for one in run["dropped"]:
-        yield _moment(one["most_from_s"], WINDOW, min(WINDOW, one["most"] * period),
-                      f"{one['stage']} dropped {one['most']} messages: {one['reason']}")  # fmt: skip
+        yield _moment(one["max_from_s"], WINDOW, min(WINDOW, one["max_count"] * period),
+                      f"{one['stage']} dropped {one['max_count']} messages: {one['reason']}")  # fmt: skip
 
 
 def _windows(series, offset):

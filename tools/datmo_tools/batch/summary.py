@@ -11,7 +11,7 @@ from datmo_tools.text_table import percent, rounded
 FORMAT = 1  # of batch.json
 SHOWN_MOMENTS = 50
 HOUR = 3600.0  # s
-AGAIN = "the same command goes on with it"
+AGAIN = "the same command resumes it"
 
 
 def collect(out, recordings):

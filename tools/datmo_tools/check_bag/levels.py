@@ -23,6 +23,7 @@ def levels(recording, roles):
         Level("low (grids)", "--low-level-fusion", base + camera),
         Level("object", "--object-fusion", base + objects),
         Level("track", "--track-fusion", base + tracks),
+        Level("mono (classes)", "--mono", base + _missing_for_mono(recording, roles)),
         Level("road_border", "--road-border", base),
     ]
 
@@ -45,13 +46,25 @@ def _missing_for_camera(recording, roles):
         return ()
     if roles.right_image is None:
         if roles.left_image is None and roles.mono_images:
-            return ("a second camera, or its points: one image alone gives no depth",)
+            return ("a second camera, or its points: with one camera, take level mono",)
         return ("a stereo camera: its points, or a pair of images",)
     lacking = [
         image for image in (roles.left_image, roles.right_image)
         if roles.info_beside(recording, image) is None
     ]  # fmt: skip
     return tuple(f"camera_info beside {image}" for image in lacking)
+
+
+def _missing_for_mono(recording, roles):
+    images = [name for name in (roles.left_image, *roles.mono_images) if name]
+    if not images:
+        return ("a camera's images",)
+    rectified = [name for name in images if "rect" in name]
+    if not rectified:
+        return (f"rectified images: image_proc makes them of {images[0]}",)
+    if all(roles.info_beside(recording, image) is None for image in rectified):
+        return (f"camera_info beside {rectified[0]}",)
+    return ()
 
 
 def motion_source(roles, recording):

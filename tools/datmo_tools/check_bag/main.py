@@ -13,13 +13,13 @@ from datmo_tools.errors import InputError
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Says what a recording holds, what is wrong with it for this package, and how to start.
+Reports what a recording contains, which problems it has for this package, and how to start.
 
 It reads the bag without a master and reports: what is missing for each level of fusion; rates, gaps
 and order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of
-these, by the motion that the scans themselves see; frames and mounts; beams that are dead or see the vehicle
-itself; reach against the window; calibration of cameras. Then it writes a first yaml with what
-differs from the defaults, and prints the lines to start with.
+these, by the motion estimated from the scans; frames and mounts; beams that are dead or see the
+vehicle itself; range compared with the window; calibration of cameras. Then it writes an initial
+yaml with the values that differ from the defaults, and prints the commands to start with.
 
 Exit code: 0 nothing worse than a warning, 1 errors, or the yaml cannot be written, 2 the bag cannot
 be read."""
@@ -41,7 +41,7 @@ def _parser():
     add("bag", type=Path, help="recording: a bag")
     add("--out", type=Path, metavar="FILE.yaml",
         help="yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
-    add("--no-yaml", action="store_true", help="writes none")
+    add("--no-yaml", action="store_true", help="writes no yaml")
     add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or that with most scans)")
     add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most)")
     command_line.add_json(parser)

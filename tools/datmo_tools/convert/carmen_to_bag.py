@@ -16,14 +16,14 @@ DESCRIPTION = """\
 Converts a log of the robot software CARMEN (also .bz2 or .gz) to a bag: /scan, /odometry, /tf,
 /tf_static.
 
-The scanner's mount is where the log says that the laser is on the robot; a log does not contain its
-height. Readings at or beyond the greatest range become +inf: no return. The odometry is what stands
-in the scans' lines, and ODOM lines between them; its twist is the mean motion to the next pose.
+The scanner's mount is the laser's pose on the robot in the log; a log does not contain its height.
+Readings at or beyond the maximum range become +inf: no return. The odometry is that of the scans'
+lines, and ODOM lines between them; its twist is the mean motion to the next pose.
 
-Stamps are the log's ipc times, to which relations files refer. If those of the scans do not rise,
-the scans stay in the order of the file, in which they were measured; their stamps are moved as
-little as it needs to make them rise evenly, and /log_stamps has the log's, for evaluate slam
-(--clock order). With --clock log the scans are sorted by the log's stamps instead."""
+Stamps are the log's ipc times, to which relations files refer. If those of the scans do not
+increase, the scans stay in the order of the file, in which they were measured; their stamps are
+moved as little as necessary to make them increase evenly, and /log_stamps has those of the log, for
+evaluate slam (--clock order). With --clock log the scans are sorted by the log's stamps instead."""
 
 
 def main(arguments=None):

@@ -14,17 +14,18 @@ from datmo_tools.errors import InputError
 DESCRIPTION = """\
 Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
 /scan, /odometry, /tf, /tf_static, the true pose and, where the drive is labeled, the true objects;
-/points and stereo images on demand. Both published forms are taken: synced+rectified (..._sync) and
-unsynced+unrectified (..._extract), whose sensors keep their own rates and whose images are rectified
-here; it has no true objects, for labels count the frames of the other form.
+/points and stereo images on demand. Both published forms are supported: synced+rectified (..._sync)
+and unsynced+unrectified (..._extract), whose sensors keep their own rates and whose images are
+rectified here; it has no true objects, for labels count the frames of the other form.
 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
-in a height band above the road, as clouds_to_scans makes it. The Velodyne looks down from 1.73 m and so sees over low obstacles.
-Returns from the recording car itself are left out. A beam covers the whole way to its neighbors
-unless --beam-width makes it thinner; its range is reported at its own bearing. The Velodyne turns
-to the right, and so does the scan: its first beam is the leftmost, each beam has its own time, and
-the middle one that of the drive's stamp, which is also that of points and true objects. The scan is
-recorded when its last beam is there. The same options and seed give the same bytes."""
+in a height band above the road, as clouds_to_scans makes it. The Velodyne looks down from 1.73 m
+and therefore sees over low obstacles. Returns from the recording car itself are left out. A beam
+extends to its neighbors unless --beam-width makes it narrower; its range is reported at its own
+bearing. The Velodyne turns to the right, and so does the scan: its first beam is the leftmost, each
+beam has its own time, and the middle one that of the drive's stamp, which is also that of points
+and true objects. The scan is recorded when its last beam is there. The same options and seed give
+the same bytes."""
 
 
 def main(arguments=None):

@@ -11,9 +11,9 @@ from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 
 DESCRIPTION = """\
-Makes one bag of several that were recorded together: the parts of 'rosbag record --split', or
-one bag for each sensor. Messages are ordered by the time at which they were recorded; nothing of
-them is changed, and latched topics stay latched."""
+Merges several bags that were recorded together into one: the parts of 'rosbag record --split', or
+one bag for each sensor. Messages are ordered by record time; they are not changed, and latched
+topics stay latched."""
 
 
 def main(arguments=None):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far published borders are off, how many are found, and how honest their sigmas are."""
+"""How far published borders are off, how many are found, and how consistent their sigmas are."""
 
 import numpy as np
 

@@ -17,26 +17,27 @@ from datmo_tools.evaluate.true_road import TrueRoad
 
 DESCRIPTION = """\
 Scores the borders of the road (/road_borders of run_bag --road-border; thesis 3.5) with the truth
-of a drive. Looked at is the road that the vehicle drives, from 10 m behind it to 40 m ahead along
-its true path, each half meter, outside of junctions and not round a corner of more than 60 degrees;
-the run's map is laid on the truth's at the vehicle's pose, so that its drift does not count.
+of a drive. The evaluated part is the road that the vehicle drives, from 10 m behind it to 40 m
+ahead along its true path, each half meter, outside of junctions and not around a corner of more
+than 60 degrees; the run's map is aligned with the truth at the vehicle's pose, so that its drift
+does not count.
 
-  true border  the end of what can be driven on: the curb, or the line of the road-side faces of the
+  true border  the end of the drivable road: the curb, or the line of the road-side faces of the
                vehicles that stand along it throughout, bridged over gaps of up to --bridged. In a
                gap longer than --car-length, and this far beyond the ends of a row, curb and row are
-               both right: the one that is nearer to what was published counts
-  found        of the true stations, seen before or not, those with a published border within
+               both right: the one closer to the published border counts
+  found        share of the true stations, seen before or not, with a published border within
                --found-within of the true one
   error        of published borders across the true one, positive: too far out. Those farther off
-               than --gate do not count in it, they are counted by themselves; from the curb: the
+               than --gate are excluded and counted separately; from the curb: the
                same error from the plain curb
   NEES         square of the error over the variance that was published: 1 in the mean and 0.45 in
-               the median if it is honest, and then 95 % are within the gate
+               the median if it is consistent, and then 95 % are within the gate
   false        borders within 40 m that are more than --false-from off every curb, parked vehicle
                and row: on the road, in a junction, beyond the true border, or where none is known
 
-A road is a curve where its curb's radius is less than --curve-radius. Whether intersections are
-found says evaluate tracks."""
+A road is a curve where its curb's radius is less than --curve-radius. Intersections are scored by
+evaluate tracks."""
 
 GATE = 3.0  # m
 FOUND_WITHIN = 1.0  # m

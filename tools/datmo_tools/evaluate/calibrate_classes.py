@@ -16,14 +16,14 @@ from datmo_tools.evaluate.truth import NONE, Asked, Truth
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how often what an image detector reports with which score is right, on drives with truth,
-and writes it as yaml that mono_classifier loads: its reliability curve, and what was there where it
-was wrong.
+Measures how often the detections of an image detector are right at each score, on drives with
+truth, and writes it as yaml that mono_classifier loads: its reliability curve, and the true classes
+where it was wrong.
 
 The runs must have the detector's own scores: run_bag --mono with mono_classifier/calibrated: false
-and min_alone: 0. Reports are sorted by score into bins of equally many; the share that is right, with
-one right and one wrong report more than were seen, is made to rise with the score (pool adjacent
-violators: Ayer et al. 1955). Calibrate on other drives than those you measure on."""
+and min_alone: 0. Detections are sorted by score into bins of equal counts; the share that is right,
+with one right and one wrong detection added, is made to increase with the score (pool adjacent
+violators: Ayer et al. 1955). Calibrate on other drives than those you evaluate on."""
 
 TOPIC = "/objects/mono"
 REPORTED = ("pedestrian", "cyclist", "vehicle")

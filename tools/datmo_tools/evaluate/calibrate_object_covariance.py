@@ -16,13 +16,13 @@ from datmo_tools.pose_path import read_path
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how far a stereo camera's objects are off in range and bearing, by range (thesis 3.3.3:
+Measures the errors of a stereo camera's objects in range and bearing, by range (thesis 3.3.3:
 "calculated empirically", there by hand), and writes it as yaml that object_fusion loads.
 
 From bags with the objects of both sensors (run_bag --object-fusion) it pairs the lidar's objects
-that are tracked as moving (of what stands the map may have taken a part away) with the camera's, by
-their near sides (thesis 3.3.2), brought to one time by the vehicle's poses and the tracks'
-velocities: each the other's nearest within 1 m across the line of sight, and within 1 m, or
+that are tracked as moving (parts of stationary objects may be missing because of the map) with the
+camera's, by their near sides (thesis 3.3.2), brought to one time by the vehicle's poses and the
+tracks' velocities: each the other's nearest within 1 m across the line of sight, and within 1 m, or
 5 m x range / 36 m if that is more, along it, of classes and sizes that agree. Compared is what both
 saw: the near side along the line of sight, and the bearings of its corners.
 
@@ -31,9 +31,8 @@ out; subtracted from their variance are the lidar's own, and the camera's of the
 it saw, which object_fusion adds by itself. Where a bin has too few pairs, or what is known hides
 the rest, the law that fits all bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
 
-Ranges are from the camera's position, which is in its lists. The lidar is taken for unbiased;
-a mean difference is printed as bias. Object fusion does not take it out: --with-bias adds its
-square."""
+Ranges are from the camera's position, which is in its lists. The lidar is assumed to be unbiased;
+a mean difference is printed as bias. Object fusion does not correct it: --with-bias adds its square."""
 
 TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
 

@@ -17,19 +17,20 @@ from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how much the tracks of each source are worth, on drives with truth, and writes it as yaml that
-track_fusion loads:
+Measures the reliability of the tracks of each source, on drives with truth, and writes it as yaml
+that track_fusion loads:
 
   detection    of the frames in which a source could lately see a road user that moves, by its
                published view: the share in which it has a track of it, by class and range, as the
                likeliest near / (1 + exp((range - half_range) / 4 m))
-  true_share   of its tracks, those on what moves at some time, by the class that they claim
+  true_share   share of its tracks that are on objects that move at some time, by reported class
   false_agreement_probability
                of the frames of another source's false tracks that it could see: the share in which
                it has a track there, too
 
-Each with one of either kind more than was counted. What was counted in less than --min-frames frames,
-or of less than --min-tracks tracks, is left out: the default stays. Calibrate on other drives than those you measure on."""
+Each with one count of either kind added. Values from fewer than --min-frames frames, or fewer than
+--min-tracks tracks, are left out: the default remains. Calibrate on other drives than those you
+evaluate on."""
 
 SOURCES = ("lidar", "stereo")
 CLAIMS = (*CLASSES.values(), OTHER)

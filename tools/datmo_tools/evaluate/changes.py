@@ -25,14 +25,15 @@ NEAR = 0.6  # m from a side: two cells of 0.3 m, for the map's own error
 NEW, VANISHED = 100, 0
 
 DESCRIPTION = f"""\
-Scores the changes that a run of map_fusion reports against a prior map, on simulated drives: RUN.bag
-was made from DRIVE.bag in the map of a run of BEFORE.bag, a drive through the same scene. What stands
-in one of the two drives alone, and some sensor has seen there, has vanished or is new.
+Scores the changes that a run of map_fusion reports against a prior map, on simulated drives:
+RUN.bag was made from DRIVE.bag in the map of a run of BEFORE.bag, a drive through the same scene.
+Objects that stand in only one of the two drives, and that some sensor has seen, have vanished or
+are new.
 
-  cells   reported, and how many of these are within {NEAR:g} m of what has changed
-  things  that have changed and that the vehicle has passed (they lie {BEHIND[0]:g} to {BEHIND[1]:g} m behind it, at
-          most {BESIDE:g} m to a side), and how many of these are reported by then
-  wrong   cells in a map (median) that are of no change"""
+  cells   reported, and how many of these are within {NEAR:g} m of an actual change
+  things  that have changed and that the vehicle has passed (they lie {BEHIND[0]:g} to {BEHIND[1]:g}
+          m behind it, at most {BESIDE:g} m to a side), and how many of these are reported by then
+  wrong   cells in a map (median) without an actual change"""
 
 
 class _Standing(NamedTuple):

@@ -11,13 +11,13 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Draws the borders of the road that a run found (run_bag --road-border), as sheets of pictures of
-chosen moments: from above, with the scan, the objects that were kept and dropped, and what is true
-where the bag knows it (run_bag --with-truth); and with --images borders and scan laid into the
-camera's images.
+chosen moments: from above, with the scan, the objects that were kept and dropped, and the ground
+truth where the bag has it (run_bag --with-truth); and with --images borders and scan projected into
+the camera's images.
 
-In the images all lies on the road, which is the plane on which base_link stands: the points of a
-scan below where its beams ended, and where the road slopes or the vehicle pitches, what is far
-ahead seems off by that. A border is the fainter the less probable it is."""
+In the images everything lies on the road, the plane on which base_link stands: the points of a scan
+below the end points of its beams; where the road slopes or the vehicle pitches, distant points are
+displaced accordingly. A border is the fainter the less probable it is."""
 
 PERIOD = 5.0  # s
 HISTORY = 3.0  # s

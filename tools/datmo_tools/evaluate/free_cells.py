@@ -26,12 +26,12 @@ DESCRIPTION = """\
 Scores the free cells of a run's grids, of any source, with the Velodyne of the drive that it was
 made from (kitti_to_bag --points --images), in the left camera's image, by range from the camera:
 
-  precision  of the free cells of which the Velodyne knows, how many have no obstacle
-  recall     of the cells in which the Velodyne sees the road and no obstacle, how many are free
+  precision  share of the free cells observed by the Velodyne that have no obstacle
+  recall     share of the cells in which the Velodyne sees the road and no obstacle that are free
 
-An obstacle is what stands 0.3 m to 2 m above the road, whose plane is fitted in each cloud; the
-road is what is within 0.15 m of it. The cloud nearest in time is brought to the grid's stamp by the
-true poses. What moved by itself in between (up to 0.05 s) is a little off."""
+An obstacle is anything 0.3 m to 2 m above the road, whose plane is fitted in each cloud; the road is
+within 0.15 m of it. The cloud closest in time is transformed to the grid's stamp by the true poses.
+Objects that moved in between (up to 0.05 s) are slightly displaced."""
 
 ROAD_TOLERANCE = 0.15  # m from the plane
 

@@ -13,10 +13,10 @@ from datmo_tools.text_table import NO_VALUE
 
 DESCRIPTION = """\
 Scores the fused grids of a run against the truth of the simulated drive that it was made from
-(simulate with stereo/enabled=true and ground_truth/echoes=true): of the cells that white paint put
-into the lidar's grid, how many fusion took away; of the cells of true obstacles, how many it lost;
-and at how many stamps a thin pole that the camera sees is in the fused grid and in the lidar's. In
-view is what lies in the camera's image and effective range, and not behind a true object."""
+(simulate with stereo/enabled=true and ground_truth/echoes=true): of the cells that white paint
+occupies in the lidar's grid, how many fusion removed; of the cells of true obstacles, how many it
+lost; and at how many stamps a thin pole that the camera sees is in the fused grid and in the
+lidar's. In view means within the camera's image and effective range, and not behind a true object."""
 
 # Ends of the bands of range, m, as far as they lie within the camera's effective range.
 BANDS = (0.0, 10.0, 20.0)

@@ -21,10 +21,10 @@ from datmo_tools.text_table import rounded
 DESCRIPTION = """\
 Scores the tracks of a result of run_bag against positions that were labeled in the recording, as
 messages of any type with `pose` and `id`: how many have a track within --gate, each track for one
-label and each label for one track, and how often a labeled id goes over to another track. A label
-may have a header; without one it is of the scan recorded last before it, in that scan's frame.
+label and each label for one track, and how often a labeled id switches to another track. A label
+may have a header; without one it belongs to the last scan recorded before it, in that scan's frame.
 
-What is not labeled is not judged: labels of some people say nothing of false tracks."""
+Unlabeled objects are not scored: labels of some people do not show false tracks."""
 
 TRACKS = "/tracks"
 GATE = 0.5  # m

@@ -24,9 +24,10 @@ from datmo_tools.evaluate import (
 from datmo_tools.evaluate.report import as_text, write
 
 DESCRIPTION = """\
-Scores what a run computed against what was true: a table on the terminal, and in a folder a file of
-JSON and a page that needs no network, both named after the subcommand. What cannot be scored ends
-with what is missing in which file, and no report. evaluate SUBCOMMAND --help says what is scored."""
+Scores the results of a run against ground truth: a table on the terminal, and in a folder a JSON
+file and an HTML page that needs no network, both named after the subcommand. If something cannot be
+scored, the message names what is missing in which file, and there is no report. evaluate SUBCOMMAND
+--help says what is scored."""
 
 # Each has DESCRIPTION, add_arguments(parser), and evaluate(values): the score as a dictionary that
 # JSON can hold, and its sections.
@@ -34,13 +35,13 @@ SUBCOMMANDS = {
     "tracks": (tracks, "tracks, pose and times of one run, or of several side by side"),
     "classes": (classes, "the classes of the tracks"),
     "operating_curve": (operating_curve, "missed frames against false tracks a minute"),
-    "track_fusion": (track_fusion, "the fusion of tracks: which of two sensors are of one object"),
-    "labels": (labels, "tracks at positions that were labeled in a recording"),
+    "track_fusion": (track_fusion, "the fusion of tracks: which tracks of two sensors belong to one object"),
+    "labels": (labels, "tracks at positions labeled in a recording"),
     "objects": (objects, "the objects of single measurements, before tracking"),
     "borders": (borders, "the borders of the road"),
     "grids": (grids, "fused grids, on simulated drives"),
-    "maps": (maps, "maps of what stands still, on simulated drives"),
-    "changes": (changes, "what is reported to have changed since a prior map, on simulated drives"),
+    "maps": (maps, "maps of stationary things, on simulated drives"),
+    "changes": (changes, "reported changes since a prior map, on simulated drives"),
     "stereo_grids": (stereo_grids, "stereo grids, by the Velodyne of a KITTI drive"),
     "free_cells": (free_cells, "free cells of grids, by the Velodyne of a KITTI drive"),
     "risk": (risk, "risks of contact, on simulated drives"),

@@ -26,18 +26,18 @@ from datmo_tools.text_table import rounded
 
 DESCRIPTION = f"""\
 Scores the maps of a run (of grid_slam, or of map_fusion) against the truth of the simulated drive
-that it was made from, within {REACH:g} m of the vehicle, brought there by the run's own pose: how
-far the pose has drifted is not asked here.
+that it was made from, within {REACH:g} m of the vehicle, aligned by the run's own pose: drift of the
+pose does not count here.
 
-  occupied  of the occupied cells of the road, how many are within a cell of what stands still
-  free      of the free cells of the road, how many are not in what stands still
-  things    of what stands still and some sensor has seen, how much is within a cell of an occupied
-            one; and the same of thin poles
-  conflicts cells for a map in which sources contradict each other (at least 25 percent)
+  occupied  share of the occupied road cells within a cell of a stationary object
+  free      share of the free road cells that are outside of stationary objects
+  things    share of the stationary objects seen by some sensor that are within a cell of an
+            occupied one; and the same for thin poles
+  conflicts cells per map in which sources contradict each other (at least 25 percent)
 
-The road is what lies between its curbs along the vehicle's path, {FROM_CURB:g} m from them, but at
-intersections; buildings are not in the truth. What stands now and moves at another time is left
-out."""
+The road is the area between its curbs along the vehicle's path, {FROM_CURB:g} m from them, except at
+intersections; buildings are not in the truth. Objects that stand now and move at another time are
+left out."""
 
 CONFLICT = 25  # percent, from which on map_fusion counts a cell (conflict_from)
 NEAR_STAMP = 50_000_000  # ns, from a map to the truth

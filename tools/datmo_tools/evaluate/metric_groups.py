@@ -33,11 +33,11 @@ def _degrees(name, path, digits=1):
     return Metric(name, path, "deg", DEGREES, digits, lower)
 
 
-def _honesty(quantity, path, degrees_of_freedom):
+def _consistency(quantity, path, degrees_of_freedom):
     """NEES of a quantity, and what has none."""
-    honest = f"NEES of {quantity}, {degrees_of_freedom} is honest"
+    name = f"NEES of {quantity}, {degrees_of_freedom} is consistent"
     return (
-        Metric(honest, f"{path}.mean_nees", "", 1.0, 2, near(float(degrees_of_freedom))),
+        Metric(name, f"{path}.mean_nees", "", 1.0, 2, near(float(degrees_of_freedom))),
         Metric("not positive definite", f"{path}.unusable", "matrices", cost=lower),
     )
 
@@ -141,9 +141,9 @@ METRIC_GROUPS = (
         "Honesty of the covariance",
         "Bar-Shalom et al. 2001",
         (
-            *_honesty("position", "consistency.position", 2),
+            *_consistency("position", "consistency.position", 2),
             _percent("inside the 95 % bound", "consistency.position.inside_share", near(95.0)),
-            *_honesty("velocity", "consistency.velocity", 2),
+            *_consistency("velocity", "consistency.velocity", 2),
             _percent("inside the 95 % bound", "consistency.velocity.inside_share", near(95.0)),
         ),
     ),
@@ -187,7 +187,7 @@ METRIC_GROUPS = (
             _meters("position, root mean square", "pose.position_rmse_m"),
             _degrees("heading, root mean square", "pose.heading_rmse_rad", 2),
             _meters("largest jump within 1 s", "pose.largest_jump_m"),
-            *_honesty("the pose", "pose", 3),
+            *_consistency("the pose", "pose", 3),
         ),
     ),
 )

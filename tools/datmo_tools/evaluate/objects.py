@@ -17,21 +17,21 @@ DESCRIPTION = """\
 Scores the objects of single measurements (/objects, /objects/stereo, /objects/fused of a run),
 before tracking, against the true objects of the drive that the run was made from:
 
-  recall       of the true objects that the sensor sees, how many are found, by class and range
-  precision    of the objects, how many are near a true one, moving or not; what stands in the
-               world and is no true object (walls, fences, what KITTI does not label) is false
-  class right  of the objects that are found, by their true class; and what is said of which, by
-               range, and how often it is right at which probability
+  recall       share of the true objects visible to the sensor that are found, by class and range
+  precision    share of the objects near a true one, moving or not; stationary things that are no
+               true object (walls, fences, things that KITTI does not label) are false
+  class right  of the objects that are found, by true class; the confusion of classes by range, and
+               how often a class is right at which probability
   error        of the near side along the line of sight (positive: too far), and of its corners
                across it (to the left), as far as they are seen; mean and standard deviation
   NEES         of both by the object's own covariance: 2 in the mean and 1.39 in the median if it is
-               honest, and then 95 % of the objects are within the gate
+               consistent, and then 95 % of the objects are within the gate
 
-Near is what lies, with the nearest point in the middle of its bearings, within 1 m of the true box
-across the line of sight, and within 1 m, or 5 m x range / 36 m if that is more, along it (thesis
-3.3.3). A true object is found by one object only; others near it are doubles.
+An object is near if it lies, with the nearest point in the middle of its bearings, within 1 m of
+the true box across the line of sight, and within 1 m, or 5 m x range / 36 m if that is more, along
+it (thesis 3.3.3). A true object is found by one object only; others near it are doubles.
 
-KITTI's labels know the camera's view alone, and not which sensor sees what:
+KITTI's labels cover only the camera's view, and do not tell which sensor sees what:
 --visible-to none --half-angle 0.7."""
 
 # The sensor that must see a true object for it to be asked of a topic.
@@ -155,5 +155,5 @@ def add_arguments(parser):
     add("--visible-to", metavar="SENSOR",
         help=f"that must see a true object, {ANY}, or {NONE}: not asked (default: scanner for "
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
-    add("--moving-only", action="store_true", help="true objects that stand need not be found")
+    add("--moving-only", action="store_true", help="stationary true objects need not be found")
     add_region(parser, RANGE)

@@ -13,14 +13,15 @@ from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import find_score_run, score
 from datmo_tools.text_table import percent, rounded
 from datmo_tools.whole_files import write_whole
+from datmo_tools.yaml_files import load_yaml
 
 DESCRIPTION = """\
-Draws missed frames against false tracks a minute, while the one probability that the tracker requires
-of motion goes from low to high.
+Plots missed frames against false tracks per minute for increasing values of the probability of
+motion that the tracker requires.
 
 Each drive, with its truth, is run and scored at each probability, and at the shipped one, which the
-curve marks: that of the configuration, or else the default. A picture of the curve, in pixels, is
-written beside the report."""
+curve marks: that of the configuration, or the default. The plot is also written as a bitmap beside
+the report."""
 
 KEYS = ("tracker", "target", "motion_likelihood", "required_probability")
 OF_SCORE_RUN = "attainable/required_probability"  # whose default is the tracker's
@@ -100,10 +101,7 @@ def _check(probabilities):
 
 
 def _read(path):
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from error
+    content = load_yaml(path)
     if not isinstance(content or {}, dict):
         raise InputError(f"{path}: holds no options, expected a mapping")
     return content or {}
@@ -151,4 +149,4 @@ def add_arguments(parser):
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
     add("--run-bag", metavar="PROGRAM", help="in place of the run_bag that is beside")
     add("--probabilities", nargs="+", type=command_line.number, default=PROBABILITIES, metavar="P",
-        help="that are required of motion, 0.5 to 1 (default %(default)s)")  # fmt: skip
+        help="required probabilities of motion, 0.5 to 1 (default %(default)s)")  # fmt: skip

@@ -71,7 +71,7 @@ def hota_over_alpha(runs, names):
 
 
 def consistency(runs, names):
-    """Mean NEES of the states on a logarithmic axis, with the bounds of an honest filter."""
+    """Mean NEES of the states on a logarithmic axis, with the bounds of a consistent filter."""
     rows = _consistency_rows(runs, names)
 
     def draw(ax):

@@ -42,25 +42,25 @@ def _of_all_runs(runs, names):
     """What shows all runs in one picture."""
     yield Section(
         "Errors over time",
-        "Of the true objects that count and have a track; no line where none has.",
+        "Of the true objects that count and have a track; no line where there is none.",
         picture=plots.errors_over_time(runs, names),
     )
     yield Section(
         "HOTA by threshold",
-        "How the score falls as matches have to be closer; a steep fall says that tracks are on "
-        "the objects, but not accurate.",
+        "How the score falls as matches have to be closer; a steep fall means that tracks are on "
+        "the objects, but inaccurate.",
         picture=plots.hota_over_alpha(runs, names),
     )
     yield Section(
-        "Is the covariance honest?",
+        "Is the covariance consistent?",
         "Mean NEES (dot) against its expectation (line) and the 95 % bounds of the mean of an "
-        "honest filter (bar, where given). To the right the covariance is too small, to the left "
+        "consistent filter (bar, where given). To the right the covariance is too small, to the left "
         "too large.",
         picture=plots.consistency(runs, names),
     )
     yield Section(
         "Pose of the vehicle",
-        "The maps of the run and of the truth laid on each other at the first pose.",
+        "The maps of the run and of the truth, aligned at the first pose.",
         picture=plots.pose_over_time(runs, names),
     )
     if any(run.get("timing") for run in runs):

@@ -26,22 +26,22 @@ DESCRIPTION = """\
 Scores the stereo (or fused) grids of a run with the Velodyne of the drive that it was made from
 (kitti_to_bag --points --images), by range from the camera:
 
-  precision    of the cells that are occupied, how many the Velodyne has an obstacle at
-  recall       of the cells with an obstacle, how many are occupied
-  called free  of the cells with an obstacle, how many are free; the others are unknown
+  precision    share of the occupied cells where the Velodyne has an obstacle
+  recall       share of the cells with an obstacle that are occupied
+  called free  share of the cells with an obstacle that are free; the others are unknown
 
-An obstacle is what stands 0.3 m to 2 m above the road, whose plane is fitted in each cloud. The
-cloud nearest in time is brought to the grid's stamp by the true poses. A cell is right where the
+An obstacle is anything 0.3 m to 2 m above the road, whose plane is fitted in each cloud. The cloud
+closest in time is transformed to the grid's stamp by the true poses. A cell is right where the
 other side has an obstacle within one cell, or within the standard deviation of the camera's depth
-there, whichever is more. What one of the two cameras does not see is left out. OpenCV's matchers
-give no disparity in the first columns of the left image, as many as disparity_range says, whatever
-is there: --first-column leaves them out too, so that the rest is judged by itself.
+there, whichever is more. Areas that one of the two cameras does not see are left out. OpenCV's
+matchers give no disparity in the first columns of the left image, as many as disparity_range says,
+whatever is there: --first-column leaves them out too, so that the rest is scored by itself.
 
-The Velodyne stands 8 cm above the cameras and 0.3 m behind them, so it sees a little more: over
+The Velodyne is mounted 8 cm above the cameras and 0.3 m behind them, so it sees a little more: over
 low obstacles and roofs, where the cameras look along the surface; and between 0.3 m and 0.6 m above
 the road nearer than 4.5 m, below the image's lower edge. It sees less than the cameras where its
 files are cropped (z from -2.0 m to 0.3 m in its frame: some 2 m above the road) and between its
-beams (0.4 degrees). What moved by itself between cloud and grid (up to 0.05 s) is a little off."""
+beams (0.4 degrees). Objects that moved between cloud and grid (up to 0.05 s) are slightly displaced."""
 
 DISPARITY_SIGMA = 0.5  # px: the median error of semi-global matching on drive 0005
 

@@ -18,7 +18,7 @@ from datmo_tools.evaluate.truth import ANY, NONE, Region
 
 DESCRIPTION = """\
 Scores the fusion of tracks (thesis 3.4) in a result of run_bag --track-fusion: /tracks, the fused
-ones, against /tracks/lidar and /tracks/stereo, which they are made of, and the true objects.
+ones, against /tracks/lidar and /tracks/stereo, from which they are made, and the true objects.
 
   table 3.3    ids of both sensors' tracks, and of the fused tracks that passed the test of both:
                that had a track of each at some time
@@ -34,8 +34,9 @@ ones, against /tracks/lidar and /tracks/stereo, which they are made of, and the 
                list; visible: nothing that the camera saw occludes them
   ghosts       fused tracks on an object that has another one; objects that change their track
 
-What is false, late or missed is listed with its stamp and position. KITTI's labels know the camera's
-view alone, and not which sensor sees what: --visible-to none --range 500 --half-angle 0.7."""
+False, late and missed tracks are listed with stamp and position. KITTI's labels cover only the
+camera's view, and do not tell which sensor sees what: --visible-to none --range 500 --half-angle
+0.7."""
 
 FUSED = "/tracks"
 

@@ -12,8 +12,8 @@ DESCRIPTION = """\
 Scores the tracks of a run against the truth.
 
 The truth is in the run's own bag (run_bag --with-truth), or in the bag that --truth names. Several
-runs on the same truth stand side by side, and the best value of each line is marked. What has to be
-found, and how near a track has to be, are options; score_run --list-options prints them."""
+runs on the same truth are shown side by side, with the best value of each line marked. Which objects
+have to be found, and how close a track has to be, are options; score_run --list-options prints them."""
 
 
 def evaluate(values):
@@ -60,6 +60,6 @@ def add_arguments(parser):
     add = parser.add_argument
     add_truth(parser)
     add("--attainable", type=Path, metavar="DRIVE.bag",
-        help="bag with the scans: delays beside the least that they allow")  # fmt: skip
+        help="bag with the scans: compares delays with the minimum that they allow")  # fmt: skip
     add("--options", type=Path, metavar="FILE.yaml", help="options of score_run")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")

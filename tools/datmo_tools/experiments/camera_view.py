@@ -5,10 +5,9 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
-
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed, output_of
+from datmo_tools.yaml_files import load_yaml
 
 LIST_PARAMETERS = "list_parameters"
 
@@ -30,10 +29,7 @@ def camera_view(config, programs):
     config: its yaml file (Path); what it does not say has the default, which the program
     list_parameters in the folder `programs` (Path) prints. Raises InputError.
     """
-    try:
-        sections = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
-    except (OSError, yaml.YAMLError) as error:
-        raise InputError(f"{config}: {error}") from error
+    sections = load_yaml(config) or {}
     defaults = _defaults(Path(programs) / LIST_PARAMETERS)
     values = [_value(sections, name, defaults) for name in (_RANGE, _FIELD_OF_VIEW)]
     for name, value in zip((_RANGE, _FIELD_OF_VIEW), values):

@@ -15,6 +15,7 @@ from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.campaign_page import RECOVERED, TRACK_FIGURES, page
+from datmo_tools.experiments.fault_bounds import beyond, read_bounds
 from datmo_tools.experiments.kept_ids import gap_effect, kept_ids
 from datmo_tools.experiments.line_faults import INPUTS, KEPT, STEREO_INPUTS, Fault, Message, faults, faulty
 from datmo_tools.pose_path import read_messages, read_path
@@ -23,9 +24,9 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Plays drives with truth through the stack with one fault of a sensor after the other, and writes what
-each of them did to poses and tracks, beside what mutated messages, hours of a drive, load and outages
-did to the stages, as a page and as JSON."""
+Plays drives with truth through the stack with one fault of a sensor after the other, and writes the
+effect of each on poses and tracks, together with the effects of mutated messages, hours of driving,
+load and outages on the stages, as a page and as JSON."""
 
 PROGRAMS = ("run_bag", "score_run")
 TRUTH = "/ground_truth/pose"
@@ -34,6 +35,7 @@ TRUTH = "/ground_truth/pose"
 LEVELS = ("low", "object", "recommended")
 SILENT_FROM = (5.0, 7.0, 9.0, 11.0, 13.0)
 SILENT = 3.0  # s
+SURE = 0.05  # m; no pose is surer than the first one, from which errors are counted
 
 
 class Played(NamedTuple):
@@ -60,12 +62,12 @@ def main(arguments=None):
     return command_line.run("campaign", lambda: _campaign(values), "report")
 
 
-def pose_errors(computed, recorded, until=np.inf):
-    """Stamps (s, n) of the poses in a bag (Path) before `until` (s), and how far each is off (m, n), from
-    the first of them on."""
+def pose_errors(computed, recorded, since=-np.inf, until=np.inf):
+    """Stamps (s, n) of the poses in a bag (Path) from `since` to `until` (s), and how far each is off (m, n),
+    from the first of them on."""
     truth, path = read_path(recorded, TRUTH), read_path(computed, "/pose")
     stamps = [stamp for stamp in path.stamps
-              if truth.stamps[0] <= stamp <= min(truth.stamps[-1], until * NANOSECONDS)]  # fmt: skip
+              if max(truth.stamps[0], since * NANOSECONDS) <= stamp <= min(truth.stamps[-1], until * NANOSECONDS)]  # fmt: skip
     start = stamps[0]
     errors = []
     for stamp in stamps:
@@ -98,13 +100,15 @@ def _campaign(values):
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a bag and a yaml file")
     programs.check(values.programs, PROGRAMS)
+    bounds = read_bounds(values.bounds) if values.bounds else None
     played = Played(values.drive.name, _messages(values.drive, INPUTS), ())
-    report = {"begin_s": values.begin, "drives": [_all_faults(values, played, None)], "silent": []}
+    report = {"made": values.made, "begin_s": values.begin, "drives": [_all_faults(values, played, None)], "silent": []}
     if values.stereo is not None:
         messages = _messages(values.stereo, {**INPUTS, **STEREO_INPUTS})
         both = Played(values.stereo.name, messages, ("--fusion", "recommended"))
         report["drives"].append(_all_faults(values, both, STEREO_INPUTS))
         report["silent"] = _silent_scanner(values, both)
+    report["beyond"] = [line for drive in report["drives"] for line in beyond(drive, bounds)] if bounds else []
     for part in ("mutated", "soak", "load", "outages"):
         file = getattr(values, part)
         report[part] = json.loads(file.read_text(encoding="utf-8")) if file else None
@@ -112,6 +116,8 @@ def _campaign(values):
     if values.out is not None:
         report["load"] = None  # its samples have a file of their own
         write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    if report["beyond"]:
+        raise InputError("faults beyond their bounds:\n  " + "\n  ".join(report["beyond"]))
 
 
 def _all_faults(values, played, inputs):
@@ -159,25 +165,42 @@ def _run(values, played, fault, begin, clean):
             return {"fault": fault.name, "error": str(error).replace(f"{name}/", "")}, None
         path = _path(run)
         tracks = _tracks(run.computed, values.programs, run.folder)
-        sigma = _largest_sigma(run)
-    poses = {**effect(*path, clean or path, begin, begin + fault.seconds), "largest_sigma_m": sigma}
+        poses = {**effect(*path, clean or path, begin, begin + fault.seconds), "largest_sigma_m": _largest_sigma(run),
+                 "largest_error_sigmas": _largest_in_sigmas(run, *path)}  # fmt: skip
     return {"fault": fault.name, "error": None, "pose": poses, "tracks": tracks}, path
 
 
 def _path(run):
-    """Stamps and errors as of pose_errors, by the clock before a jump; where it goes back, of the new map."""
+    """Stamps and errors as of pose_errors, by the clock before a jump; behind one, of the new map."""
     jump = run.fault.jump
-    stamps, errors = pose_errors(run.computed, run.drive, run.begin + 0.5 * jump if jump < 0.0 else np.inf)
-    after = stamps < run.begin if jump < 0.0 else stamps > run.begin + 0.5 * jump
-    return (stamps - jump * after if jump else stamps), errors
+    if not jump:
+        return pose_errors(run.computed, run.drive)
+    between = run.begin + 0.5 * jump
+    new_map = {"since": between} if jump > 0.0 else {"until": between}
+    stamps, errors = pose_errors(run.computed, run.drive, **new_map)
+    return stamps - jump, errors
 
 
 def _largest_sigma(run):
     """m, in the worst direction, of the poses after the fault began."""
-    covariances = [np.reshape(message.pose.covariance, (6, 6))[:2, :2]
-                   for message, _ in read_messages(run.computed, "/pose/local")
-                   if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0)]  # fmt: skip
-    return float(np.sqrt(max(np.linalg.eigvalsh(covariance)[1] for covariance in covariances)))
+    return max(_sigma(message) for message, _ in read_messages(run.computed, "/pose/local")
+               if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0))  # fmt: skip
+
+
+def _sigma(message):
+    """m, of a geometry_msgs/PoseWithCovarianceStamped in its worst direction."""
+    covariance = np.reshape(message.pose.covariance, (6, 6))[:2, :2]
+    return float(np.sqrt(np.linalg.eigvalsh(covariance)[1]))
+
+
+def _largest_in_sigmas(run, stamps, errors):
+    """The largest error after the fault began, in standard deviations of its pose in the worst direction, which
+    are at least SURE; stamps and errors as of _path."""
+    said = sorted((message.header.stamp.to_sec() - run.fault.jump, _sigma(message))
+                  for message, _ in read_messages(run.computed, "/pose"))  # fmt: skip
+    after = stamps >= run.begin
+    sigmas = np.maximum(np.interp(stamps[after], *np.transpose(said)), SURE)
+    return float((errors[after] / sigmas).max()) if after.any() else None
 
 
 def _silent_scanner(values, played):
@@ -220,6 +243,8 @@ def _parser():
     add("--soak", type=Path, metavar="FILE.json", help="what soak_stack wrote")
     add("--load", type=Path, metavar="FILE.json", help="what load.test wrote")
     add("--outages", type=Path, metavar="FILE.json", help="what outage.test wrote")
+    add("--bounds", type=Path, metavar="FILE.yaml", help="what faults may do at the most; fails beyond")
+    add("--made", default="", metavar="TEXT", help="of which commit, when, with which seed: for the page")
     add("--page", required=True, type=command_line.output_file, metavar="FILE.md", help="the report")
     add("--out", type=command_line.output_file, metavar="FILE.json", help="all runs")
     add("--faults", nargs="+", default=[], metavar="PART", help="those with this in their name (default all)")

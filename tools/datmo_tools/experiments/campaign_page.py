@@ -14,7 +14,8 @@ SOAKED = 0.2
 
 def page(report):
     """The report (dict) as Markdown; parts that were not run are left out."""
-    parts = [["# Reliability", "", "Written by `scripts/campaign`."]]
+    made = f", {report['made']}" if report["made"] else ""
+    parts = [["# Reliability", "", f"Written by `scripts/campaign`{made}.", *_beyond_lines(report["beyond"])]]
     parts += [_fault_lines(report, drive) for drive in report["drives"]]
     for part, lines in (("silent", _silent_lines), ("outages", _outage_lines), ("load", _load_lines),
                         ("soak", _soak_lines), ("mutated", _mutated_lines)):  # fmt: skip
@@ -23,19 +24,23 @@ def page(report):
     return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
 
 
+def _beyond_lines(beyond):
+    return ["", "Beyond the bounds of `test/campaign/fault_bounds.yaml`:", "", *(f"- {line}" for line in beyond)] if beyond else []
+
+
 def _fault_lines(report, drive):
     options = " ".join(("run_bag", *drive["options"]))
     lines = [
         f"## Faults on line: {drive['drive']}",
         "",
         f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
-        "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as right as",
-        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps back makes a new map:",
+        "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as accurate as",
+        f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps starts a new map:",
         "errors are since its first pose, and tracks whose time went back have no score. "
         f"{len(drive['runs']) - 1} of the campaign's {drive['of']} faults.",
         "",
-        "| fault | poses | largest error [m] | at the end [m] | largest sigma [m] | recovered [s] | MOTA | misses | false positives | id switches |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| fault | poses | largest error [m] | at the end [m] | largest sigma [m] | largest error [sigma] | recovered [s] | MOTA | misses | false positives | id switches |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     return lines + [_row(run) for run in drive["runs"]]
 
@@ -44,9 +49,9 @@ def _silent_lines(runs):
     return [
         "## One scanner silent for 3 s, with a stereo camera",
         "",
-        "At five times of that drive, by level of fusion. Error: that the silence added, at the first pose after it and the most from",
-        "0.5 s later on, in m and of the distance driven meanwhile. Ids: of what moves in the camera's view before, meanwhile and",
-        "after, how many have a track before and after, and how many of them under one id.",
+        "At five times of that drive, by level of fusion. Error: added by the silence, at the first pose after it and the maximum from",
+        "0.5 s later on, in m and relative to the distance driven meanwhile. Ids: of moving objects in the camera's view before, meanwhile and",
+        "after, how many have a track before and after, and how many of them with the same id.",
         "",
         "| level | from [s] | poses, lists of tracks meanwhile | distance [m] | error after [m] | 0.5 s later [m] | of the distance | seen | tracked | ids kept |",
         "|---|---|---|---|---|---|---|---|---|---|",
@@ -64,11 +69,11 @@ def _silent_row(run):
 
 def _outage_lines(outages):
     return [
-        "## Nodelets unloaded, the process killed",
+        "## Nodelets unloaded, process killed",
         "",
         "Live (`outage.test`, `fusion:=recommended risk:=true`), at the computer's pace, while a drive goes on: seconds until the nodelet is loaded",
-        "again by its `load_nodelet`, and until there are tracks of a scan that was measured after it; whether 3 s later the other",
-        "car has the id that it had. A process that is killed begins a new map.",
+        "again by its `load_nodelet`, and until there are tracks of a scan that was measured afterward; whether 3 s later the other",
+        "car still has its id. After being killed, the process begins a new map.",
         "",
         "| what | loaded [s] | tracks [s] | id kept |",
         "|---|---|---|---|",
@@ -85,7 +90,7 @@ def _load_lines(load):
         "",
         f"Live (`load.test`, all on one computer, low level and track fusion, borders, risk): {load['load_s']:.0f} s of three times the",
         f"sensors' rates (scans at 37.5 Hz), clouds of 196,608 pixels at 20 Hz and lists of {load['objects']} objects at 37.5 Hz; then the",
-        f"process stands still (SIGSTOP) for {load['still_s']:.0f} s meanwhile. Latency: from the stamp of a scan to its tracks.",
+        f"process is stopped (SIGSTOP) for {load['still_s']:.0f} s. Latency: from the stamp of a scan to its tracks.",
         "",
         "| | lists of tracks | median [s] | 99 % [s] | max [s] |",
         "|---|---|---|---|---|",
@@ -95,7 +100,7 @@ def _load_lines(load):
         f"- {load['recovered_s']:.2f} s after the end of both, latency is again within twice the 99th percentile of before",
         f"- memory of the process: {before:.0f} MiB before, {most:.0f} MiB at most, {after:.0f} MiB at the end",
         "",
-        "Sent and what became of it; every message that is not served is counted by the stage:",
+        "Messages sent and their outcome; every message that is not processed is counted by the stage:",
         "",
         "| stage | sent | received | lost in queues | too old | processed |",
         "|---|---|---|---|---|---|",
@@ -110,16 +115,16 @@ def _soak_lines(soaked):
     return [
         "## Soak",
         "",
-        f"`soak_stack`: {stack['hours']:.2f} hours of a drive without end, all levels of fusion, in one process as fast as it goes;",
+        f"`soak_stack`: {stack['hours']:.2f} hours of an endless drive, all levels of fusion, in one process as fast as possible;",
         f"{stack['dropped']} messages dropped, at least {stack['tracks_least']} tracks in the lists of each minute. Growth: of a straight line through",
-        "the minutes' samples, once memory holds all tiles that it may (`map/max_tiles`: the first half, or half an hour), +- its standard error. Loop closing",
-        "is left out, which keeps the drive ([limits.md](limits.md)). Times are those of a computer that does other things, too.",
+        "the minutes' samples, once memory holds the maximum number of tiles (`map/max_tiles`: the first half, or half an hour), +- its standard error. Loop closing",
+        "is left out, because it stores the drive ([limits.md](limits.md)). Times are those of a computer that also runs other jobs.",
         "",
-        "| | median | growth an hour of data |",
+        "| | median | growth per hour of data |",
         "|---|---|---|",
         *(_drift_row(name, stack[key]) for name, key in (
             ("allocated memory [MiB]", "heap_mib"), ("memory of the process [MiB]", "resident_mib"),
-            ("a scan and all that follows, median of a minute [ms]", "median_ms"))),
+            ("a scan with all processing, median of a minute [ms]", "median_ms"))),
     ]  # fmt: skip
 
 
@@ -130,9 +135,9 @@ def _live_lines(samples, seconds):
     live = of_nodelets(samples, seconds)
     return [
         "",
-        f"Before it, {live['hours']:.2f} hours at the sensors' rates; growth: as of the soak below.",
+        f"Before it, {live['hours']:.2f} hours at the sensors' rates; growth: as in the soak test below.",
         "",
-        "| | median | growth an hour |",
+        "| | median | growth per hour |",
         "|---|---|---|",
         _drift_row("memory of the process [MiB]", live["resident_mib"]),
         _drift_row("scan to tracks [ms]", live["latency_ms"]),
@@ -150,7 +155,7 @@ def _row(run):
     pose, tracks = run["pose"], run["tracks"]
     recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
     cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
-             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", recovered, _cell(tracks["mota"]),
+             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", rounded(pose["largest_error_sigmas"], 1), recovered, _cell(tracks["mota"]),
              *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
     return f"| {' | '.join(cells)} |"
 
@@ -166,14 +171,14 @@ def _mutated_lines(mutated):
     return [
         "## Mutated messages",
         "",
-        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages as they should be and",
-        f"{mutated['mutated']} with one to three fields spoiled (NaN, infinity, bounds of the type, other lengths, names and",
-        "stamps), at the inputs of the stages, those between them, images and `stereo_alignment` included. Each drive ends",
-        "with 3 s without mutations, in which tracks have to come again.",
+        f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages of sensors, and",
+        f"{mutated['mutated']} of these or of those between stages with one to three corrupted fields (NaN, infinity, bounds of the type, other",
+        f"lengths, names and stamps), of {len(mutated['mutated_type'])} types, most in place of the intact message: at least {percent(mutated['past_stamp_checks'] / mutated['mutated'])} % of them passed the",
+        "checks of stamps, so that their content was tried. Each drive ends with 3 s without mutations, in which tracks have to reappear.",
         "",
         f"- faults found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
-        f"- slowest message with all that follows from it: {mutated['slowest_s']:.2f} s ({mutated['slowest_on']})",
-        f"- peak of memory: {mutated['peak_memory_mib']:.0f} MiB",
-        "- refused or warned of, by reason: "
+        f"- slowest message, including all processing that it triggers: {mutated['slowest_s']:.2f} s of processor time ({mutated['slowest_on']}); limit {mutated['max_s']:g} s",
+        f"- peak memory: {mutated['peak_memory_mib']:.0f} MiB; limit {mutated['max_memory_mib']:g} MiB",
+        "- rejected or warned about, by reason: "
         + ", ".join(f"{reason} {count}" for reason, count in refused),
     ]

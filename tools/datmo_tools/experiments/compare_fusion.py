@@ -27,7 +27,7 @@ and several seeds, and a labeled KITTI drive, where there is one, through the st
 of fusion, and prints what became of their moving objects beside the thesis's table 3.2. Each drive
 is recorded once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate,
 all figures in comparison.json, and a picture of them in comparison.svg. A run that gives no score is
-reported, and the others go on; the exit code is then 1."""
+reported, and the others continue; the exit code is then 1."""
 
 
 class Result(NamedTuple):

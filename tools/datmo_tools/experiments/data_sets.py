@@ -19,8 +19,8 @@ from datmo_tools.programs import StepFailed
 DESCRIPTION = """\
 Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the
 thesis's tables 3.1 to 3.5 with our counts beside the thesis's. Bags and scores of each set stay in
-a folder of its own, for evaluate. A run that gives no score is reported, and the others go on; the
-exit code is then 1.
+a folder of its own, for evaluate. A run that gives no score is reported, and the others continue;
+the exit code is then 1.
 
 With --low-level-fusion the stereo camera is simulated too (10 MB for each second), each drive goes
 through the stack without and with low-level fusion, and a table has both; the thesis's tables are

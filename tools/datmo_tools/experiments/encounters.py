@@ -11,6 +11,7 @@ from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
 from datmo_tools.experiments.encounter_scenes import AVOIDED, ENDINGS, STOPS, encounters, scene
 from datmo_tools.experiments.random_encounters import random_scenes
+from datmo_tools.yaml_files import parse_yaml
 
 DESCRIPTION = """\
 Makes scenes after the public test protocols (or, with --random, at random about them), and the
@@ -85,7 +86,7 @@ def _of_tracks(each, values):
         risk = {"method": method}
         for assignment in values.set:
             key, _, value = assignment.partition("=")
-            risk[key] = yaml.safe_load(value)
+            risk[key] = parse_yaml(assignment, value)
         preset.write_text(yaml.safe_dump({"risk": risk}), encoding="utf-8")
         programs.call(values.programs / "run_bag", recorded, values.folder / method / f"{each.stem}.bag",
                       "--config", values.config, "--preset", preset, "--road-border", "--risk",

@@ -20,11 +20,11 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Takes stretches of scans, of odometry or of both out of drives, at regular times, and prints how far
-off the pose ends, and whether it ever claimed to know better than it did. A drive is a scene for
-the simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run ended more than
-0.5 m + 1 % of the distance or 2 degrees off, or had a pose so far off of less than a third of that
-as standard deviation."""
+Removes stretches of scans, of odometry or of both from drives, at regular times, and prints the
+error of the final pose, and whether it was ever overconfident. A drive is a scene for the
+simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run ended more than 0.5 m +
+1 % of the distance or 2 degrees off, or had a pose so far off of less than a third of that as
+standard deviation."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")

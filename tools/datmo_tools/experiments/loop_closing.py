@@ -20,9 +20,9 @@ from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Drives a scene through simulator and run_bag, with several seeds, and prints how far off the live pose
-and the optimized trajectory are at the end and at the most, both laid on the true drive at its first
-pose; how many loops were closed, and how many of these are false; and the time of a scan."""
+Drives a scene through simulator and run_bag, with several seeds, and prints the final and the
+largest error of the live pose and of the optimized trajectory, both aligned with the true drive at
+its first pose; how many loops were closed, and how many of these are false; and the time of a scan."""
 
 FORMAT = 2  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
@@ -149,7 +149,7 @@ def _parser():
     parser = command_line.new_parser("loop_closing", DESCRIPTION)
     add = parser.add_argument
     add("scene", type=Path, metavar="SCENE.yaml",
-        help="of the simulator: round a closed course, or one without loops")  # fmt: skip
+        help="of the simulator: around a closed course, or one without loops")  # fmt: skip
     add("--programs", type=Path, required=True, metavar="FOLDER", help="of simulate and run_bag")
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
     add("--seeds", type=int, default=3, metavar="N", help="from 1 on (default %(default)s)")

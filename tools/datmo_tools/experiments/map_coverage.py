@@ -5,12 +5,12 @@ import math
 
 import cv2
 import numpy as np
-import yaml
 
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import planar
 from datmo_tools.stamps import to_ros_time
+from datmo_tools.yaml_files import load_yaml
 
 # An end point this near to a surface of the map is on it, m.
 NEAR = 0.3
@@ -21,7 +21,7 @@ class MapSurfaces:
 
     def __init__(self, description):
         """description: yaml file (Path). Raises InputError."""
-        tree = yaml.safe_load(description.read_text())
+        tree = load_yaml(description)
         image = cv2.imread(str(description.parent / tree["image"]), cv2.IMREAD_GRAYSCALE)
         if image is None:
             raise InputError(f"{description}: no image {tree['image']} beside it")

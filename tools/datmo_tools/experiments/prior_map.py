@@ -21,13 +21,13 @@ from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it anywhere,
-at regular times of the rest of the drive, without a word on where it is. Prints how often it was
-found in time, how often it took a wrong place for the right one, and how far off the pose then was;
-and the same by how much the map knows of what the vehicle sees in that time, since a place that the
-first part of the drive did not see cannot be found: the starts in the map are what can be reached.
-Reference: the poses of one run over the whole drive, whose map is the same. The exit code is 1 where
-a wrong place was taken."""
+Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it, at
+regular times of the rest of the drive, without an initial pose. Prints how often it was localized
+in time, how often in a wrong place, and the error of the pose; and the same by the share of the
+vehicle's view in that time that is in the map, since a place that the first part of the drive did
+not see cannot be recognized: the starts in the map are the attainable ones. Reference: the poses of
+one run over the whole drive, whose map is the same. The exit code is 1 where a wrong place was
+taken."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("run_bag",)

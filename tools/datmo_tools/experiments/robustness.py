@@ -21,7 +21,7 @@ DESCRIPTION = """\
 Drives each scene with each number of moving vehicles and each seed through simulator, stack and
 score, and prints how often the pose jumped by more than 1 m, and how much larger its error is with
 the vehicles than without. The same seed has the same odometry noise whatever the number. A run that
-gives no score is reported, and the others go on; the exit code is then 1."""
+gives no score is reported, and the others continue; the exit code is then 1."""
 
 FORMAT = 1  # of the JSON file
 

@@ -16,14 +16,14 @@ from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how fast the stack is. micro: the hot paths, each alone, in processor time, and how many
-times the work that they cannot do without (their limit, measured in the same run) that is. live: the
-nodelets on a drive that is played at its own pace, at the demonstrator's settings and at heavy
-ones: latency from a scan's departure at another process to the arrival of its tracks there, both
-transports included; processor time and memory of the nodelets' process. Each live figure is the
-median over the runs. All figures go to a JSON file. --compare prints two such files side by side, or
-one beside what is measured now, and judges the ratios to the limits, which hold on any machine: the
-exit code is 3 if one of them has grown by more than its spread."""
+Measures how fast the stack is. micro: each hot path by itself, in processor time, and the ratio to
+its lower bound (its limit, measured in the same run). live: the nodelets on a drive that is played
+at its own pace, at the demonstrator's settings and at heavy ones: latency from the publication of a
+scan by another process to the arrival of its tracks there, both transports included; processor time
+and memory of the nodelets' process. Each live figure is the median over the runs. All figures go to
+a JSON file. --compare prints two such files side by side, or one beside the current measurement,
+and compares the ratios to the limits, which hold on any machine: the exit code is 3 if one of them
+has grown by more than its spread."""
 
 SLOWER = 3  # exit code
 

@@ -15,6 +15,7 @@ from datmo_tools.experiments.fusion_table import IN_VIEW
 from datmo_tools.figures.recordings import DRIVE_0005
 from datmo_tools.figures.step import Job, read_json
 from datmo_tools.spread import pooled_counts, spread_of
+from datmo_tools.yaml_files import load_yaml
 
 KITTI = "drive 0005"
 CAMERA_DRIVES = ("3", KITTI)  # whose single objects are scored: it takes a minute a drive
@@ -139,7 +140,7 @@ def _stereo_grids(bench, folder):
                *ODOMETRY_ERRORS)  # fmt: skip
     bench.call("run_bag", recorded, computed, "--config", config, "--quiet", "--low-level-fusion",
                "--write-grids")  # fmt: skip
-    settings = yaml.safe_load(config.read_text(encoding="utf-8"))
+    settings = load_yaml(config)
     first_column = settings["stereo_image_proc"]["disparity_range"]
     views = {"in_view": 0.0, "matched": first_column}
     scores = {name: bench.evaluated(folder, "stereo_grids", computed, recorded,

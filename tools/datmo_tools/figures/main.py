@@ -15,11 +15,11 @@ from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures at one commit what README's table of results and doc/results.md show, writes it to
-doc/results.json, and renders both from it. A step that is done at this commit is not run again, so
-what was interrupted goes on where it was; of sources that were changed since their commit, every
-step runs. Steps whose data is not there, below ../shared/data, are left out and named. A step that
-fails is reported, and the others go on; the exit code is then 1."""
+Measures the figures of README's table of results and of doc/results.md at one commit, writes them
+to doc/results.json, and renders both from it. A step that is done at this commit is not repeated,
+so an interrupted run resumes; with uncommitted changes every step runs. Steps whose data is missing
+below ../shared/data are left out and named. A step that fails is reported, and the others continue;
+the exit code is then 1."""
 
 
 def main(arguments=None):
@@ -114,13 +114,13 @@ def _parser():
         help="at a time (default: all cores)")  # fmt: skip
     add("--seeds", type=command_line.count, default=5, metavar="N",
         help="of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
-    add("--only", nargs="+", default=[], metavar="STEP", help="these steps and no other")
-    add("--also", nargs="+", default=[], metavar="STEP", help="steps on request, too")
+    add("--only", nargs="+", default=[], metavar="STEP", help="only these steps")
+    add("--also", nargs="+", default=[], metavar="STEP", help="optional steps to include")
     action = parser.add_mutually_exclusive_group()
     for name, text in (
         ("--list", "prints the steps"),
         ("--render", "measures nothing: renders the pages from doc/results.json"),
-        ("--check", "measures nothing: are the pages what doc/results.json makes of them?"),
+        ("--check", "measures nothing: checks that the pages agree with doc/results.json"),
     ):
         action.add_argument(name, action="store_true", help=text)
     return parser

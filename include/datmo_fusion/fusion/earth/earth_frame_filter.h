@@ -22,7 +22,9 @@ struct EarthFrameOptions {
   int restart_after = 10;
   double start_heading_sigma = 0.1;  ///< rad
   double start_spread = 2.0;         ///< m
-  double max_gap = 10.0;             ///< s
+  int start_fixes = 6;
+  double start_share = 0.7;  ///< 1
+  double max_gap = 10.0;     ///< s
 
   void visit(OptionVisitor& visitor);
 };
@@ -45,11 +47,11 @@ struct EarthFrameCounts {
 /// Where the map lies on the earth: position and heading of the map's frame in a local plane of
 /// east and north, by positions of a satellite receiver and the poses in the map at the same times.
 ///
-/// At first by weighted least squares over all fixes (Arun, Huang, Blostein 1987, in the plane),
-/// until the distance driven tells the heading; then by an extended Kalman filter. Its state also
-/// has the receiver's error that fixes share for a while (atmosphere, multipath), as a Gauss-Markov
-/// process: without it the covariance would fall with each fix, as if they were independent. The
-/// map drifts with the distance driven, turning about the vehicle.
+/// At first by weighted least squares over all fixes that fit together (Arun, Huang, Blostein 1987,
+/// in the plane; consistentPairs), until the distance driven tells the heading; then by an extended
+/// Kalman filter. Its state also has the receiver's error that fixes share for a while (atmosphere,
+/// multipath), as a Gauss-Markov process: without it the covariance would fall with each fix, as if
+/// they were independent. The map drifts with the distance driven, turning about the vehicle.
 class EarthFrameFilter {
  public:
   /// Throws OptionError.
@@ -58,8 +60,11 @@ class EarthFrameFilter {
   /// Takes the next fix, by rising stamps.
   void add(const EarthFix& fix);
 
-  /// Of the map's frame in the plane; none until the heading is known.
+  /// Of the map's frame in the plane at the last fix; none until the heading is known.
   std::optional<PoseWithCovariance> mapInPlane() const;
+
+  /// The same since then, with what the map has drifted on the vehicle's way to this pose.
+  std::optional<PoseWithCovariance> mapInPlane(const Pose2& base_in_map) const;
 
   const EarthFrameCounts& counts() const { return counts_; }
 
@@ -71,7 +76,25 @@ class EarthFrameFilter {
   using State = Eigen::Matrix<double, kState, 1>;
   using Covariance = Eigen::Matrix<double, kState, kState>;
 
+  void take(const EarthFix& fix);
+  /// What least squares over first fixes say of the map.
+  struct Start {
+    double count = 0.0;    ///< of the fixes
+    double weights = 0.0;  ///< sum, 1 / m^2
+    double drift = 0.0;    ///< of the map meanwhile, m^2
+    Point2 mean_in_plane = Point2::Zero();
+    Point2 mean_in_map = Point2::Zero();  ///< of the antenna
+    double heading = 0.0;                 ///< rad
+    double heading_variance = 0.0;        ///< rad^2
+  };
+
+  double changedShare(const std::vector<EarthFix>& fixes) const;
+  double driftAmong(const std::vector<EarthFix>& fixes, double lever) const;
+  /// None while they are too few, or do not tell the heading.
+  std::optional<Start> startOf(const std::vector<EarthFix>& fixes) const;
   void start();
+  void begin(const Start& start, double factor);
+  Eigen::Matrix3d driftedTo(const Pose2& base_in_map) const;
   void predict(const EarthFix& fix);
   bool update(const EarthFix& fix);
 

@@ -73,6 +73,7 @@ struct OwnVehicle {
 struct StationTrackCounts {
   std::uint64_t fast = 0;     ///< faster than max_speed
   std::uint64_t jumped = 0;   ///< not where the last message led to
+  std::uint64_t sudden = 0;   ///< new ids of a station whose ids seldom come twice, out of nowhere
   std::uint64_t invalid = 0;  ///< numbers that are none, or a covariance that is none
   std::uint64_t own = 0;      ///< our own vehicle, as others see it
   std::uint64_t many = 0;     ///< beyond max_tracks
@@ -86,7 +87,9 @@ struct StationTrackCounts {
 /// of the acceleration is what objects do.
 ///
 /// A track that is not where its last message led to is left out until several in a row fit
-/// together. Not thread safe.
+/// together. A new id is taken at its word, but of a station most of whose ids have come but once:
+/// there it has to be where one of the station's last tracks led to, or to come again. Else a
+/// station that renames its tracks in each message could place objects anywhere. Not thread safe.
 class StationTracks {
  public:
   /// Throws OptionError.
@@ -116,10 +119,19 @@ class StationTracks {
     std::uint32_t id = 0;  ///< ours
     Stamp stamp;
     StationTrack track;
-    int to_prove = 0;  ///< messages that have to fit before it is used
+    int to_prove = 0;        ///< messages that have to fit before it is used
+    bool is_sudden = false;  ///< while that is so because it is new
+    int messages = 0;
   };
 
-  bool isCredible(const StationTrackList& list, const StationTrack& track);
+  /// What a station said before a list.
+  struct Before {
+    bool renames = false;     ///< most of its ids came but once
+    std::vector<Claim> last;  ///< if so: of its last list of the same part
+  };
+
+  Before before(const StationTrackList& list) const;
+  bool isCredible(const StationTrackList& list, const StationTrack& track, const Before& before);
   bool follows(const Claim& last, Stamp stamp, const StationTrack& track) const;
   /// A credible track with all that is not known of it.
   Track inMap(const StationTrackList& list, const StationTrack& theirs,

@@ -19,4 +19,8 @@ namespace datmo {
 /// as they are asked where exactly it was seen. Both must be valid (isValid).
 Object combined(const Object& a, const Object& b);
 
+/// Class and probability alone: of one that says nothing the other's, else Bayes. `result` may be
+/// one of both.
+void combineClass(const Object& a, const Object& b, Object& result);
+
 }  // namespace datmo

@@ -41,7 +41,8 @@ class EarthFrameStage : public Stage {
 
   void takeFix(const sensor_msgs::NavSatFix& message);
 
-  /// The frame after the last position before the pose; null if there was none, or it is not known.
+  /// The frame by the last position before the pose, whose stamp it has, with the covariance that
+  /// the drive to the pose has left of it; null if it is not known.
   EarthFrameMessagePtr takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   void connect(StagePorts& ports) override;

@@ -34,6 +34,8 @@ struct MonoClassifierStageOptions {
   double max_wait = 0.15;     ///< s
   double max_age = 0.5;       ///< s
   double object_speed = 3.0;  ///< m/s
+  int detector_threads = 1;
+  int detector_nice = 10;
   ExposureCheckOptions exposure;
   StreamOptions input;
   MonoClassifierOptions classifier;
@@ -50,9 +52,11 @@ struct MonoClassifierStageOptions {
 /// has the exposure's stamp, however long it took.
 ///
 /// Bad input is dropped through the monitor, never thrown: what CameraInput and grayOrColor refuse,
-/// `blank_image` (black, white), `frozen_image` (the same pixels again), `old_image` (older than
-/// the newest objects by more than `max_age`), `superseded_image` (a newer one came before the
-/// detector had time), `missing_transform`. When the clock jumps back all objects are forgotten.
+/// `blank_image` (black, white), `half_image` (cut), `frozen_image` (the same pixels again),
+/// `old_image` (older than the newest objects by more than `max_age`), `superseded_image` (a newer
+/// one came before objects of its time), `slow_detector` (a newer one came before the detector had
+/// time), `missing_transform`. When the clock jumps back all objects are forgotten. A detector that
+/// is right no more often than by chance is warned of (`detector_tells_nothing`).
 class MonoClassifierStage : public Stage {
  public:
   using Options = MonoClassifierStageOptions;

@@ -19,10 +19,15 @@ class NewestWorker {
  public:
   using Work = std::function<Result(const Job&)>;
 
-  /// `work` must not throw. `beside`: in a thread of its own.
-  NewestWorker(Work work, bool beside) : work_(std::move(work)) {
+  /// `work` must not throw. `beside`: in a thread of its own, which calls `prepare` first.
+  NewestWorker(
+      Work work, bool beside, std::function<void()> prepare = [] {})
+      : work_(std::move(work)) {
     if (beside) {
-      thread_ = std::thread([this] { run(); });
+      thread_ = std::thread([this, prepare = std::move(prepare)] {
+        prepare();
+        run();
+      });
     }
   }
 

@@ -58,7 +58,14 @@ class FieldCheck {
 
   template <typename Message>
   void message(const Message& content) {
-    if constexpr (!std::is_same_v<Message, sensor_msgs::LaserScan>) {  // NaN: no measurement
+    if constexpr (std::is_same_v<Message, sensor_msgs::LaserScan>) {
+      // Ranges may be NaN, which is no measurement, but not where their beams lie.
+      for (const float value :
+           {content.angle_min, content.angle_max, content.angle_increment, content.time_increment,
+            content.scan_time, content.range_min, content.range_max}) {
+        number(value);
+      }
+    } else {
       const bool was_open = open_;
       open_ = open_ || kMayBeInfinite<Message>;
       checkCovariances(content);
@@ -145,7 +152,8 @@ class OutputCheck {
   /// `monitor` must outlive it.
   OutputCheck(std::string topic, StageMonitor& monitor);
 
-  /// Whether it may be published. Its stamp may go back only when the stage has started over.
+  /// Whether it may be published. Its stamp may go back only when the stage has started over, and
+  /// is not ahead of all that the stage got.
   bool passes(const OutputContent& content);
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -63,6 +64,12 @@ class StageMonitor {
   /// A message has come. `now`: ROS time, which is set by it.
   void received(const std::string& input, Stamp now);
 
+  /// A message of this stamp serves the stage.
+  void noteInput(Stamp stamp) { newest_input_ = std::max(stamp, newest_input_.value_or(stamp)); }
+
+  /// The newest one since the inputs have begun; none before the first.
+  const std::optional<Stamp>& newestInput() const { return newest_input_; }
+
   /// A message has led to a result.
   void processed(const Processed& message);
 
@@ -77,6 +84,9 @@ class StageMonitor {
 
   /// Whether it was requested since the last call.
   bool takeResetRequest() { return std::exchange(reset_requested_, false); }
+
+  /// The clock of the inputs has jumped: they begin anew.
+  void forgetInputs() { newest_input_.reset(); }
 
   /// The stage has started over.
   void noteReset() { ++resets_; }
@@ -155,6 +165,7 @@ class StageMonitor {
   std::string last_error_;
   std::optional<Stamp> last_result_;
   std::optional<Stamp> now_;
+  std::optional<Stamp> newest_input_;
   bool reset_requested_ = false;
   std::uint64_t resets_ = 0;
   RepeatFilter repeats_;

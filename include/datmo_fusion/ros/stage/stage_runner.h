@@ -14,8 +14,8 @@
 namespace datmo {
 
 /// What each stage does with its messages besides converting them: a bad one is dropped and
-/// counted, the stamps of each input go forward, a clock that jumps back (a looped bag) resets the
-/// stage, and results are timed. Not thread safe.
+/// counted, the stamps of each input go forward, a clock that jumps back (a looped bag) or ahead
+/// resets the stage, and results are timed. Not thread safe.
 class StageRunner {
  public:
   /// `effect`: what a reset does, for people: "forgets the road"; `reset` does it, and may be
@@ -50,7 +50,7 @@ class StageRunner {
     return serve(handle);
   }
 
-  /// How a message's stamp follows the last one of its input. When the clock has jumped back, which
+  /// How a message's stamp follows the last one of its input. When the clock has jumped, which
   /// ROS time (StageMonitor::now) has confirmed or a second message, while no other input
   /// contradicts it, all inputs start over and the stage is reset before this returns. To be called
   /// when nothing else is wrong with the message.

@@ -21,8 +21,9 @@ struct StreamOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Whether a message goes on with the stream or begins a new run of the clock (a looped bag).
-enum class Arrival { kNext, kRestart };
+/// Whether a message goes on with the stream, or begins a new run of a clock that has jumped back
+/// (a looped bag) or ahead.
+enum class Arrival { kNext, kRestart, kAhead };
 
 /// Input check of a stream of stamped messages: time behind it only goes forward.
 class StampCheck {

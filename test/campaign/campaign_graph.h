@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run_bag/sensor_set.h"
+
+#include "datmo_fusion/ros/stage/stage_graph.h"
+
+namespace datmo::campaign {
+
+/// A graph of stages, and what its sensors are.
+struct CampaignGraph {
+  std::string name;
+  GraphSwitches switches;
+  std::string motion = "odometry";  ///< motion/source
+  bool has_echoes = false;          ///< the scanner sends several for each beam
+};
+
+/// So many that each input of each stage is one of them, and each switch is on.
+const std::vector<CampaignGraph>& campaignGraphs();
+
+/// The sensor set's options, with the graph's source of motion. Throws OptionError.
+SensorSet sensorsOf(const std::string& config, const CampaignGraph& graph);
+
+}  // namespace datmo::campaign

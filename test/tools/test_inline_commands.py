@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Commands within the sentences and tables of README.md and doc/, such as `run_bag --risk` and `mono:=true`:
+the program's --help names each of the options, a launch file of the package takes each of the arguments."""
+
+import functools
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+from xml.etree import ElementTree
+
+SOURCE = Path(__file__).resolve().parents[2]
+PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md")), SOURCE / "rosbag_fixtures" / "README.md"]
+PROGRAMS = Path(os.environ.get("CMAKE_PREFIX_PATH", "devel").split(":")[0]) / "lib" / "datmo_fusion"
+TIMEOUT = 120  # s for a program's help on a busy machine
+FENCED = re.compile(r"^ *```.*?^ *```$", re.MULTILINE | re.DOTALL)
+SPAN = re.compile(r"`(?:rosrun datmo_fusion )?([a-z_0-9]+)( [^`]*)?`")
+ASSIGNMENTS = re.compile(r"`(?!roslaunch (?!datmo_fusion))([^`\n]*:=[^`]*)`")  # not of other packages
+ASSIGNED = re.compile(r"(?<!\w)([a-z]\w*):=")
+# Of run_bag alone: images, which launch files find by the camera's namespace.
+IMAGES = {"left_image", "right_image", "left_camera_info", "right_camera_info"}
+OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
+
+
+def inline_commands(text):
+    """(program, its words, options) of the commands outside of fenced blocks that have options."""
+    for name, words in SPAN.findall(FENCED.sub("", text)):
+        options = OPTION.findall(words)
+        if options and (PROGRAMS / name).exists():
+            yield name, words.split(), options
+
+
+def launch_arguments():
+    tags = [tag for file in (SOURCE / "launch").glob("*.launch")
+            for tag in ElementTree.parse(file).getroot().findall("arg")]  # fmt: skip
+    return {tag.get("name") for tag in tags if tag.get("value") is None}
+
+
+@functools.lru_cache(maxsize=None)
+def help_of(*command):
+    done = subprocess.run([str(PROGRAMS / command[0]), *command[1:], "--help"], text=True, timeout=TIMEOUT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)  # fmt: skip
+    return done.stdout
+
+
+class InlineCommands(unittest.TestCase):
+    def test_only_commands_with_options_count(self):
+        text = "`run_bag --risk A`, `run_bag`, `nobody --else`\n```bash\nrun_bag `run_bag --x`\n```\n"
+        self.assertEqual(list(inline_commands(text)), [("run_bag", ["--risk", "A"], ["--risk"])])
+
+    def test_their_options_exist(self):
+        count = 0
+        for page in PAGES:
+            for name, words, options in inline_commands(page.read_text()):
+                # evaluate's options are those of its subcommand.
+                command = (name, words[0]) if name == "evaluate" else (name,)
+                for option in options:
+                    self.assertRegex(help_of(*command), rf"{option}(?![\w-])", f"{page.name}: {name} {' '.join(words)}")
+                    count += 1
+        self.assertGreater(count, 20)
+
+    def test_their_arguments_exist(self):
+        known, count = launch_arguments() | IMAGES, 0
+        for page in PAGES:
+            for words in ASSIGNMENTS.findall(FENCED.sub("", page.read_text())):
+                for name in ASSIGNED.findall(words):
+                    self.assertIn(name, known, f"{page.name}: {words}")
+                    count += 1
+        self.assertGreater(count, 20)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Yaml files of strangers: read within bounds, or refused in a line."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.errors import InputError
+from datmo_tools.yaml_files import load_yaml, parse_yaml
+
+LEVELS = 27
+
+
+class YamlFiles(unittest.TestCase):
+    def refused(self, text, said):
+        with self.assertRaises(InputError) as caught:
+            parse_yaml("a.yaml", text)
+        self.assertEqual(str(caught.exception), f"a.yaml{said}")
+
+    def test_what_it_says(self):
+        self.assertEqual(parse_yaml("a", "a: &a [1, 2]\nb: *a\nc: [*a, *a]"),
+                         {"a": [1, 2], "b": [1, 2], "c": [[1, 2], [1, 2]]})  # fmt: skip
+        self.assertIsNone(parse_yaml("a", ""))
+
+    def test_an_alias_of_what_it_stands_in(self):
+        said = ":2: expected yaml, but an alias stands for what it stands in"
+        self.refused("b: 1\na: &a [*a]", said)
+        self.refused("b: 1\na: &a {b: {c: *a}}", said)
+
+    def test_aliases_stand_for_too_much(self):
+        lines = ["a0: &a0 [1, 1]"]
+        lines += [f"a{n}: &a{n} [*a{n - 1}, *a{n - 1}]" for n in range(1, LEVELS + 1)]
+        self.refused("\n".join(lines),
+                     ":15: expected yaml, but there are more than 100000 values, with what aliases stand for")  # fmt: skip
+
+    def test_depth(self):
+        self.refused("a: " + 20000 * "[", ":1: expected yaml, but lists and maps are more than 100 deep")
+        self.assertEqual(len(parse_yaml("a", 90 * "[" + 90 * "]")), 1)
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "a.yaml"
+            for content in (b"a: 1 #" + 2_000_000 * b" ", b"a: \xff\xfe", b"a: [", b"a: *b", b"a: 2026-99-99"):
+                file.write_bytes(content)
+                with self.assertRaisesRegex(InputError, f"{file}.*expected yaml, but"):
+                    load_yaml(file)
+            for other in (folder, file.with_name("none"), "/dev/zero"):
+                with self.assertRaisesRegex(InputError, f"{other}"):
+                    load_yaml(other)
+
+
+if __name__ == "__main__":
+    unittest.main()

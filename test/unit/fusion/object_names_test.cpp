@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Classes that an image gives to the scanner's objects, in the fusion of objects.
+#include <utility>
+#include <vector>
+
+#include "fusion_objects.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/fusion/object/object_fuser.h"
+
+namespace datmo::object_names_test {
+namespace {
+
+/// What MonoClassifier makes of a scanner's object that the image shows to be a vehicle.
+Object nameOfVehicle(const Object& of) {
+  Object name = of;
+  name.position_covariance *= 100.0;
+  name.side_variance.fill(kHiddenSide);
+  name.object_class = ObjectClass::kVehicle;
+  name.class_probability = 0.8;
+  return name;
+}
+
+ObjectFusionResult fuseNames(std::vector<Object> seen, std::vector<Object> names,
+                             const LabeledScan* scan = nullptr) {
+  ObjectFuserOptions options;
+  options.sources["mono"];
+  return ObjectFuser(options).fuse(
+      {received("lidar", std::move(seen)), received("mono", std::move(names))}, scan);
+}
+
+TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
+  Object seen = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
+  hide(seen, BoxSide::kFront);
+  seen.moving_fraction = 0.25;
+  const LabeledScan scan = scanAhead(30.0, PointState::kStatic);
+  const auto named = fuseNames({seen}, {nameOfVehicle(seen)}, &scan);
+  const auto alone = fuseNames({seen}, {}, &scan);
+  ASSERT_EQ(named.list.objects.size(), 1U);
+  EXPECT_EQ(named.counts.fused, 1U);
+  const Object& object = named.list.objects[0];
+  const Object& expected = alone.list.objects[0];
+  EXPECT_EQ(object.object_class, ObjectClass::kVehicle);
+  EXPECT_EQ(object.class_probability, 0.8);
+  EXPECT_EQ(object.log_odds, expected.log_odds) << "it exists no more surely";
+  EXPECT_EQ(object.moving_fraction, expected.moving_fraction);
+  EXPECT_EQ(object.position_covariance, expected.position_covariance);
+  EXPECT_EQ(object.side_variance, expected.side_variance);
+}
+
+TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
+  const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
+  EXPECT_TRUE(fuseNames({}, {nameOfVehicle(gone)}).list.objects.empty());
+  Object alone = nameOfVehicle(gone);
+  alone.sensors = {"mono"};
+  EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
+}
+
+}  // namespace
+}  // namespace datmo::object_names_test

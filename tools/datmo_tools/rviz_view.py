@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A configuration of rviz for one of several vehicles on one master: frames with its prefix, topics in its
+namespace."""
+
+from pathlib import Path
+
+import yaml
+
+from datmo_tools.whole_files import write_whole
+
+FRAME_KEYS = ("Fixed Frame", "Target Frame", "Reference Frame")
+# Of rviz: whatever the fixed frame is.
+SAME_AS_FIXED = "<Fixed Frame>"
+
+
+def _changed(key, value, prefix, namespace):
+    if isinstance(value, dict):
+        return {name: _changed(name, each, prefix, namespace) for name, each in value.items()}
+    if isinstance(value, list):
+        return [_changed(key, each, prefix, namespace) for each in value]
+    if key in FRAME_KEYS and value and value != SAME_AS_FIXED:
+        return prefix + value
+    if str(key).endswith("Topic") and isinstance(value, str) and value.startswith("/"):
+        return namespace.rstrip("/") + value
+    return value
+
+
+def view_of_vehicle(view, prefix, namespace):
+    """A view, as yaml reads it, with `prefix` ("car1/") before its frames and topics in `namespace` ("/car1")."""
+    return _changed("", view, prefix, namespace)
+
+
+def write_view(file, prefix, namespace, folder):
+    """Writes the view of a file for a vehicle into a folder, which is made; returns the new file's path.
+
+    Each vehicle has one, which its next start replaces. Raises InputError.
+    """
+    view = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    vehicle = dict.fromkeys(word for word in f"{namespace}/{prefix}".split("/") if word)
+    name = "_".join([Path(file).stem, *vehicle]) + ".rviz"
+    text = yaml.safe_dump(view_of_vehicle(view, prefix, namespace), sort_keys=False)
+    write_whole(Path(folder), {name: text})
+    return str(Path(folder, name))

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Yaml files of any origin, read within bounds: those of src/ros/bounded_yaml.cpp, in the same words."""
+
+from pathlib import Path
+
+import yaml
+
+from datmo_tools.errors import InputError
+
+MAX_BYTES = 1 << 20
+MAX_DEPTH = 100
+MAX_NODES = 100_000  # aliases count as what they stand for
+
+
+def load_yaml(file):
+    """What a yaml file says: a dictionary, a list, a value or None. Raises InputError."""
+    try:
+        with Path(file).open("rb") as stream:
+            text = stream.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise InputError(f"{file}: expected a yaml file that can be read ({error})") from error
+    if len(text) > MAX_BYTES:
+        raise InputError(f"{file}: expected yaml, but it has more than {MAX_BYTES} bytes")
+    return parse_yaml(file, text)
+
+
+def parse_yaml(name, text):
+    """What a text (str or bytes) says, `name` in messages. Raises InputError."""
+    try:
+        _check_size(name, text)
+        return yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError) as error:  # a date that is none, bytes that are no text
+        raise InputError(f"{name}: expected yaml, but {error}") from error
+
+
+def _check_size(name, text):
+    """Goes through what the parser finds: what is too much must not be built first."""
+    nodes, opened, nodes_of = 0, [], {}
+    for event in yaml.parse(text, yaml.SafeLoader):
+        where = f"{name}:{event.start_mark.line + 1}: expected yaml, but"
+        if isinstance(event, yaml.AliasEvent):
+            if event.anchor in nodes_of and nodes_of[event.anchor] is None:
+                raise InputError(f"{where} an alias stands for what it stands in")
+            nodes += nodes_of.get(event.anchor, 0)  # one of nothing is refused by the loader
+        elif isinstance(event, yaml.NodeEvent):
+            is_leaf = isinstance(event, yaml.ScalarEvent)
+            nodes_of[event.anchor] = 1 if is_leaf else None  # known when it ends
+            if not is_leaf:
+                opened.append((event.anchor, nodes))
+            nodes += 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            anchor, before = opened.pop()
+            nodes_of[anchor] = nodes - before
+        if len(opened) > MAX_DEPTH:
+            raise InputError(f"{where} lists and maps are more than {MAX_DEPTH} deep")
+        if nodes > MAX_NODES:
+            raise InputError(f"{where} there are more than {MAX_NODES} values, with what aliases stand for")
