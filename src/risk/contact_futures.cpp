@@ -11,6 +11,10 @@ namespace datmo {
 
 namespace {
 
+/// Of fewer futures than this none tells a probability: then those count, too, in which the bodies
+/// overlap already.
+constexpr std::size_t kMinPossible = 16;
+
 constexpr double kEarly = 0.05;
 constexpr double kMedian = 0.5;
 
@@ -23,8 +27,19 @@ StruckSide sideOf(const std::vector<FutureContact>& contacts) {
   return static_cast<StruckSide>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-/// A path, continued as it ends for as long again. Braking that only puts contact off avoids none:
-/// what is met within T at speed v needs v / (2 T) at least, which stops within 2 T.
+FutureContact contactAt(const BodyMove& host, const BodyMove& object, double share, double step) {
+  const Point2 drift =
+      (object.to.center - object.from.center) - (host.to.center - host.from.center);
+  const BodyPose at = object.at(share);
+  FutureContact contact;
+  contact.time = share * step;
+  contact.side = struckSide(host.at(share), host.size, at, object.size);
+  contact.speed = drift.norm() / step;
+  contact.position = at.center;
+  return contact;
+}
+
+/// A path, continued as it ends for as long again.
 BodyPath continued(const BodyPath& path) {
   BodyPath result = path;
   const std::size_t steps = path.poses.size() - 1;
@@ -40,7 +55,61 @@ BodyPath continued(const BodyPath& path) {
   return result;
 }
 
+/// Whether the other one stands or goes the host's way, so that the host has to come to rest or to
+/// its speed; who comes toward it would strike it at rest, too.
+bool isPursued(const Encounter& encounter) {
+  return encounter.host.poses.size() < 2 ||
+         encounter.host.velocity(0).dot(encounter.other.velocity(0)) >= 0.0;
+}
+
 }  // namespace
+
+std::optional<FutureContact> contactOf(const BodyPath& host, const BodySize& host_size,
+                                       const ObjectFutures& object, const BodySize& size,
+                                       std::size_t future) {
+  const double host_radius = host_size.radius();
+  const double radius = size.radius();
+  ObjectFutures::State from = object.begin(future);
+  for (std::size_t i = 0; i + 1 < host.poses.size(); ++i) {
+    const ObjectFutures::State to = object.next(from, future, i);
+    if (circlesMeet({host.poses[i].center, host.poses[i + 1].center, host_radius},
+                    {from.position, to.position, radius})) {
+      const BodyMove host_move{host.poses[i], host.poses[i + 1], host_size};
+      const BodyMove move{bodyPose(from.position, from.heading), bodyPose(to.position, to.heading),
+                          size};
+      if (const auto share = firstContact(host_move, move)) {
+        FutureContact contact = contactAt(host_move, move, *share, host.step);
+        contact.time += static_cast<double>(i) * host.step;
+        contact.future = future;
+        return contact;
+      }
+    }
+    from = to;
+  }
+  return std::nullopt;
+}
+
+FutureContact contactWith(const StandingPoints::Contact& contact, const BodyPath& host,
+                          const BodySize& host_size, std::size_t future) {
+  const auto i =
+      std::min(static_cast<std::size_t>(contact.time / host.step), host.poses.size() - 2);
+  const double share = contact.time / host.step - static_cast<double>(i);
+  const BodyMove move{host.poses[i], host.poses[i + 1], host_size};
+  return {future, contact.time,
+          struckSide(move.at(share), host_size, bodyPose(contact.point, 0.0), BodySize()),
+          host.velocity(i).norm(), contact.point};
+}
+
+std::size_t leaveOutTouching(std::vector<FutureContact>& contacts, std::size_t futures) {
+  const auto touches = [](const FutureContact& contact) { return contact.time <= 0.0; };
+  const auto touching =
+      static_cast<std::size_t>(std::count_if(contacts.begin(), contacts.end(), touches));
+  if (futures - touching < kMinPossible) {
+    return futures;
+  }
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), touches), contacts.end());
+  return futures - touching;
+}
 
 void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double weight,
                ObjectRisk& risk) {
@@ -69,8 +138,12 @@ void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double
 }
 
 void setCriticality(const Encounter& met, const HostVehicleOptions& vehicle, ObjectRisk& risk) {
-  const Encounter encounter{continued(met.host), met.host_size, continued(met.other),
-                            met.other_size};
+  // Braking that only puts contact off avoids none: what stands and is met within T at speed v
+  // needs v / (2 T) at least, which stops within 2 T.
+  const bool pursued = isPursued(met);
+  const BodyPath host = pursued ? continued(met.host) : met.host;
+  const BodyPath other = pursued ? continued(met.other) : met.other;
+  const Encounter encounter{host, met.host_size, other, met.other_size};
   risk.time_to_brake = timeToBrake(encounter, vehicle.max_braking);
   risk.brake_threat = brakeThreat(encounter, vehicle.max_braking);
   risk.steer_threat = steerThreat(encounter, vehicle.max_lateral);

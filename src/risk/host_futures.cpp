@@ -149,18 +149,23 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
       weights += weight;
     }
   }
-  if (weights == 0.0) {
+  const double sigma = vehicle.wheelbase / std::sqrt(weights);  // infinite without a border
+  if (!(sigma <= options.max_steering_spread)) {
     return std::nullopt;
   }
   return CourseSteering{std::clamp(std::atan(vehicle.wheelbase * curvature / weights),
                                    -vehicle.max_steering, vehicle.max_steering),
-                        vehicle.wheelbase / std::sqrt(weights)};
+                        sigma};
 }
 
 HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
                          const HostVehicleOptions& vehicle, const HostFutureOptions& options,
                          const HorizonOptions& horizon, const RandomDraws& draws)
-    : host_(host), vehicle_(vehicle), options_(options), horizon_(horizon) {
+    : follows_road_(course.has_value()),
+      host_(host),
+      vehicle_(vehicle),
+      options_(options),
+      horizon_(horizon) {
   const double steering = course ? course->angle : host.steering;
   // Of the bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());

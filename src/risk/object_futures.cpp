@@ -45,12 +45,6 @@ bool isTurn(MotionMode mode) {
   return mode == MotionMode::kLeftTurn || mode == MotionMode::kRightTurn;
 }
 
-double turningProbability(const Track& track) {
-  const auto& modes = track.mode_probabilities;
-  return modes[static_cast<std::size_t>(MotionMode::kLeftTurn)] +
-         modes[static_cast<std::size_t>(MotionMode::kRightTurn)];
-}
-
 /// Turns of most steps are small: their series is right to 1e-5, and much faster.
 Point2 turned(const Point2& vector, double angle) {
   constexpr double kSmall = 0.1;
@@ -148,9 +142,7 @@ ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
   speed_noise_ = std::sqrt(motion.acceleration_density * horizon.step);
   class_turn_rate_ = motion.turn_rate;
   if (road) {
-    follower_ =
-        roadFollower(track, start_, *road, turningProbability(track), options.road_following)
-            .value_or(RoadFollower());
+    follower_ = roadFollower(track, start_, *road, options.road_following).value_or(RoadFollower());
   }
 }
 
@@ -191,11 +183,11 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
   key.kind = kDrawFirstMode;
   const MotionMode mode = modeAt(cumulated, draws_.uniform(key) * cumulated.back());
   key.kind = kDrawRoad;
-  const bool follows_road = draws_.uniform(key) < follower_.probability;
+  const bool follows_road = !isTurn(mode) && draws_.uniform(key) < follower_.probability;
   const ObjectStart& start = follows_road ? follower_.start : start_;
   key.kind = kDrawHeading;
   const double heading = start.heading + start.heading_sigma * draws_.normal(key);
-  State state = stateOf(start.state + start.root * normals, heading, modeIn(follows_road, mode));
+  State state = stateOf(start.state + start.root * normals, heading, mode);
   state.follows_road = follows_road;
   return state;
 }
@@ -281,9 +273,9 @@ BodyPath ObjectFutures::path(std::size_t future) const {
 BodyPath ObjectFutures::nominalPath() const { return nominalPath(likeliestMode(track_)); }
 
 BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
-  const bool follows_road = follower_.probability > 0.5;
-  const ObjectStart& start = follows_road ? follower_.start : start_;
-  State state = stateOf(start.state, start.heading, modeIn(follows_road, mode));
+  const ObjectStart& start =
+      !isTurn(mode) && follower_.probability > 0.5 ? follower_.start : start_;
+  State state = stateOf(start.state, start.heading, mode);
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
     advance(state, turnRate(state) * horizon_.step);

@@ -27,7 +27,7 @@ double shareOfDrivers(const Track& track) {
   const auto share = [&](ObjectClass kind) {
     return track.class_probabilities[static_cast<std::size_t>(kind)];
   };
-  return share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist);
+  return std::min(1.0, share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist));
 }
 
 /// A direction along the road, the way that the heading points.
@@ -57,7 +57,7 @@ ObjectStart startOf(const Track& track, double max_heading_sigma) {
 }
 
 std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
-                                         double turning, const RoadFollowingOptions& options) {
+                                         const RoadFollowingOptions& options) {
   const double prior = options.probability * shareOfDrivers(track);
   const double speed = track.state.segment<2>(2).norm();
   if (prior <= 0.0 || speed < options.min_speed) {
@@ -68,10 +68,14 @@ std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& 
   const double off = across * track.state;
   const TrackState covariance = track.covariance * across.transpose();
   const double variance = (across * covariance).value() + square(options.direction_sigma * speed);
-  const double follows = prior * (1.0 - turning) * normalDensity(off, variance);
+  const double follows = prior * normalDensity(off, variance);
   const double other = (1.0 - prior) * densityOfAnyDirection(std::max(speed, std::sqrt(variance)));
   const TrackState gain = covariance / variance;
-  const TrackCovariance conditioned = track.covariance - gain * covariance.transpose();
+  // Joseph's form stays positive definite.
+  const TrackCovariance keep = TrackCovariance::Identity() - gain * across;
+  const TrackCovariance conditioned =
+      keep * track.covariance * keep.transpose() +
+      square(options.direction_sigma * speed) * gain * gain.transpose();
   const double heading_share =
       square(start.heading_sigma) / (square(start.heading_sigma) + square(options.direction_sigma));
   RoadFollower follower;

@@ -30,64 +30,14 @@ double largestDeviation(const TrackCovariance& covariance, int first) {
   return std::sqrt(covariance(first, first) + covariance(first + 1, first + 1));
 }
 
-FutureContact contactAt(const BodyMove& host, const BodyMove& object, double share, double step) {
-  const Point2 drift =
-      (object.to.center - object.from.center) - (host.to.center - host.from.center);
-  const BodyPose at = object.at(share);
-  FutureContact contact;
-  contact.time = share * step;
-  contact.side = struckSide(host.at(share), host.size, at, object.size);
-  contact.speed = drift.norm() / step;
-  contact.position = at.center;
-  return contact;
-}
-
-/// First contact of one joint future, step by step: the object's is drawn no further than needed.
-std::optional<FutureContact> contactOf(const BodyPath& host, const BodySize& host_size,
-                                       const ObjectFutures& object, const BodySize& size,
-                                       std::size_t future) {
-  const double host_radius = host_size.radius();
-  const double radius = size.radius();
-  ObjectFutures::State from = object.begin(future);
-  for (std::size_t i = 0; i + 1 < host.poses.size(); ++i) {
-    const ObjectFutures::State to = object.next(from, future, i);
-    if (circlesMeet({host.poses[i].center, host.poses[i + 1].center, host_radius},
-                    {from.position, to.position, radius})) {
-      const BodyMove host_move{host.poses[i], host.poses[i + 1], host_size};
-      const BodyMove move{bodyPose(from.position, from.heading), bodyPose(to.position, to.heading),
-                          size};
-      if (const auto share = firstContact(host_move, move)) {
-        FutureContact contact = contactAt(host_move, move, *share, host.step);
-        contact.time += static_cast<double>(i) * host.step;
-        contact.future = future;
-        return contact;
-      }
-    }
-    from = to;
-  }
-  return std::nullopt;
-}
-
-/// A point that stands, on the path of the host.
-FutureContact contactWith(const StandingPoints::Contact& contact, const BodyPath& host,
-                          const BodySize& host_size, std::size_t future) {
-  const auto i =
-      std::min(static_cast<std::size_t>(contact.time / host.step), host.poses.size() - 2);
-  const double share = contact.time / host.step - static_cast<double>(i);
-  const BodyMove move{host.poses[i], host.poses[i + 1], host_size};
-  return {future, contact.time,
-          struckSide(move.at(share), host_size, bodyPose(contact.point, 0.0), BodySize()),
-          host.velocity(i).norm(), contact.point};
-}
-
-/// Direction of the road beside a point: that in which the host passes, rad. It follows the
-/// borders' course where they are known.
-std::optional<double> roadBeside(const Point2& point, const BodyPath& host) {
+/// Direction of the road beside a point: that in which the host passes that follows the borders'
+/// course, rad.
+double roadBeside(const Point2& point, const BodyPath& host) {
   const auto nearest = std::min_element(
       host.poses.begin(), host.poses.end(), [&](const BodyPose& a, const BodyPose& b) {
         return (a.center - point).squaredNorm() < (b.center - point).squaredNorm();
       });
-  return nearest == host.poses.end() ? std::nullopt : std::optional(nearest->heading);
+  return nearest->heading;
 }
 
 /// The points without those of tracks, which have a risk of their own.
@@ -228,26 +178,25 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   risk.mode = likeliestMode(track);
   const BodySize host_size = options_.vehicle.size();
   const BodySize size = sizeOf(track, options_.default_size);
-  const ObjectFutures object(track, roadBeside(track.state.head<2>(), host.nominal()),
-                             options_.objects, options_.horizon, draws_);
+  const auto road = host.followsRoad()
+                        ? std::optional(roadBeside(track.state.head<2>(), host.nominal()))
+                        : std::nullopt;
+  const ObjectFutures object(track, road, options_.objects, options_.horizon, draws_);
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
-  // Nothing has been struck yet: a future in which the bodies overlap already is of a wrong state.
   std::vector<FutureContact> contacts;
-  std::vector<FutureContact> touching;
+  std::size_t free_futures = 0;
   for (std::size_t future = 0; future < host.paths().size(); ++future) {
-    if (contacts.empty() && future - touching.size() == kFirstFutures) {
+    if (contacts.empty() && free_futures == kFirstFutures) {
       return risk;
     }
     if (const auto contact = contactOf(host.paths()[future], host_size, object, size, future)) {
-      (contact->time > 0.0 ? contacts : touching).push_back(*contact);
+      contacts.push_back(*contact);
+    } else {
+      ++free_futures;
     }
   }
-  std::size_t possible = host.paths().size() - touching.size();
-  if (possible == 0) {
-    contacts = std::move(touching);
-    possible = contacts.size();
-  }
+  const std::size_t possible = leaveOutTouching(contacts, host.paths().size());
   if (contacts.empty()) {
     return risk;
   }
@@ -293,10 +242,11 @@ ObjectRisk RiskAssessor::ofStanding(const RiskInput& input, const std::vector<Tr
       contacts.push_back(contactWith(*contact, *paths[future], host_size, future));
     }
   }
+  const std::size_t possible = leaveOutTouching(contacts, paths.size());
   if (contacts.empty()) {
     return risk;
   }
-  summarize(contacts, paths.size(), 1.0, risk);
+  summarize(contacts, possible, 1.0, risk);
   const FutureContact& median = contacts[(contacts.size() - 1) / 2];
   const BodyPath& path = *paths[median.future];
   const BodyPath still{path.step,

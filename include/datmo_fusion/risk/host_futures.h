@@ -35,7 +35,8 @@ struct CourseSteering {
 
 /// The steering that follows the course of the road: pure pursuit (Coulter 1992) of the point ahead
 /// that lies beside each border as the vehicle does now; the mean over the borders, weighted by
-/// their probability and, inversely, by the variance that their points' makes. None without borders
+/// their probability and, inversely, by the variance that follows from that of their points. None
+/// where that is vaguer than a steering of its own (`max_steering_spread`), without borders
 /// that are likely enough, are not of a side street, and reach from beside the vehicle to that far
 /// ahead.
 std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
@@ -56,6 +57,8 @@ class HostFutures {
               const HorizonOptions& horizon, const RandomDraws& draws);
 
   const std::vector<BodyPath>& paths() const { return paths_; }
+  /// Whether it comes to the course of the road's borders.
+  bool followsRoad() const { return follows_road_; }
   /// Without spread.
   const BodyPath& nominal() const { return nominal_; }
 
@@ -64,6 +67,7 @@ class HostFutures {
   BodyPath path(double steering, std::uint32_t future, const RandomDraws& draws) const;
   void advance(BicycleState& state, double acceleration, double steering) const;
 
+  bool follows_road_;
   HostState host_;
   const HostVehicleOptions& vehicle_;
   const HostFutureOptions& options_;

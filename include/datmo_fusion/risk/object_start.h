@@ -37,12 +37,11 @@ struct RoadFollower {
 /// Whether an object follows the road, either way: who drives or rides does so by a prior, and
 /// whose velocity leads off the road does not. Bayes over two hypotheses: along the road the
 /// velocity across it is a Gaussian, else all directions are alike; in the first one state and
-/// heading are conditioned on it (Kalman). None for who cannot be one: a pedestrian, or what has no
-/// speed.
+/// heading are conditioned on it (Kalman). None for what is a pedestrian for sure, or is slower
+/// than `min_speed`.
 ///
-/// `road`: direction of the road beside the object, rad, fixed frame. `turning`: probability, by
-/// the track's modes, that it turns.
+/// `road`: direction of the road beside the object, rad, fixed frame.
 std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
-                                         double turning, const RoadFollowingOptions& options);
+                                         const RoadFollowingOptions& options);
 
 }  // namespace datmo

@@ -14,8 +14,6 @@ namespace datmo {
 
 namespace {
 
-/// Where beams ended on what does not move, m, map frame. What the map does not know yet counts: a
-/// vehicle must not drive into it.
 /// Where the map knows an obstacle, m, map frame. What the map does not know yet may be a road user
 /// that has just come into view: it is a risk once it is a track, or map.
 std::vector<Point2> standingPoints(const LabeledScan& scan) {

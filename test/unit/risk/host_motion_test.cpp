@@ -111,7 +111,7 @@ TEST(CourseSteering, FollowsTheBorderThatIsKnownBetter) {
   HostState host;
   host.speed = 10.0;
   RoadModel road = roadAlong({{-10, 3}, {40, 3}});
-  const double straight = courseSteering(host, road, kVehicle, {})->sigma;
+  const auto straight = courseSteering(host, road, kVehicle, {});
   RoadModel vague = roadAlong({{-10, -3}, {40, 2}});
   for (BorderPoint& point : vague.borders.front().points) {
     point.sigma = 1.0;
@@ -119,8 +119,13 @@ TEST(CourseSteering, FollowsTheBorderThatIsKnownBetter) {
   road.borders.push_back(vague.borders.front());
   const auto steering = courseSteering(host, road, kVehicle, {});
   const auto by_vague = courseSteering(host, vague, kVehicle, {});
+  ASSERT_TRUE(straight && steering && by_vague);
   EXPECT_LT(steering->angle, 0.03 * by_vague->angle);
-  EXPECT_LT(steering->sigma, straight);
+  EXPECT_LT(steering->sigma, straight->sigma);
+  for (BorderPoint& point : vague.borders.front().points) {
+    point.sigma = 5.0;
+  }
+  EXPECT_FALSE(courseSteering(host, vague, kVehicle, {})) << "vaguer than the host's steering";
 }
 
 TEST(CourseSteering, IsUnknownWithoutABorderThatIsSure) {

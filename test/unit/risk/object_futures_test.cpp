@@ -159,35 +159,57 @@ Track vagueOncoming(double across) {
 TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
   const Track track = vagueOncoming(1.5);
   const ObjectStart start = startOf(track, 0.3);
-  const auto follower = roadFollower(track, start, 0.0, 0.0, RoadFollowingOptions());
+  const auto follower = roadFollower(track, start, 0.0, RoadFollowingOptions());
   ASSERT_TRUE(follower);
   EXPECT_GT(follower->probability, 0.9);
   // Kalman: of 1.5 m/s with a variance of 1, and (0.05 10.1)^2 of the road's.
   const double variance = std::pow(0.05 * std::hypot(10.0, 1.5), 2);
   EXPECT_NEAR(follower->start.state[3], -1.5 * variance / (1.0 + variance), 1e-9);
   EXPECT_EQ(follower->start.state[2], -10.0);
+  // The box's heading has a standard deviation of 0.2 rad: its share of the way to the road is
+  // 0.04 / (0.04 + 0.0025), whose other end it points to.
+  const double share = 0.04 / 0.0425;
+  const double off = angleBetween(kPi, track.box.center.heading());
+  EXPECT_NEAR(angleBetween(kPi, follower->start.heading), (1.0 - share) * off, 1e-9);
+  EXPECT_NEAR(follower->start.heading_sigma, 0.2 * std::sqrt(1.0 - share), 1e-9);
 }
 
 TEST(RoadFollower, WhoLeavesItForSureDoes) {
   Track track = vagueOncoming(4.0);
   track.covariance(3, 3) = 0.04;
-  const auto follower = roadFollower(track, startOf(track, 0.3), 0.0, 0.0, RoadFollowingOptions());
+  const auto follower = roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions());
   ASSERT_TRUE(follower);
   EXPECT_LT(follower->probability, 1e-6);
 }
 
 TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
   const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
-  EXPECT_FALSE(roadFollower(walks, startOf(walks, 0.3), 0.0, 0.0, RoadFollowingOptions()));
+  EXPECT_FALSE(roadFollower(walks, startOf(walks, 0.3), 0.0, RoadFollowingOptions()));
   const Track stands = knownTrack(2, {20, 3}, {0, 0});
-  EXPECT_FALSE(roadFollower(stands, startOf(stands, 0.3), 0.0, 0.0, RoadFollowingOptions()));
+  EXPECT_FALSE(roadFollower(stands, startOf(stands, 0.3), 0.0, RoadFollowingOptions()));
 }
 
-TEST(RoadFollower, WhoTurnsFollowsItLessProbably) {
-  const Track track = vagueOncoming(1.5);
-  const ObjectStart start = startOf(track, 0.3);
-  EXPECT_LT(roadFollower(track, start, 0.0, 0.9, RoadFollowingOptions())->probability,
-            roadFollower(track, start, 0.0, 0.1, RoadFollowingOptions())->probability);
+TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
+  Track track = vagueOncoming(1.5);
+  const double driver =
+      roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability;
+  track.class_probabilities.fill(1.0);  // each a share of 1: more than all
+  EXPECT_LE(roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability,
+            1.0);
+  track.class_probabilities.fill(0.2);
+  EXPECT_LT(roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability,
+            driver);
+}
+
+TEST(ObjectFutures, WhoTurnsDoesNotFollowTheRoad) {
+  Track track = vagueOncoming(0.0);
+  track.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
+  const ObjectFutureOptions options = withoutSwitching();
+  const double free =
+      endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).mean.y();
+  const double beside = endsOf(ObjectFutures(track, 0.0, options, kHorizon, kDraws)).mean.y();
+  EXPECT_LT(free, -5.0) << "it turns left, toward the host's lane";
+  EXPECT_EQ(free, beside);
 }
 
 TEST(ObjectFutures, AlongTheRoadStayInTheirLane) {

@@ -150,6 +150,13 @@ TEST(RiskAssessor, ThreatOfAContactFarAheadIsThatOfAStop) {
   EXPECT_NEAR(fast.time_to_brake, (120.0 - 108.0) / 36.0, 0.15);
 }
 
+// Who comes toward the host strikes it at rest, too: that is no reason to brake at once.
+TEST(RiskAssessor, BrakingAgainstOncomingTrafficHasTime) {
+  const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {81, 0}, {-10, 0})}));
+  EXPECT_NEAR(risk.median_ttc, 3.76, 0.15);
+  EXPECT_GT(risk.time_to_brake, 1.0);
+}
+
 TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Track not_a_number = knownTrack(1, {20, 0}, {0, 0});
