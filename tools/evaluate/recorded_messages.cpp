@@ -119,7 +119,8 @@ RecordedDetections toRecorded(const ObjectArray& message) {
 }
 
 StampedPose toRecorded(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  const StampedPose recorded{toStamp(message.header.stamp), fromMessage(message.pose)};
+  const StampedPose recorded{toStamp(message.header.stamp),
+                             {fromMessage(message.pose.pose), planarCovariance(message.pose)}};
   checkCovariance(recorded.pose.covariance);
   return recorded;
 }

@@ -117,21 +117,25 @@ Pose2 fromMessage(const geometry_msgs::Pose& pose) {
   if (!reasonable || !(std::abs(length - 1.0) < kUnitLengthTolerance)) {
     throw InputError("bad_pose", "pose at " + std::to_string(p.x) + ", " + std::to_string(p.y) +
                                      " with a quaternion of length " + std::to_string(length) +
-                                     ": expected numbers up to 1e9 m and length 1");
+                                     ": expected finite numbers up to 1e9 m and length 1");
   }
   const double heading =
       std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
   return {p.x, p.y, heading};
 }
 
-PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message) {
-  PoseWithCovariance pose;
-  pose.pose = fromMessage(message.pose);
+Eigen::Matrix3d planarCovariance(const geometry_msgs::PoseWithCovariance& message) {
+  Eigen::Matrix3d covariance;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      pose.covariance(row, column) = message.covariance.at(indexInSix(row, column));
+      covariance(row, column) = message.covariance.at(indexInSix(row, column));
     }
   }
+  return covariance;
+}
+
+PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message) {
+  const PoseWithCovariance pose{fromMessage(message.pose), planarCovariance(message)};
   if (!isCovariance(pose.covariance.data(), 3) ||
       pose.covariance.diagonal().maxCoeff() > kMaxCoordinate * kMaxCoordinate) {
     throw InputError("bad_pose",

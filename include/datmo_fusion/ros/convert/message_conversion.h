@@ -23,10 +23,13 @@ geometry_msgs::Pose toMessage(const Pose2& pose);
 geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
 
 /// The pose seen from above; roll and pitch are left out. Throws InputError (`bad_pose`) if it is
-/// not finite or its quaternion is not of length 1.
+/// not finite, farther away than 1e9 m, or its quaternion is not of length 1.
 Pose2 fromMessage(const geometry_msgs::Pose& pose);
 
-/// The same with the covariance of what is seen from above, which is not checked.
+/// The covariance of x, y and yaw, as it is.
+Eigen::Matrix3d planarCovariance(const geometry_msgs::PoseWithCovariance& pose);
+
+/// Both. Throws InputError (`bad_pose`) for an invalid covariance, too.
 PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& pose);
 
 geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,

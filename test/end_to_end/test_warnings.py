@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Warnings in encounters after the public test protocols, from the true objects and from the stack's own
+tracks: hits are warned of in time, near misses and what is merely followed are not."""
+
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.evaluate.risk_drives import read_drive
+from datmo_tools.evaluate.risk_scores import (is_warned_in_time, lead_of, ttc_errors, warnings_of)
+from datmo_tools.experiments.encounters import main
+
+PROGRAMS = Path(os.environ["RUN_BAG"]).parent
+CONFIG = Path(__file__).resolve().parents[2] / "config" / "demonstrator.yaml"
+HITS = ("pedestrian_near_40_hit", "pedestrian_far_30_hit", "cyclist_across_40_hit", "car_standing_50_hit",
+        "car_slower_40_hit")  # fmt: skip
+NEAR_MISSES = ("pedestrian_near_40_space", "pedestrian_far_30_time", "cyclist_across_40_space",
+               "cyclist_along_40_space", "car_standing_50_space", "turn_across_45_15_space")  # fmt: skip
+# Errors of the time to contact (s) from true tracks, of all frames within 3 s of a contact.
+MEDIAN_TTC, LARGE_TTC = 0.1, 0.3
+
+
+def drive_of(name, *words):
+    """The risks (RiskDrive) of one scene by the shipped method."""
+    with tempfile.TemporaryDirectory() as folder:
+        code = main([folder, "--programs", str(PROGRAMS), "--methods", "futures", "--only", name, *words])
+        if code != 0:
+            raise AssertionError(f"{name}: encounters ended with {code}")
+        return read_drive(Path(folder) / "futures" / f"{name}.bag")
+
+
+class FromTrueObjects(unittest.TestCase):
+    def test_hits_are_warned_of_in_time(self):
+        drives = [drive_of(name) for name in HITS]
+        for drive in drives:
+            self.assertTrue(is_warned_in_time(drive), f"{drive.name}: lead {lead_of(drive)}")
+        errors = sorted(abs(error) for error in ttc_errors(drives))
+        self.assertGreater(len(errors), 20 * len(HITS))
+        self.assertLess(errors[len(errors) // 2], MEDIAN_TTC)
+        self.assertLess(errors[int(0.95 * len(errors))], LARGE_TTC)
+
+    def test_near_misses_are_not(self):
+        for name in NEAR_MISSES:
+            self.assertEqual(warnings_of(drive_of(name)), [], name)
+
+
+class FromOwnTracks(unittest.TestCase):
+    def test_a_standing_car_is_warned_of_in_time(self):
+        drive = drive_of("car_standing_50_hit", "--config", str(CONFIG))
+        self.assertTrue(is_warned_in_time(drive), f"lead {lead_of(drive)}")
+
+    def test_what_the_map_does_not_know_yet_is_no_wall(self):
+        """The car ahead is there from the first scan on, and the child is a beam of one scan at first."""
+        followed = drive_of("car_braking_12_2_50_hit", "--config", str(CONFIG))
+        start = followed.frames[0].time
+        self.assertFalse([begin for begin, _ in warnings_of(followed) if begin < start + 1.0])
+        child = drive_of("child_behind_cars_30_space", "--config", str(CONFIG))
+        self.assertEqual(warnings_of(child), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
