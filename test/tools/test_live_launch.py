@@ -200,6 +200,11 @@ class MissingDevice(unittest.TestCase):
                       missing_device(["rear_lidar:=external", "rear_lidar_address:=", "cloud:=points"]))
         self.assertIsNone(missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "cloud:="]))
 
+    def test_signals_of_a_bus_are_those_of_a_file(self):
+        self.assertIn("/none.yaml: expected a yaml file", missing_device(["odometry:=can", "can_signals:=/none.yaml"]))
+        for words in (["odometry:=can", "can_signals:="], ["odometry:=external", "can_signals:=/none.yaml"]):
+            self.assertIsNone(missing_device(words))
+
     def test_the_sentence_says_what_there_is_and_what_to_do(self):
         said = missing_device(["lidar:=ouster"])
         self.assertIn("lidar:=ouster: no driver of ours, expected one of external, hokuyo, sick_lms, velodyne; ",
