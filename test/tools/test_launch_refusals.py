@@ -64,6 +64,10 @@ class LaunchRefusals(unittest.TestCase):
         said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
         self.assertIn("no argument odometri: did you mean odometry?", said)
 
+    def test_an_unknown_part(self):
+        said = self.refusal("live.launch", "v2x_part:=foo")
+        self.assertIn("v2x_part:=foo: expected one of perception, sensors, stereo, risk", said)
+
     def test_an_unknown_sensor_set(self):
         said = self.refusal("perception.launch", "sensors:=kiti")
         self.assertIn("sensors:=kiti: no kiti.yaml in", said)
