@@ -2,8 +2,8 @@
 """What roslaunch does not check in a command line: arguments that no launch file takes, values that no
 argument has, names of sensor sets without a file, and a stack that already runs on the same master.
 
-usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC camera:=KIND odometry:=KIND
-                    can_signals:=FILE.yaml]
+usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC
+                    merge_scans:=BOOL camera:=KIND odometry:=KIND can_signals:=FILE.yaml]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
 included by pass_all_args takes arguments, too; includes of other packages' launch files without it
@@ -127,6 +127,8 @@ def missing_device(words):
     if rear != "none" and given.get("cloud"):
         return (f"rear_lidar:={rear} with clouds on {given['cloud']}: expected two planar scanners, the scan is made of "
                 "the clouds alone")
+    if rear != "none" and given.get("merge_scans", "true").lower() in ("false", "0"):
+        return f"rear_lidar:={rear} with merge_scans:={given['merge_scans']}: expected merge_scans:=true, or nothing takes its scans"
     if rear not in ("none", "external") and not given.get("rear_lidar_address"):
         return f"rear_lidar:={rear} without rear_lidar_address: expected where it is"
     return unreadable(given.get("can_signals")) if given.get("odometry") in CAN else None
