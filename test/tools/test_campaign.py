@@ -4,6 +4,9 @@
 
 import contextlib
 import io
+import os
+import shutil
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -23,6 +26,7 @@ from datmo_tools.experiments.line_faults import JUMP, STEREO_INPUTS, Message, fa
 
 BEGIN = 100.0  # s
 TABLE = Path(__file__).resolve().parents[1] / "campaign/fault_bounds.yaml"
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
 def drive():
@@ -197,6 +201,22 @@ class Chosen(unittest.TestCase):
                       self.said("--faults", "odometry silent", "scan slient"))
         self.assertNotIn("in no fault's name", self.said("--faults", "odometry silent"))
         self.assertIn("--faults 'stereo'", self.said("--faults", "stereo"))
+
+
+class Script(unittest.TestCase):
+    def test_sources_without_a_commit_are_refused_at_the_start(self):
+        with tempfile.TemporaryDirectory() as name:
+            scripts = Path(name, "sources", "scripts")
+            scripts.mkdir(parents=True)
+            for file in ("campaign", "lib.sh"):
+                shutil.copy(SCRIPTS / file, scripts)
+            for step in ("setup", "build"):
+                (scripts / step).write_text(f"#!/bin/sh\necho {step}\n")
+                (scripts / step).chmod(0o755)
+            done = subprocess.run([scripts / "campaign"], env={**os.environ, "GIT_CEILING_DIRECTORIES": name}, text=True,
+                                  capture_output=True, check=False)  # fmt: skip
+        self.assertIn(f"error: {name}/sources: no commit of its own", done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (1, "setup\n"))
 
 
 class Bounds(unittest.TestCase):
