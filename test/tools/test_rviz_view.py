@@ -7,7 +7,6 @@ import contextlib
 import io
 import os
 import re
-import runpy
 import shlex
 import sys
 import tempfile
@@ -18,6 +17,8 @@ from unittest import mock
 
 import yaml
 from launch_files import PACKAGE, load
+
+from datmo_tools import open_rviz
 
 FILE = str(PACKAGE / "config/perception.rviz")
 
@@ -116,10 +117,9 @@ class ViewOfAVehicle(unittest.TestCase):
 
     def vehicle_view(self, prefix, namespace):
         """What open_rviz shows."""
-        open_rviz = runpy.run_path(str(PACKAGE / "tools/launch/open_rviz"))
         environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
         with mock.patch.dict(os.environ, environment):
-            return open_rviz["vehicle_view"](FILE, prefix)
+            return open_rviz.vehicle_view(FILE, prefix)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -160,13 +160,12 @@ class ViewOfAVehicle(unittest.TestCase):
 
     def test_a_view_that_is_none_is_named(self):
         file = Path(self.home, "a.rviz")
-        main = runpy.run_path(str(PACKAGE / "tools/launch/open_rviz"))["main"]
         for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected a configuration")):
             file.write_text(text)
             said = io.StringIO()
-            with mock.patch.dict(main.__globals__, display_opens=lambda: True), contextlib.redirect_stderr(said), \
+            with mock.patch.object(open_rviz, "display_opens", lambda: True), contextlib.redirect_stderr(said), \
                     mock.patch.object(sys, "argv", ["open_rviz", "--frame-prefix", "car1/", "-d", str(file)]):  # fmt: skip
-                self.assertEqual(main(), 1)
+                self.assertEqual(open_rviz.main(), 1)
             self.assertRegex(said.getvalue(), f"open_rviz: {file}.*{problem}")
 
     def test_the_launch_file_hands_the_prefix_on(self):
