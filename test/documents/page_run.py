@@ -15,6 +15,7 @@ KEPT_VARIABLES = ("HOME", "USER", "LANG", "TMPDIR")
 # What programs say when something went wrong that roslaunch's exit code does not tell.
 FAILURE = re.compile(r"\[FATAL\]|Traceback \(most recent|RLException|Couldn't find executable|"
                      r"couldn't set parameters|process has died")
+LAUNCH = re.compile(r"^(\S+/env\.sh )?roslaunch ")
 TERMINATION_TIME = 20  # s for roslaunch to end its nodes
 LINES_SHOWN = 30
 
@@ -82,19 +83,23 @@ def shell_environment(folder):
     }
 
 
-def launch_checks(block):
+def launch_checks(block, page):
     """A block without mark that has roslaunch check each of a block's command lines and start nothing.
 
     Paths of examples, /path/to/NAME, lead to the demonstrator's sensor set (config:=) or to a small
-    file. Returns None where no line of the block starts with roslaunch.
+    file, machines:= to what the page (list of its blocks) has as machines. Returns None where no line
+    of the block calls roslaunch, alone or by a machine's env.sh.
     """
-    lines = [line for line in block.lines if line.startswith("roslaunch ")]
+    joined = re.sub(r"\\\n\s*", " ", block.text).splitlines()
+    lines = [LAUNCH.sub("roslaunch --nodes ", line) for line in joined if LAUNCH.match(line)]
     if not lines:
         return None
     text = re.sub(r"config:=/path/to/\S+", "config:=config/demonstrator.yaml", "\n".join(lines))
     text = re.sub(r":=/path/to/\S+", ":=$PWD/example.yaml", text)
-    text = text.replace("roslaunch ", "roslaunch --nodes ")
-    before = ["source devel/setup.bash", "echo 'example: 0' >example.yaml"]
+    text = re.sub(r"machines:=/\S+", "machines:=$PWD/machines.launch", text)
+    machines = next((each.text for each in page if "<machine " in each.text), "<launch />\n")
+    before = ["source devel/setup.bash", "echo 'example: 0' >example.yaml",
+              f"cat >machines.launch <<'END'\n{machines}END"]  # fmt: skip
     return replace(block, lines=[*before, *text.splitlines()], needs="")
 
 

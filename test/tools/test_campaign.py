@@ -2,6 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The campaign: what each fault does to the messages of a drive, by hand, and what is said of the poses."""
 
+import contextlib
+import io
+import os
+import shutil
+import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,13 +19,14 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from datmo_tools.experiments import soak
-from datmo_tools.experiments.campaign import effect, page
+from datmo_tools.experiments.campaign import PROGRAMS, effect, main, page
 from datmo_tools.experiments.fault_bounds import beyond, read_bounds
 from datmo_tools.experiments.kept_ids import gap_effect
 from datmo_tools.experiments.line_faults import JUMP, STEREO_INPUTS, Message, faults, faulty
 
 BEGIN = 100.0  # s
 TABLE = Path(__file__).resolve().parents[1] / "campaign/fault_bounds.yaml"
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
 def drive():
@@ -177,6 +184,41 @@ class Effect(unittest.TestCase):
         self.assertIn("- a.bag, scan silent: too far", text)
 
 
+class Chosen(unittest.TestCase):
+    def said(self, *options):
+        """What the command line says with an empty bag, which is no bag."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for file in ("drive.bag", "config.yaml", *PROGRAMS):
+                (folder / file).touch(mode=0o755)
+            said = io.StringIO()
+            with contextlib.redirect_stderr(said):
+                main([f"{name}/drive.bag", "--config", f"{name}/config.yaml", "--programs", name, "--page", f"{name}/p.md", *options])
+            return said.getvalue()
+
+    def test_a_part_that_is_in_no_name(self):
+        self.assertIn("--faults 'scan slient': in no fault's name, expected a part of one of none, scan silent for 3 s",
+                      self.said("--faults", "odometry silent", "scan slient"))
+        self.assertNotIn("in no fault's name", self.said("--faults", "odometry silent"))
+        self.assertIn("--faults 'stereo'", self.said("--faults", "stereo"))
+
+
+class Script(unittest.TestCase):
+    def test_sources_without_a_commit_are_refused_at_the_start(self):
+        with tempfile.TemporaryDirectory() as name:
+            scripts = Path(name, "sources", "scripts")
+            scripts.mkdir(parents=True)
+            for file in ("campaign", "lib.sh"):
+                shutil.copy(SCRIPTS / file, scripts)
+            for step in ("setup", "build"):
+                (scripts / step).write_text(f"#!/bin/sh\necho {step}\n")
+                (scripts / step).chmod(0o755)
+            done = subprocess.run([scripts / "campaign"], env={**os.environ, "GIT_CEILING_DIRECTORIES": name}, text=True,
+                                  capture_output=True, check=False)  # fmt: skip
+        self.assertIn(f"error: {name}/sources: no commit of its own", done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (1, "setup\n"))
+
+
 class Bounds(unittest.TestCase):
     """A drive with a MOTA of 0.7, and one fault."""
 
@@ -207,6 +249,14 @@ class Bounds(unittest.TestCase):
         self.assertEqual(self.beyond("refused", error="all refused"), [])
         self.assertEqual(len(self.beyond("refused")), 1)
         self.assertEqual(self.beyond({}, error="ended"), ["a.bag, scan silent: ended"])
+
+    def test_what_is_no_number_is_beyond(self):
+        self.assertEqual(len(self.beyond({}, {"largest_error_m": float("nan")})), 1)
+        self.assertEqual(len(self.beyond({}, mota=float("nan"))), 1)
+
+    def test_a_drive_that_failed_without_a_fault(self):
+        drive = {"drive": "a.bag", "runs": [{"fault": "none", "error": "ended"}]}
+        self.assertEqual(beyond(drive, {"a.bag": {"default": self.LIMITS}}), ["a.bag, none: ended"])
 
     def test_the_table_of_the_package(self):
         bounds = read_bounds(TABLE)

@@ -92,18 +92,18 @@ class Cameras(Tool):
     def test_one_camera_names_what_the_scanner_sees(self):
         alone = without(simulated.recording(), self.RIGHT, "/stereo/right/image_rect")
         _, out, _ = self.run_tool(alone)
-        self.assertRegex(out, r"mono \(classes\) +ready")
+        self.assertRegex(out, r"mono \(classes, with a network\) +ready")
         self.assertRegex(out, r"object +missing: .*take level mono")
 
     def test_one_camera_of_which_something_is_missing(self):
         alone = without(simulated.recording(), self.RIGHT, "/stereo/right/image_rect")
         _, out, _ = self.run_tool(without(alone, "/stereo/left/camera_info"))
-        self.assertRegex(out, r"mono \(classes\) +missing: camera_info beside /stereo/left")
+        self.assertRegex(out, r"mono \(classes, with a network\) +missing: camera_info beside /stereo/left")
         _, out, _ = self.run_tool(without(alone, "/stereo/left/image_rect"))
-        self.assertRegex(out, r"mono \(classes\) +missing: a camera's images")
+        self.assertRegex(out, r"mono \(classes, with a network\) +missing: a camera's images")
         raw = [item._replace(topic=item.topic.replace("image_rect", "image_raw")) for item in alone]
         _, out, _ = self.run_tool(raw)
-        self.assertRegex(out, r"mono \(classes\) +missing: rectified images")
+        self.assertRegex(out, r"mono \(classes, with a network\) +missing: rectified images")
 
     def test_not_calibrated(self):
         def clear(message):

@@ -90,6 +90,15 @@ class Documents(unittest.TestCase):
                         known = documented_name(key) in parameters
                         self.assertTrue(known, f"{page}:{block.line}: {key}")
 
+    def test_images_give_classes_with_a_network_alone(self):
+        """The default detector of mono_classifier has no weight."""
+        said = [*LINKED_PAGES, CHANGELOG, SOURCE / "launch" / "perception.launch"]
+        items = [item for file in said for item in re.split(r"\n(?=\s*(?:[-*|<]|\d+\.)\s?)|\n\n", file.read_text())]
+        claims = [item for item in items if re.search(r"mono:=true|``mono_classifier``|arg name=.mono.", item)
+                  and re.search(r"class(es|ify|ifies)\b", item)]  # fmt: skip
+        self.assertGreater(len(claims), 5)
+        for claim in claims:
+            self.assertIn("network", claim)
 
     def test_evaluation_names_every_subcommand(self):
         page = (SOURCE / "doc" / "evaluation.md").read_text()

@@ -9,7 +9,8 @@ import re
 import subprocess
 import unittest
 from pathlib import Path
-from xml.etree import ElementTree
+
+from datmo_tools.launch_arguments import arguments_of
 
 SOURCE = Path(__file__).resolve().parents[2]
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md")), SOURCE / "rosbag_fixtures" / "README.md"]
@@ -21,21 +22,31 @@ ASSIGNMENTS = re.compile(r"`(?!roslaunch (?!datmo_fusion))([^`\n]*:=[^`]*)`")  #
 ASSIGNED = re.compile(r"(?<!\w)([a-z]\w*):=")
 # Of run_bag alone: images, which launch files find by the camera's namespace.
 IMAGES = {"left_image", "right_image", "left_camera_info", "right_camera_info"}
+LAUNCH_FILE = re.compile(r"\b\w+\.launch\b")
+OTHERS = {"cmake", "rosbag"}  # programs of other packages
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 
 
 def inline_commands(text):
-    """(program, its words, options) of the commands outside of fenced blocks that have options."""
+    """(program of ours, its words, options) of the commands outside of fenced blocks that have options."""
     for name, words in SPAN.findall(FENCED.sub("", text)):
         options = OPTION.findall(words)
-        if options and (PROGRAMS / name).exists():
+        if options and name not in OTHERS:
             yield name, words.split(), options
 
 
-def launch_arguments():
-    tags = [tag for file in (SOURCE / "launch").glob("*.launch")
-            for tag in ElementTree.parse(file).getroot().findall("arg")]  # fmt: skip
-    return {tag.get("name") for tag in tags if tag.get("value") is None}
+@functools.lru_cache(maxsize=None)
+def arguments_taken(file):
+    """Names of the arguments of a file of launch/, those that it passes on included."""
+    return arguments_of(SOURCE / "launch" / file, lambda name: name.replace("$(find datmo_fusion)", str(SOURCE)))
+
+
+def unknown_arguments(words):
+    """Names that are assigned to in a command and that the launch file in it does not take; without one, no launch
+    file of the package, nor run_bag."""
+    files = LAUNCH_FILE.findall(words) or [file.name for file in (SOURCE / "launch").glob("*.launch")]
+    known = set().union(*map(arguments_taken, files), () if LAUNCH_FILE.search(words) else IMAGES)
+    return [name for name in ASSIGNED.findall(words) if name not in known]
 
 
 @functools.lru_cache(maxsize=None)
@@ -48,12 +59,20 @@ def help_of(*command):
 class InlineCommands(unittest.TestCase):
     def test_only_commands_with_options_count(self):
         text = "`run_bag --risk A`, `run_bag`, `nobody --else`\n```bash\nrun_bag `run_bag --x`\n```\n"
-        self.assertEqual(list(inline_commands(text)), [("run_bag", ["--risk", "A"], ["--risk"])])
+        self.assertEqual(list(inline_commands(text)),
+                         [("run_bag", ["--risk", "A"], ["--risk"]), ("nobody", ["--else"], ["--else"])])
+        self.assertEqual(list(inline_commands("`cmake --install build`")), [])
+
+    def test_arguments_are_those_of_the_launch_file(self):
+        for words, unknown in (("replay.launch bag:=a scan:=/b", []), ("perception.launch bag:=a scan:=/b", ["bag"]),
+                               ("bag:=a scan:=/b left_image:=/c", []), ("mono:=true scam:=/b", ["scam"])):
+            self.assertEqual(unknown_arguments(words), unknown, words)
 
     def test_their_options_exist(self):
         count = 0
         for page in PAGES:
             for name, words, options in inline_commands(page.read_text()):
+                self.assertTrue((PROGRAMS / name).exists(), f"{page.name}: {name}: no program of ours")
                 # evaluate's options are those of its subcommand.
                 command = (name, words[0]) if name == "evaluate" else (name,)
                 for option in options:
@@ -62,12 +81,11 @@ class InlineCommands(unittest.TestCase):
         self.assertGreater(count, 20)
 
     def test_their_arguments_exist(self):
-        known, count = launch_arguments() | IMAGES, 0
+        count = 0
         for page in PAGES:
             for words in ASSIGNMENTS.findall(FENCED.sub("", page.read_text())):
-                for name in ASSIGNED.findall(words):
-                    self.assertIn(name, known, f"{page.name}: {words}")
-                    count += 1
+                self.assertEqual(unknown_arguments(words), [], f"{page.name}: {words}")
+                count += len(ASSIGNED.findall(words))
         self.assertGreater(count, 20)
 
 

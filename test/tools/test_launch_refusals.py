@@ -45,6 +45,17 @@ class LaunchRefusals(unittest.TestCase):
         said = self.refusal("perception.launch", self.config("grid_slam: {map_perod: 1.0}\n"))
         self.assertIn("map_perod = 1: expected a key that is read; the nearest one is map_period", said)
 
+    def test_a_file_that_contains_itself(self):
+        said = self.refusal("perception.launch", self.config("a: &a {b: *a}\n"))
+        self.assertIn("an alias stands for what it stands in", said)
+        self.assertNotIn("RecursionError", said)
+
+    def test_signals_of_a_bus_that_contain_themselves(self):
+        signals = self.config("can: &a {speed: *a}\n").replace("config", "can_signals")
+        said = self.refusal("live.launch", "odometry:=can", signals)
+        self.assertIn("an alias stands for what it stands in", said)
+        self.assertNotIn("RecursionError", said)
+
     def test_replay_takes_the_configuration_too(self):
         said = self.refusal("replay.launch", "bag:=a.bag", self.config("grid_slm: {}\n"))
         self.assertIn("grid_slm", said)
@@ -52,6 +63,10 @@ class LaunchRefusals(unittest.TestCase):
     def test_a_misspelled_argument(self):
         said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
         self.assertIn("no argument odometri: did you mean odometry?", said)
+
+    def test_an_unknown_part(self):
+        said = self.refusal("live.launch", "v2x_part:=foo")
+        self.assertIn("v2x_part:=foo: expected one of perception, sensors, stereo, risk", said)
 
     def test_an_unknown_sensor_set(self):
         said = self.refusal("perception.launch", "sensors:=kiti")

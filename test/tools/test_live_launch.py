@@ -187,6 +187,8 @@ class LiveLaunch(unittest.TestCase):
             with self.subTest(word):
                 with self.assertRaises(roslaunch.RLException):
                     loaded(word)
+        with self.assertRaises(roslaunch.RLException):
+            loaded("rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "merge_scans:=false")
 
 
 class MissingDevice(unittest.TestCase):
@@ -198,7 +200,14 @@ class MissingDevice(unittest.TestCase):
                       missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=", "cloud:="]))
         self.assertIn("rear_lidar:=external with clouds on points",
                       missing_device(["rear_lidar:=external", "rear_lidar_address:=", "cloud:=points"]))
-        self.assertIsNone(missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "cloud:="]))
+        self.assertIn("rear_lidar:=hokuyo with merge_scans:=false",
+                      missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "cloud:=", "merge_scans:=false"]))
+        self.assertIsNone(missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=10.0.0.2", "cloud:=", "merge_scans:=true"]))
+
+    def test_signals_of_a_bus_are_those_of_a_file(self):
+        self.assertIn("/none.yaml: expected a yaml file", missing_device(["odometry:=can", "can_signals:=/none.yaml"]))
+        for words in (["odometry:=can", "can_signals:="], ["odometry:=external", "can_signals:=/none.yaml"]):
+            self.assertIsNone(missing_device(words))
 
     def test_the_sentence_says_what_there_is_and_what_to_do(self):
         said = missing_device(["lidar:=ouster"])

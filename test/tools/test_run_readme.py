@@ -102,6 +102,16 @@ class RunReadme(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn("3 blocks run", output)
 
+    def test_roslaunch_is_checked_behind_an_environment_and_over_several_lines(self):
+        code, output = self.run_on(
+            block('roslaunch() { echo "$@" >>said; }')
+            + "```xml\n<launch>\n  <machine name='a' />\n</launch>\n```\n"
+            + block("false\n/home/car/env.sh roslaunch a b.launch \\\n  machines:=/home/car/m.launch \\\n  x:=1\n", "robot")
+            + block('test "$(cat said)" = "--nodes a b.launch machines:=$PWD/machines.launch x:=1"\ngrep -q "name=\'a\'" machines.launch')
+        )
+        self.assertEqual(code, 0, output)
+        self.assertIn("3 blocks run", output)
+
     def test_marked_blocks_run_when_asked_for(self):
         code, output = self.run_on(block("false", "hours"), options=["--with", "hours"])
         self.assertEqual(code, 1, output)

@@ -3,10 +3,12 @@
 """config/perception.rviz shows what is published: each topic in it has a publisher, each namespace of
 markers is one that is drawn, and each that is drawn is named, so that none is on by accident."""
 
+import contextlib
+import io
 import os
 import re
-import runpy
 import shlex
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -15,6 +17,8 @@ from unittest import mock
 
 import yaml
 from launch_files import PACKAGE, load
+
+from datmo_tools import open_rviz
 
 FILE = str(PACKAGE / "config/perception.rviz")
 
@@ -113,10 +117,9 @@ class ViewOfAVehicle(unittest.TestCase):
 
     def vehicle_view(self, prefix, namespace):
         """What open_rviz shows."""
-        open_rviz = runpy.run_path(str(PACKAGE / "tools/launch/open_rviz"))
         environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
         with mock.patch.dict(os.environ, environment):
-            return open_rviz["vehicle_view"](FILE, prefix)
+            return open_rviz.vehicle_view(FILE, prefix)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -154,6 +157,16 @@ class ViewOfAVehicle(unittest.TestCase):
     def test_each_vehicle_has_a_view_of_its_own(self):
         self.assertEqual(len({self.vehicle_view(prefix, namespace) for prefix, namespace in
                               (("car1/", "/car1"), ("car2/", "/car2"), ("", "/car3"), ("car4/", ""))}), 4)
+
+    def test_a_view_that_is_none_is_named(self):
+        file = Path(self.home, "a.rviz")
+        for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected a configuration")):
+            file.write_text(text)
+            said = io.StringIO()
+            with mock.patch.object(open_rviz, "display_opens", lambda: True), contextlib.redirect_stderr(said), \
+                    mock.patch.object(sys, "argv", ["open_rviz", "--frame-prefix", "car1/", "-d", str(file)]):  # fmt: skip
+                self.assertEqual(open_rviz.main(), 1)
+            self.assertRegex(said.getvalue(), f"open_rviz: {file}.*{problem}")
 
     def test_the_launch_file_hands_the_prefix_on(self):
         nodes = load("live.launch", ["rviz:=true", "frame_prefix:=car1/"]).nodes

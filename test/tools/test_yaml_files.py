@@ -38,6 +38,18 @@ class YamlFiles(unittest.TestCase):
         self.refused("a: " + 20000 * "[", ":1: expected yaml, but lists and maps are more than 100 deep")
         self.assertEqual(len(parse_yaml("a", 90 * "[" + 90 * "]")), 1)
 
+    def test_values_that_are_not_what_their_tags_say(self):
+        for value in ("!!bool x", "!!int ''", "!!timestamp x", "!!float ''", f"!!float {'1:' * 300}1"):
+            with self.subTest(value), self.assertRaisesRegex(InputError, "a.yaml: expected yaml, but a value is not"):
+                parse_yaml("a.yaml", f"a: {value}")
+
+    def test_numbers_are_short(self):
+        long = "1:" * 10000 + "1"
+        for value in (long, f"!!int '{long}'", f"!!int {{=: '{long}'}}", f"{long}.5"):
+            with self.subTest(value[:20]), self.assertRaisesRegex(InputError, "a number has more than 1000 characters"):
+                parse_yaml("a.yaml", f"a: {value}")
+        self.assertEqual(parse_yaml("a", f"a: 1:30:00\nb: {'f0' * 5000}\nc: 0.5"), {"a": 5400, "b": "f0" * 5000, "c": 0.5})
+
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "a.yaml"

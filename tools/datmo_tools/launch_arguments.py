@@ -2,7 +2,8 @@
 """What roslaunch does not check in a command line: arguments that no launch file takes, values that no
 argument has, names of sensor sets without a file, and a stack that already runs on the same master.
 
-usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC camera:=KIND odometry:=KIND]
+usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC
+                    merge_scans:=BOOL camera:=KIND odometry:=KIND can_signals:=FILE.yaml]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
 included by pass_all_args takes arguments, too; includes of other packages' launch files without it
@@ -17,6 +18,9 @@ import xmlrpc.client
 from pathlib import Path
 from xml.etree import ElementTree
 
+from datmo_tools.errors import InputError
+from datmo_tools.yaml_files import load_yaml
+
 MANAGER = "perception"
 CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
@@ -25,6 +29,7 @@ CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
 # Devices of live.launch: the kinds that there are, and what to do for others that people have.
 DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "rear_lidar": ("none", "external", "hokuyo", "sick_lms"),
            "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
+CAN = ("can", "can_imu")  # odometry that reads can_signals
 INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
@@ -122,8 +127,20 @@ def missing_device(words):
     if rear != "none" and given.get("cloud"):
         return (f"rear_lidar:={rear} with clouds on {given['cloud']}: expected two planar scanners, the scan is made of "
                 "the clouds alone")
+    if rear != "none" and given.get("merge_scans", "true").lower() in ("false", "0"):
+        return f"rear_lidar:={rear} with merge_scans:={given['merge_scans']}: expected merge_scans:=true, or nothing takes its scans"
     if rear not in ("none", "external") and not given.get("rear_lidar_address"):
         return f"rear_lidar:={rear} without rear_lidar_address: expected where it is"
+    return unreadable(given.get("can_signals")) if given.get("odometry") in CAN else None
+
+
+def unreadable(file):
+    """A sentence on a yaml file (path; None or empty: none) that roslaunch must not load, or None."""
+    try:
+        if file:
+            load_yaml(file)
+    except InputError as error:
+        return str(error)
     return None
 
 

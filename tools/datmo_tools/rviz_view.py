@@ -6,7 +6,9 @@ from pathlib import Path
 
 import yaml
 
+from datmo_tools.errors import InputError
 from datmo_tools.whole_files import write_whole
+from datmo_tools.yaml_files import load_yaml
 
 FRAME_KEYS = ("Fixed Frame", "Target Frame", "Reference Frame")
 # Of rviz: whatever the fixed frame is.
@@ -35,7 +37,9 @@ def write_view(file, prefix, namespace, folder):
 
     Each vehicle has one, which its next start replaces. Raises InputError.
     """
-    view = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    view = load_yaml(file)
+    if not isinstance(view, dict):
+        raise InputError(f"{file}: expected a configuration of rviz")
     vehicle = dict.fromkeys(word for word in f"{namespace}/{prefix}".split("/") if word)
     name = "_".join([Path(file).stem, *vehicle]) + ".rviz"
     text = yaml.safe_dump(view_of_vehicle(view, prefix, namespace), sort_keys=False)

@@ -10,6 +10,30 @@ from datmo_tools.errors import InputError
 MAX_BYTES = 1 << 20
 MAX_DEPTH = 100
 MAX_NODES = 100_000  # aliases count as what they stand for
+# Characters, here alone: PyYAML's time for a sexagesimal number (1:30:00) grows with their square.
+MAX_NUMBER = 1000
+# What PyYAML raises for a value that is not what its tag says (!!bool x): it has no error of its own for these.
+BAD_VALUES = (ValueError, LookupError, AttributeError, TypeError, ArithmeticError)
+
+
+class _Loader(yaml.SafeLoader):
+    """A loader whose numbers are not too long."""
+
+
+def _number(construct):
+    """A constructor of numbers (of PyYAML) with a bound on their length."""
+    def bounded(loader, node):
+        if len(loader.construct_scalar(node)) > MAX_NUMBER:
+            said = f"a number has more than {MAX_NUMBER} characters"
+            raise yaml.constructor.ConstructorError(problem=said, problem_mark=node.start_mark)
+        return construct(loader, node)
+
+    return bounded
+
+
+for _kind in ("int", "float"):
+    _tag = f"tag:yaml.org,2002:{_kind}"
+    _Loader.add_constructor(_tag, _number(yaml.SafeLoader.yaml_constructors[_tag]))
 
 
 def load_yaml(file):
@@ -28,9 +52,11 @@ def parse_yaml(name, text):
     """What a text (str or bytes) says, `name` in messages. Raises InputError."""
     try:
         _check_size(name, text)
-        return yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:  # a date that is none, bytes that are no text
+        return yaml.load(text, _Loader)
+    except yaml.YAMLError as error:
         raise InputError(f"{name}: expected yaml, but {error}") from error
+    except BAD_VALUES as error:  # a date that is none, bytes that are no text
+        raise InputError(f"{name}: expected yaml, but a value is not what its tag or form says ({error!r})") from error
 
 
 def _check_size(name, text):

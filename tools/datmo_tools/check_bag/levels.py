@@ -23,7 +23,7 @@ def levels(recording, roles):
         Level("low (grids)", "--low-level-fusion", base + camera),
         Level("object", "--object-fusion", base + objects),
         Level("track", "--track-fusion", base + tracks),
-        Level("mono (classes)", "--mono", base + _missing_for_mono(recording, roles)),
+        Level("mono (classes, with a network)", "--mono", base + _missing_for_mono(recording, roles)),
         Level("road_border", "--road-border", base),
     ]
 

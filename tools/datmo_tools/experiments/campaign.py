@@ -100,6 +100,7 @@ def _campaign(values):
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a bag and a yaml file")
     programs.check(values.programs, PROGRAMS)
+    _check_parts(values.faults, faults() if values.stereo is None else [*faults(), *faults(STEREO_INPUTS)])
     bounds = read_bounds(values.bounds) if values.bounds else None
     played = Played(values.drive.name, _messages(values.drive, INPUTS), ())
     report = {"made": values.made, "begin_s": values.begin, "drives": [_all_faults(values, played, None)], "silent": []}
@@ -135,6 +136,14 @@ def _chosen(parts, every):
     """The faults whose name has one of the parts in it; the first one, which is none, in any case."""
     return [fault for fault in every
             if fault is every[0] or not parts or any(part in fault.name for part in parts)]  # fmt: skip
+
+
+def _check_parts(parts, every):
+    """Raises InputError for a part that no fault has in its name."""
+    for part in parts:
+        if not any(part in fault.name for fault in every):
+            names = ", ".join(dict.fromkeys(fault.name for fault in every))
+            raise InputError(f"--faults '{part}': in no fault's name, expected a part of one of {names}")
 
 
 def _messages(drive, inputs):

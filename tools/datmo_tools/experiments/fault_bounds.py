@@ -31,7 +31,10 @@ def beyond(drive, bounds):
     if drive["drive"] not in bounds:
         raise InputError(f"no bounds of {drive['drive']}, expected those of all its faults")
     of_drive = bounds[drive["drive"]]
-    clean = drive["runs"][0]["tracks"]["mota"]
+    without_fault = drive["runs"][0]
+    if without_fault["error"] is not None:  # nothing to compare with
+        return [f"{drive['drive']}, {without_fault['fault']}: {without_fault['error']}"]
+    clean = without_fault["tracks"]["mota"]
     found = []
     for run in drive["runs"]:
         limits = of_drive.get(run["fault"], {})
@@ -50,11 +53,12 @@ def _beyond(run, limits, clean):
     values = {
         **pose,
         "recovered_s": pose["recovered_s"] if pose["recovered"] else None,
-        "mota_loss": None if mota is None else clean - mota,
+        "mota_loss": None if mota is None or clean is None else clean - mota,
     }
+    # NaN is beyond any bound.
     return [f"{name} {_text(values[name])}, expected at most {limit:g}"
             for name, limit in limits.items()
-            if limit is not None and (values[name] is None or values[name] > limit)]  # fmt: skip
+            if limit is not None and (values[name] is None or not values[name] <= limit)]  # fmt: skip
 
 
 def _text(value):
