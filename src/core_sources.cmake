@@ -71,6 +71,7 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/surface_groups.cpp
   fusion/earth/consistent_pairs.cpp
   fusion/earth/earth_frame_filter.cpp
+  fusion/earth/earth_frame_options.cpp
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/signal_advice.cpp

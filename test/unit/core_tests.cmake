@@ -195,6 +195,7 @@ datmo_fusion_add_core_test(fusion
   fusion/aging_map_test.cpp
   fusion/cross_covariance_test.cpp
   fusion/earth_frame_test.cpp
+  fusion/earth_start_test.cpp
   fusion/fused_existence_test.cpp
   fusion/fused_id_test.cpp
   fusion/fused_state_test.cpp
