@@ -107,6 +107,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/object/object_combination.cpp
   fusion/object/object_fuser.cpp
   fusion/object/object_intake.cpp
+  fusion/object/object_names.cpp
   fusion/object/object_sides.cpp
   fusion/object/position_covariance.cpp
   fusion/sync/relative_motion.cpp
