@@ -214,6 +214,7 @@ datmo_fusion_add_core_test(fusion
   fusion/object_names_test.cpp
   fusion/position_covariance_test.cpp
   fusion/source_matcher_test.cpp
+  fusion/station_renaming_test.cpp
   fusion/station_tracks_test.cpp
   fusion/track_association_test.cpp
   fusion/track_combination_test.cpp
