@@ -71,6 +71,7 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/surface_groups.cpp
   fusion/earth/consistent_pairs.cpp
   fusion/earth/earth_frame_filter.cpp
+  fusion/earth/earth_frame_options.cpp
   fusion/earth/intersection_lanes.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/signal_advice.cpp
@@ -106,6 +107,7 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/object/object_combination.cpp
   fusion/object/object_fuser.cpp
   fusion/object/object_intake.cpp
+  fusion/object/object_names.cpp
   fusion/object/object_sides.cpp
   fusion/object/position_covariance.cpp
   fusion/sync/relative_motion.cpp

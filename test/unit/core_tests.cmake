@@ -195,6 +195,7 @@ datmo_fusion_add_core_test(fusion
   fusion/aging_map_test.cpp
   fusion/cross_covariance_test.cpp
   fusion/earth_frame_test.cpp
+  fusion/earth_start_test.cpp
   fusion/fused_existence_test.cpp
   fusion/fused_id_test.cpp
   fusion/fused_state_test.cpp
@@ -213,6 +214,7 @@ datmo_fusion_add_core_test(fusion
   fusion/object_names_test.cpp
   fusion/position_covariance_test.cpp
   fusion/source_matcher_test.cpp
+  fusion/station_renaming_test.cpp
   fusion/station_tracks_test.cpp
   fusion/track_association_test.cpp
   fusion/track_combination_test.cpp

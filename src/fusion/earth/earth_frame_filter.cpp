@@ -16,6 +16,9 @@ namespace {
 /// Fixes that are kept for the start; of more, every second one is left out.
 constexpr std::size_t kMaxFirstFixes = 400;
 
+/// m, from which on a vehicle has driven: a pose that trembles while it stands drifts nowhere.
+constexpr double kMinDrive = 0.5;
+
 Point2 antennaInMap(const EarthFix& fix) { return fix.base_in_map.pose * fix.antenna_in_base; }
 
 /// Of the antenna in the map, m^2: what the pose does not know.
@@ -28,40 +31,6 @@ Eigen::Matrix2d antennaCovariance(const EarthFix& fix) {
 
 }  // namespace
 
-void EarthFrameOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"correlated_share", "1",
-                  "share of a fix's variance that the fixes of correlation_time have in common "
-                  "(atmosphere, multipath)"},
-                 correlated_share, {0.0, 1.0});
-  visitor.number({"correlation_time", "s", "time constant of that error"}, correlation_time,
-                 {0.1, 3600.0});
-  visitor.number({"map_drift", "m / sqrt(m)", "how far the map drifts with the distance driven"},
-                 map_drift, {0.0, 10.0});
-  visitor.number({"map_turn", "rad / sqrt(m)", "how it turns"}, map_turn, {0.0, 1.0});
-  visitor.number({"gate", "1",
-                  "squared Mahalanobis distance of a fix from which on it is left out; chi-square "
-                  "with two degrees of freedom, 99.9 %"},
-                 gate, {1.0, 1000.0});
-  visitor.integer({"restart_after", "", "so many fixes left out in a row: starts over"},
-                  restart_after, {1.0, 1000.0});
-  visitor.number({"start_heading_sigma", "rad",
-                  "standard deviation of the map's heading from which on it is taken to be known"},
-                 start_heading_sigma, {0.001, 0.5});
-  visitor.number({"start_spread", "m",
-                  "root mean square distance of the first fixes from their mean, below which poses "
-                  "that tremble could pass for a drive"},
-                 start_spread, {0.01, 1000.0});
-  visitor.integer({"start_fixes", "",
-                   "so many first fixes that fit together at least: with fewer one that is far off "
-                   "bends the rest to itself"},
-                  start_fixes, {3.0, 400.0});
-  visitor.number({"start_share", "1", "share of the first fixes that fit together at least"},
-                 start_share, {0.5, 1.0});
-  visitor.number(
-      {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
-      {0.1, 3600.0});
-}
-
 void EarthFrameFilter::reset() {
   first_fixes_.clear();
   has_started_ = false;
@@ -69,7 +38,7 @@ void EarthFrameFilter::reset() {
 }
 
 std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane() const {
-  return mapInPlane(last_.base_in_map.pose);
+  return mapInPlane(driven_to_);
 }
 
 std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base_in_map) const {
@@ -81,7 +50,18 @@ std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base
 
 void EarthFrameFilter::add(const EarthFix& fix) {
   take(fix);
-  // Of a pose and a fix whose numbers are far apart no digit may be left.
+  restartIfNotFinite();
+}
+
+void EarthFrameFilter::moveTo(const Pose2& base_in_map) {
+  if (has_started_ && (base_in_map.position() - driven_to_.position()).norm() >= kMinDrive) {
+    drift(base_in_map);
+    restartIfNotFinite();
+  }
+}
+
+/// Of a pose and a fix whose numbers are far apart no digit may be left.
+void EarthFrameFilter::restartIfNotFinite() {
   if (has_started_ && !(state_.allFinite() && covariance_.allFinite())) {
     ++counts_.restarts;
     reset();
@@ -102,7 +82,7 @@ void EarthFrameFilter::take(const EarthFix& fix) {
     }
     return;
   }
-  const bool was_silent = secondsBetween(last_.stamp, fix.stamp) > options_.max_gap;
+  const bool was_silent = secondsBetween(last_stamp_, fix.stamp) > options_.max_gap;
   predict(fix);
   if (update(fix)) {
     ++counts_.used;
@@ -204,7 +184,8 @@ void EarthFrameFilter::start() {
   const std::size_t left_out = first_fixes_.size() - fixes.size();
   counts_.used -= left_out;
   counts_.gated += left_out;
-  last_ = first_fixes_.back();
+  last_stamp_ = first_fixes_.back().stamp;
+  driven_to_ = first_fixes_.back().base_in_map.pose;
   first_fixes_.clear();
   begin(*found, std::max(1.0, consistent.variance_factor));
 }
@@ -236,9 +217,9 @@ void EarthFrameFilter::begin(const Start& start, double factor) {
   has_started_ = true;
 }
 
-/// The covariance of the map's pose after what it has drifted since the last fix.
+/// The covariance of the map's pose after what it drifts on the straight way from driven_to_.
 Eigen::Matrix3d EarthFrameFilter::driftedTo(const Pose2& base_in_map) const {
-  const double distance = (base_in_map.position() - last_.base_in_map.pose.position()).norm();
+  const double distance = (base_in_map.position() - driven_to_.position()).norm();
   const Pose2 map(state_(0), state_(1), state_(2));
   Eigen::Vector3d turn;  // about the vehicle
   turn << -perpendicular(map.rotate(base_in_map.position())), 1.0;
@@ -249,8 +230,13 @@ Eigen::Matrix3d EarthFrameFilter::driftedTo(const Pose2& base_in_map) const {
   return covariance;
 }
 
+void EarthFrameFilter::drift(const Pose2& base_in_map) {
+  covariance_.topLeftCorner<3, 3>() = driftedTo(base_in_map);
+  driven_to_ = base_in_map;
+}
+
 void EarthFrameFilter::predict(const EarthFix& fix) {
-  const double seconds = secondsBetween(last_.stamp, fix.stamp);
+  const double seconds = secondsBetween(last_stamp_, fix.stamp);
   const double kept = std::exp(-seconds / options_.correlation_time);
   const double shared = options_.correlated_share * 0.5 * fix.covariance.trace();
   Covariance transition = Covariance::Identity();
@@ -259,8 +245,8 @@ void EarthFrameFilter::predict(const EarthFix& fix) {
   covariance_ = transition * covariance_ * transition.transpose();
   covariance_.bottomRightCorner<2, 2>() +=
       shared * (1.0 - kept * kept) * Eigen::Matrix2d::Identity();
-  covariance_.topLeftCorner<3, 3>() = driftedTo(fix.base_in_map.pose);
-  last_ = fix;
+  drift(fix.base_in_map.pose);
+  last_stamp_ = fix.stamp;
 }
 
 bool EarthFrameFilter::update(const EarthFix& fix) {

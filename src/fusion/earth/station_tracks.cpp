@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string>
 
 #include <Eigen/Cholesky>
@@ -97,15 +98,36 @@ bool StationTracks::isNew(const StationTrackList& list) const {
   return known == lists_.end() || known->second.stamp < list.stamp;
 }
 
+/// Not if its part has not come since: the other parts of a message are no sign that it is gone. A
+/// part that no longer serves is taken to have come without it: else a station could say that each
+/// of its lists is another part.
+bool StationTracks::couldComeAgain(const Claim& claim, const StationTrackList& list) const {
+  const auto last_list = lists_.find({list.station, claim.part});
+  return claim.part == list.part ||
+         (last_list != lists_.end() && claim.stamp < last_list->second.stamp) ||
+         secondsBetween(claim.stamp, list.stamp) > options_.serves_for;
+}
+
 StationTracks::Before StationTracks::before(const StationTrackList& list) const {
   const auto begin = claims_.lower_bound({list.station, 0});
   const auto end = std::find_if(begin, claims_.end(), [&list](const auto& claim) {
     return claim.first.first != list.station;
   });
-  const auto once =
-      std::count_if(begin, end, [](const auto& claim) { return claim.second.messages == 1; });
+  std::set<std::uint32_t> listed;
+  for (const StationTrack& track : list.tracks) {
+    listed.insert(track.id);
+  }
+  int once = 0;
+  int again = 0;
+  for (auto claim = begin; claim != end; ++claim) {
+    if (claim->second.messages > 1 || listed.count(claim->first.second) > 0) {
+      ++again;
+    } else if (couldComeAgain(claim->second, list)) {
+      ++once;
+    }
+  }
   Before before;
-  before.renames = once >= options_.probation && 2 * once > std::distance(begin, end);
+  before.renames = once >= options_.probation && once > again;
   const auto last_list = lists_.find({list.station, list.part});
   if (before.renames && last_list != lists_.end()) {
     for (auto claim = begin; claim != end; ++claim) {
@@ -142,6 +164,7 @@ bool StationTracks::isCredible(const StationTrackList& list, const StationTrack&
   }
   ++claim.messages;
   claim.stamp = list.stamp;
+  claim.part = list.part;
   claim.track = track;
   if (claim.to_prove > 0) {
     ++(claim.is_sudden ? counts_.sudden : counts_.jumped);

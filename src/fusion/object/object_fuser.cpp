@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "object_intake.h"
+#include "object_names.h"
 
 #include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/fusion/object/object_combination.h"
@@ -26,16 +28,6 @@ constexpr double kMaxLogOdds = 20.0;
 
 /// Of a class to be taken for known.
 constexpr double kKnownClass = 0.5;
-
-/// Whether it is the class of another source's object and no sighting of its own: it saw no side,
-/// and its source is none of its sensors (MonoClassifier). One detection may name several pieces of
-/// a vehicle, which exist no more surely for it, nor does any of them move.
-bool isName(const Object& object, const std::string& source) {
-  const auto& sides = object.side_variance;
-  return std::none_of(sides.begin(), sides.end(),
-                      [](double side) { return std::isfinite(side); }) &&
-         std::find(object.sensors.begin(), object.sensors.end(), source) == object.sensors.end();
-}
 
 /// An object of the result, and which sources see it.
 struct FusedObject {
@@ -164,6 +156,20 @@ class ObjectFuser::Fusion {
     return options_.sources.at(sources_[source].source);
   }
 
+  std::set<std::string> sensorsOfOthers(std::size_t source) const {
+    std::set<std::string> sensors;
+    for (const auto& [name, options] : options_.sources) {
+      sensors.insert(name);
+    }
+    for (std::size_t other = 0; other < intakes_.size(); ++other) {
+      sensors.merge(sensorsOf(sources_[other].source, intakes_[other].list));
+    }
+    for (const std::string& own : sensorsOf(sources_[source].source, intakes_[source].list)) {
+      sensors.erase(own);
+    }
+    return sensors;
+  }
+
   /// Joins a source's objects with what there is.
   void add(std::size_t source) {
     std::vector<Object> known;
@@ -176,11 +182,14 @@ class ObjectFuser::Fusion {
         associate(known, intake.list.objects, intake.sensor, options_.association);
     const ObjectSourceOptions& own = optionsOf(source);
     const double seen_too = std::log(own.detection_probability / own.false_agreement_probability);
+    const std::set<std::string> sensors_of_others = sensorsOfOthers(source);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Object& object = intake.list.objects[i];
-      const bool is_name = isName(object, sources_[source].source);
+      const bool is_name = isName(object, sensors_of_others);
       if (matches[i] == kUnassigned) {
-        if (!is_name) {  // else the object that it was given to is gone
+        if (is_name) {
+          ++result_.counts.names_of_gone;
+        } else {
           objects_.push_back({object, std::vector<bool>(sources_.size(), false), 0, {}});
           note(source, i, objects_.back());
         }

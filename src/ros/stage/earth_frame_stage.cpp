@@ -94,6 +94,7 @@ EarthFrameMessagePtr EarthFrameStage::takePose(
       last_fix_ = fix.stamp;
     }
     last_pose_ = now;
+    filter_.moveTo(now.pose.pose);
     const auto map = filter_.mapInPlane(now.pose.pose);
     if (!map) {
       return nullptr;

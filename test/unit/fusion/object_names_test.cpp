@@ -50,10 +50,56 @@ TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
 
 TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
   const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
-  EXPECT_TRUE(fuseNames({}, {nameOfVehicle(gone)}).list.objects.empty());
+  const ObjectFusionResult left_out = fuseNames({}, {nameOfVehicle(gone)});
+  EXPECT_TRUE(left_out.list.objects.empty());
+  EXPECT_EQ(left_out.counts.names_of_gone, 1U);
   Object alone = nameOfVehicle(gone);
   alone.sensors = {"mono"};
   EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
+}
+
+/// As RadarObjectDetector has it: no side, but a velocity, under a source's name of one's own.
+Object radarObject(double x) {
+  Object object = pointObject(x, 4.0, 0.3, "radar");
+  object.side_variance.fill(kHiddenSide);
+  object.velocity = MeasuredVelocity{Eigen::Vector2d(8.0, 0.0), Eigen::Matrix2d::Identity(), 0.01};
+  return object;
+}
+
+ObjectFusionResult fuseFrontRadar(std::vector<Object> seen, std::vector<Object> by_radar) {
+  ObjectFuserOptions options;
+  options.sources["front_radar"];
+  return ObjectFuser(options).fuse(
+      {received("lidar", std::move(seen)), received("front_radar", std::move(by_radar))}, nullptr);
+}
+
+TEST(ObjectNames, ARadarUnderAnotherNameSeesObjects) {
+  const auto alone = fuseFrontRadar({}, {radarObject(15.0)});
+  EXPECT_EQ(alone.list.objects.size(), 1U);
+  EXPECT_EQ(alone.counts.names_of_gone, 0U);
+  const Object seen = pointObject(15.0, 4.0, 0.3);
+  const auto both = fuseFrontRadar({seen}, {radarObject(15.0)});
+  ASSERT_EQ(both.list.objects.size(), 1U);
+  EXPECT_GT(both.list.objects[0].log_odds, seen.log_odds);
+  EXPECT_TRUE(both.list.objects[0].velocity);
+}
+
+TEST(ObjectNames, ASensorThatIsNoOthersSeesObjects) {
+  Object object = pointObject(15.0, 4.0, 0.3, "far_camera");
+  object.side_variance.fill(kHiddenSide);
+  EXPECT_EQ(fuseFrontRadar({}, {object}).list.objects.size(), 1U);
+}
+
+TEST(ObjectNames, ANameIsOneUnderAnyNameOfItsSource) {
+  ObjectFuserOptions options;
+  options.sources = {{"front_lidar", {}}, {"mono", {}}};
+  options.scanner = "front_lidar";
+  const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
+  const Object other = boxObject(40.0, -9.0, 0.3, 2.2, 0.03);
+  const auto result = ObjectFuser(options).fuse(
+      {received("front_lidar", {other}), received("mono", {nameOfVehicle(gone)})}, nullptr);
+  EXPECT_EQ(result.list.objects.size(), 1U);
+  EXPECT_EQ(result.counts.names_of_gone, 1U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "station_samples.h"
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -13,36 +14,11 @@
 namespace datmo {
 namespace {
 
-const Pose2 kMap(40.0, -20.0, 1.1);  // in the plane
-constexpr double kPeriod = 0.1;      // s
-
-PoseWithCovariance mapInPlane() {
-  PoseWithCovariance map{kMap, Eigen::Matrix3d::Zero()};
-  map.covariance.diagonal() << 0.25, 0.25, 1e-4;
-  return map;
-}
-
-/// A pedestrian as a pole camera has it.
-StationTrack walker(const Point2& position) {
-  StationTrack track;
-  track.id = 7;
-  track.position = position;
-  track.velocity = {1.2, 0.5};
-  track.covariance = Eigen::Vector4d(0.09, 0.09, 0.04, 0.04).asDiagonal();
-  track.length = track.width = 0.5;
-  track.class_probabilities[static_cast<std::size_t>(ObjectClass::kPedestrian)] = 1.0;
-  return track;
-}
-
-StationTrackList listAt(int step, const std::vector<StationTrack>& tracks) {
-  StationTrackList list;
-  list.stamp = Stamp::fromSeconds(50.0 + kPeriod * step);
-  list.station = 3;
-  list.tracks = tracks;
-  return list;
-}
-
-Point2 pathAt(int step) { return Point2(60.0, -10.0) + kPeriod * step * Point2(1.2, 0.5); }
+using station_samples::kMap;
+using station_samples::listAt;
+using station_samples::mapInPlane;
+using station_samples::pathAt;
+using station_samples::walker;
 
 TEST(StationTracks, KeepTheirPlaceAndGetWhatIsNotKnownOfTheFrame) {
   StationTracks stations{StationTrackOptions()};
@@ -153,72 +129,6 @@ TEST(StationTracks, JumpIsLeftOutUntilSeveralFit) {
   }
   EXPECT_EQ(passed, (std::vector<std::size_t>{1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1}));
   EXPECT_EQ(stations.counts().jumped, 3U);
-}
-
-/// A track at a point under a number of its own.
-StationTrack numbered(std::uint32_t id, const Point2& position) {
-  StationTrack track = walker(position);
-  track.id = id;
-  return track;
-}
-
-TEST(StationTracks, AStationThatRenamesItsTracksPlacesNoneAnywhere) {
-  StationTracks stations{StationTrackOptions()};
-  std::size_t passed = 0;
-  constexpr int kSteps = 100;
-  for (int step = 0; step < kSteps; ++step) {
-    const Pose2 direction(0.0, 0.0, 2.4 * step);
-    const Point2 anywhere = pathAt(0) + direction.rotate({20.0 + step % 7, 0.0});
-    passed += stations
-                  .toMap(listAt(step, {numbered(static_cast<std::uint32_t>(step), anywhere)}),
-                         mapInPlane(), std::nullopt)
-                  .tracks.size();
-  }
-  EXPECT_LE(passed, 3U);
-  EXPECT_EQ(stations.counts().sudden, kSteps - passed);
-  EXPECT_EQ(stations.counts().jumped, 0U);
-}
-
-TEST(StationTracks, OneThatRenamesWhatItTracksIsHeard) {
-  StationTracks stations{StationTrackOptions()};
-  for (int step = 0; step < 100; ++step) {
-    const auto id = static_cast<std::uint32_t>(step);
-    ASSERT_EQ(stations.toMap(listAt(step, {numbered(id, pathAt(step))}), mapInPlane(), std::nullopt)
-                  .tracks.size(),
-              1U)
-        << step;
-  }
-  EXPECT_EQ(stations.counts().sudden, 0U);
-}
-
-TEST(StationTracks, WhatComesIntoViewIsTakenAtOnceOfAStationWhoseTracksStay) {
-  StationTracks stations{StationTrackOptions()};
-  for (int step = 0; step < 60; ++step) {
-    std::vector<StationTrack> tracks{numbered(1000, pathAt(step)),
-                                     numbered(1001, pathAt(step + 90))};
-    const int passing = step / 5;  // another one every half second, anywhere
-    const Point2 where = pathAt(step) + Pose2(0.0, 0.0, 2.4 * passing).rotate({40.0, 0.0});
-    tracks.push_back(numbered(static_cast<std::uint32_t>(passing), where));
-    ASSERT_EQ(stations.toMap(listAt(step, tracks), mapInPlane(), std::nullopt).tracks.size(), 3U)
-        << step;
-  }
-  EXPECT_EQ(stations.counts().sudden, 0U);
-}
-
-TEST(StationTracks, OfAStationThatRenamesANewOneIsUsedWhenItComesAgain) {
-  StationTracks stations{StationTrackOptions()};
-  for (int step = 0; step < 10; ++step) {
-    const Point2 anywhere = pathAt(0) + Point2(20.0 * step, 0.0);
-    stations.toMap(listAt(step, {numbered(static_cast<std::uint32_t>(step), anywhere)}),
-                   mapInPlane(), std::nullopt);
-  }
-  std::vector<std::size_t> passed;
-  for (int step = 10; step < 14; ++step) {
-    passed.push_back(
-        stations.toMap(listAt(step, {numbered(500, pathAt(step))}), mapInPlane(), std::nullopt)
-            .tracks.size());
-  }
-  EXPECT_EQ(passed, (std::vector<std::size_t>{0, 1, 1, 1}));
 }
 
 TEST(StationTracks, TwoHundredKilometersAnHourAreLeftOut) {

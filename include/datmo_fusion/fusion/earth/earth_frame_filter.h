@@ -60,10 +60,14 @@ class EarthFrameFilter {
   /// Takes the next fix, by rising stamps.
   void add(const EarthFix& fix);
 
-  /// Of the map's frame in the plane at the last fix; none until the heading is known.
+  /// The vehicle drove on to this pose after the last fix: the map drifts with the distance that it
+  /// drives, pose by pose. Without it, a drive between two fixes counts as a straight line.
+  void moveTo(const Pose2& base_in_map);
+
+  /// Of the map's frame in the plane, where the drive has come to; none until the heading is known.
   std::optional<PoseWithCovariance> mapInPlane() const;
 
-  /// The same since then, with what the map has drifted on the vehicle's way to this pose.
+  /// The same at this pose of the vehicle, to which it has gone straight on from there.
   std::optional<PoseWithCovariance> mapInPlane(const Pose2& base_in_map) const;
 
   const EarthFrameCounts& counts() const { return counts_; }
@@ -95,6 +99,8 @@ class EarthFrameFilter {
   void start();
   void begin(const Start& start, double factor);
   Eigen::Matrix3d driftedTo(const Pose2& base_in_map) const;
+  void drift(const Pose2& base_in_map);
+  void restartIfNotFinite();
   void predict(const EarthFix& fix);
   bool update(const EarthFix& fix);
 
@@ -104,7 +110,8 @@ class EarthFrameFilter {
   bool has_started_ = false;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  EarthFix last_;
+  Stamp last_stamp_;  ///< of a fix
+  Pose2 driven_to_;   ///< up to where the map's drift is in the covariance
   int gated_in_a_row_ = 0;
 };
 

@@ -118,6 +118,7 @@ class StationTracks {
   struct Claim {
     std::uint32_t id = 0;  ///< ours
     Stamp stamp;
+    std::uint32_t part = 0;  ///< in which it came last
     StationTrack track;
     int to_prove = 0;        ///< messages that have to fit before it is used
     bool is_sudden = false;  ///< while that is so because it is new
@@ -126,10 +127,11 @@ class StationTracks {
 
   /// What a station said before a list.
   struct Before {
-    bool renames = false;     ///< most of its ids came but once
+    bool renames = false;     ///< most of its ids that could have come again came but once
     std::vector<Claim> last;  ///< if so: of its last list of the same part
   };
 
+  bool couldComeAgain(const Claim& claim, const StationTrackList& list) const;
   Before before(const StationTrackList& list) const;
   bool isCredible(const StationTrackList& list, const StationTrack& track, const Before& before);
   bool follows(const Claim& last, Stamp stamp, const StationTrack& track) const;

@@ -56,9 +56,10 @@ struct SourceObjects {
 
 /// What became of the objects of one set of lists.
 struct ObjectFusionCounts {
-  std::size_t rejected = 0;  ///< not valid (isValid)
-  std::size_t refused = 0;   ///< beyond the most of one list: the farthest
-  std::size_t fused = 0;     ///< objects that two or more sources see
+  std::size_t rejected = 0;       ///< not valid (isValid)
+  std::size_t refused = 0;        ///< beyond the most of one list: the farthest
+  std::size_t fused = 0;          ///< objects that two or more sources see
+  std::size_t names_of_gone = 0;  ///< classes of another source's object that is not there
 };
 
 /// One list of all sources.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/earth/earth_frame_filter.h"
+
+namespace datmo {
+
+void EarthFrameOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"correlated_share", "1",
+                  "share of a fix's variance that the fixes of correlation_time have in common "
+                  "(atmosphere, multipath)"},
+                 correlated_share, {0.0, 1.0});
+  visitor.number({"correlation_time", "s", "time constant of that error"}, correlation_time,
+                 {0.1, 3600.0});
+  visitor.number({"map_drift", "m / sqrt(m)", "how far the map drifts with the distance driven"},
+                 map_drift, {0.0, 10.0});
+  visitor.number({"map_turn", "rad / sqrt(m)", "how it turns"}, map_turn, {0.0, 1.0});
+  visitor.number({"gate", "1",
+                  "squared Mahalanobis distance of a fix from which on it is left out; chi-square "
+                  "with two degrees of freedom, 99.9 %"},
+                 gate, {1.0, 1000.0});
+  visitor.integer({"restart_after", "", "so many fixes left out in a row: starts over"},
+                  restart_after, {1.0, 1000.0});
+  visitor.number({"start_heading_sigma", "rad",
+                  "standard deviation of the map's heading from which on it is taken to be known"},
+                 start_heading_sigma, {0.001, 0.5});
+  visitor.number({"start_spread", "m",
+                  "root mean square distance of the first fixes from their mean, below which poses "
+                  "that tremble could pass for a drive"},
+                 start_spread, {0.01, 1000.0});
+  visitor.integer({"start_fixes", "",
+                   "so many first fixes that fit together at least: with fewer one that is far off "
+                   "bends the rest to itself"},
+                  start_fixes, {3.0, 400.0});
+  visitor.number({"start_share", "1", "share of the first fixes that fit together at least"},
+                 start_share, {0.5, 1.0});
+  visitor.number(
+      {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
+      {0.1, 3600.0});
+}
+
+}  // namespace datmo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "object_names.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+bool isSighting(const Object& object) {
+  const auto& sides = object.side_variance;
+  return object.velocity ||
+         std::any_of(sides.begin(), sides.end(), [](double side) { return std::isfinite(side); });
+}
+
+}  // namespace
+
+std::set<std::string> sensorsOf(const std::string& source, const ObjectList& list) {
+  std::set<std::string> sensors{source};
+  for (const SensorView& view : list.views) {
+    sensors.insert(view.sensor);
+  }
+  for (const Object& object : list.objects) {
+    if (isSighting(object)) {
+      sensors.insert(object.sensors.begin(), object.sensors.end());
+    }
+  }
+  return sensors;
+}
+
+bool isName(const Object& object, const std::set<std::string>& sensors_of_others) {
+  return !isSighting(object) && !object.sensors.empty() &&
+         std::all_of(object.sensors.begin(), object.sensors.end(),
+                     [&](const auto& sensor) { return sensors_of_others.count(sensor) > 0; });
+}
+
+}  // namespace datmo
