@@ -2,16 +2,22 @@
 // The stack on a drive without end, in one process and without a master, as fast as it goes:
 //   soak_stack CONFIG.yaml [--minutes N] [--max-tiles N] [--out FILE.json]
 // Minutes: of data. Writes what each of them needed. The exit code is 1 if a message was dropped,
-// no track came for a minute, or the heap grew by more than it may once the map is full.
-#include <fstream>
+// no track came for a minute, or the heap grew by more than it may once the map is full,
+// and 2 if nothing could be tried.
+#include <cstddef>
 #include <iostream>
+#include <string>
+#include <vector>
 
+#include "command_line.h"
 #include "soaked_drive.h"
-#include <CLI/CLI.hpp>
+#include <CLI/Validators.hpp>
 #include <nlohmann/json.hpp>
 
 #include <ros/console.h>
 #include <ros/time.h>
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace {
 
@@ -33,44 +39,71 @@ nlohmann::json toJson(const datmo::campaign::SoakSample& sample) {
           {"dropped", sample.dropped}};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+struct Arguments {
   std::string config;
   unsigned minutes = 60;
   int max_tiles = 0;
   std::string out;
-  CLI::App app("The stack on a drive without end, as fast as it goes.");
-  app.add_option("config", config, "the sensor set")->required();
-  app.add_option("--minutes", minutes, "of data")->check(CLI::Range(2, 1000000));
-  app.add_option("--max-tiles", max_tiles, "of the map, so that it is full soon");
-  app.add_option("--out", out, "what each minute needed, as JSON");
-  CLI11_PARSE(app, argc, argv);
-  ros::Time::init();
-  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+};
 
-  datmo::campaign::SoakedDrive drive(config, max_tiles);
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments arguments;
+  datmo::CommandLine line("soak_stack", "The stack on a drive without end, as fast as it goes.",
+                          "files");
+  line.addFile("CONFIG.yaml", arguments.config, "the sensor set")->required();
+  line.add_option("--minutes", arguments.minutes, "of data")->check(CLI::Range(2, 1000000));
+  line.add_option("--max-tiles", arguments.max_tiles, "of the map, so that it is full soon");
+  line.addFile("--out", arguments.out, "what each minute needed", "FILE.json");
+  line.read(words);
+  return arguments;
+}
+
+/// What of the heap's growth is a fault; empty: none.
+std::string growthFault(const std::vector<double>& heap) {
+  const auto settled = static_cast<std::size_t>(kSettledShare * static_cast<double>(heap.size()));
+  const std::size_t rest = heap.size() - 1 - settled;
+  const double growth = heap.back() - heap[settled];
+  return growth > kMaxChange + kMaxGrowth * static_cast<double>(rest) / 60.0
+             ? "the heap grew by " + std::to_string(growth) + " MiB in the last " +
+                   std::to_string(rest) + " minutes"
+             : "";
+}
+
+/// Whether nothing was wrong.
+bool soak(const Arguments& arguments) {
+  datmo::campaign::SoakedDrive drive(arguments.config, arguments.max_tiles);
   nlohmann::json samples = nlohmann::json::array();
   std::vector<double> heap;
-  for (unsigned minute = 0; minute < minutes; ++minute) {
+  for (unsigned minute = 0; minute < arguments.minutes; ++minute) {
     const datmo::campaign::SoakSample sample = drive.nextMinute();
     heap.push_back(sample.heap_mib);
     samples.push_back(toJson(sample));
     std::cout << samples.back().dump() << std::endl;
   }
   std::vector<std::string> faults = drive.faults();
-  const auto settled = static_cast<unsigned>(kSettledShare * minutes);
-  const unsigned rest = minutes - 1 - settled;
-  const double growth = heap.back() - heap[settled];
-  if (growth > kMaxChange + kMaxGrowth * rest / 60.0) {
-    faults.push_back("the heap grew by " + std::to_string(growth) + " MiB in the last " +
-                     std::to_string(rest) + " minutes");
+  const std::string growth = growthFault(heap);
+  if (!growth.empty()) {
+    faults.push_back(growth);
   }
   for (const std::string& fault : faults) {
     std::cout << fault << "\n";
   }
-  if (!out.empty()) {
-    std::ofstream(out) << nlohmann::json{{"samples", samples}, {"faults", faults}}.dump(1) << "\n";
+  if (!arguments.out.empty()) {
+    datmo::writeWholeFile(arguments.out,
+                          nlohmann::json{{"samples", samples}, {"faults", faults}}.dump(1) + "\n");
   }
-  return faults.empty() ? 0 : 1;
+  return faults.empty();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool is_clean = true;
+  const int code = datmo::runProgram("soak_stack", 2, argc, argv, [&](const auto& words) {
+    const Arguments arguments = parse(words);
+    ros::Time::init();
+    ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+    is_clean = soak(arguments);
+  });
+  return is_clean ? code : 1;
 }

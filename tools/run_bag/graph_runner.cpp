@@ -152,13 +152,18 @@ bool GraphRunner::publishNext(Stamp now, std::size_t first) {
 }
 
 void GraphRunner::deliver(const Publication& message) {
-  AnyMessage given = change_ ? nullptr : message.message;
+  bool is_changed = !change_;
+  AnyMessage given = message.message;
   for (std::size_t stage = 0; stage < nodes_.size(); ++stage) {
     const Node& node = nodes_[stage];
     for (std::size_t input = 0; input < node.inputs.size(); ++input) {
       if (node.row.resolved(node.inputs[input].topic) == message.topic &&
           node.inputs[input].data_type == message.data_type) {
-        given = given ? given : change_(message);
+        given = is_changed ? given : change_(message);
+        is_changed = true;
+        if (!given) {
+          return;
+        }
         waiting_.emplace(Turn(stage, input, delivered_++), given);
       }
     }

@@ -52,7 +52,8 @@ class GraphRunner {
               const std::string& last_stage = "");
 
   /// What stages get from now on in place of a message; of those that some stage takes, also from
-  /// another stage. For trials of what a fault does.
+  /// another stage. Asked once for a message; null: it is lost, and no stage gets it. For trials of
+  /// what a fault does.
   using Change = std::function<AnyMessage(const Publication& message)>;
   void changeInputs(Change change) { change_ = std::move(change); }
 

@@ -33,14 +33,18 @@ Contrast contrastOf(const cv::Mat& image) {
   return {mean[0], deviation[0]};
 }
 
-/// Whether a quarter of the image's height was not transmitted: all of one gray. Of the upper half,
-/// in which the sky is, black or white is none.
+/// Whether a quarter of the image's height was not transmitted: all of one gray. Black is none: a
+/// road and the own hood are clipped at night; nor is white of the upper half, in which the sky is.
+/// Of an image of fewer rows nothing is said.
 bool lacksPart(const cv::Mat& image) {
+  if (image.rows < kQuarters) {
+    return false;
+  }
   for (int quarter = 0; quarter < kQuarters; ++quarter) {
     const Contrast part = contrastOf(
         image.rowRange(quarter * image.rows / kQuarters, (quarter + 1) * image.rows / kQuarters));
-    const bool may_be_sky = 2 * quarter < kQuarters && (part.mean < kBlack || part.mean > kWhite);
-    if (part.deviation < kLeastNoise && !may_be_sky) {
+    const bool may_be_sky = 2 * quarter < kQuarters && part.mean > kWhite;
+    if (part.deviation < kLeastNoise && part.mean >= kBlack && !may_be_sky) {
       return true;
     }
   }

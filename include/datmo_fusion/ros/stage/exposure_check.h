@@ -19,8 +19,8 @@ class ExposureCheck {
   explicit ExposureCheck(const ExposureCheckOptions& options) : options_(options) {}
 
   /// Throws InputError: `blank_image` (black, white, covered), `half_image` (a quarter of its
-  /// height or more is of one gray, and no sky), `frozen_image` (the same pixels as the last one's,
-  /// which was exposed earlier), and as grayOrColor does.
+  /// height or more is of one gray, and neither black nor sky), `frozen_image` (the same pixels as
+  /// the last one's, which was exposed earlier), and as grayOrColor does.
   void check(const sensor_msgs::ImageConstPtr& image) const;
 
   /// The image has been accepted: the next one is compared with it.
