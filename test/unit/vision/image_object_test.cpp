@@ -128,16 +128,21 @@ TEST(ImageObject, ItsNearSideIsAsSureAsItIsReported) {
   for (const ObjectClass object_class :
        {ObjectClass::kPedestrian, ObjectClass::kCyclist, ObjectClass::kVehicle}) {
     for (const double distance : {12.0, 18.0, 27.0}) {
-      double nees = 0.0;
+      double sum = 0.0;
       int inside = 0;
+      int reported = 0;  // noise may leave none of it
       for (int i = 0; i < kBodies; ++i) {
         const Body body = bodyAt(distance, object_class, random);
         const auto object = objectOf(levelCamera(), reportOf(body, object_class, random), options);
-        ASSERT_TRUE(object);
-        const double own = neesOf(*object, body);
-        nees += own / kBodies;
-        inside += own < kGate95 ? 1 : 0;
+        if (object) {
+          const double own = neesOf(*object, body);
+          sum += own;
+          inside += own < kGate95 ? 1 : 0;
+          ++reported;
+        }
       }
+      ASSERT_GT(reported, 0.99 * kBodies);
+      const double nees = sum / reported;
       const auto what = std::string(nameOf(object_class)) + " at " + std::to_string(distance);
       EXPECT_GT(nees, 1.3) << what;
       EXPECT_LT(nees, 2.3) << what << ": no surer than reported";
