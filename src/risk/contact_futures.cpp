@@ -11,8 +11,8 @@ namespace datmo {
 
 namespace {
 
-/// Of fewer futures than this none tells a probability: then those count, too, in which the bodies
-/// overlap already.
+/// Fewer futures than this give no probability: then those in which the bodies overlap already
+/// count, too.
 constexpr std::size_t kMinPossible = 16;
 
 constexpr double kEarly = 0.05;
@@ -55,8 +55,8 @@ BodyPath continued(const BodyPath& path) {
   return result;
 }
 
-/// Whether the other one stands or goes the host's way, so that the host has to come to rest or to
-/// its speed; who comes toward it would strike it at rest, too.
+/// Whether the other body is stationary or moves in the host's direction, so that the host has to
+/// stop or match its speed; oncoming traffic would strike a stationary host, too.
 bool isPursued(const Encounter& encounter) {
   return encounter.host.poses.size() < 2 ||
          encounter.host.velocity(0).dot(encounter.other.velocity(0)) >= 0.0;

@@ -45,6 +45,11 @@ bool isTurn(MotionMode mode) {
   return mode == MotionMode::kLeftTurn || mode == MotionMode::kRightTurn;
 }
 
+/// A turn would lead off the road.
+MotionMode modeIn(bool follows_road, MotionMode mode) {
+  return follows_road && isTurn(mode) ? MotionMode::kConstantVelocity : mode;
+}
+
 /// Turns of most steps are small: their series is right to 1e-5, and much faster.
 Point2 turned(const Point2& vector, double angle) {
   constexpr double kSmall = 0.1;
@@ -144,11 +149,6 @@ ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
   if (road) {
     follower_ = roadFollower(track, start_, *road, options.road_following).value_or(RoadFollower());
   }
-}
-
-/// A turn would lead off the road.
-MotionMode ObjectFutures::modeIn(bool follows_road, MotionMode mode) const {
-  return follows_road && isTurn(mode) ? MotionMode::kConstantVelocity : mode;
 }
 
 /// `mode` standing: at rest, whatever the velocity.

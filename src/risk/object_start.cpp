@@ -30,7 +30,7 @@ double shareOfDrivers(const Track& track) {
   return std::min(1.0, share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist));
 }
 
-/// A direction along the road, the way that the heading points.
+/// The direction along the road that is nearer to the heading, rad.
 double alongRoad(double road, double heading) {
   const double off = angleBetween(road, heading);
   return std::abs(off) <= kQuarterTurn ? road : normalizeAngle(road + kPi);
@@ -47,7 +47,7 @@ void RoadFollowingOptions::visit(OptionVisitor& visitor) {
                   "standard deviation of his course about it: swaying, and bends beyond what is "
                   "known of the road"},
                  direction_sigma, {0.001, 1.0});
-  visitor.number({"min_speed", "m/s", "who is slower has no course to tell from"}, min_speed,
+  visitor.number({"min_speed", "m/s", "slower objects have no measurable course"}, min_speed,
                  {0.1, 10.0});
 }
 

@@ -89,7 +89,6 @@ class ObjectFutures {
 
  private:
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
-  MotionMode modeIn(bool follows_road, MotionMode mode) const;
   void advance(State& state, double turn) const;
   void enter(State& state, MotionMode mode, const DrawKey& key) const;
   double turnRate(const State& state) const;

@@ -201,6 +201,14 @@ TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
             driver);
 }
 
+TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
+  const Track car = knownTrack(1, {40, 3.5}, {-10, 0});
+  ObjectFutureOptions options;
+  options.road_following.probability = 0.999;
+  const double free = endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma;
+  EXPECT_LT(endsOf(ObjectFutures(car, 0.0, options, kHorizon, kDraws)).sigma, 0.8 * free);
+}
+
 TEST(ObjectFutures, WhoTurnsDoesNotFollowTheRoad) {
   Track track = vagueOncoming(0.0);
   track.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
