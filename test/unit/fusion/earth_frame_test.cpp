@@ -14,6 +14,16 @@ namespace {
 
 constexpr double kDegree = kPi / 180.0;
 
+/// Takes 30 s of fixes, so that the map is known; returns the last one.
+EarthFix drivenBefore(Drive& drive, EarthFrameFilter& filter) {
+  EarthFix last;
+  for (int i = 0; i < 150; ++i) {
+    last = drive.next();
+    filter.add(last);
+  }
+  return last;
+}
+
 TEST(LocalPlane, KnownDistancesOnTheEllipsoid) {
   // One minute of arc: on the equator eastward a * pi / 10800; northward the meridian's curvature.
   const LocalPlane equator({0.0, 10.0 * kDegree, 0.0});
@@ -117,9 +127,7 @@ TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
   for (int run = 0; run < kRuns; ++run) {
     Drive drive(static_cast<unsigned>(run + 1), 0.1, options, true);
     EarthFrameFilter filter(options);
-    for (int i = 0; i < 150; ++i) {
-      filter.add(drive.next());
-    }
+    drivenBefore(drive, filter);
     const auto map_of_last = filter.mapInPlane();
     ASSERT_TRUE(map_of_last);
     for (int i = 0; i < 20; ++i) {
@@ -141,11 +149,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);
-  EarthFix last;
-  for (int i = 0; i < 150; ++i) {
-    last = drive.next();
-    filter.add(last);
-  }
+  EarthFix last = drivenBefore(drive, filter);
   const auto before = filter.mapInPlane();
   ASSERT_TRUE(before);
   constexpr int kPoses = 100;
@@ -165,9 +169,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   // The next fix is at the place of the last one, and finds the map as vague.
   EarthFrameFilter by_straight_line(options);
   Drive again(1, 0.1, options);
-  for (int i = 0; i < 150; ++i) {
-    by_straight_line.add(again.next());
-  }
+  drivenBefore(again, by_straight_line);
   last.stamp = last.stamp + 1.0;
   filter.add(last);
   by_straight_line.add(last);
@@ -178,11 +180,7 @@ TEST(EarthFrameFilter, APoseThatTremblesIsNoDrive) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);
-  EarthFix last;
-  for (int i = 0; i < 150; ++i) {
-    last = drive.next();
-    filter.add(last);
-  }
+  EarthFix last = drivenBefore(drive, filter);
   const auto before = filter.mapInPlane();
   ASSERT_TRUE(before);
   for (int i = 0; i < 10000; ++i) {
