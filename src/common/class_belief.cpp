@@ -28,12 +28,22 @@ ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
   return relative;
 }
 
+bool saysNothing(const ClassProbabilities& belief) {
+  return std::all_of(belief.begin(), belief.end(), [](double one) { return one <= 0.0; });
+}
+
+/// Of zeros alone nothing is known.
 ClassProbabilities normalized(ClassProbabilities relative) {
   const double total = std::accumulate(relative.begin(), relative.end(), 0.0);
   for (double& probability : relative) {
-    probability /= total;
+    probability = total > 0.0 ? probability / total : kChance;
   }
   return relative;
+}
+
+/// Equal probabilities for a belief that says nothing.
+ClassProbabilities orEqual(const ClassProbabilities& belief) {
+  return saysNothing(belief) ? normalized(belief) : belief;
 }
 
 }  // namespace
@@ -49,11 +59,13 @@ ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods) {
 }
 
 ClassProbabilities posterior(ClassProbabilities said, const ClassProbabilities& factors) {
+  said = orEqual(said);
   std::transform(said.begin(), said.end(), factors.begin(), said.begin(), std::multiplies<>());
   return normalized(said);
 }
 
 ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabilities& factors) {
+  weighed = orEqual(weighed);
   std::transform(weighed.begin(), weighed.end(), factors.begin(), weighed.begin(),
                  std::divides<>());
   return normalized(weighed);
@@ -61,11 +73,12 @@ ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabi
 
 ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs) {
   if (beliefs.size() == 1) {
-    return beliefs.front();
+    return orEqual(beliefs.front());
   }
   ClassProbabilities product;
   product.fill(1.0);
-  for (const ClassProbabilities& belief : beliefs) {
+  for (const ClassProbabilities& one : beliefs) {
+    const ClassProbabilities belief = orEqual(one);
     std::transform(belief.begin(), belief.end(), product.begin(), product.begin(),
                    std::multiplies<>());
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "number_checks.h"
 
@@ -25,9 +26,14 @@ bool isState(const TrackState& state, const TrackCovariance& covariance) {
          covariance.diagonal().maxCoeff() <= kMaxMagnitude * kMaxMagnitude;
 }
 
+/// Of the sum of probabilities: messages have them as floats.
+constexpr double kRounding = 1e-3;
+
+/// Of alternatives: no more than one of them is true; where nothing is known all are 0.
 template <std::size_t count>
 bool areShares(const std::array<double, count>& values) {
-  return std::all_of(values.begin(), values.end(), isShare);
+  return std::all_of(values.begin(), values.end(), isShare) &&
+         std::accumulate(values.begin(), values.end(), 0.0) <= 1.0 + kRounding;
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 
 namespace datmo {
 
-/// Probability of each ObjectClass, in the order of its values; they sum to 1.
+/// Probability of each ObjectClass, in the order of its values; they sum to 1. All 0, as in a track
+/// of a source that reports no classes: nothing is known, as with equal ones.
 using ClassProbabilities = std::array<double, kObjectClasses>;
 
 /// What independent beliefs say together (Bayes), in any order: all started from equal

@@ -8,7 +8,8 @@ namespace datmo {
 
 /// Whether a track can be fused: all its numbers are finite, those that have a unit to 1e9 of it
 /// (variances: its square), sizes, times and the heading's variance at least 0, probabilities from
-/// 0 to 1, its covariance symmetric and positive definite.
+/// 0 to 1, those of modes and of classes not more than 1 together, its covariance symmetric and
+/// positive definite.
 bool isValid(const Track& track);
 
 /// Whether a fan can be looked up: its numbers are finite, its position up to 1e9 m, its

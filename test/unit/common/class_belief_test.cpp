@@ -133,5 +133,16 @@ TEST(ClassBelief, SeveralBeliefsAreJoinedInAnyOrderWithTheDoubtOfOneObservation)
   EXPECT_EQ(jointBelief({}), ClassBelief().probabilities());
 }
 
+TEST(ClassBelief, OfASourceThatReportsNoClassesIsThatOfNothingSaid) {
+  const ClassProbabilities none{};
+  const ClassProbabilities equal = ClassBelief().probabilities();
+  const ClassProbabilities said = {0.1, 0.1, 0.1, 0.6, 0.1};
+  const ClassProbabilities factors = ofEachClass({0.5, 1.0, 0.3});
+  EXPECT_EQ(jointBelief({none}), equal);
+  EXPECT_EQ(jointBelief({said, none}), jointBelief({said, equal}));
+  EXPECT_EQ(posterior(none, factors), posterior(equal, factors));
+  EXPECT_EQ(withoutFactors(none, factors), withoutFactors(equal, factors));
+}
+
 }  // namespace
 }  // namespace datmo::class_belief_test

@@ -128,6 +128,16 @@ double existenceOf(ObjectClass object_class, double existence = 0.99,
   return result.list.tracks.empty() ? 0.0 : result.list.tracks[0].existence_probability;
 }
 
+TEST(TrackFuserTest, ASourceThatReportsNoClassesLeavesThemOpen) {
+  TrackFuser fuser{TrackFuserOptions()};
+  Track track = driving(0.0, 0.0, "stereo");
+  track.class_probabilities = {};
+  track.moving = true;
+  const TrackFusionResult result = fuser.fuse(at(0.0), {lidar(0.0, {track}), stereo(0.0, {track})});
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  EXPECT_TRUE(isValid(result.list.tracks[0])) << "no probability is 0/0";
+}
+
 TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
   // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3, by the default at
   // this range, of what is looked at.

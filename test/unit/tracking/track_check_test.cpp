@@ -112,6 +112,12 @@ TEST(TrackCheck, AmountsAndProbabilitiesHaveTheirRange) {
       [](Track& t) { t.existence_probability = -0.01; },
       [](Track& t) { t.mode_probabilities[0] = 1.5; },
       [](Track& t) { t.class_probabilities[0] = -0.5; },
+      [](Track& t) {
+        t.class_probabilities = {0.5, 0.5, 0.5, 0.0, 0.0};
+      },
+      [](Track& t) {
+        t.mode_probabilities = {0.5, 0.5, 0.5, 0.0, 0.0};
+      },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) {
     Track track = goodTrack();
