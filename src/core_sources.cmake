@@ -14,6 +14,7 @@ set(DATMO_FUSION_CORE_SOURCES
   common/option_table.cpp
   common/options.cpp
   common/renamed_options.cpp
+  common/sensor_clock.cpp
   common/range_bearing.cpp
   common/stamp_gate.cpp
   common/twist2.cpp

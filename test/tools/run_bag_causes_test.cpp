@@ -155,6 +155,16 @@ std::vector<Cause> furtherCauses() {
          each.twist.twist.linear.x = odd ? 40.0 : kSpeed;
        }),
        "less than all: grid_slam: odometry with speed 40.000000 m/s"},
+      {"a scanner's clock that was set", scan([](auto& each) {
+         const bool is_set = each.header.stamp >= toTime(kStart + 24 * kPeriod);
+         each.header.stamp += ros::Duration(is_set ? 0.1 : 0.0);
+       }),
+       "less than all: grid_slam: stamps of scan that are 0.100 s ahead of the sensor's clock"},
+      {"odometry's clock that was set", odometry([](auto& each) {
+         const bool is_set = each.header.stamp >= toTime(kStart + 24 * kPeriod);
+         each.header.stamp -= ros::Duration(is_set ? 0.04 : 0.0);
+       }),
+       "less than all: grid_slam: stamps of odometry that are 0.040 s behind the sensor's clock"},
       {"no stereo points", nothing, "less than all: stereo_alignment: no points2 yet", true, "",
        with(&GraphSwitches::low_level_fusion)},
       {"no clouds of a 3D lidar", nothing, "no tracks: cloud_to_scan: no cloud yet", true, "",

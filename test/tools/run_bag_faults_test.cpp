@@ -112,6 +112,21 @@ TEST_F(RunBagFaults, OneImpossibleTwistIsOneMessage) {
   }
 }
 
+TEST_F(RunBagFaults, AScannersClockThatIsSetCostsNothing) {
+  for (const double off : {0.1, -0.1}) {
+    const std::string table = runSpoiled([off](int i, Step& step) {
+      step.scan.header.stamp += ros::Duration(i >= 24 && i < 28 ? off : 0.0);
+    });
+    EXPECT_TRUE(holds(table, "clock_off")) << off;
+    const std::vector<double> x = poses();
+    ASSERT_EQ(x.size(), static_cast<std::size_t>(kScans)) << off;
+    for (int i = 20; i < kScans; ++i) {
+      EXPECT_NEAR(x[static_cast<std::size_t>(i)], i * kPeriod * kSpeed, 0.1)
+          << off << ", scan " << i;
+    }
+  }
+}
+
 TEST_F(RunBagFaults, ALoopedBagBeginsANewMapAtItsSecondMessage) {
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);

@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
 
 namespace datmo {
 
@@ -221,20 +222,21 @@ void GridSlamStage::connect(StagePorts& ports) {
     map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
-    ports.in<nav_msgs::Odometry>(options_.motion.odometryTopic(),
-                                 [this, transforms](const auto& odometry, Stamp now) {
-                                   if (const auto stamp = takeOdometry(*odometry)) {
-                                     transforms.publish(heldAt(*stamp, now));
-                                   }
-                                 });
+    const auto take_odometry = [this, transforms](const auto& odometry, Stamp now) {
+      if (const auto stamp = takeOdometry(*odometry)) {
+        transforms.publish(heldAt(*stamp, now));
+      }
+    };
+    ports.in<nav_msgs::Odometry>(
+        options_.motion.odometryTopic(),
+        withClockCheck<nav_msgs::Odometry>("odometry", monitor_, take_odometry));
   }
   const auto take_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,
                        [this, publish, scan, now] { publish(takeScan(*scan), now); });
     publishNext(now);
   };
-  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
-  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  connectScan(ports, monitor_, take_scan);
   if (options_.fused_grid) {
     ports.in<nav_msgs::OccupancyGrid>("grids/fused", [this, publish](const auto& grid, Stamp now) {
       publish(takeGrid(*grid), now);

@@ -71,8 +71,7 @@ void LidarGridStage::connect(StagePorts& ports) {
   const auto take_scan = [this, grid](const auto& scan, Stamp /*now*/) {
     grid.publish(takeScan(*scan));
   };
-  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
-  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  connectScan(ports, monitor_, take_scan);
 }
 
 }  // namespace datmo

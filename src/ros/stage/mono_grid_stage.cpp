@@ -144,8 +144,7 @@ void MonoGridStage::connect(StagePorts& ports) {
   ports.optionalIn<sensor_msgs::CameraInfo>(
       "camera_info", [this](const auto& info, Stamp /*now*/) { takeCameraInfo(*info); });
   const auto take_scan = [this](const auto& scan, Stamp /*now*/) { takeScan(*scan); };
-  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
-  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  connectScan(ports, monitor_, take_scan);
   ports.in<sensor_msgs::Image>("image",
                                [this](const auto& image, Stamp now) { takeImage(image, now); });
 }

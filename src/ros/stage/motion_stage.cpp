@@ -155,23 +155,28 @@ void MotionStage::connect(StagePorts& ports) {
   }
   const auto odometry = ports.out<nav_msgs::Odometry>(motion.odometryTopic());
   if (motion.usesImu()) {
-    ports.in<sensor_msgs::Imu>("imu", [this, odometry](const auto& imu, Stamp /*now*/) {
+    const auto take = [this, odometry](const auto& imu, Stamp /*now*/) {
       odometry.publish(takeImu(*imu));
-    });
+    };
+    ports.in<sensor_msgs::Imu>("imu",
+                               withClockCheck<sensor_msgs::Imu>("imu", runner_.monitor(), take));
   }
   if (motion.usesTwist()) {
-    const auto take_twist = [this, odometry](const auto& twist, Stamp /*now*/) {
+    using Twist = geometry_msgs::TwistStamped;
+    using Covariant = geometry_msgs::TwistWithCovarianceStamped;
+    const auto take = [this, odometry](const auto& twist, Stamp /*now*/) {
       odometry.publish(takeTwist(*twist));
     };
-    ports.in<geometry_msgs::TwistStamped>("twist", take_twist);
-    ports.inInsteadOf<geometry_msgs::TwistWithCovarianceStamped>("twist", "twist_with_covariance",
-                                                                 take_twist);
+    ports.in<Twist>("twist", withClockCheck<Twist>("twist", runner_.monitor(), take));
+    ports.inInsteadOf<Covariant>("twist", "twist_with_covariance",
+                                 withClockCheck<Covariant>("twist", runner_.monitor(), take));
   }
   if (motion.usesWheels()) {
-    ports.in<sensor_msgs::JointState>("joint_states",
-                                      [this, odometry](const auto& wheels, Stamp /*now*/) {
-                                        odometry.publish(takeWheels(*wheels));
-                                      });
+    const auto take = [this, odometry](const auto& wheels, Stamp /*now*/) {
+      odometry.publish(takeWheels(*wheels));
+    };
+    ports.in<sensor_msgs::JointState>("joint_states", withClockCheck<sensor_msgs::JointState>(
+                                                          "joint_states", runner_.monitor(), take));
   }
 }
 

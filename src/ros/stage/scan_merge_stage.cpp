@@ -201,9 +201,10 @@ void ScanMergeStage::connect(StagePorts& ports) {
   scans_ = ports.out<sensor_msgs::LaserScan>("scan");
   connectMotion(ports, options_.motion, *this);
   for (const std::string& source : options_.sourcesInUse()) {
-    ports.in<sensor_msgs::LaserScan>(
-        "scans/" + source,
-        [this, source](const auto& scan, Stamp now) { takeScan(source, *scan, now); });
+    const std::string topic = "scans/" + source;
+    const auto take = [this, source](const auto& scan, Stamp now) { takeScan(source, *scan, now); };
+    ports.in<sensor_msgs::LaserScan>(topic,
+                                     withClockCheck<sensor_msgs::LaserScan>(topic, monitor_, take));
   }
 }
 

@@ -213,8 +213,7 @@ void StereoAlignmentStage::show() {
 void StereoAlignmentStage::connect(StagePorts& ports) {
   connectMotion(ports, options_.motion, *this);
   const auto take_scan = [this](const auto& scan, Stamp /*now*/) { takeScan(*scan); };
-  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
-  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  connectScan(ports, monitor_, take_scan);
   connectStereo(ports, *this, ports.out<StereoAlignmentMessage>("stereo/alignment"));
 }
 

@@ -93,6 +93,7 @@ def _of_one_input():
         Fault("frozen for 3 s", 3.0, _frozen()),
         Fault("twice each for 5 s", 5.0, lambda message, since: [message, message]),
         Fault("clock 0.1 s ahead for 5 s", 5.0, lambda message, since: [shift(message, 0.1)]),
+        Fault("clock 0.1 s behind for 5 s", 5.0, lambda message, since: [shift(message, -0.1)]),
         Fault("clock 5 s ahead for 3 s", 3.0, lambda message, since: [shift(message, 5.0)]),
         Fault("clock 5 s behind for 3 s", 3.0, lambda message, since: [shift(message, -5.0)]),
         Fault("clock 100 ppm fast for 8 s", 8.0, lambda message, since: [shift(message, 1e-4 * since)]),

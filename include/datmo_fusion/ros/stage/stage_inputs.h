@@ -8,10 +8,13 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/clock_check.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stereo_pairs.h"
 
@@ -29,6 +32,16 @@ void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& 
     ports.in<geometry_msgs::PoseWithCovarianceStamped>(
         "pose/local", [&stage](const auto& pose, Stamp /*now*/) { stage.takePose(*pose); });
   }
+}
+
+/// The scanner, of one echo or several, behind a check of its clock. `take`: (scan, Stamp now), of
+/// either type; `monitor` must outlive the ports.
+template <typename Take>
+void connectScan(StagePorts& ports, StageMonitor& monitor, const Take& take) {
+  using OneEcho = sensor_msgs::LaserScan;
+  using Echoes = sensor_msgs::MultiEchoLaserScan;
+  ports.in<OneEcho>("scan", withClockCheck<OneEcho>("scan", monitor, take));
+  ports.inInsteadOf<Echoes>("scan", "echoes", withClockCheck<Echoes>("scan", monitor, take));
 }
 
 /// The stereo camera, for a stage with takeCameraInfo and takeCloud, whose result goes to `output`.

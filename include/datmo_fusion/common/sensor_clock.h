@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+/// Finds out that a sensor's clock was set while it measured on, and by how much.
+///
+/// A message is stamped with the time of its measurement by that clock, and arrives by another one
+/// after a delay that is never negative, so that the smallest delay of several messages hardly
+/// changes (Moon, Skelly, Towsley, Estimation and removal of clock skew from network delay
+/// measurements, 1999). A clock that is set leaves two traces, of the same size: stamps step away
+/// from the sensor's period, and the smallest delay moves the other way. A network that becomes
+/// slower or faster leaves the second alone, a lost message the first alone, and a pause of the
+/// sensor moves stamps and arrivals together.
+///
+/// Where the message comes a period after one that was in time, this is certain at once, else with
+/// the delays of the next kRemembered messages.
+///
+/// Nothing is found of a sensor that keeps to no period, and from kMaxStep on a step is left to
+/// StampGate. Of an offset that was there from the start nothing is known, unless messages come
+/// before their stamps. Not thread safe.
+class SensorClock {
+ public:
+  /// s; smaller steps cannot be told from the jitter of drivers and networks, and are a cell or two
+  /// of the map at 15 m/s.
+  static constexpr double kMinStep = 0.03;
+  static constexpr double kMaxStep = 1.0;
+
+  /// Messages that tell the period, and how small the delay is: two seconds of a scanner, less of
+  /// odometry.
+  static constexpr std::size_t kRemembered = 20;
+
+  /// The next message, in the order of arrival. Returns by how much (s) its stamp is ahead of the
+  /// clock that the first ones had; negative: behind.
+  double add(Stamp stamp, Stamp arrival);
+
+  /// Of the newest message; 0 where nothing is wrong.
+  double ahead() const { return ahead_; }
+
+  /// s; all of the last kRemembered messages came before their stamps by this or more: the clock is
+  /// ahead, or that of the arrivals is behind. 0 where they did not, and from kMaxStep on, where
+  /// these clocks have nothing to do with each other.
+  double lead() const;
+
+  /// How often the clock was set, back to what it was included.
+  std::uint64_t steps() const { return steps_; }
+
+ private:
+  struct Message {
+    Stamp stamp;
+    Stamp arrival;
+    double delay() const { return secondsBetween(stamp, arrival); }  ///< s, by the clock as it is
+  };
+
+  void follow(const Message& message);
+
+  /// The sensor's, s; none unless the last messages kept to it, and most of those before to theirs.
+  std::optional<double> period();
+
+  /// Whether a message came a period (s) after the last one, and that was in time by a clock that
+  /// goes at the same rate.
+  bool cameInTime(const Message& message, double period) const;
+
+  /// Takes the time between two messages as one of the sensor's, or as a step of its clock.
+  void judge(const Message& message);
+  /// Decides by the smallest of the last delays what the clock is.
+  void decide();
+  void set(double ahead);
+  void restart(const Message& message);
+
+  std::optional<Message> last_;
+  std::deque<double> intervals_;  ///< s, between the last stamps
+  std::deque<double> recent_;     ///< s, the last delays, by the first clock
+  std::deque<double> delays_;     ///< s, since the last step that may have been one of the clock
+  double min_delay_ = 0.0;       ///< s, of the first clock, as far as clocks may have drifted since
+  double ahead_ = 0.0;           ///< s
+  std::optional<double> other_;  ///< s, what it may be as well, until that is decided
+  std::uint64_t steps_ = 0;
+  std::uint64_t judged_ = 0;  ///< intervals, and among how many of them there was a period
+  std::uint64_t regular_ = 0;
+  std::size_t early_ = 0;  ///< messages in a row that came before their stamps
+  double lead_ = 0.0;      ///< s, the least of these
+};
+
+}  // namespace datmo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+#include <boost/shared_ptr.hpp>
+
+#include "datmo_fusion/common/sensor_clock.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+namespace datmo {
+
+/// Watches the clock of one input's sensor (SensorClock). While it is off, each message is warned
+/// of (`clock_off`) and served with the stamp that it would have had. Messages that come before
+/// their stamps are warned of (`clock_ahead`) and served as they are: the clock that is off may be
+/// ours.
+///
+/// The offset is a difference of stamps, which are the same for all stages that take the input, and
+/// so are the stamps that they put right.
+class ClockCheck {
+ public:
+  /// `monitor` must outlive it.
+  ClockCheck(std::string input, StageMonitor& monitor)
+      : input_(std::move(input)), monitor_(monitor) {}
+
+  /// A message's stamp, put right. `now`: ROS time at which it came.
+  ros::Time corrected(const ros::Time& stamp, Stamp now);
+
+ private:
+  std::string input_;
+  StageMonitor& monitor_;
+  SensorClock clock_;
+};
+
+/// What an input takes, behind a check of its sensor's clock: the message itself, or a copy with
+/// another stamp. `monitor` must outlive it.
+template <typename Message, typename Take>
+auto withClockCheck(const std::string& input, StageMonitor& monitor, Take take) {
+  const auto check = std::make_shared<ClockCheck>(input, monitor);
+  return [check, take](const boost::shared_ptr<const Message>& message, Stamp now) {
+    const ros::Time stamp = check->corrected(message->header.stamp, now);
+    if (stamp == message->header.stamp) {
+      take(message, now);
+      return;
+    }
+    const auto copy = boost::make_shared<Message>(*message);
+    copy->header.stamp = stamp;
+    take(boost::shared_ptr<const Message>(copy), now);
+  };
+}
+
+}  // namespace datmo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/common/sensor_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// s; the period and the delay of a sensor in good order keep to this: half of the smallest step,
+/// so that one is not taken for the other.
+constexpr double kTolerance = 0.5 * SensorClock::kMinStep;
+
+/// s/s; as fast as two clocks may drift apart: a crystal's 100 ppm twice, with room.
+constexpr double kMaxDrift = 5e-4;
+
+void keep(std::deque<double>& values, double value) {
+  values.push_back(value);
+  if (values.size() > SensorClock::kRemembered) {
+    values.pop_front();
+  }
+}
+
+}  // namespace
+
+double SensorClock::add(Stamp stamp, Stamp arrival) {
+  const Message message{stamp, arrival};
+  if (!last_ || std::abs(message.delay() - last_->delay()) >= kMaxStep) {
+    restart(message);
+  } else {
+    follow(message);
+  }
+  const double lead = -message.delay() - ahead_;
+  const bool is_early = lead >= kMinStep && lead < kMaxStep;
+  lead_ = early_ > 0 ? std::min(lead_, lead) : lead;
+  early_ = is_early ? early_ + 1 : 0;
+  return ahead_;
+}
+
+void SensorClock::follow(const Message& message) {
+  judge(message);
+  keep(recent_, message.delay() + ahead_);
+  min_delay_ += kMaxDrift * std::max(0.0, secondsBetween(last_->arrival, message.arrival));
+  last_ = message;
+  if (ahead_ == 0.0 && !other_) {
+    min_delay_ = std::min(min_delay_, message.delay());
+    return;
+  }
+  keep(delays_, message.delay());
+  if (delays_.size() == kRemembered) {
+    decide();
+  }
+}
+
+double SensorClock::lead() const { return early_ < kRemembered ? 0.0 : lead_; }
+
+std::optional<double> SensorClock::period() {
+  if (intervals_.size() < kRemembered) {
+    return std::nullopt;
+  }
+  std::deque<double> sorted = intervals_;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[kRemembered / 2];
+  const bool is_regular =
+      sorted.front() >= median - kTolerance && sorted.back() <= median + kTolerance;
+  ++judged_;
+  regular_ += is_regular ? 1 : 0;
+  return is_regular && 2 * regular_ >= judged_ ? std::make_optional(median) : std::nullopt;
+}
+
+bool SensorClock::cameInTime(const Message& message, double period) const {
+  return std::abs(secondsBetween(last_->arrival, message.arrival) - period) <= kTolerance &&
+         last_->delay() + ahead_ - min_delay_ <= kTolerance &&
+         last_->delay() + ahead_ >= recent_.front() - kTolerance;
+}
+
+void SensorClock::judge(const Message& message) {
+  const double interval = secondsBetween(last_->stamp, message.stamp);
+  const std::optional<double> period = this->period();
+  if (!period || std::abs(interval - *period) < kMinStep) {
+    keep(intervals_, interval);
+    return;
+  }
+  const double stepped = ahead_ + interval - *period;
+  const double ahead = std::abs(stepped) < kMinStep ? 0.0 : stepped;
+  // Of messages that overtake each other, both go astray, one after the other.
+  const bool is_first = !other_ || std::abs(ahead - *other_) < kMinStep;
+  delays_.clear();
+  other_ = ahead;
+  if (is_first && cameInTime(message, *period)) {
+    other_ = ahead_;
+    set(ahead);
+  } else {
+    keep(intervals_, interval);
+  }
+}
+
+void SensorClock::decide() {
+  const double delay = *std::min_element(delays_.begin(), delays_.end());
+  const auto later = [&](double ahead) { return delay + ahead - min_delay_; };
+  double likeliest = ahead_;
+  for (const double ahead : {other_.value_or(ahead_), 0.0}) {
+    likeliest = std::abs(later(ahead)) < std::abs(later(likeliest)) ? ahead : likeliest;
+  }
+  if (later(likeliest) < -kTolerance) {
+    restart(*last_);  // too early for any of them: the arrivals' clock goes at another rate
+    return;
+  }
+  if (later(likeliest) <= kTolerance) {
+    min_delay_ = delay + likeliest;  // clocks drift
+  }
+  delays_.clear();
+  other_.reset();
+  if (likeliest != ahead_) {
+    set(likeliest);
+  }
+}
+
+void SensorClock::set(double ahead) {
+  ++steps_;
+  ahead_ = ahead;
+  delays_.clear();
+}
+
+void SensorClock::restart(const Message& message) {
+  recent_ = {message.delay()};
+  intervals_.clear();
+  delays_.clear();
+  other_.reset();
+  ahead_ = 0.0;
+  last_ = message;
+  min_delay_ = message.delay();
+}
+
+}  // namespace datmo

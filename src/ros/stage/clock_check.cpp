@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/clock_check.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace datmo {
+
+namespace {
+
+std::string stepSentence(const std::string& input, double ahead) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "stamps of %s that are %.3f s %s the sensor's clock so far, though its messages "
+                "come as before: that clock was set; puts its stamps right by that",
+                input.c_str(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind");
+  return text;
+}
+
+std::string leadSentence(const std::string& input, double lead) {
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "messages of %s that come %.3f s and more before their stamps: expected after them; "
+      "the sensor's clock is ahead, or that of this computer or of the recording is "
+      "behind: synchronize them",
+      input.c_str(), lead);
+  return text;
+}
+
+}  // namespace
+
+ros::Time ClockCheck::corrected(const ros::Time& stamp, Stamp now) {
+  const std::uint64_t steps_before = clock_.steps();
+  const double ahead = clock_.add(toStamp(stamp), now);
+  if (clock_.steps() > steps_before) {
+    monitor_.figure("clock of " + input_ + " ahead [s]", ahead);
+  }
+  if (clock_.lead() > 0.0) {
+    monitor_.warned(InputError("clock_ahead", leadSentence(input_, clock_.lead())));
+  }
+  if (ahead == 0.0) {
+    return stamp;
+  }
+  monitor_.warned(InputError("clock_off", stepSentence(input_, ahead)));
+  return toTime(toStamp(stamp) + -ahead);
+}
+
+}  // namespace datmo

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/common/sensor_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace datmo::sensor_clock_test {
+namespace {
+
+constexpr double kPeriod = 0.06;  // s
+constexpr int kMessages = 1000;
+constexpr double kDelay = 0.02;  // s
+
+struct Sent {
+  double stamp;    // s
+  double arrival;  // s
+};
+
+/// What is done to a message that was measured at this time (s).
+using Change = std::function<void(Sent& sent, double measured)>;
+
+std::vector<Sent> sent(const Change& change, double period = kPeriod) {
+  std::vector<Sent> messages;
+  for (int i = 0; i < kMessages; ++i) {
+    const double measured = 100.0 + period * i;
+    messages.push_back({measured, measured + kDelay});
+    change(messages.back(), measured);
+  }
+  return messages;
+}
+
+/// By arrival; a message that never comes has none.
+std::vector<double> found(std::vector<Sent> messages, SensorClock& clock) {
+  messages.erase(std::remove_if(messages.begin(), messages.end(),
+                                [](const Sent& one) { return std::isnan(one.arrival); }),
+                 messages.end());
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const Sent& a, const Sent& b) { return a.arrival < b.arrival; });
+  std::vector<double> ahead;
+  for (const Sent& one : messages) {
+    ahead.push_back(clock.add(Stamp::fromSeconds(one.stamp), Stamp::fromSeconds(one.arrival)));
+  }
+  return ahead;
+}
+
+bool isDuring(double measured) { return measured >= 110.0 && measured < 115.0; }
+
+void expectNothingFound(const Change& change, double period = kPeriod) {
+  SensorClock clock;
+  for (const double ahead : found(sent(change, period), clock)) {
+    ASSERT_EQ(ahead, 0.0);
+  }
+  EXPECT_EQ(clock.steps(), 0U);
+}
+
+TEST(SensorClockTest, AStepIsFoundWithItsFirstMessageAndSoIsItsEnd) {
+  for (const double period : {0.02, 0.06, 0.1}) {
+    for (const double step : {0.1, -0.1, 0.04, -0.04, 0.8, -0.8}) {
+      SensorClock clock;
+      const auto messages =
+          sent([&](Sent& one, double measured) { one.stamp += isDuring(measured) ? step : 0.0; },
+               period);
+      const std::vector<double> ahead = found(messages, clock);
+      for (std::size_t i = 0; i < ahead.size(); ++i) {
+        const double truth = messages[i].stamp - messages[i].arrival + kDelay;
+        ASSERT_NEAR(ahead[i], truth, 1e-6) << period << " s, " << step << " s, message " << i;
+      }
+      EXPECT_EQ(clock.steps(), 2U);
+    }
+  }
+}
+
+TEST(SensorClockTest, AmongLateMessagesItTakesTheDelaysOfTheNextOnes) {
+  std::mt19937 random(1);
+  std::exponential_distribution<double> wait(1.0 / 0.02);
+  for (const double step : {0.1, -0.1}) {
+    SensorClock clock;
+    const auto messages = sent(
+        [&](Sent& one, double measured) {
+          one.stamp += isDuring(measured) ? step : 0.0;
+          one.arrival += wait(random);
+        },
+        0.02);
+    int wrong = 0;
+    double last = 0.0;
+    for (const Sent& one : messages) {  // in order, as over one connection
+      last = std::max(last, one.arrival);
+      const double ahead = clock.add(Stamp::fromSeconds(one.stamp), Stamp::fromSeconds(last));
+      const double measured = 100.0 + 0.02 * static_cast<double>(&one - messages.data());
+      wrong += std::abs(ahead - (isDuring(measured) ? step : 0.0)) > 0.01 ? 1 : 0;
+    }
+    EXPECT_LE(wrong, 2 * static_cast<int>(SensorClock::kRemembered)) << step;
+    EXPECT_EQ(clock.ahead(), 0.0);
+  }
+}
+
+TEST(SensorClockTest, MessagesThatAreLateLostOrDoubleAreNoStep) {
+  for (const double period : {0.02, 0.06, 0.1}) {
+    for (const double late : {0.1, 0.2, 0.5}) {
+      expectNothingFound(
+          [&](Sent& one, double measured) { one.arrival += isDuring(measured) ? late : 0.0; },
+          period);
+    }
+    for (const int every : {2, 7, 50}) {
+      int count = 0;
+      expectNothingFound(
+          [&](Sent& one, double measured) {
+            one.arrival = isDuring(measured) && ++count % every == 0 ? NAN : one.arrival;
+          },
+          period);
+    }
+    expectNothingFound(
+        [](Sent& one, double measured) { one.arrival = isDuring(measured) ? NAN : one.arrival; },
+        period);
+  }
+}
+
+TEST(SensorClockTest, ASensorThatPausesOrDriftsIsNotSet) {
+  expectNothingFound([](Sent& one, double measured) {
+    one.stamp += measured > 110.0 ? 0.45 : 0.0;
+    one.arrival += measured > 110.0 ? 0.45 : 0.0;
+  });
+  expectNothingFound([](Sent& one, double measured) { one.stamp += 1e-4 * (measured - 100.0); });
+}
+
+TEST(SensorClockTest, ABagThatIsPlayedFasterThanTheArrivalsClockIsNoStep) {
+  int count = 0;
+  expectNothingFound([&](Sent& one, double measured) {
+    one.arrival = ++count % 50 == 0 ? NAN : 100.0 + 0.5 * (measured - 100.0);
+  });
+}
+
+TEST(SensorClockTest, AClockThatStaysOffMayDrift) {
+  for (const double drift : {-1e-3, 1e-3}) {  // ten times a crystal's, for ten times as long
+    SensorClock clock;
+    found(sent([drift](Sent& one, double measured) {
+            one.stamp += measured < 110.0 ? 0.0 : 0.1 + drift * (measured - 110.0);
+          }),
+          clock);
+    EXPECT_NEAR(clock.ahead(), 0.1, 1e-3) << "the step";
+    EXPECT_EQ(clock.steps(), 1U);
+  }
+}
+
+TEST(SensorClockTest, ASensorThatChangesItsRateIsJudgedByTheNewOne) {
+  SensorClock clock;
+  std::vector<Sent> messages = sent([](Sent& one, double measured) {
+    const double slower = measured + std::max(0.0, measured - 110.02);  // at a message
+    one = {slower + (measured > 120.0 ? 0.1 : 0.0), slower + kDelay};
+  });
+  found(messages, clock);
+  EXPECT_NEAR(clock.ahead(), 0.1, 1e-6);
+  EXPECT_EQ(clock.steps(), 1U);
+}
+
+TEST(SensorClockTest, NothingIsSaidOfBunchesOfRecordTimesAsStampsAndOfNoPeriod) {
+  const auto change = [](Sent& one, double measured) {
+    one.stamp += isDuring(measured) ? 0.1 : 0.0;
+    one.arrival = std::ceil(measured / 5.0) * 5.0;
+  };
+  SensorClock clock;
+  found(sent(change), clock);
+  EXPECT_EQ(clock.ahead(), 0.0);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(-0.025, 0.025);
+  expectNothingFound([&](Sent& one, double /*measured*/) {
+    one.stamp += jitter(random);
+    one.arrival = one.stamp;
+  });
+  expectNothingFound([&](Sent& one, double /*measured*/) { one.stamp += 1.2 * jitter(random); });
+}
+
+TEST(SensorClockTest, MessagesThatComeBeforeTheirStampsTellOfAClockThatIsAhead) {
+  const auto leadOf = [](const Change& change) {
+    SensorClock clock;
+    found(sent(change), clock);
+    EXPECT_EQ(clock.steps(), 0U);
+    return clock.lead();
+  };
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> wait(0.0, 0.1);
+  EXPECT_NEAR(leadOf([](Sent& one, double) { one.stamp += 0.1; }), 0.1 - kDelay, 1e-6);
+  EXPECT_EQ(leadOf([](Sent& one, double) { one.stamp -= 0.1; }), 0.0) << "or a slow network";
+  EXPECT_EQ(leadOf([](Sent& one, double) { one.stamp += kDelay; }), 0.0);
+  EXPECT_EQ(leadOf([&](Sent& one, double) { one.arrival -= wait(random); }), 0.0)
+      << "the clock of a bag that is played fast goes in steps";
+  EXPECT_EQ(leadOf([](Sent& one, double) { one.arrival -= 1e6; }), 0.0) << "without a clock";
+}
+
+TEST(SensorClockTest, AClockThatJumpsBeginsAnew) {
+  SensorClock clock;
+  const auto messages = sent([](Sent& one, double measured) {
+    one.stamp += isDuring(measured) ? 0.1 : 0.0;
+    one.stamp -= measured > 112.0 ? 100.0 : 0.0;
+  });
+  found(messages, clock);
+  EXPECT_NEAR(clock.ahead(), -0.1, 1e-6) << "relative to the clock after the jump";
+}
+
+}  // namespace
+}  // namespace datmo::sensor_clock_test
