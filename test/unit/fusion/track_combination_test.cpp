@@ -127,8 +127,8 @@ TEST(TrackCombinationTest, ClassesAreFusedByBayes) {
   // Products 0.01, 0.01, 0.04, 0.18, 0.01 of 0.25; 0.95 of them, and 0.01.
   EXPECT_NEAR(fused.class_probabilities[3], 0.95 * 0.72 + 0.01, 1e-9);
   EXPECT_NEAR(fused.class_probabilities[2], 0.95 * 0.16 + 0.01, 1e-9);
-  b.class_probabilities = {};
-  EXPECT_NEAR(combined({a, b}).class_probabilities[3], 0.2, 1e-9);
+  b.class_probabilities = {};  // who reports none takes nothing from the others
+  EXPECT_NEAR(combined({a, b}).class_probabilities[3], 0.95 * 0.3 + 0.01, 1e-9);
 }
 
 TEST(TrackCombinationTest, TheMotionModesAreAveraged) {
