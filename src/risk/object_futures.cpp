@@ -147,7 +147,11 @@ ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
   speed_noise_ = std::sqrt(motion.acceleration_density * horizon.step);
   class_turn_rate_ = motion.turn_rate;
   if (road) {
-    follower_ = roadFollower(track, start_, *road, options.road_following).value_or(RoadFollower());
+    const ModeVector prior = priorModeProbabilities(options.transitions);
+    const double turn_share = prior[static_cast<int>(MotionMode::kLeftTurn)] +
+                              prior[static_cast<int>(MotionMode::kRightTurn)];
+    follower_ = roadFollower(track, start_, *road, turn_share, options.road_following)
+                    .value_or(RoadFollower());
   }
 }
 
@@ -180,10 +184,11 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
   for (std::size_t mode = 1; mode < kMotionModes; ++mode) {
     cumulated[mode] += cumulated[mode - 1];
   }
-  key.kind = kDrawFirstMode;
-  const MotionMode mode = modeAt(cumulated, draws_.uniform(key) * cumulated.back());
   key.kind = kDrawRoad;
-  const bool follows_road = !isTurn(mode) && draws_.uniform(key) < follower_.probability;
+  const bool follows_road = draws_.uniform(key) < follower_.probability;
+  key.kind = kDrawFirstMode;
+  const MotionMode mode =
+      modeIn(follows_road, modeAt(cumulated, draws_.uniform(key) * cumulated.back()));
   const ObjectStart& start = follows_road ? follower_.start : start_;
   key.kind = kDrawHeading;
   const double heading = start.heading + start.heading_sigma * draws_.normal(key);

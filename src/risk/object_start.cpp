@@ -30,6 +30,16 @@ double shareOfDrivers(const Track& track) {
   return std::min(1.0, share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist));
 }
 
+/// How much likelier the measurements are of what turns as often as others do than of what never
+/// does: its modes without and with them.
+double turnEvidence(const Track& track, double turn_share) {
+  const auto share = [&](MotionMode mode) {
+    return track.mode_probabilities[static_cast<std::size_t>(mode)];
+  };
+  const double straight = 1.0 - share(MotionMode::kLeftTurn) - share(MotionMode::kRightTurn);
+  return (1.0 - turn_share) / std::max(straight, 1e-6);
+}
+
 /// The direction along the road that is nearer to the heading, rad.
 double alongRoad(double road, double heading) {
   const double off = angleBetween(road, heading);
@@ -57,7 +67,7 @@ ObjectStart startOf(const Track& track, double max_heading_sigma) {
 }
 
 std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
-                                         const RoadFollowingOptions& options) {
+                                         double turn_share, const RoadFollowingOptions& options) {
   const double prior = options.probability * shareOfDrivers(track);
   const double speed = track.state.segment<2>(2).norm();
   if (prior <= 0.0 || speed < options.min_speed) {
@@ -69,7 +79,8 @@ std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& 
   const TrackState covariance = track.covariance * across.transpose();
   const double variance = (across * covariance).value() + square(options.direction_sigma * speed);
   const double follows = prior * normalDensity(off, variance);
-  const double other = (1.0 - prior) * densityOfAnyDirection(std::max(speed, std::sqrt(variance)));
+  const double other = (1.0 - prior) * densityOfAnyDirection(std::max(speed, std::sqrt(variance))) *
+                       turnEvidence(track, turn_share);
   const TrackState gain = covariance / variance;
   // Joseph's form stays positive definite.
   const TrackCovariance keep = TrackCovariance::Identity() - gain * across;

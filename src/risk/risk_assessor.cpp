@@ -30,8 +30,8 @@ double largestDeviation(const TrackCovariance& covariance, int first) {
   return std::sqrt(covariance(first, first) + covariance(first + 1, first + 1));
 }
 
-/// Direction of the road beside a point: that in which the host passes that follows the borders'
-/// course, rad.
+/// Direction of the road beside a point, rad: that in which the host passes, which drives along the
+/// road, too; as its borders lead it, or else as it steers.
 double roadBeside(const Point2& point, const BodyPath& host) {
   const auto nearest = std::min_element(
       host.poses.begin(), host.poses.end(), [&](const BodyPose& a, const BodyPose& b) {
@@ -178,9 +178,7 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   risk.mode = likeliestMode(track);
   const BodySize host_size = options_.vehicle.size();
   const BodySize size = sizeOf(track, options_.default_size);
-  const auto road = host.followsRoad()
-                        ? std::optional(roadBeside(track.state.head<2>(), host.nominal()))
-                        : std::nullopt;
+  const double road = roadBeside(track.state.head<2>(), host.nominal());
   const ObjectFutures object(track, road, options_.objects, options_.horizon, draws_);
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});

@@ -8,9 +8,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import rosbag
+
 from datmo_tools.evaluate.risk_drives import read_drive
 from datmo_tools.evaluate.risk_scores import (is_warned_in_time, lead_of, ttc_errors, warnings_of)
 from datmo_tools.experiments.encounters import main
+from datmo_tools.programs import call
 
 PROGRAMS = Path(os.environ["RUN_BAG"]).parent
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "demonstrator.yaml"
@@ -22,13 +25,14 @@ NEAR_MISSES = ("pedestrian_near_40_space", "pedestrian_far_30_time", "cyclist_ac
 MEDIAN_TTC, LARGE_TTC = 0.1, 0.3
 
 
-def drive_of(name, *words):
+def drive_of(name, tracks="true"):
     """The risks (RiskDrive) of one scene by the shipped method."""
     with tempfile.TemporaryDirectory() as folder:
-        code = main([folder, "--programs", str(PROGRAMS), "--methods", "futures", "--only", name, *words])
+        code = main([folder, "--programs", str(PROGRAMS), "--config", str(CONFIG), "--tracks", tracks,
+                     "--methods", "futures", "--only", name])  # fmt: skip
         if code != 0:
             raise AssertionError(f"{name}: encounters ended with {code}")
-        return read_drive(Path(folder) / "futures" / f"{name}.bag")
+        return read_drive(Path(folder) / tracks / "futures" / f"{name}.bag")
 
 
 class FromTrueObjects(unittest.TestCase):
@@ -48,16 +52,47 @@ class FromTrueObjects(unittest.TestCase):
 
 class FromOwnTracks(unittest.TestCase):
     def test_a_standing_car_is_warned_of_in_time(self):
-        drive = drive_of("car_standing_50_hit", "--config", str(CONFIG))
+        drive = drive_of("car_standing_50_hit", "own")
         self.assertTrue(is_warned_in_time(drive), f"lead {lead_of(drive)}")
 
     def test_what_the_map_does_not_know_yet_is_no_wall(self):
         """The car ahead is there from the first scan on, and the child is a beam of one scan at first."""
-        followed = drive_of("car_braking_12_2_50_hit", "--config", str(CONFIG))
+        followed = drive_of("car_braking_12_2_50_hit", "own")
         start = followed.frames[0].time
         self.assertFalse([begin for begin, _ in warnings_of(followed) if begin < start + 1.0])
-        child = drive_of("child_behind_cars_30_space", "--config", str(CONFIG))
+        child = drive_of("child_behind_cars_30_space", "own")
         self.assertEqual(warnings_of(child), [])
+
+
+class Replayed(unittest.TestCase):
+    def test_risks_of_a_run_once_more_are_the_same_and_those_of_another_method_are_not(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            drive, run, again, other = (folder / f"{each}.bag" for each in ("drive", "run", "again", "other"))
+            code = main([name, "--programs", str(PROGRAMS), "--scenes-only", "--only", "car_slower_60_hit"])
+            self.assertEqual(code, 0)
+            config = ("--config", CONFIG)
+            call(PROGRAMS / "simulate", folder / "scenes" / "car_slower_60_hit.yaml", drive, "--set",
+                 "duration=4", "--quiet")  # fmt: skip
+            call(PROGRAMS / "run_bag", drive, run, *config, "--road-border", "--risk", "--with-truth", "--quiet")
+            call(PROGRAMS / "replay_risks", run, drive, again, *config)
+            call(PROGRAMS / "replay_risks", run, drive, other, *config, "--set", "method=rss")
+            self.assertEqual(risks_in(again), risks_in(run))
+            self.assertGreater(len(risks_in(again)), 30)
+            self.assertNotEqual(risks_in(other), risks_in(run))
+            self.assertEqual(topics_of(again), {"/risks"} | {t for t in topics_of(run) if "truth" in t})
+
+
+def risks_in(path):
+    """Times and bytes of the risks in a bag."""
+    with rosbag.Bag(str(path)) as bag:
+        return [(time, message[1]) for _, message, time in bag.read_messages("/risks", raw=True)]
+
+
+def topics_of(path):
+    """Names (set) of a bag's topics."""
+    with rosbag.Bag(str(path)) as bag:
+        return set(bag.get_type_and_topic_info().topics)
 
 
 if __name__ == "__main__":

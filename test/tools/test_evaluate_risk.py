@@ -14,6 +14,7 @@ from datmo_tools.evaluate.risk_scores import (
     false_warnings,
     is_warned_in_time,
     lead_of,
+    lead_share,
     outcomes,
     reliability,
     score,
@@ -61,6 +62,16 @@ class Scores(unittest.TestCase):
         frames = [frame(2.9), frame(3.0, WARNING)]
         self.assertFalse(is_warned_in_time(drive(frames, 4.0, contact=4.0, seen=0.0)))
         self.assertTrue(is_warned_in_time(drive(frames, 4.0, contact=4.0, seen=2.8)))
+
+    def test_leads_are_held_against_the_attainable(self):
+        half = drive([frame(2.0), frame(3.2, WARNING)], 4.0, contact=4.0, seen=2.4)
+        silent = drive([frame(0.0)], 4.0, contact=4.0, seen=0.0)
+        early = drive([frame(0.5, WARNING)], 4.0, contact=4.0, seen=0.0)
+        self.assertAlmostEqual(lead_share([half, silent, early]), (0.5 + 0.0 + 1.0) / 3.0)
+        self.assertIsNone(lead_share([drive([frame(0.0)], 4.0, contact=4.0)]))
+        result = score([half, silent, early])
+        self.assertEqual(result["long_seen"], {"contacts": 2, "in_time": 1})
+        self.assertEqual(result["briefly_seen"], {"contacts": 1, "in_time": 0})
 
     def test_a_warning_without_contact_is_false(self):
         frames = [frame(0.0, WARNING), frame(1.0), frame(2.0, WARNING)]
@@ -113,7 +124,7 @@ class Tool(EvaluateCase):
         folder = self.write("miss")
         text, _, result = self.evaluate("risk", f"ours={folder}")
         self.assertRegex(text, r"contacts +1")
-        self.assertRegex(text, r"warned in time +1")
+        self.assertRegex(text, r"in view for less, warned in time +1 of 1")
         self.assertRegex(text, r"near misses warned of +1")
         self.assertRegex(text, r"lead, median \[s\] +2.00")
         self.assertEqual(result["ours"]["drives"], 2)

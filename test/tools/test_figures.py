@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import cameras, data_sets, results_file
+from datmo_tools.figures import cameras, data_sets, results_file, risk
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
@@ -88,6 +88,14 @@ class FusionFigures(unittest.TestCase):
         self.assertEqual(together["misses"], [63, 38, 88])
         self.assertEqual(together["mota"], [0.625, 0.5, 0.75])
         self.assertEqual(together["false_tracks"], [4, 4, 4])
+
+
+class RiskFigures(unittest.TestCase):
+    def test_warnings_of_all_data_sets_are_added_up(self):
+        drives = [("traffic", {"warnings": 3, "seconds": 100.0}), ("traffic", {"warnings": 1, "seconds": 50.0})]
+        found = risk.figures([("own", {"futures": {}}), *drives, ("true", {})])
+        self.assertEqual(found["traffic"], {"warnings": 4, "seconds": 150.0})
+        self.assertEqual(sorted(found), ["own", "traffic", "true"])
 
 
 class Pass(InFolder):

@@ -63,10 +63,13 @@ class GraphRunner::Ports : public StagePorts {
 
 GraphRunner::GraphRunner(const SensorSet& sensors, const GraphSwitches& switches,
                          const std::string& last_stage)
+    : GraphRunner(sensors, graphUntil(switches, last_stage)) {}
+
+GraphRunner::GraphRunner(const SensorSet& sensors, const std::vector<GraphStage>& graph)
     : shared_(sensors.shared()),
       transforms_(sensors.options<GridSlamStageOptions>("grid_slam").input.restart_after, shared_,
                   inputs_monitor_) {
-  for (const GraphStage& row : graphUntil(switches, last_stage)) {
+  for (const GraphStage& row : graph) {
     addStage(row, sensors);
   }
 }

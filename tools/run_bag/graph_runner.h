@@ -51,6 +51,9 @@ class GraphRunner {
   GraphRunner(const SensorSet& sensors, const GraphSwitches& switches,
               const std::string& last_stage = "");
 
+  /// Some stages of a graph alone. Throws OptionError.
+  GraphRunner(const SensorSet& sensors, const std::vector<GraphStage>& graph);
+
   /// What stages get from now on in place of a message; of those that some stage takes, also from
   /// another stage. Asked once for a message; null: it is lost, and no stage gets it. For trials of
   /// what a fault does.

@@ -36,12 +36,13 @@ struct RoadFollower {
 
 /// Whether an object follows the road, either way: who drives or rides does so by a prior, and
 /// whose velocity leads off the road does not. Bayes over two hypotheses: along the road the
-/// velocity across it is a Gaussian, else all directions are alike; in the first one state and
-/// heading are conditioned on it (Kalman). None for what is a pedestrian for sure, or is slower
-/// than `min_speed`.
+/// velocity across it is a Gaussian and no mode is a turn, else all directions are alike and turns
+/// are as frequent as by their share of time; in the first one state and heading are conditioned on
+/// it (Kalman). None for what is a pedestrian for sure, or is slower than `min_speed`.
 ///
-/// `road`: direction of the road beside the object, rad, fixed frame.
+/// `road`: direction of the road beside the object, rad, fixed frame. `turn_share`: 0 to 1, of
+/// turns among the motion modes of an object of which nothing is known.
 std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
-                                         const RoadFollowingOptions& options);
+                                         double turn_share, const RoadFollowingOptions& options);
 
 }  // namespace datmo

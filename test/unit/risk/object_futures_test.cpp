@@ -156,10 +156,19 @@ Track vagueOncoming(double across) {
   return track;
 }
 
+/// rad; the road is along x.
+constexpr double kRoad = 0.0;
+
+/// Turns among the modes of an object of which nothing is known.
+constexpr double kTurnShare = 0.2;
+
+std::optional<RoadFollower> followerOf(const Track& track) {
+  return roadFollower(track, startOf(track, 0.3), kRoad, kTurnShare, RoadFollowingOptions());
+}
+
 TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
   const Track track = vagueOncoming(1.5);
-  const ObjectStart start = startOf(track, 0.3);
-  const auto follower = roadFollower(track, start, 0.0, RoadFollowingOptions());
+  const auto follower = followerOf(track);
   ASSERT_TRUE(follower);
   EXPECT_GT(follower->probability, 0.9);
   // Kalman: of 1.5 m/s with a variance of 1, and (0.05 10.1)^2 of the road's.
@@ -177,28 +186,36 @@ TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
 TEST(RoadFollower, WhoLeavesItForSureDoes) {
   Track track = vagueOncoming(4.0);
   track.covariance(3, 3) = 0.04;
-  const auto follower = roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions());
+  const auto follower = followerOf(track);
   ASSERT_TRUE(follower);
   EXPECT_LT(follower->probability, 1e-6);
 }
 
 TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
   const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
-  EXPECT_FALSE(roadFollower(walks, startOf(walks, 0.3), 0.0, RoadFollowingOptions()));
+  EXPECT_FALSE(followerOf(walks));
   const Track stands = knownTrack(2, {20, 3}, {0, 0});
-  EXPECT_FALSE(roadFollower(stands, startOf(stands, 0.3), 0.0, RoadFollowingOptions()));
+  EXPECT_FALSE(followerOf(stands));
 }
 
 TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
   Track track = vagueOncoming(1.5);
-  const double driver =
-      roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability;
+  const double driver = followerOf(track)->probability;
   track.class_probabilities.fill(1.0);  // each a share of 1: more than all
-  EXPECT_LE(roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability,
-            1.0);
+  EXPECT_LE(followerOf(track)->probability, 1.0);
   track.class_probabilities.fill(0.2);
-  EXPECT_LT(roadFollower(track, startOf(track, 0.3), 0.0, RoadFollowingOptions())->probability,
-            driver);
+  EXPECT_LT(followerOf(track)->probability, driver);
+}
+
+// Bayes: that the track turns is as likely by the wrong velocity as by a turn; the odds change by
+// no more than the modes' own evidence.
+TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
+  Track track = vagueOncoming(1.5);
+  const double straight = followerOf(track)->probability;
+  track.mode_probabilities = {0.3, 0.0, 0.7, 0.0, 0.0};
+  const double turns = followerOf(track)->probability;
+  EXPECT_GT(turns, 0.8);
+  EXPECT_NEAR(turns / (1.0 - turns), 0.3 * straight / (1.0 - straight), 1e-9);
 }
 
 TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
@@ -206,7 +223,7 @@ TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
   ObjectFutureOptions options;
   options.road_following.probability = 0.999;
   const double free = endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma;
-  EXPECT_LT(endsOf(ObjectFutures(car, 0.0, options, kHorizon, kDraws)).sigma, 0.8 * free);
+  EXPECT_LT(endsOf(ObjectFutures(car, kRoad, options, kHorizon, kDraws)).sigma, 0.8 * free);
 }
 
 TEST(ObjectFutures, WhoTurnsDoesNotFollowTheRoad) {
@@ -215,7 +232,7 @@ TEST(ObjectFutures, WhoTurnsDoesNotFollowTheRoad) {
   const ObjectFutureOptions options = withoutSwitching();
   const double free =
       endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).mean.y();
-  const double beside = endsOf(ObjectFutures(track, 0.0, options, kHorizon, kDraws)).mean.y();
+  const double beside = endsOf(ObjectFutures(track, kRoad, options, kHorizon, kDraws)).mean.y();
   EXPECT_LT(free, -5.0) << "it turns left, toward the host's lane";
   EXPECT_EQ(free, beside);
 }
@@ -225,7 +242,7 @@ TEST(ObjectFutures, AlongTheRoadStayInTheirLane) {
   const ObjectFutureOptions options = withoutSwitching();
   const double free =
       endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws)).mean.y();
-  const double along = endsOf(ObjectFutures(track, 0.0, options, kHorizon, kDraws)).mean.y();
+  const double along = endsOf(ObjectFutures(track, kRoad, options, kHorizon, kDraws)).mean.y();
   EXPECT_LT(free, -2.0);
   EXPECT_NEAR(along, 3.5, 1.5);
 }

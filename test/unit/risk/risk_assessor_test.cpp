@@ -37,6 +37,20 @@ TEST(RiskAssessor, OncomingTrafficInItsLaneIsNoRisk) {
   EXPECT_EQ(report.level, RiskLevel::kNone);
 }
 
+// Where no border tells of the road, the host still drives along one.
+TEST(RiskAssessor, OncomingTrafficOfVagueVelocityKeepsToTheRoadOfTheHost) {
+  Track track = knownTrack(1, {45, 4.0}, {-10.0, -1.3});
+  track.covariance.diagonal() << 0.25, 0.04, 0.25, 0.64, 1e-4, 1e-4;
+  track.heading_variance = 0.04;
+  const auto of = [&](double prior) {
+    RiskOptions options;
+    options.objects.road_following.probability = prior;
+    return riskOf(RiskAssessor(options).assess(inputAt(10.0, {track})), 1).probability();
+  };
+  EXPECT_GT(of(0.0), 0.25);
+  EXPECT_LT(of(RoadFollowingOptions().probability), 0.5 * of(0.0));
+}
+
 TEST(RiskAssessor, ProbabilitiesRiseWithTimeAndCarryExistence) {
   RiskInput input = inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})});
   const ObjectRisk sure = riskOfFirst(input);

@@ -15,7 +15,8 @@ the bags of one method (run_bag --risk --with-truth, risk/method in the sensor s
 
   time to contact   error of the likeliest object's median, within 3 s before a contact
   lead              from the warning that lasts until the contact to it; in time: 1.7 s where the
-                    object was in view for 3.5 s, else 80 % of what its view allows
+                    object was in view for 3.5 s, else 80 % of the attainable, which is the time in
+                    view and at most 1.7 s
   false             warnings in drives without contact, or ended before it, and how many an hour
   Brier, error      of the probability of contact within 1, 2, 3, 4 s: mean squared difference, and
                     mean distance of said and observed frequency in ten bins (reliability)"""
@@ -36,12 +37,17 @@ def evaluate(values):
             raise InputError(f"{folder}: no bag in it, expected those of run_bag --risk")
         if name in result:
             raise InputError(f"{name}: given twice, expected another name for each folder")
-        result[name] = score([read_drive(bag) for bag in bags])
+        result[name] = score_of(bags)
     return result, sections(result)
 
 
-def sections(result):
-    """List of Section of the scores (dict) by method."""
+def score_of(bags):
+    """The score of one method's bags (list of Path). Raises InputError."""
+    return score([read_drive(bag) for bag in bags])
+
+
+def sections(result, what=""):
+    """List of Section of the scores (dict) by method; `what`: ends the titles."""
     names = list(result)
     rows = [["", *names]]
     for title, cell in _ROWS:
@@ -53,8 +59,8 @@ def sections(result):
                                            f"{rounded(each['calibration_error'], 3)}"
                                            for each in cells]])  # fmt: skip
     return [
-        Section("Risk", rows=rows),
-        Section("Probability of contact", rows=horizons),
+        Section(f"Risk{what}", rows=rows),
+        Section(f"Probability of contact{what}", rows=horizons),
         *[_reliability(name, result[name]) for name in names],
     ]
 
@@ -67,13 +73,19 @@ def _reliability(name, item):
     return Section(f"Reliability of {name}", rows=rows, for_page=True)
 
 
+def _of_contacts(item):
+    return f"{item['in_time']} of {item['contacts']}"
+
+
 _ROWS = (
     ("drives", lambda item: str(item["drives"])),
     ("contacts", lambda item: str(item["contacts"])),
     ("time to contact, median error [s]", lambda item: rounded(item["ttc_median_s"], 2)),
     ("time to contact, 95 % error [s]", lambda item: rounded(item["ttc_95_s"], 2)),
     ("contacts warned of", lambda item: str(item["warned"])),
-    ("warned in time", lambda item: str(item["warned_in_time"])),
+    ("in view for 3.5 s or more, warned in time", lambda item: _of_contacts(item["long_seen"])),
+    ("in view for less, warned in time", lambda item: _of_contacts(item["briefly_seen"])),
+    ("lead over the attainable, mean", lambda item: rounded(item["lead_share"], 2)),
     ("lead, median [s]", lambda item: rounded(item["lead_median_s"], 2)),
     ("lead, 5 % [s]", lambda item: rounded(item["lead_5_s"], 2)),
     ("near misses", lambda item: str(item["near_misses"])),

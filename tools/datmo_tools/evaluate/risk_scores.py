@@ -70,15 +70,31 @@ def lead_of(drive):
     return drive.contact - spans[-1][0]
 
 
+def is_long_seen(drive):
+    """Whether what is struck was in view for so long that a driver could have been warned in time."""
+    return drive.seen is not None and drive.contact - drive.seen >= LONG_SEEN
+
+
+def attainable_lead(drive):
+    """s of lead that can be asked for: ENOUGH, or the time in view if it is shorter."""
+    return 0.0 if drive.seen is None else min(drive.contact - drive.seen, ENOUGH)
+
+
 def is_warned_in_time(drive):
     """Whether the lead is what could be asked for, by how long the object was in view."""
     lead = lead_of(drive)
-    if lead is None:
-        return False
-    if drive.seen is None:
-        return True
-    view = drive.contact - drive.seen
-    return lead >= (ENOUGH if view >= LONG_SEEN else ATTAINABLE_SHARE * min(view, ENOUGH))
+    needed = 1.0 if is_long_seen(drive) else ATTAINABLE_SHARE
+    return lead is not None and lead >= needed * attainable_lead(drive)
+
+
+def lead_share(drives):
+    """Mean share of the attainable lead that a warning has, 0 to 1; None: nothing was attainable."""
+    shares = [
+        min(1.0, (lead_of(drive) or 0.0) / attainable_lead(drive))
+        for drive in drives
+        if attainable_lead(drive) > 0.0
+    ]
+    return float(np.mean(shares)) if shares else None
 
 
 def false_warnings(drives):
@@ -151,7 +167,9 @@ def score(drives):
         "ttc_median_s": _quantile(errors, 0.5),
         "ttc_95_s": _quantile(errors, 0.95),
         "warned": len(leads),
-        "warned_in_time": sum(map(is_warned_in_time, struck)),
+        "long_seen": _in_time([drive for drive in struck if is_long_seen(drive)]),
+        "briefly_seen": _in_time([drive for drive in struck if not is_long_seen(drive)]),
+        "lead_share": lead_share(struck),
         "lead_median_s": _quantile(leads, 0.5),
         "lead_5_s": _quantile(leads, 0.05),
         "near_misses": len(missed),
@@ -161,6 +179,10 @@ def score(drives):
         "false_per_hour": false / hours if hours > 0.0 else None,
         "horizons": by_horizon,
     }
+
+
+def _in_time(struck):
+    return {"contacts": len(struck), "in_time": sum(map(is_warned_in_time, struck))}
 
 
 def _quantile(values, share):

@@ -9,38 +9,50 @@ from tqdm import tqdm
 
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate import risk
+from datmo_tools.evaluate.report import as_text
 from datmo_tools.experiments.encounter_scenes import AVOIDED, ENDINGS, STOPS, encounters, scene
 from datmo_tools.experiments.random_encounters import random_scenes
-from datmo_tools.yaml_files import parse_yaml
+from datmo_tools.programs import StepFailed
 
 DESCRIPTION = """\
-Makes scenes after the public test protocols (or, with --random, at random about them), and the
-risks of each by each method, from the true objects or from the stack's own tracks:
-FOLDER/scenes/*.yaml, FOLDER/<method>/*.bag. Then `evaluate risk METHOD=FOLDER/METHOD ...`."""
+Makes scenes after the public test protocols (or, with --random, at random about them), assesses the
+risks of each by each method, from the true objects and from the stack's own tracks, and scores the
+methods side by side as `evaluate risk` does. Of the own tracks there is one run for all methods.
+Leaves FOLDER/scenes/*.yaml, FOLDER/<true or own>/<method>/*.bag and FOLDER/encounters.json."""
 
 METHODS = ("futures", "thesis", "ttc_boxes", "rss")
+TRUE, OWN = "true", "own"  # whose tracks
+PROGRAMS = {TRUE: ("true_risks",), OWN: ("simulate", "run_bag", "replay_risks")}
+RESULT = "encounters.json"
+FORMAT = 1  # of that file
 
 
 def main(arguments=None):
     """Runs the command line; returns its exit code."""
     values = _parser().parse_args(arguments)
-    return command_line.run("encounters", lambda: _run(values), "bags")
+    return command_line.run("encounters", lambda: _run(values), "score")
 
 
 def write_scenes(folder, values):
     """Files (list of Path) of the scenes."""
     folder.mkdir(parents=True, exist_ok=True)
-    if values.random:
-        named = [(f"random_{number:04d}", each)
-                 for number, each in enumerate(random_scenes(values.random, values.seed))]  # fmt: skip
-    else:
-        named = [(each.name, scene(each, values.seed)) for each in encounters(values.endings)]
     files = []
-    for name, each in named:
-        if values.only in name:
-            files.append(folder / f"{name}.yaml")
-            files[-1].write_text(yaml.safe_dump(each), encoding="utf-8")
+    for seed in values.seeds:
+        suffix = "" if len(values.seeds) == 1 else f"_seed_{seed}"
+        for name, each in _drawn(values, seed):
+            if values.only in name:
+                files.append(folder / f"{name}{suffix}.yaml")
+                files[-1].write_text(yaml.safe_dump(each), encoding="utf-8")
     return files
+
+
+def _drawn(values, seed):
+    """Names and scenes (dicts)."""
+    if values.random:
+        return [(f"random_{number:04d}", each)
+                for number, each in enumerate(random_scenes(values.random, seed))]  # fmt: skip
+    return [(each.name, scene(each, seed)) for each in encounters(values.endings)]
 
 
 def _run(values):
@@ -49,66 +61,79 @@ def _run(values):
         raise InputError(f"--only {values.only}: no scene has that in its name")
     if values.scenes_only:
         return
-    needed = ("simulate", "run_bag") if values.config else ("true_risks",)
-    programs.check(values.programs, needed)
-    steps = _of_tracks if values.config else _of_truth
+    if OWN in values.tracks and values.config is None:
+        raise InputError("--config is missing, expected a sensor set for --tracks own")
+    programs.check(values.programs, [name for each in values.tracks for name in PROGRAMS[each]])
+    result = {"format": FORMAT, "seeds": values.seeds, "scenes": len(scenes)}
+    for tracks in values.tracks:
+        result[tracks] = _scores(tracks, scenes, values)
+        print(as_text(risk.sections(result[tracks], f", {tracks} tracks")), end="\n\n")
+    command_line.write_json(values.folder / RESULT, result)
+
+
+def _scores(tracks, scenes, values):
+    """Of each method, of the bags that this run has made."""
+    folder = values.folder / tracks
     for method in values.methods:
-        (values.folder / method).mkdir(exist_ok=True)
+        (folder / method).mkdir(parents=True, exist_ok=True)
+    steps = _of_tracks if tracks == OWN else _of_truth
     with ThreadPoolExecutor(values.jobs) as pool:
-        said = list(tqdm(pool.map(lambda each: _guarded(steps, each, values), scenes), "scenes",
-                         len(scenes)))  # fmt: skip
-    for line in filter(None, said):
+        failures = list(tqdm(pool.map(lambda each: _guarded(steps, each, folder, values), scenes),
+                             f"{tracks} tracks", len(scenes)))  # fmt: skip
+    for line in filter(None, failures):
         print(line)
+    names = [each.stem for each, failure in zip(scenes, failures) if failure is None]
+    return {method: risk.score_of([folder / method / f"{name}.bag" for name in names])
+            for method in values.methods}  # fmt: skip
 
 
-def _guarded(steps, each, values):
+def _guarded(steps, each, folder, values):
     """What went wrong with a scene; None: nothing. Random ones may be impossible: they collide."""
     try:
-        steps(each, values)
-    except programs.StepFailed as failure:
+        steps(each, folder, values)
+    except StepFailed as failure:
         if not values.random:
-            raise
+            raise InputError(f"{each.stem}: {failure}") from failure
         return f"{each.stem}: {failure}"
     return None
 
 
-def _of_truth(each, values):
+def _of_truth(each, folder, values):
     for method in values.methods:
-        programs.call(values.programs / "true_risks", each, values.folder / method / f"{each.stem}.bag",
-                      "--risk", f"method={method}", *_words("--risk", values.set))  # fmt: skip
+        programs.call(values.programs / "true_risks", each, folder / method / f"{each.stem}.bag",
+                      *_options("--risk", method, values))  # fmt: skip
 
 
-def _of_tracks(each, values):
-    recorded = values.folder / f"{each.stem}_recorded.bag"
+def _of_tracks(each, folder, values):
+    recorded, run = folder / f"{each.stem}_recorded.bag", folder / f"{each.stem}_run.bag"
+    config = ("--config", values.config)
     programs.call(values.programs / "simulate", each, recorded, "--quiet")
+    programs.call(values.programs / "run_bag", recorded, run, *config, "--road-border", "--with-truth",
+                  "--quiet")  # fmt: skip
     for method in values.methods:
-        preset = values.folder / f"{method}.yaml"
-        risk = {"method": method}
-        for assignment in values.set:
-            key, _, value = assignment.partition("=")
-            risk[key] = parse_yaml(assignment, value)
-        preset.write_text(yaml.safe_dump({"risk": risk}), encoding="utf-8")
-        programs.call(values.programs / "run_bag", recorded, values.folder / method / f"{each.stem}.bag",
-                      "--config", values.config, "--preset", preset, "--road-border", "--risk",
-                      "--with-truth", "--quiet")  # fmt: skip
+        programs.call(values.programs / "replay_risks", run, recorded, folder / method / f"{each.stem}.bag",
+                      *config, *_options("--set", method, values))  # fmt: skip
     recorded.unlink()
+    run.unlink()
 
 
-def _words(option, assignments):
-    return [word for assignment in assignments for word in (option, assignment)]
+def _options(option, method, values):
+    return [word for assignment in (f"method={method}", *values.set) for word in (option, assignment)]
 
 
 def _parser():
     parser = command_line.new_parser("encounters", DESCRIPTION)
     add = parser.add_argument
-    add("folder", type=Path, metavar="FOLDER", help="for scenes and bags")
-    add("--programs", required=True, type=Path, metavar="DIR", help="of simulate and run_bag")
-    add("--config", type=Path, metavar="CONFIG.yaml",
-        help="a sensor set: own tracks by run_bag; without it risks of the true objects")  # fmt: skip
+    add("folder", type=Path, metavar="FOLDER", help="for scenes, bags and scores")
+    add("--programs", required=True, type=Path, metavar="DIR", help="of simulate, run_bag and others")
+    add("--tracks", nargs="+", choices=(TRUE, OWN), default=(TRUE, OWN),
+        help="of the true objects, or of run_bag (default both)")  # fmt: skip
+    add("--config", type=Path, metavar="CONFIG.yaml", help="the sensor set, for own tracks")
     add("--methods", nargs="+", choices=METHODS, default=METHODS, help="(default all)")
     add("--random", type=command_line.count, default=0, metavar="N",
-        help="so many encounters at random in place of those of the protocols")  # fmt: skip
-    add("--seed", type=int, default=1, metavar="N", help="of all random numbers (default 1)")
+        help="so many encounters at random for each seed, in place of those of the protocols")  # fmt: skip
+    add("--seeds", type=int, nargs="+", default=[1], metavar="N",
+        help="of all random numbers, for each a set of scenes (default 1)")  # fmt: skip
     add("--endings", nargs="+", choices=[*ENDINGS, STOPS, AVOIDED], default=ENDINGS, metavar="E",
         help="hit, space, time (near misses; default all three), stop (before the lane), avoided "
         "(the host brakes)")  # fmt: skip
