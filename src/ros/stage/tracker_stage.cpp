@@ -180,6 +180,9 @@ void TrackerStage::connect(StagePorts& ports) {
       "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
   ports.in<ObjectArray>("objects",
                         [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
+  if (!options_.scan_view) {
+    return;  // early lists are of a scan's objects
+  }
   ports.optionalIn<ObjectArray>(
       "early_objects", [this](const auto& objects, Stamp now) { takeEarlyObjects(objects, now); });
 }
