@@ -231,6 +231,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/class_motion.cpp
   tracking/clutter_map.cpp
   tracking/duplicates.cpp
+  tracking/early_tracker.cpp
   tracking/existence_score.cpp
   tracking/grazing.cpp
   tracking/hypothesis_cluster.cpp

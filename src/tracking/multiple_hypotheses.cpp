@@ -53,6 +53,12 @@ MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
       hypothesis_options_(hypotheses),
       split_merge_(split_merge) {}
 
+std::unique_ptr<TargetSet> MultipleHypotheses::clone() const {
+  auto copy = std::make_unique<MultipleHypotheses>(*this);
+  copy->best_known_ = false;  // its best targets are its own
+  return copy;
+}
+
 void MultipleHypotheses::predict(double seconds, const AssociationScan& scan) {
   const ImmSteps& steps = steps_.of(seconds);
   for (HypothesisCluster& cluster : clusters_) {

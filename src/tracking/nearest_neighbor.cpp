@@ -12,6 +12,10 @@ NearestNeighborTargets::NearestNeighborTargets(const TargetOptions& target,
                                                const AssociationOptions& association)
     : target_options_(target), steps_(target.filter), options_(association) {}
 
+std::unique_ptr<TargetSet> NearestNeighborTargets::clone() const {
+  return std::make_unique<NearestNeighborTargets>(*this);
+}
+
 void NearestNeighborTargets::predict(double seconds, const AssociationScan& scan) {
   const ImmSteps& steps = steps_.of(seconds);
   for (ScoredTarget& next : targets_) {
@@ -92,10 +96,9 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
       ++counts_.refused_births;
       continue;
     }
-    targets_.push_back({std::make_unique<Target>(
-                            observation.object, object, next_number_ + object, target_options_,
-                            scan.transitionsOf(observation.object.object_class)),
-                        {}});
+    targets_.emplace_back(
+        std::make_unique<Target>(observation.object, object, next_number_ + object, target_options_,
+                                 scan.transitionsOf(observation.object.object_class)));
   }
 }
 

@@ -24,6 +24,17 @@ class ObjectFusedRun : public StereoRunBag {
         }));
   }
 
+  /// s, from a scan's stamp until its tracks come out.
+  double longestWait() const {
+    rosbag::Bag bag(arguments_.output);
+    double longest = 0.0;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/tracks"))) {
+      const auto stamp = message.instantiate<TrackArray>()->header.stamp;
+      longest = std::max(longest, (message.getTime() - stamp).toSec());
+    }
+    return longest;
+  }
+
   void expectObjects(std::size_t stereo) const {
     EXPECT_EQ(count(arguments_.output, "/objects"), kScanCount);
     EXPECT_EQ(count(arguments_.output, "/objects/stereo"), stereo);
@@ -77,6 +88,18 @@ TEST_F(ObjectFusedRun, SameBagGivesTheSameBytes) {
   const std::string first = bytes(arguments_.output);
   run();
   EXPECT_EQ(first, bytes(arguments_.output));
+}
+
+TEST_F(ObjectFusedRun, TracksDoNotWaitForTheCameraUnlessToldTo) {
+  appendClouds();
+  run();
+  const auto fused = listsOf<ObjectArray>("/objects/fused");
+  const double early = longestWait();
+  writeConfig("{object_fusion: {retroactive: false}, stereo_camera: {align: false}}");
+  run();
+  expectObjects(kCloudCount);
+  EXPECT_EQ(fused, listsOf<ObjectArray>("/objects/fused")) << "what is fused is the same";
+  EXPECT_LT(early + 0.01, longestWait());
 }
 
 TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {

@@ -130,6 +130,7 @@ class LaunchSwitches(unittest.TestCase):
             with self.subTest(**switches):
                 source = "objects/fused" if switches["object_fusion"] else "objects"
                 self.assertEqual(remapped(nodes["tracker"], "objects"), source)
+                self.assertEqual(remapped(nodes["tracker"], "early_objects"), "objects/early")
                 self.assertEqual(remapped(nodes["markers"], "objects"), source)
                 if switches["object_fusion"]:
                     self.assertEqual(remapped(nodes["object_fusion"], "objects/lidar"), "objects")

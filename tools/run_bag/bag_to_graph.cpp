@@ -131,12 +131,14 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
   }
 }
 
-/// What lies between the stages alone is not written: grids on demand, odometry and clouds never.
+/// What lies between the stages alone is not written: grids on demand, odometry, clouds and early
+/// objects, of which the complete ones follow, never.
 bool BagToGraph::isResult(const Publication& publication) const {
   const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
   const bool is_stereo =
       publication.topic.rfind("stereo/", 0) == 0 && publication.topic != "stereo/alignment";
-  return is_grid ? write_grids_ : !is_stereo;
+  const bool is_early = publication.topic == "objects/early";
+  return is_grid ? write_grids_ : !is_stereo && !is_early;
 }
 
 template <typename... Messages>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
@@ -23,6 +24,7 @@ class MultipleHypotheses : public TargetSet {
   MultipleHypotheses(const TargetOptions& target, const AssociationOptions& association,
                      const HypothesisOptions& hypotheses, const SplitMergeOptions& split_merge);
 
+  std::unique_ptr<TargetSet> clone() const override;
   void predict(double seconds, const AssociationScan& scan) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
   const std::vector<BestTarget>& best() const override;

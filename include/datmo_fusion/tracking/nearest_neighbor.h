@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "datmo_fusion/tracking/imm_step_cache.h"
@@ -17,6 +18,7 @@ class NearestNeighborTargets : public TargetSet {
  public:
   NearestNeighborTargets(const TargetOptions& target, const AssociationOptions& association);
 
+  std::unique_ptr<TargetSet> clone() const override;
   void predict(double seconds, const AssociationScan& scan) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
   const std::vector<BestTarget>& best() const override;
@@ -31,6 +33,14 @@ class NearestNeighborTargets : public TargetSet {
 
  private:
   struct ScoredTarget {
+    explicit ScoredTarget(std::unique_ptr<Target> of_target) : target(std::move(of_target)) {}
+    ScoredTarget(const ScoredTarget& other)
+        : target(std::make_unique<Target>(*other.target)), scores(other.scores) {}
+    ScoredTarget(ScoredTarget&&) noexcept = default;
+    ScoredTarget& operator=(const ScoredTarget&) = delete;
+    ScoredTarget& operator=(ScoredTarget&&) noexcept = default;
+    ~ScoredTarget() = default;
+
     std::unique_ptr<Target> target;  ///< too large to be moved
     TargetScores scores;             ///< against the present scan
   };

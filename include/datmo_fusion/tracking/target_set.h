@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "datmo_fusion/tracking/association.h"
@@ -29,6 +30,9 @@ struct AssociationCounts {
 class TargetSet {
  public:
   virtual ~TargetSet() = default;
+
+  /// The same targets once more, to go on by themselves.
+  virtual std::unique_ptr<TargetSet> clone() const = 0;
 
   /// To the time of the next scan, `seconds` >= 0 ahead, and how well its objects fit each target:
   /// both at once, as more targets are followed than the cache holds.

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "datmo_fusion/common/copied_ptr.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/tracking/association_scan.h"
@@ -37,6 +37,8 @@ struct TrackerCounts {
 /// several times, surely move or have moved (motionProbability), and are likely enough to exist. A
 /// track lives without objects for as long as it was followed with them, up to a limit, and as long
 /// as it is not missed where it should be seen.
+///
+/// A copy goes on by itself, from the same state.
 ///
 /// Not thread safe; lists in rising stamp order, which the caller ensures (StampGate). The order of
 /// the objects in a list does not matter.
@@ -98,7 +100,7 @@ class Tracker {
   ClutterMap clutter_;
   TransitionPriors transition_priors_;
   ScanHistory scans_;
-  std::unique_ptr<TargetSet> targets_;
+  CopiedPtr<TargetSet> targets_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;
   std::uint32_t next_id_ = 1;

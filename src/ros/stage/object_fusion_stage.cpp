@@ -40,6 +40,11 @@ std::string sourcesWith(const std::vector<SourceObjects>& lists,
 void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   matcher.visit(visitor);
+  visitor.toggle(
+      {"retroactive", "",
+       "tracks do not wait for objects of other sources, which count later, at their own "
+       "time; false: they wait up to max_wait"},
+      retroactive);
   fuser.visit(visitor);
 }
 
@@ -55,12 +60,13 @@ ObjectFusionStage::ObjectFusionStage(const Checked<ObjectFusionStageOptions>& op
       matcher_(options->matcher, options->fuser.sourcesInUse(), Serving::kOnce,
                options->fuser.lateSources()),
       fuser_(options->fuser) {
-  checkSourceNames(sources(), kObjectList, {"fused"});
+  checkSourceNames(sources(), kObjectList, {"early", "fused"});
 }
 
 void ObjectFusionStage::reset() {
   inputs_.reset();
   matcher_.reset();
+  newest_.reset();
   scans_.clear();
 }
 
@@ -101,15 +107,10 @@ void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
   });
 }
 
-std::optional<LabeledScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
-  std::optional<LabeledScan> found;
-  while (!scans_.empty() && scans_.front().stamp <= stamp) {
-    if (scans_.front().stamp == stamp) {
-      found = std::move(scans_.front());
-    }
-    scans_.pop_front();
-  }
-  return found;
+const LabeledScan* ObjectFusionStage::scanAt(Stamp stamp) const {
+  const auto found = std::find_if(scans_.begin(), scans_.end(),
+                                  [stamp](const LabeledScan& scan) { return scan.stamp == stamp; });
+  return found == scans_.end() ? nullptr : &*found;
 }
 
 std::vector<SourceObjects> ObjectFusionStage::movedLists(
@@ -134,16 +135,41 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
 }
 
 ObjectArrayPtr ObjectFusionStage::fuse(const Matched& matched) {
+  const Stopwatch watch;
   std::vector<MissingSource> missing = matched.missing;
   const std::vector<SourceObjects> lists = movedLists(matched, missing);
-  const std::optional<LabeledScan> scan = takeScanAt(matched.stamp());
-  times_without_scan_ += scan ? 0 : 1;
-  const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
+  const LabeledScan* const scan = scanAt(matched.stamp());
+  times_without_scan_ += scan == nullptr ? 1 : 0;
+  const ObjectFusionResult result = fuser_.fuse(lists, scan);
+  // Sets come by rising stamp.
+  scans_.erase(scans_.begin(),
+               std::find_if(scans_.begin(), scans_.end(), [&matched](const LabeledScan& one) {
+                 return one.stamp > matched.stamp();
+               }));
+  newest_ = std::max(newest_.value_or(matched.stamp()), matched.stamp());
   inputs_.report(matched.stamp(), missing);
   report(lists, result.counts);
   auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.frames.base));
-  runner_.processed(matched.stamp());
+  monitor_.processed({matched.stamp(), std::exchange(early_seconds_, 0.0) + watch.seconds()});
   return fused;
+}
+
+ObjectArrayPtr ObjectFusionStage::nextEarly(Stamp now) {
+  return runner_.serve([&]() -> ObjectArrayPtr {
+    const std::optional<Matched> matched =
+        options_.retroactive ? inputs_.earlyOf(matcher_, newest_, now) : std::nullopt;
+    if (!matched) {
+      return nullptr;
+    }
+    const Stopwatch watch;
+    newest_ = matched->stamp();
+    std::vector<MissingSource> missing;
+    const ObjectFusionResult result =
+        fuser_.fuse(movedLists(*matched, missing), scanAt(matched->stamp()));
+    auto early = boost::make_shared<ObjectArray>(toMessage(result.list, options_.frames.base));
+    early_seconds_ += watch.seconds();
+    return early;
+  });
 }
 
 void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
@@ -179,6 +205,7 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
 
 void ObjectFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<ObjectArray>("objects/fused");
+  early_ = ports.out<ObjectArray>("objects/early");
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<LabeledScanMessage>(
       "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
@@ -192,7 +219,9 @@ void ObjectFusionStage::connect(StagePorts& ports) {
 bool ObjectFusionStage::publishNext(Stamp now) {
   const ObjectArrayPtr objects = next(now);
   fused_.publish(objects);
-  return objects != nullptr;
+  const ObjectArrayPtr early = objects ? nullptr : nextEarly(now);
+  early_.publish(early);
+  return objects || early;
 }
 
 }  // namespace datmo

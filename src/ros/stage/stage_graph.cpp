@@ -149,7 +149,10 @@ Rows trackRows(const GraphSwitches& switches) {
   const std::string objects = fusesObjects(switches) ? "objects/fused" : "objects";
   const std::string tracks = switches.track_fusion ? "tracks/lidar" : "tracks";
   return {
-      {true, StackPart::kPerception, "tracker", {{"objects", objects}, {"tracks", tracks}}},
+      {true,
+       StackPart::kPerception,
+       "tracker",
+       {{"objects", objects}, {"early_objects", "objects/early"}, {"tracks", tracks}}},
       // What the scanner saw is not what the camera could see.
       {switches.stereo_tracker,
        StackPart::kPerception,

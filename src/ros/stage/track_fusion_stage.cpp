@@ -37,7 +37,8 @@ std::vector<Track> validTracks(const std::vector<Track>& all) {
 }  // namespace
 
 TrackFusionStageOptions::TrackFusionStageOptions() {
-  matcher.tolerance = 0.6;
+  matcher.tolerance = 0.7;
+  matcher.max_wait = 0.0;
   matcher.silent_after = 1.0;
 }
 

@@ -53,16 +53,16 @@ void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
   });
 }
 
-void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
+void TrackerStage::enqueue(const Waiting& waiting) {
   runner_.serve([&] {
-    runner_.check("objects", message->header.stamp);
+    runner_.check(waiting.early ? "early_objects" : "objects", waiting.objects->header.stamp);
     if (queue_.size() >= kMaxWaiting) {
       queue_.pop_front();
       monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMaxWaiting) +
                                                     " messages wait for a transform: dropped the "
                                                     "oldest"));
     }
-    queue_.push_back({message, now});
+    queue_.push_back(waiting);
   });
 }
 
@@ -73,7 +73,7 @@ TrackArrayPtr TrackerStage::next(Stamp now) {
       return nullptr;
     }
     queue_.pop_front();
-    const auto tracks = runner_.serve([&] { return track(*waiting.objects); });
+    const auto tracks = runner_.serve([&] { return track(waiting); });
     if (tracks) {
       return tracks;
     }
@@ -97,20 +97,38 @@ bool TrackerStage::knowsPose(const std_msgs::Header& base) const {
   }
 }
 
-TrackArrayPtr TrackerStage::track(const ObjectArray& objects) {
-  const Pose2 base_in_fixed = baseInFixed(objects.header);
+TrackArrayPtr TrackerStage::track(const Waiting& waiting) {
+  const Stopwatch watch;
+  const std_msgs::Header& header = waiting.objects->header;
+  const Stamp stamp = toStamp(header.stamp);
+  const bool published = published_ && stamp <= *published_;
+  if (waiting.early && published) {
+    return nullptr;
+  }
+  const Pose2 base_in_fixed = baseInFixed(header);
+  const ObjectList list = fromMessage(*waiting.objects);
+  const Visibility* scan = options_.scan_view ? scan_views_.visibility(header) : nullptr;
+  const TrackerInput input{list, base_in_fixed,
+                           jointVisibility(scan, list, options_.tracker.visibility)};
   const TrackerCounts before = tracker_.counts();
-  const ObjectList list = fromMessage(objects);
-  const Visibility* scan = options_.scan_view ? scan_views_.visibility(objects.header) : nullptr;
-  const Visibility visibility = jointVisibility(scan, list, options_.tracker.visibility);
-  const auto tracks = boost::make_shared<TrackArray>(
-      toMessage(tracker_.process(list, base_in_fixed, visibility), options_.frames.map));
+  const TrackList tracks = waiting.early ? tracker_.processEarly(input) : tracker_.process(input);
   report(before, tracker_.counts());
+  if (published) {
+    unpublished_seconds_ += watch.seconds();
+    return nullptr;
+  }
+  published_ = stamp;
+  TrackArrayPtr message = messageOf(tracks);
+  monitor_.processed({stamp, std::exchange(unpublished_seconds_, 0.0) + watch.seconds()});
+  return message;
+}
+
+TrackArrayPtr TrackerStage::messageOf(const TrackList& list) {
+  auto tracks = boost::make_shared<TrackArray>(toMessage(list, options_.frames.map));
   if (!tracks->tracks.empty()) {
     monitor_.announce("track",
                       "first track: " + descriptionOf(tracks->tracks.front(), options_.frames.map));
   }
-  runner_.processed(list.stamp);
   return tracks;
 }
 
@@ -146,6 +164,7 @@ bool TrackerStage::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {
 void TrackerStage::reset() {
   tracker_.reset();
   queue_.clear();
+  published_.reset();
   scan_views_.clear();
 }
 
@@ -161,6 +180,11 @@ void TrackerStage::connect(StagePorts& ports) {
       "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
   ports.in<ObjectArray>("objects",
                         [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
+  if (!options_.scan_view) {
+    return;  // early lists are of a scan's objects
+  }
+  ports.optionalIn<ObjectArray>(
+      "early_objects", [this](const auto& objects, Stamp now) { takeEarlyObjects(objects, now); });
 }
 
 bool TrackerStage::publishNext(Stamp now) {

@@ -35,8 +35,13 @@ class SourceMatcherTest : public testing::Test {
   }
 
   /// "lidar 0.1, stereo 0.12" or "stereo 0.3, lidar silent"; empty if nothing is ready.
-  std::string next(double now) {
-    const auto matched = matcher_.next(at(now));
+  std::string next(double now) { return textOf(matcher_.next(at(now))); }
+
+  /// The same of what waits, of all or after a time.
+  std::string early(double now) { return textOf(matcher_.early(std::nullopt, at(now))); }
+  std::string early(double now, double after) { return textOf(matcher_.early(at(after), at(now))); }
+
+  static std::string textOf(const std::optional<Matcher::Matched>& matched) {
     std::string text;
     if (!matched) {
       return text;
@@ -53,6 +58,33 @@ class SourceMatcherTest : public testing::Test {
 
   Matcher matcher_{options(), {"stereo", "lidar"}, Serving::kOnce};
 };
+
+TEST_F(SourceMatcherTest, WhatWaitsIsThereEarlyWithoutTheOthers) {
+  lidar(0.0);
+  EXPECT_EQ(next(0.0), "");
+  EXPECT_EQ(early(0.0), "lidar 0, stereo none near");
+  EXPECT_EQ(early(0.0, 0.0), "") << "none after this one";
+  lidar(0.06);
+  EXPECT_EQ(early(0.06, 0.0), "lidar 0.06, stereo none near");
+}
+
+TEST_F(SourceMatcherTest, WhatWasThereEarlyComesAsIfItHadNotBeen) {
+  lidar(0.0);
+  EXPECT_NE(early(0.0), "");
+  stereo(0.02);
+  EXPECT_EQ(early(0.02), "lidar 0, stereo 0.02") << "ready, and not asked for yet";
+  EXPECT_EQ(next(0.02), "lidar 0, stereo 0.02");
+  EXPECT_EQ(early(0.02), "");
+  EXPECT_EQ(matcher_.unserved("stereo"), 0U);
+}
+
+TEST_F(SourceMatcherTest, EarlyASampleServesOnceToo) {
+  lidar(0.0);
+  lidar(0.04);
+  stereo(-0.01);
+  EXPECT_EQ(early(0.04), "lidar 0, stereo -0.01");
+  EXPECT_EQ(early(0.04, 0.0), "lidar 0.04, stereo none near");
+}
 
 TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
   Matcher matcher({}, {"lidar", "mono"}, Serving::kOnce, {{"mono", 0.3}});

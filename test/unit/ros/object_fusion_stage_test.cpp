@@ -26,6 +26,55 @@ TEST_F(ObjectFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
   EXPECT_EQ(figure("objects of two or more sources"), 1.0);
 }
 
+TEST_F(ObjectFusionStageTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
+  take("lidar", 100.0, 20.0);
+  const auto early = stage_.nextEarly(Stamp::fromSeconds(100.0));
+  ASSERT_TRUE(early);
+  EXPECT_EQ(early->header.stamp, ros::Time(100.0));
+  EXPECT_EQ(early->header.frame_id, "base_link");
+  EXPECT_EQ(sensorsOf(*early), std::vector<Sensors>{{"lidar"}});
+  EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.0)));
+  EXPECT_EQ(monitor_.processedCount(), 0U) << "it is yet to be fused";
+  take("stereo", 100.0, 20.2);
+  ASSERT_TRUE(nextAt(100.0));
+  take("lidar", 100.1);
+  take("stereo", 100.1);
+  ASSERT_TRUE(nextAt(100.1));
+  EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.1))) << "it did not have to wait";
+}
+
+TEST_F(ObjectFusionStageTest, WhatIsFusedIsTheSameAfterEarlyLists) {
+  StageMonitor other_monitor("object_fusion");
+  ObjectFusionStage other(options_, other_monitor);
+  for (int i = 0; i < 20; ++i) {
+    const double t = 100.0 + 0.1 * i;
+    const ObjectArray lidar = list(t, {car("lidar", 20.0 + i, 0.0)});
+    const ObjectArray stereo = list(t, {car("stereo", 20.2 + i, 0.0), car("stereo", 9.0, 9.0)});
+    LabeledScan scan;
+    scan.stamp = Stamp::fromSeconds(t);
+    for (ObjectFusionStage* stage : {&stage_, &other}) {
+      stage->takeLabeledScan(toMessage(scan, "base_link", "map"));
+      stage->takeObjects("lidar", lidar, Stamp::fromSeconds(t));
+    }
+    EXPECT_TRUE(stage_.nextEarly(Stamp::fromSeconds(t)));
+    take("stereo", stereo);
+    other.takeObjects("stereo", stereo, Stamp::fromSeconds(t));
+    const auto fused = nextAt(t);
+    const auto expected = other.next(Stamp::fromSeconds(t));
+    ASSERT_TRUE(fused && expected);
+    EXPECT_EQ(*fused, *expected) << i;
+  }
+  EXPECT_EQ(figure("fused without a labeled scan"), 0.0) << "the early one has not used it up";
+}
+
+TEST_F(ObjectFusionStageTest, WhereAllWaitNoneIsEarly) {
+  options_.retroactive = false;
+  ObjectFusionStage waiting(options_, monitor_);
+  waiting.takeObjects("lidar", list(100.0, {car("lidar", 20.0, 0.0)}), Stamp::fromSeconds(100.0));
+  EXPECT_FALSE(waiting.nextEarly(Stamp::fromSeconds(100.0)));
+  EXPECT_TRUE(waiting.next(Stamp::fromSeconds(100.2)));
+}
+
 TEST_F(ObjectFusionStageTest, WhatOneSourceSeesIsKept) {
   take("lidar", 100.0, 20.0, 0.0);
   take("stereo", 100.0, 20.0, 15.0);

@@ -15,11 +15,19 @@ namespace {
 
 class TrackerStageTest : public testing::Test {
  protected:
-  void objectsAt(double seconds) {
+  static ObjectArrayConstPtr emptyList(double seconds) {
     const auto message = boost::make_shared<ObjectArray>();
     message->header.stamp = ros::Time(seconds);
     message->header.frame_id = "base_link";
-    stage_.takeObjects(message, Stamp::fromSeconds(seconds));
+    return message;
+  }
+
+  void objectsAt(double seconds) {
+    stage_.takeObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
+  }
+
+  void earlyObjectsAt(double seconds) {
+    stage_.takeEarlyObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
   }
 
   void poseAt(double seconds) {
@@ -138,6 +146,37 @@ TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
   ASSERT_TRUE(tracks);
   EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+}
+
+TEST_F(TrackerStageTest, OfEarlyAndCompleteObjectsTracksComeOnce) {
+  poseAt(99.9);
+  poseAt(100.3);
+  earlyObjectsAt(100.0);
+  const auto early = nextAt(100.0);
+  ASSERT_TRUE(early);
+  EXPECT_EQ(early->header.stamp, ros::Time(100.0));
+  earlyObjectsAt(100.06);
+  ASSERT_TRUE(nextAt(100.06));
+  objectsAt(100.0);
+  EXPECT_FALSE(nextAt(100.1)) << "these tracks are out";
+  objectsAt(100.06);
+  objectsAt(100.12);
+  const auto complete = nextAt(100.12);
+  ASSERT_TRUE(complete) << "none of this time were early";
+  EXPECT_EQ(complete->header.stamp, ros::Time(100.12));
+  earlyObjectsAt(100.1);
+  EXPECT_FALSE(nextAt(100.12)) << "too late to be early";
+  EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(TrackerStageTest, AJumpBackForgetsWhichTracksAreOut) {
+  poseAt(109.9);
+  poseAt(110.1);
+  earlyObjectsAt(110.0);
+  ASSERT_TRUE(nextAt(110.0));
+  earlyObjectsAt(100.0);
+  scanPoseAt(100.0);
+  EXPECT_TRUE(nextAt(100.0));
 }
 
 }  // namespace

@@ -79,6 +79,10 @@ class SourceMatcher {
   /// `now`: time of the data, the newest stamp that the caller has seen.
   std::optional<Matched> next(Stamp now);
 
+  /// The first set after a stamp (of all, without one) that still waits, with what has come for it
+  /// until now; none if nothing waits. It stays so: next() gives it later, as it is then.
+  std::optional<Matched> early(std::optional<Stamp> after, Stamp now) const;
+
   /// How many samples of a source have been in no set and will be in none, since the start. Throws
   /// std::out_of_range for a source that there is not.
   std::uint64_t unserved(const std::string& source) const { return sources_.at(source).unserved(); }
@@ -160,6 +164,18 @@ std::optional<MatchedSamples<Payload>> SourceMatcher<Payload>::next(Stamp now) {
     dropPast(source, *matched_);
   }
   return matched;
+}
+
+template <typename Payload>
+std::optional<MatchedSamples<Payload>> SourceMatcher<Payload>::early(std::optional<Stamp> after,
+                                                                     Stamp now) const {
+  SourceMatcher impatient = *this;
+  impatient.options_.max_wait = 0.0;
+  std::optional<Matched> set = impatient.next(now);
+  while (set && after && set->stamp() <= *after) {
+    set = impatient.next(now);
+  }
+  return set;
 }
 
 template <typename Payload>

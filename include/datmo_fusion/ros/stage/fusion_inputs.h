@@ -88,6 +88,16 @@ class FusionInputs {
     return time ? matcher.next(*time) : std::nullopt;
   }
 
+  /// The first set of the stage's matcher that waits for others and is newer than `newest`, with
+  /// what has come until now; none if there is none. `now`: ROS time.
+  template <typename Payload>
+  std::optional<MatchedSamples<Payload>> earlyOf(const SourceMatcher<Payload>& matcher,
+                                                 const std::optional<Stamp>& newest,
+                                                 Stamp now) const {
+    const std::optional<Stamp> time = dataTime(now);
+    return time ? matcher.early(newest, *time) : std::nullopt;
+  }
+
   /// The motion of the messages' frame, the vehicle's, from one stamp to a later one; none if it is
   /// not known. Only where the options ask for motion (else std::bad_optional_access).
   std::optional<Pose2> motion(Stamp from, Stamp to) const {

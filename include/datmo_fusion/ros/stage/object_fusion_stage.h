@@ -26,6 +26,7 @@ struct ObjectFusionStageOptions {
   MotionOptions motion;  ///< of all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
+  bool retroactive = true;
   ObjectFuserOptions fuser;
 
   void visit(OptionVisitor& visitor);
@@ -38,6 +39,9 @@ struct ObjectFusionStageOptions {
 /// A list is fused once: a source slower than the reference does not count twice. One that was in
 /// no set is counted. Objects and views that do not name their sensor are taken for their source's
 /// own; views that are not valid are left out, and said.
+///
+/// `retroactive`: a list of the reference that waits for others leads at once to an early list, of
+/// what there is; the fused one of its stamp follows as if there had been none.
 class ObjectFusionStage : public Stage {
  public:
   using Options = ObjectFusionStageOptions;
@@ -67,6 +71,9 @@ class ObjectFusionStage : public Stage {
   /// that is waited for still comes. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 
+  /// The next early list; null if there is none. To be called when there is no fused one.
+  ObjectArrayPtr nextEarly(Stamp now);
+
   void connect(StagePorts& ports) override;
   bool publishNext(Stamp now) override;
   double maxWait() const override { return options_.matcher.max_wait; }
@@ -77,8 +84,8 @@ class ObjectFusionStage : public Stage {
   /// The lists of the set whose motion is known; the others are added to `missing`.
   std::vector<SourceObjects> movedLists(const Matched& matched,
                                         std::vector<MissingSource>& missing) const;
-  /// None without a scan of this stamp. Sets come by rising stamp: older scans are dropped.
-  std::optional<LabeledScan> takeScanAt(Stamp stamp);
+  /// Null without a scan of this stamp.
+  const LabeledScan* scanAt(Stamp stamp) const;
   ObjectArrayPtr fuse(const Matched& matched);
   void reset();
   void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
@@ -90,6 +97,9 @@ class ObjectFusionStage : public Stage {
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;
   StagePublisher<ObjectArray> fused_;
+  StagePublisher<ObjectArray> early_;
+  std::optional<Stamp> newest_;    ///< of all lists that came out
+  double early_seconds_ = 0.0;     ///< spent on early lists since the last set
   std::deque<LabeledScan> scans_;  ///< newer than the last set, by rising stamp
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
-#include "datmo_fusion/tracking/tracker.h"
+#include "datmo_fusion/tracking/early_tracker.h"
 
 namespace datmo {
 
@@ -30,6 +31,9 @@ struct TrackerStageOptions {
 /// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the split
 /// scan in which they were found, or else from tf; nothing blocks. Bad input is dropped through the
 /// monitor, never thrown. When the clock jumps back all tracks are forgotten.
+///
+/// Tracks of a time come out once: of early objects, if there are any, at once, and what the
+/// complete ones of that time add is in the next tracks (EarlyTracker).
 class TrackerStage : public Stage {
  public:
   using Options = TrackerStageOptions;
@@ -44,7 +48,14 @@ class TrackerStage : public Stage {
   void takeLabeledScan(const LabeledScanMessage& message);
 
   /// Puts objects into the queue. `now`: ROS time.
-  void takeObjects(const ObjectArrayConstPtr& message, Stamp now);
+  void takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
+    enqueue({message, now, false});
+  }
+
+  /// The same with those that are not complete: all objects of that time are still to come.
+  void takeEarlyObjects(const ObjectArrayConstPtr& message, Stamp now) {
+    enqueue({message, now, true});
+  }
 
   /// The tracks at the stamp of the next objects in the queue whose pose is known; null if there
   /// are none. Objects that have waited for longer than transform_wait are dropped. To be called
@@ -61,7 +72,10 @@ class TrackerStage : public Stage {
   struct Waiting {
     ObjectArrayConstPtr objects;
     Stamp since;
+    bool early = false;
   };
+
+  void enqueue(const Waiting& waiting);
 
   void reset();
 
@@ -69,18 +83,21 @@ class TrackerStage : public Stage {
   Pose2 baseInFixed(const std_msgs::Header& base) const;
   bool knowsPose(const std_msgs::Header& base) const;
 
-  /// Throws InputError.
-  TrackArrayPtr track(const ObjectArray& objects);
+  /// Null if there are tracks of that time already. Throws InputError.
+  TrackArrayPtr track(const Waiting& waiting);
+  TrackArrayPtr messageOf(const TrackList& list);
   void report(const TrackerCounts& before, const TrackerCounts& after);
   bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
 
   TrackerStageOptions options_;
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
-  Tracker tracker_;
+  EarlyTracker tracker_;
   StageRunner runner_;
   ScanViews scan_views_;
   std::deque<Waiting> queue_;
+  std::optional<Stamp> published_;    ///< of the last tracks
+  double unpublished_seconds_ = 0.0;  ///< spent since then on what led to no message
   StagePublisher<TrackArray> tracks_;
 };
 
