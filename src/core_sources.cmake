@@ -191,6 +191,7 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/grid_slam.cpp
   slam/keyframe.cpp
   slam/keyframe_selector.cpp
+  slam/kidnapping_detector.cpp
   slam/loop_closer.cpp
   slam/loop_closer_judgement.cpp
   slam/loop_closer_results.cpp

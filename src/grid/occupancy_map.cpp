@@ -25,6 +25,12 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
+/// In surface_sigma: this near to its end a beam has not passed a surface, but hit it.
+constexpr double kHitMargin = 3.0;
+
+/// Contradiction of a beam that went through a surface rather than past its edge.
+constexpr float kThrough = 0.5F;
+
 /// Hits that a cell holds at the most, so that its surface follows what is seen now.
 constexpr float kMaxHits = 50.0F;
 
@@ -72,6 +78,27 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
   const bool may_be_ghost = is_free && anyNear(window().cellAt(point),
                                                [this](const Cell& cell) { return isGhost(cell); });
   return is_free && !may_be_ghost ? PointState::kMoving : PointState::kUnknown;
+}
+
+bool OccupancyMap::seesThrough(const Ray& ray, const Pose2& base_in_map) const {
+  const double margin =
+      ray.hit ? std::max(options_.beam_end.margin(ray), kHitMargin * options_.surface_sigma) : 0.0;
+  const double free_range = ray.range - margin;
+  if (!(free_range > 0.0)) {
+    return false;
+  }
+  const Point2 from = base_in_map * ray.origin;
+  const Point2 along = free_range / ray.range * (base_in_map * ray.end - from);
+  const Point2 direction = along.normalized();
+  bool is_seen_through = false;
+  walkRay(window(), from, from + along, [&](CellIndex index) {
+    const Cell& cell = cells_.atOrEmpty(index);
+    is_seen_through =
+        is_seen_through ||
+        (isStatic(cell) && contradiction(cell, index, from, direction) > kThrough &&
+         direction.dot(window().centerOf(index) + cell.hits.mean() - from) < free_range);
+  });
+  return is_seen_through;
 }
 
 CellState OccupancyMap::stateOf(CellIndex index) const {

@@ -56,7 +56,8 @@ GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
       matcher_(options->matcher),
       random_(static_cast<std::uint64_t>(options->seed)),
       tracker_(options->pose, options->motion, options->odometry_hold),
-      maps_(options->map, options->recovery, tracker_.filter().scalePrior()) {}
+      maps_(options->map, options->recovery, tracker_.filter().scalePrior()),
+      kidnapping_(options->recovery.min_contradiction_rise, options->recovery.kidnapped_after) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) { follow(tracker_.addOdometry(sample)); }
 
@@ -86,9 +87,11 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   const PoseWithCovariance base_in_map = maps_.inFirstMap(tracker_.pose());
   followDrift(base_in_map, scan, result);
   write(measurement, scan, base_in_map, result);
+  leaveIfKidnapped(stamp);
   result.odometry_errors = tracker_.filter().errors();
   result.localization = maps_.localization();
   result.searches_prior_map = maps_.isSearchingPriorMap();
+  result.kidnapped = maps_.isSearchingKidnapped();
   tracker_.keepScan(stamp, !scan.rays.empty(), !maps_.isSearching());
   search(stamp);
   result.maps_begun = maps_.mapsBegun();
@@ -114,6 +117,23 @@ void GridSlam::leaveMap(Stamp stamp) {
     tracker_.awaitOdometryOfGap(stamp);
   }
   tracker_.restartAt(maps_.leave(tracker_.pose(), stamp));
+  kidnapping_.reset();
+}
+
+void GridSlam::noticeKidnapping(const Scan& scan, const std::vector<PointState>& states) {
+  if (maps_.isSearching()) {
+    return;  // a map that has just begun knows too little
+  }
+  kidnapping_.add(scan.stamp, agreementOf(scan, states, maps_.map(), tracker_.pose().pose));
+}
+
+void GridSlam::leaveIfKidnapped(Stamp stamp) {
+  if (!kidnapping_.isKidnapped()) {
+    return;
+  }
+  tracker_.forgetAnchor();
+  tracker_.restartAt(maps_.leaveKidnapped(tracker_.pose(), stamp));
+  kidnapping_.reset();
 }
 
 void GridSlam::search(Stamp stamp) {
@@ -167,7 +187,10 @@ void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
   Scan own = measuredScan(view);
   OccupancyMap& map = maps_.map();
   std::vector<PointState> states = judgeRays(own, map, base_in_map.pose);
-  if (measurement.grid != nullptr) {
+  noticeKidnapping(own, states);
+  if (kidnapping_.isSuspected()) {
+    // Not in this map.
+  } else if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
     GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map, base_in_map.pose);
     grid_update.grid = &free_cells;
@@ -176,10 +199,11 @@ void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
     map.update(scan, states, base_in_map.pose);
   }
   removeConflictingBeams(scan, view, own, states);
-  if (maps_.isSearching()) {
+  if (maps_.isSearching() || kidnapping_.isSuspected()) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   }
-  result.labeled_scan = labelScan(own, states, base_in_map);
+  result.labeled_scan =
+      labelScan(own, states, kidnapping_.isSuspected() ? anywhereAbout(base_in_map) : base_in_map);
 }
 
 void GridSlam::reset() {

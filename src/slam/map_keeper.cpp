@@ -75,6 +75,13 @@ PoseWithCovariance MapKeeper::leave(const PoseWithCovariance& pose, Stamp stamp)
   return startOf(pose.pose);
 }
 
+PoseWithCovariance MapKeeper::leaveKidnapped(const PoseWithCovariance& pose, Stamp stamp) {
+  recovery_.emplace(MapRecovery::afterKidnapping(recovery_options_, std::move(map_), pose, stamp));
+  drift_of_left_map_ = drift_;
+  map_ = OccupancyMap(map_options_);
+  return startOf(pose.pose);
+}
+
 void MapKeeper::returnToLeftMap() {
   map_ = recovery_->takeOlder();
   drift_ = recovery_->isInPriorMap() ? noDrift() : drift_of_left_map_;

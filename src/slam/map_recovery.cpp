@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
@@ -14,6 +15,11 @@ namespace {
 /// Two searches that find the vehicle this near to each other (m, rad) have found the same place.
 constexpr double kSamePosition = 0.8;
 constexpr double kSameHeading = degrees(4.0);
+
+/// Of a vehicle that was carried elsewhere (m, rad): farther than a map's window reaches, and any
+/// heading (standard deviation of a uniform distribution).
+constexpr double kKidnappedSigma = 100.0;
+constexpr double kKidnappedHeadingSigma = kPi / 1.7320508075688772;
 
 /// For so long (s) a search is owed boxes: no scan waits for more, and after a gap none are due.
 constexpr double kMaxInterval = 0.5;
@@ -38,6 +44,16 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"lost_from_sigma", "m",
                   "standard deviation of the position from which on no search is made"},
                  lost_from_sigma, {0.01, 1000.0});
+  visitor.number(
+      {"min_contradiction_rise", "1",
+       "the vehicle may have been carried elsewhere when the share of beams that the map "
+       "contradicts rises by more from one scan to the next; 1: never"},
+      min_contradiction_rise, {0.05, 1.0});
+  visitor.number(
+      {"kidnapped_after", "s",
+       "and at least a quarter of that rise remains for so long; a vehicle pitches at a bump, "
+       "or when it brakes, for less"},
+      kidnapped_after, {0.0, 60.0});
   visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
                   boxes_per_scan, {1, 1000000});
   visitor.group("search", [&] { search.visit(visitor); });
@@ -52,6 +68,13 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"confirmed_after_turn", "rad", "or after this turn"}, confirmed_after_turn,
                  {0.0, kPi});
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });
+}
+
+PoseWithCovariance anywhereAbout(PoseWithCovariance pose) {
+  pose.covariance += Eigen::Vector3d(square(kKidnappedSigma), square(kKidnappedSigma),
+                                     square(kKidnappedHeadingSigma))
+                         .asDiagonal();
+  return pose;
 }
 
 bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
@@ -84,6 +107,15 @@ MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMa
       state_(region.anywhere ? Localization::kLost : Localization::kUncertain),
       region_(region) {}
 
+MapRecovery MapRecovery::afterKidnapping(const Checked<MapRecoveryOptions>& options,
+                                         OccupancyMap older, const PoseWithCovariance& pose,
+                                         Stamp stamp) {
+  MapRecovery recovery(options, std::move(older), anywhereAbout(pose), stamp);
+  recovery.is_kidnapped_ = true;
+  recovery.is_searchable_ = true;  // all of it
+  return recovery;
+}
+
 PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) const {
   const Point2 arm = in_newer.pose.position() - start_.pose.position();
   return {in_newer.pose, in_newer.covariance + carried(start_.covariance, arm)};
@@ -95,13 +127,13 @@ void MapRecovery::beginSearch(const OccupancyMap& newer, const PoseWithCovarianc
   if (!searched_) {
     searched_ = std::make_shared<const SearchedMap>(older_);
   }
-  search_.emplace(isInPriorMap() ? options_.prior_search : options_.search, searched_, newer,
+  search_.emplace(searchesCompleteMap() ? options_.prior_search : options_.search, searched_, newer,
                   regionOf(in_newer), in_newer.pose);
   next_search_ = stamp + options_.search_period;
 }
 
 SearchRegion MapRecovery::regionOf(const PoseWithCovariance& in_newer) const {
-  return {inOlder(in_newer), isInPriorMap() && region_->anywhere};
+  return {inOlder(in_newer), searchesAnywhere()};
 }
 
 bool MapRecovery::agreesWithCandidate(const Pose2& in_older) const {
@@ -112,7 +144,7 @@ bool MapRecovery::agreesWithCandidate(const Pose2& in_older) const {
 }
 
 bool MapRecovery::confirms(const Pose2& found) {
-  if (!isInPriorMap()) {
+  if (!searchesCompleteMap()) {
     return true;
   }
   if (candidate_ && agreesWithCandidate(found)) {
@@ -127,8 +159,8 @@ bool MapRecovery::confirms(const Pose2& found) {
 int MapRecovery::boxesUntil(Stamp stamp) {
   const double seconds = std::clamp(secondsBetween(advanced_, stamp), 0.0, kMaxInterval);
   advanced_ = stamp;
-  return isInPriorMap() ? 1 + static_cast<int>(seconds * options_.prior_boxes_per_second)
-                        : options_.boxes_per_scan;
+  return searchesCompleteMap() ? 1 + static_cast<int>(seconds * options_.prior_boxes_per_second)
+                               : options_.boxes_per_scan;
 }
 
 std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer,
@@ -162,8 +194,7 @@ std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer
     found =
         PoseWithCovariance{now, carried(then.covariance, now.position() - then.pose.position())};
   }
-  const bool is_lost =
-      outcome == MapSearch::Outcome::kNone || (isInPriorMap() && region_->anywhere);
+  const bool is_lost = outcome == MapSearch::Outcome::kNone || searchesAnywhere();
   state_ = is_lost ? Localization::kLost : Localization::kUncertain;
   search_.reset();
   return found;

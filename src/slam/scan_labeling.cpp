@@ -37,6 +37,18 @@ std::vector<PointState> judgeRays(const Scan& scan, const OccupancyMap& map,
   return states;
 }
 
+MapAgreement agreementOf(const Scan& scan, const std::vector<PointState>& states,
+                         const OccupancyMap& map, const Pose2& base_in_map) {
+  MapAgreement agreement{static_cast<int>(scan.rays.size()), 0};
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const bool is_contradicted =
+        states[i] == PointState::kMoving ||
+        (states[i] == PointState::kUnknown && map.seesThrough(scan.rays[i], base_in_map));
+    agreement.contradicted += is_contradicted ? 1 : 0;
+  }
+  return agreement;
+}
+
 LabeledScan labelScan(const Scan& scan, const std::vector<PointState>& states,
                       const PoseWithCovariance& base_in_map) {
   LabeledScan result{scan.stamp, base_in_map,      scan.scanner_in_base,

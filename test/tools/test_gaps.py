@@ -13,8 +13,10 @@ from pathlib import Path
 
 import rosbag
 import rospy
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from datmo_tools.experiments.gap_score import Gap, passed, score, table
 from datmo_tools.experiments.gaps import cut, main
@@ -71,7 +73,39 @@ class Gaps(unittest.TestCase):
         both = self.counts("both")
         self.assertEqual((both["/scan"], both["/odometry"], both["/tf"]), (holed, holed, holed))
 
-    def scored(self, error, turn, sigma):
+    def test_carried_elsewhere(self):
+        source, written = self.folder / "moving.bag", self.folder / "carried.bag"
+        with rosbag.Bag(str(source), "w") as bag:
+            for i in range(400):
+                odometry = pose_at(0.1 * i, Odometry())
+                moved = TransformStamped(header=odometry.header)
+                moved.transform.translation.x = SPEED * 0.1 * i
+                moved.transform.rotation.w = 1.0
+                for topic, message in (("/odometry", odometry), ("/tf", TFMessage([moved])),
+                                       ("/ground_truth/pose", pose_at(0.1 * i, PoseStamped()))):
+                    bag.write(topic, message, odometry.header.stamp)
+        cut(source, Gap("carried", (START + 20) * 10**9, 2.0), written)
+        positions = {"/odometry": [], "/tf": [], "/ground_truth/pose": []}
+        stamps = []
+        with rosbag.Bag(str(written)) as bag:
+            for topic, message, at in bag.read_messages():
+                stamped = message.transforms[0] if topic == "/tf" else message
+                self.assertEqual(stamped.header.stamp, at)
+                stamps.append(at.to_sec())
+                if topic == "/tf":
+                    positions[topic].append(stamped.transform.translation.x)
+                else:
+                    pose = message.pose.pose if topic == "/odometry" else message.pose
+                    positions[topic].append(pose.position.x)
+        # From 8 to 20 s, and from 22.1 to 28 s, which follow at once.
+        self.assertEqual((len(stamps), stamps[0], stamps[-1]), (543, START + 8.0, START + 26.0))
+        for topic in ("/odometry", "/tf"):
+            steps = [b - a for a, b in zip(positions[topic], positions[topic][1:])]
+            self.assertAlmostEqual(steps[120], 0.0, places=6)
+            self.assertAlmostEqual(max(steps), 0.5, places=6)
+        self.assertAlmostEqual(positions["/ground_truth/pose"][121], 110.5, places=6)
+
+    def scored(self, error, turn, sigma, kind="both"):
         """After a gap of 2 s from 20 s on the pose is off."""
         computed = self.folder / "computed.bag"
         with rosbag.Bag(str(computed), "w") as bag:
@@ -79,7 +113,7 @@ class Gaps(unittest.TestCase):
                 off = tenths > 200
                 pose = estimate_at(0.1 * tenths, error * off, turn * off, sigma)
                 bag.write("/pose/local", pose, pose.header.stamp)
-        return score(computed, self.drive, Gap("both", (START + 20) * 10**9, 2.0))
+        return score(computed, self.drive, Gap(kind, (START + 20) * 10**9, 2.0))
 
     def test_within_the_limits(self):
         result = self.scored(0.6, math.radians(1.0), 0.01)  # at 10.5 m: 0.605 m
@@ -98,6 +132,10 @@ class Gaps(unittest.TestCase):
         self.assertEqual(result["confident_wrong"], 0)
         self.assertTrue(result["end"]["beyond"] and result["end"]["admitted"])
         self.assertFalse(passed(result))
+
+    def test_carried_elsewhere_it_may_be_anywhere_if_it_says_so(self):
+        self.assertTrue(passed(self.scored(2.0, 0.0, 1.0, "carried")))
+        self.assertFalse(passed(self.scored(2.0, 0.0, 0.5, "carried")))
 
     def test_a_wrong_heading_alone_counts(self):
         self.assertEqual(self.scored(0.0, math.radians(10.0), 0.01)["confident_wrong"], 60)

@@ -158,6 +158,8 @@ datmo_fusion_add_core_test(slam
   slam/grid_slam_drift_test.cpp
   slam/grid_slam_test.cpp
   slam/keyframe_test.cpp
+  slam/kidnapping_detector_test.cpp
+  slam/kidnapping_test.cpp
   slam/loop_closer_test.cpp
   slam/map_drift_test.cpp
   slam/map_recovery_test.cpp

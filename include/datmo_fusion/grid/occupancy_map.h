@@ -110,6 +110,10 @@ class OccupancyMap {
   /// it is moving only if the whole footprint has been seen free.
   PointState judge(const Point2& point, const Point2& half_footprint = Point2::Zero()) const;
 
+  /// Whether the beam has passed through a static surface: something that is known to stand there
+  /// would have ended it, in front of whatever it hit.
+  bool seesThrough(const Ray& ray, const Pose2& base_in_map) const;
+
   /// Also for cells outside of the window, which are unknown.
   CellState stateOf(CellIndex cell) const;
 

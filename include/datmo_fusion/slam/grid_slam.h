@@ -2,6 +2,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -9,6 +10,7 @@
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/slam/grid_masked_scan.h"
+#include "datmo_fusion/slam/kidnapping_detector.h"
 #include "datmo_fusion/slam/map_keeper.h"
 #include "datmo_fusion/slam/pose_tracker.h"
 #include "datmo_fusion/slam/scan_matcher.h"
@@ -46,6 +48,7 @@ struct SlamResult {
   Localization localization = Localization::kLocated;
   int maps_begun = 0;               ///< since the vehicle was not found again in the map before
   bool searches_prior_map = false;  ///< not located, and looked for in all or a part of that
+  bool kidnapped = false;           ///< not located, since it was carried elsewhere
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
@@ -62,6 +65,9 @@ struct SlamResult {
 /// until the vehicle is found in the old one or it is given up (MapRecovery). The pose's covariance
 /// is always that in the first map's frame: what a gap left open stays in it until it is found.
 /// While the vehicle is not located, nothing is said to move.
+///
+/// The same after it was carried elsewhere (KidnappingDetector); of a scan that may be the first
+/// one from there nothing is said to move, and nothing is written.
 ///
 /// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in
 /// that map. If it gets lost later, all of the prior map is searched, and no new map takes its
@@ -114,6 +120,10 @@ class GridSlam {
   bool follow(const PoseTracker::Prediction& prediction);
   /// After a gap: begins a new map.
   void leaveMap(Stamp stamp);
+  /// Compares a scan with the map that it was matched with.
+  void noticeKidnapping(const Scan& scan, const std::vector<PointState>& states);
+  /// Begins a new map, if the vehicle was carried elsewhere.
+  void leaveIfKidnapped(Stamp stamp);
 
   /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
@@ -141,6 +151,7 @@ class GridSlam {
   Random random_;
   PoseTracker tracker_;
   MapKeeper maps_;
+  KidnappingDetector kidnapping_;
 };
 
 }  // namespace datmo

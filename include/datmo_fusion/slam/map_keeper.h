@@ -50,6 +50,8 @@ class MapKeeper {
   /// Whether the vehicle is searched for in an older map.
   bool isSearching() const { return recovery_.has_value(); }
   bool isSearchingPriorMap() const { return recovery_ && recovery_->isInPriorMap(); }
+  /// Since it was carried elsewhere.
+  bool isSearchingKidnapped() const { return recovery_ && recovery_->isAfterKidnapping(); }
   Localization localization() const {
     return recovery_ ? recovery_->state() : Localization::kLocated;
   }
@@ -58,6 +60,10 @@ class MapKeeper {
   /// map that was left the vehicle may be. Where it was not located yet, the map that it was
   /// searched for by is given up.
   PoseWithCovariance leave(const PoseWithCovariance& pose, Stamp stamp);
+
+  /// The same of a vehicle that was carried elsewhere, if it is not at this pose after all. It must
+  /// be located.
+  PoseWithCovariance leaveKidnapped(const PoseWithCovariance& pose, Stamp stamp);
 
   /// To the map that was left: where the vehicle is in it is known again.
   void returnToLeftMap();

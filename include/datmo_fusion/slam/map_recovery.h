@@ -18,7 +18,7 @@ namespace datmo {
 /// How well the vehicle knows where it is in the map.
 enum class Localization : std::uint8_t {
   kLocated,    ///< by scans matched to the map
-  kUncertain,  ///< after a gap: somewhere within the pose's covariance
+  kUncertain,  ///< after a gap or being carried: somewhere within the pose's covariance
   kLost,       ///< the same, and the map fits nowhere there, or there is too much of it
 };
 
@@ -29,6 +29,8 @@ struct MapRecoveryOptions {
   double search_period = 0.8;                ///< s
   double give_up_after = 5.0;                ///< s
   double lost_from_sigma = 15.0;             ///< m
+  double min_contradiction_rise = 0.2;       ///< 0 to 1
+  double kidnapped_after = 1.0;              ///< s
   int boxes_per_scan = 600;
   MapSearchOptions search;
   int prior_boxes_per_second = 400000;
@@ -39,6 +41,9 @@ struct MapRecoveryOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// The pose of a vehicle that may have been carried elsewhere, anywhere about it.
+PoseWithCovariance anywhereAbout(PoseWithCovariance pose);
+
 /// Whether a pose has become so much more uncertain from one covariance to the other, as in a gap,
 /// that it has to be searched for.
 bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
@@ -48,6 +53,9 @@ bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
 /// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
 /// as it was; it is searched for the newer one, again and again as that grows, until there is one
 /// answer, or it is time to go on with the newer map alone.
+///
+/// After the vehicle was carried elsewhere it may be anywhere, and all of the older map's window is
+/// searched, as a prior map is.
 ///
 /// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There
 /// the newer map is never taken for it, and what was found is confirmed: rooms that look alike from
@@ -66,18 +74,26 @@ class MapRecovery {
   MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap prior_map,
               const SearchRegion& region, Stamp stamp);
 
+  /// Of a vehicle that was carried elsewhere from about this pose in the older map, where the newer
+  /// one begins at this stamp.
+  static MapRecovery afterKidnapping(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
+                                     const PoseWithCovariance& pose, Stamp stamp);
+
   /// The mean of where the newer map begins, in the older one.
   const PoseWithCovariance& start() const { return start_; }
 
   /// Whether the older map is a prior one.
   bool isInPriorMap() const { return region_.has_value(); }
 
+  /// Whether the vehicle was carried elsewhere.
+  bool isAfterKidnapping() const { return is_kidnapped_; }
+
   const OccupancyMap& older() const { return older_; }
 
   /// A pose of the newer map with what is not known of that map itself.
   PoseWithCovariance inOlder(const PoseWithCovariance& in_newer) const;
 
-  /// Where that may be in the older map.
+  /// Where that is searched for in the older map.
   SearchRegion regionOf(const PoseWithCovariance& in_newer) const;
 
   /// After each scan: goes on with the search. Returns the vehicle's pose in the older map once it
@@ -98,6 +114,10 @@ class MapRecovery {
   OccupancyMap takeOlder() { return std::move(older_); }
 
  private:
+  /// Whether all of the older map's window is searched.
+  bool searchesAnywhere() const { return isInPriorMap() ? region_->anywhere : is_kidnapped_; }
+  /// Whether what is seen and lacks in the older map counts against a place in it.
+  bool searchesCompleteMap() const { return isInPriorMap() || searchesAnywhere(); }
   void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
   /// How many boxes the search may look at since the last scan.
   int boxesUntil(Stamp stamp);
@@ -118,6 +138,7 @@ class MapRecovery {
   std::optional<MapSearch> search_;
   Pose2 searched_from_;                 ///< where in the newer map the search is about
   std::optional<SearchRegion> region_;  ///< of a prior map
+  bool is_kidnapped_ = false;
 
   /// What a search has found that none has confirmed yet.
   struct Candidate {

@@ -22,7 +22,7 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
     case Localization::kLocated:
       if (result.maps_begun > maps_begun_) {
         monitor_.condition(HealthLevel::kOk,
-                           "not found again after a gap: goes on in a new map, and the pose's "
+                           "not found again: goes on in a new map, and the pose's "
                            "covariance keeps what is not known of it");
       } else if (monitor_.health() != HealthLevel::kOk) {
         monitor_.condition(HealthLevel::kOk, "located in the map");
@@ -43,6 +43,10 @@ void GridSlamStage::showSearch(const SlamResult& result) {
     monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
                                    ": searches the prior map, and writes nothing to it until one "
                                    "place alone fits what was seen on the way");
+  } else if (result.kidnapped) {
+    monitor_.condition(health,
+                       "carried elsewhere, as the map contradicts what is seen: searches all of "
+                       "its window, and keeps the map as it was");
   } else if (is_lost) {
     monitor_.condition(health,
                        "lost after a gap: the map fits nowhere that the vehicle can be, or that is "

@@ -40,6 +40,23 @@ TEST(MapSurfaceTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
               1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
 }
 
+TEST(MapSurfaceTest, ABeamSeesThroughAStaticSurfaceThatLiesWellInFrontOfItsEnd) {
+  OccupancyMapOptions options = smallMap();
+  options.surface_sigma = 0.1;
+  OccupancyMap map(options);
+  const auto sees_through = [&map](const Point2& end, bool hit = true) {
+    return map.seesThrough(scanTo({end}, 2.0, hit).rays.front(), Pose2());
+  };
+  updateWith(map, scanTo({{5.5, 0.5}}));
+  EXPECT_FALSE(sees_through({8.8, 0.8})) << "hit once: it may be a mover";
+  updateWith(map, scanTo({{5.5, 0.5}}, 1.0));
+  EXPECT_TRUE(sees_through({8.8, 0.8}));
+  EXPECT_TRUE(sees_through({8.8, 0.8}, false)) << "without return";
+  EXPECT_FALSE(sees_through({5.6, 0.51})) << "it hit the surface";
+  EXPECT_FALSE(sees_through({4.4, 0.4})) << "something in front of the surface";
+  EXPECT_FALSE(sees_through({8.8, 1.3})) << "past its edge";
+}
+
 TEST(MapSurfaceTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   OccupancyMapOptions options = smallMap();
   options.beam_end.range_sigma = 0.5;

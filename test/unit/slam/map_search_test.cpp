@@ -7,6 +7,8 @@
 #include "yard.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/twist2.h"
+
 namespace datmo::map_search_test {
 namespace {
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What gaps of scans and odometry do to the pose: the command line and the runs."""
+"""What gaps of scans and odometry, and being carried elsewhere, do to the pose: the command line and
+the runs."""
 
 import json
 import tempfile
@@ -7,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+import rospy
 from tqdm import tqdm
 
 from datmo_tools import command_line, programs
@@ -14,21 +16,23 @@ from datmo_tools.bag_file import whole_bag
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
-from datmo_tools.experiments.gap_score import Gap, passed, score, table
+from datmo_tools.experiments.carried_drive import CarriedDrive
+from datmo_tools.experiments.gap_score import CARRIED, Gap, passed, score, table
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Removes stretches of scans, of odometry or of both from drives, at regular times, and prints the
-error of the final pose, and whether it was ever overconfident. A drive is a scene for the
-simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run ended more than 0.5 m +
-1 % of the distance or 2 degrees off, or had a pose so far off of less than a third of that as
-standard deviation."""
+error of the final pose, and whether it was ever overconfident. 'carried' removes a stretch of all
+sensors and joins what is left: the vehicle was carried elsewhere, and its odometry does not know. A
+drive is a scene for the simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run
+ended more than 0.5 m + 1 % of the distance or 2 degrees off (carried, it may, if it says so), or
+had a pose so far off of less than a third of that as standard deviation."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
-KINDS = ("scan", "odometry", "both")
+KINDS = ("scan", "odometry", "both", CARRIED)
 TRUTH = "/ground_truth/pose"
 ODOMETRY = ("/odometry", "/tf")
 SCANS = ("/echoes", "/scan")
@@ -55,6 +59,9 @@ def main(arguments=None):
 
 def cut(recorded, gap, written):
     """Writes the drive (Path) about a gap, without what the gap takes out, to a bag (Path)."""
+    if gap.kind == CARRIED:
+        carry(recorded, gap, written)
+        return
     first = gap.begin - round(LEAD * NANOSECONDS)
     last = gap.end + round(TAIL * NANOSECONDS)
     gone = {"scan": SCANS, "odometry": ODOMETRY, "both": SCANS + ODOMETRY}[gap.kind]
@@ -65,6 +72,25 @@ def cut(recorded, gap, written):
                 out.write_latched(topic, at if at >= first else first, message)
             elif first <= at <= last and not (topic in gone and gap.begin < at <= gap.end):
                 out.write(topic, at, message)
+
+
+def carry(recorded, gap, written):
+    """Writes the drive (Path) about a gap to a bag (Path), with its two parts joined."""
+    duration = gap.end - gap.begin
+    drive = CarriedDrive(rospy.Duration(nsecs=duration))
+    first = gap.begin - round(LEAD * NANOSECONDS)
+    last = gap.end + round(TAIL * NANOSECONDS)
+    with opened(recorded) as bag, whole_bag(written, "gaps") as out:
+        for topic, message, stamp in bag.read_messages([*ALWAYS, *SCANS, *ODOMETRY]):
+            at = stamp.to_nsec()
+            if topic == "/tf_static":
+                out.write_latched(topic, at if at >= first else first, message)
+            elif first <= at <= gap.begin:
+                drive.pass_before(topic, message)
+                out.write(topic, at, message)
+            elif gap.end < at <= last:
+                drive.move(topic, message)
+                out.write(topic, at - duration, message)
 
 
 def gaps_of(recorded, values):
@@ -124,8 +150,11 @@ def _line(run):
     if scored["without_pose"]:
         return f"{where}: no pose before it, or none after it"
     end = scored["end"]
+    motion = ""
+    if "speed_mps" in scored:
+        motion = f" ({scored['speed_mps']:.1f} m/s, turn {scored['turn_deg']:.0f} deg)"
     return (
-        f"{where} ({scored['speed_mps']:.1f} m/s, turn {scored['turn_deg']:.0f} deg): ends "
+        f"{where}{motion}: ends "
         f"{end['position_m']:.2f} m, {end['heading_deg']:.1f} deg off, "
         f"sigma {end['sigma_m']:.2f} m, {end['sigma_deg']:.1f} deg; "
         f"{scored['confident_wrong']} of {scored['scans']} scans "
