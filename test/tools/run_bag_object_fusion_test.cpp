@@ -90,16 +90,16 @@ TEST_F(ObjectFusedRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(ObjectFusedRun, TracksDoNotWaitForTheCameraUnlessToldTo) {
+TEST_F(ObjectFusedRun, TracksWaitForTheCameraUnlessItCountsRetroactively) {
   appendClouds();
   run();
   const auto fused = listsOf<ObjectArray>("/objects/fused");
-  const double early = longestWait();
-  writeConfig("{object_fusion: {retroactive: false}, stereo_camera: {align: false}}");
+  const double waiting = longestWait();
+  writeConfig("{object_fusion: {retroactive: true}, stereo_camera: {align: false}}");
   run();
   expectObjects(kCloudCount);
   EXPECT_EQ(fused, listsOf<ObjectArray>("/objects/fused")) << "what is fused is the same";
-  EXPECT_LT(early + 0.01, longestWait());
+  EXPECT_LT(longestWait() + 0.01, waiting);
 }
 
 TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {

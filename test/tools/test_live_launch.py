@@ -32,6 +32,14 @@ class LiveLaunch(unittest.TestCase):
         self.assertEqual(remaps["odometry"], "/wheels")
         self.assertNotEqual(parameters.get("/motion/source"), "none")
 
+    def test_tracks_do_not_wait_for_the_camera_unless_told_to(self):
+        _, early = loaded("object_fusion:=true", "track_fusion:=true")
+        self.assertIs(early["/object_fusion/retroactive"], True)
+        self.assertEqual(early["/track_fusion/max_wait"], 0.0)
+        _, waiting = loaded("object_fusion:=true", "track_fusion:=true", "early_tracks:=false")
+        self.assertNotIn("/object_fusion/retroactive", waiting)
+        self.assertNotEqual(waiting.get("/track_fusion/max_wait"), 0.0)
+
     def test_a_scanner_of_hokuyos_is_served_in_the_same_process(self):
         nodes, parameters = loaded("lidar:=hokuyo", "lidar_address:=10.0.0.7", "lidar_frame:=roof",
                                    "scan:=/front/scan")

@@ -20,9 +20,9 @@ struct MapAgreement {
 /// never noticed.
 ///
 /// Movers and changed surfaces come into view little by little, however many there are. At another
-/// place the map contradicts many more of the beams from one scan to the next, and goes on to. So it
-/// does for a moment where the vehicle pitches and the beams meet the road, or where the scanner is
-/// covered; the map must be left as it was until that is decided.
+/// place the map contradicts many more of the beams from one scan to the next, and goes on to. So
+/// it does for a moment where the vehicle pitches and the beams meet the road, or where the scanner
+/// is covered; the map must be left as it was until that is decided.
 class KidnappingDetector {
  public:
   /// `min_rise`: of the share of contradicted beams, from one scan to the next, 0 to 1;

@@ -43,7 +43,7 @@ void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.toggle(
       {"retroactive", "",
        "tracks do not wait for objects of other sources, which count later, at their own "
-       "time; false: they wait up to max_wait"},
+       "time (live.launch); false: they wait up to max_wait"},
       retroactive);
   fuser.visit(visitor);
 }

@@ -37,8 +37,7 @@ std::vector<Track> validTracks(const std::vector<Track>& all) {
 }  // namespace
 
 TrackFusionStageOptions::TrackFusionStageOptions() {
-  matcher.tolerance = 0.7;
-  matcher.max_wait = 0.0;
+  matcher.tolerance = 0.6;
   matcher.silent_after = 1.0;
 }
 

@@ -18,7 +18,9 @@ class FusionStageTest : public testing::Test {
  protected:
   using StageType = FusionStage;
 
-  explicit FusionStageTest(const std::string& name) : monitor_(name) {}
+  explicit FusionStageTest(const std::string& name,
+                           const typename FusionStage::Options& options = {})
+      : monitor_(name), options_(options) {}
 
   auto nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
 

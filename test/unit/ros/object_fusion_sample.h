@@ -29,7 +29,8 @@ class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {
   static constexpr char kLists[] = "object list";
   static constexpr char kFrame[] = "base_link";
 
-  ObjectFusionStageTest() : FusionStageTest("object_fusion") {}
+  explicit ObjectFusionStageTest(const ObjectFusionStageOptions& options = {})
+      : FusionStageTest("object_fusion", options) {}
 
   static nav_msgs::Odometry odometry(double seconds) { return samples::odometry(seconds, 20.0); }
 

@@ -26,7 +26,19 @@ TEST_F(ObjectFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
   EXPECT_EQ(figure("objects of two or more sources"), 1.0);
 }
 
-TEST_F(ObjectFusionStageTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
+class RetroactiveFusionTest : public ObjectFusionStageTest {
+ protected:
+  RetroactiveFusionTest() : ObjectFusionStageTest(retroactive()) {}
+
+ private:
+  static ObjectFusionStageOptions retroactive() {
+    ObjectFusionStageOptions options;
+    options.retroactive = true;
+    return options;
+  }
+};
+
+TEST_F(RetroactiveFusionTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
   take("lidar", 100.0, 20.0);
   const auto early = stage_.nextEarly(Stamp::fromSeconds(100.0));
   ASSERT_TRUE(early);
@@ -43,7 +55,7 @@ TEST_F(ObjectFusionStageTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.1))) << "it did not have to wait";
 }
 
-TEST_F(ObjectFusionStageTest, WhatIsFusedIsTheSameAfterEarlyLists) {
+TEST_F(RetroactiveFusionTest, WhatIsFusedIsTheSameAfterEarlyLists) {
   StageMonitor other_monitor("object_fusion");
   ObjectFusionStage other(options_, other_monitor);
   for (int i = 0; i < 20; ++i) {
@@ -68,11 +80,9 @@ TEST_F(ObjectFusionStageTest, WhatIsFusedIsTheSameAfterEarlyLists) {
 }
 
 TEST_F(ObjectFusionStageTest, WhereAllWaitNoneIsEarly) {
-  options_.retroactive = false;
-  ObjectFusionStage waiting(options_, monitor_);
-  waiting.takeObjects("lidar", list(100.0, {car("lidar", 20.0, 0.0)}), Stamp::fromSeconds(100.0));
-  EXPECT_FALSE(waiting.nextEarly(Stamp::fromSeconds(100.0)));
-  EXPECT_TRUE(waiting.next(Stamp::fromSeconds(100.2)));
+  take("lidar", 100.0, 20.0);
+  EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.0)));
+  EXPECT_TRUE(nextAt(100.2));
 }
 
 TEST_F(ObjectFusionStageTest, WhatOneSourceSeesIsKept) {

@@ -26,7 +26,7 @@ struct ObjectFusionStageOptions {
   MotionOptions motion;  ///< of all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
-  bool retroactive = true;
+  bool retroactive = false;
   ObjectFuserOptions fuser;
 
   void visit(OptionVisitor& visitor);

@@ -21,8 +21,8 @@ struct TrackFusionStageOptions {
   TrackFuserOptions fuser;
 
   /// A track predicts where its object goes, so that a list serves until it is older than any delay
-  /// of a sensor, or a slower sensor's next list has come. So nothing is gained by waiting for it
-  /// (doc/fusion.md), and each list of the reference is fused when it comes.
+  /// of a sensor, or a slower sensor's next list has come. So little is gained by waiting for it
+  /// (doc/fusion.md); live, each list of the reference is fused when it comes.
   TrackFusionStageOptions();
 
   void visit(OptionVisitor& visitor);
