@@ -135,6 +135,7 @@ set(DATMO_FUSION_CORE_SOURCES
   grid/hit_grid.cpp
   grid/occupancy_map.cpp
   grid/occupancy_map_evidence.cpp
+  grid/occupancy_map_judgement.cpp
   grid/occupancy_map_options.cpp
   grid/tile_file.cpp
   risk/box_contact.cpp

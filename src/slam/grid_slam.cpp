@@ -83,11 +83,15 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   } else if (maps_.hasPriorMap()) {
     tracker_.restartAt(maps_.startInPriorMap(stamp));
   }
+  const PoseFilter predicted = tracker_.filter();
   const Scan scan = is_first ? compensated(measurement.scan) : locate(measurement, result);
   const PoseWithCovariance base_in_map = maps_.inFirstMap(tracker_.pose());
   followDrift(base_in_map, scan, result);
   write(measurement, scan, base_in_map, result);
-  leaveIfKidnapped(stamp);
+  if (result.may_be_kidnapped) {
+    discardMatch(predicted, result);
+    leaveIfKidnapped(stamp);
+  }
   result.odometry_errors = tracker_.filter().errors();
   result.localization = maps_.localization();
   result.searches_prior_map = maps_.isSearchingPriorMap();
@@ -120,11 +124,17 @@ void GridSlam::leaveMap(Stamp stamp) {
   kidnapping_.reset();
 }
 
-void GridSlam::noticeKidnapping(const Scan& scan, const std::vector<PointState>& states) {
-  if (maps_.isSearching()) {
-    return;  // a map that has just begun knows too little
+bool GridSlam::mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states) {
+  if (!maps_.isSearching()) {  // a map that has just begun knows too little
+    kidnapping_.add(scan.stamp, agreementOf(scan, states, maps_.map(), tracker_.pose().pose));
   }
-  kidnapping_.add(scan.stamp, agreementOf(scan, states, maps_.map(), tracker_.pose().pose));
+  return kidnapping_.isSuspected();
+}
+
+void GridSlam::discardMatch(const PoseFilter& predicted, SlamResult& result) {
+  tracker_.discardMatch(predicted);
+  result.match.accepted = false;
+  result.labeled_scan.base_in_map = anywhereAbout(maps_.inFirstMap(tracker_.pose()));
 }
 
 void GridSlam::leaveIfKidnapped(Stamp stamp) {
@@ -187,9 +197,9 @@ void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
   Scan own = measuredScan(view);
   OccupancyMap& map = maps_.map();
   std::vector<PointState> states = judgeRays(own, map, base_in_map.pose);
-  noticeKidnapping(own, states);
-  if (kidnapping_.isSuspected()) {
-    // Not in this map.
+  result.may_be_kidnapped = mayBeKidnapped(own, states);
+  if (result.may_be_kidnapped) {
+    std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   } else if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
     GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map, base_in_map.pose);
@@ -199,11 +209,10 @@ void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
     map.update(scan, states, base_in_map.pose);
   }
   removeConflictingBeams(scan, view, own, states);
-  if (maps_.isSearching() || kidnapping_.isSuspected()) {
+  if (maps_.isSearching()) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   }
-  result.labeled_scan =
-      labelScan(own, states, kidnapping_.isSuspected() ? anywhereAbout(base_in_map) : base_in_map);
+  result.labeled_scan = labelScan(own, states, base_in_map);
 }
 
 void GridSlam::reset() {

@@ -27,7 +27,7 @@ void KeyframeOptions::visit(OptionVisitor& visitor) {
                  {0.001, 10.0});
   visitor.number({"new_map_after", "s",
                   "a pose that stays uncertain for so long is in a new map; more than grid_slam's "
-                  "recovery/give_up_after"},
+                  "recovery/kidnapped_after and give_up_after together"},
                  new_map_after, {0.1, 3600.0});
   visitor.number({"max_speed", "m/s",
                   "a pose that is farther from the last one than this allows is in a new map: the "

@@ -8,19 +8,22 @@ namespace datmo {
 
 namespace {
 
-/// Scans before the rise, the most contradicted of which counts.
+/// Scans before the rise, the most contradicted of which counts: their shares differ by up to 0.1
+/// in traffic (measured on simulated and recorded drives).
 constexpr std::size_t kScansBefore = 5;
 
-/// Share of the rise that must remain: what has not gone back is elsewhere.
+/// Share of min_rise that the rise must keep. In the map where the vehicle was it goes back to
+/// about 0; elsewhere it varies as the vehicle drives on.
 constexpr double kRemaining = 0.25;
 
-/// With fewer beams an object that comes into view takes much of it.
+/// With fewer beams one object that comes into view takes more of them than min_rise.
 constexpr int kMinBeams = 20;
 
 }  // namespace
 
 void KidnappingDetector::add(Stamp stamp, const MapAgreement& agreement) {
   if (agreement.beams < kMinBeams) {
+    suspected_since_.reset();
     return;
   }
   const double share = static_cast<double>(agreement.contradicted) / agreement.beams;

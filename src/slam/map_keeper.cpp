@@ -65,7 +65,10 @@ PoseWithCovariance MapKeeper::leave(const PoseWithCovariance& pose, Stamp stamp)
     const SearchRegion region = recovery_->regionOf(pose);
     return searchPriorMap(recovery_->takeOlder(), region, stamp);
   }
-  if (recovery_) {
+  if (isSearchingKidnapped()) {
+    recovery_.emplace(MapRecovery::afterKidnapping(recovery_options_, recovery_->takeOlder(),
+                                                   recovery_->inOlder(pose), stamp));
+  } else if (recovery_) {
     recovery_.emplace(recovery_options_, recovery_->takeOlder(), recovery_->inOlder(pose), stamp);
   } else {
     recovery_.emplace(recovery_options_, std::move(map_), pose, stamp);

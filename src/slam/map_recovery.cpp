@@ -49,11 +49,11 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
        "the vehicle may have been carried elsewhere when the share of beams that the map "
        "contradicts rises by more from one scan to the next; 1: never"},
       min_contradiction_rise, {0.05, 1.0});
-  visitor.number(
-      {"kidnapped_after", "s",
-       "and at least a quarter of that rise remains for so long; a vehicle pitches at a bump, "
-       "or when it brakes, for less"},
-      kidnapped_after, {0.0, 60.0});
+  visitor.number({"kidnapped_after", "s",
+                  "and it stays higher than before by a quarter of that for so long; a vehicle "
+                  "pitches at a bump, "
+                  "or when it brakes, for less"},
+                 kidnapped_after, {0.0, 60.0});
   visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
                   boxes_per_scan, {1, 1000000});
   visitor.group("search", [&] { search.visit(visitor); });

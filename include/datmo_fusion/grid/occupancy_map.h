@@ -179,7 +179,10 @@ class OccupancyMap {
   bool isGhost(const Cell& cell) const;
 
   /// How much of static_after lies between a cell's first and last hit, 0 to 1.
-  double maturity(const Cell& cell) const;
+  double maturity(const Cell& cell) const {
+    const double age = cell.last_hit - cell.first_hit;
+    return age >= options_.static_after ? 1.0 : age / options_.static_after;
+  }
 
   /// `visit(cell, index)` for each of the 3 x 3 cells around a point that has a surface.
   template <typename Visit>

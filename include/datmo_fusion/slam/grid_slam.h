@@ -49,6 +49,7 @@ struct SlamResult {
   int maps_begun = 0;               ///< since the vehicle was not found again in the map before
   bool searches_prior_map = false;  ///< not located, and looked for in all or a part of that
   bool kidnapped = false;           ///< not located, since it was carried elsewhere
+  bool may_be_kidnapped = false;    ///< located, but this scan may have been made elsewhere
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
@@ -66,8 +67,8 @@ struct SlamResult {
 /// is always that in the first map's frame: what a gap left open stays in it until it is found.
 /// While the vehicle is not located, nothing is said to move.
 ///
-/// The same after it was carried elsewhere (KidnappingDetector); of a scan that may be the first
-/// one from there nothing is said to move, and nothing is written.
+/// The same after it was carried elsewhere (KidnappingDetector); of a scan that may have been made
+/// there nothing is said to move, nothing is written, and the pose follows the odometry alone.
 ///
 /// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in
 /// that map. If it gets lost later, all of the prior map is searched, and no new map takes its
@@ -120,8 +121,11 @@ class GridSlam {
   bool follow(const PoseTracker::Prediction& prediction);
   /// After a gap: begins a new map.
   void leaveMap(Stamp stamp);
-  /// Compares a scan with the map that it was matched with.
-  void noticeKidnapping(const Scan& scan, const std::vector<PointState>& states);
+  /// Compares a scan with the map that it was matched with. Returns whether the vehicle may be
+  /// elsewhere.
+  bool mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states);
+  /// Back to the pose that was predicted for a scan that may have been made elsewhere.
+  void discardMatch(const PoseFilter& predicted, SlamResult& result);
   /// Begins a new map, if the vehicle was carried elsewhere.
   void leaveIfKidnapped(Stamp stamp);
 

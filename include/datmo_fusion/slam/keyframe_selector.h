@@ -13,7 +13,7 @@ struct KeyframeOptions {
   double turn = degrees(20.0);              ///< rad
   double max_position_sigma = 0.5;          ///< m
   double max_heading_sigma = degrees(5.0);  ///< rad
-  double new_map_after = 6.0;               ///< s
+  double new_map_after = 7.0;               ///< s
   double max_speed = 60.0;                  ///< m/s
 
   void visit(OptionVisitor& visitor);

@@ -30,7 +30,8 @@ class KidnappingDetector {
   KidnappingDetector(double min_rise, double confirmed_after)
       : min_rise_(min_rise), confirmed_after_(confirmed_after) {}
 
-  /// Takes the scan of this stamp. One of few beams says nothing.
+  /// Takes the scan of this stamp. One of few beams says nothing, and ends a
+  /// suspicion.
   void add(Stamp stamp, const MapAgreement& agreement);
 
   /// The last scan may have been made elsewhere.

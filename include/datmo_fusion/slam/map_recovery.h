@@ -18,8 +18,8 @@ namespace datmo {
 /// How well the vehicle knows where it is in the map.
 enum class Localization : std::uint8_t {
   kLocated,    ///< by scans matched to the map
-  kUncertain,  ///< after a gap or being carried: somewhere within the pose's covariance
-  kLost,       ///< the same, and the map fits nowhere there, or there is too much of it
+  kUncertain,  ///< after a gap: somewhere within the pose's covariance
+  kLost,  ///< the same, and the map fits nowhere there, or there is too much of it; or kidnapped
 };
 
 struct MapRecoveryOptions {

@@ -41,6 +41,8 @@ class PoseTracker {
 
   /// Takes the pose that a match found from one that was predicted.
   void correct(const PoseFilter& predicted, const PoseWithCovariance& matched);
+  /// Takes it back.
+  void discardMatch(const PoseFilter& predicted) { filter_ = predicted; }
 
   /// The scan of this stamp was taken, and the pose is where it was taken. `saw_anything`: it has
   /// rays; `is_located`: in the map that will stay.

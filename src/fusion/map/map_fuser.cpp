@@ -17,13 +17,10 @@ namespace {
 /// From one pose to the next no odometry is off by more, m.
 constexpr double kMaxMotionError = 2.0;
 
-/// Whether the certainty of two poses differs by what a gap is, or the end of one. An uncertain
-/// heading of the map itself makes what is farther on more uncertain, and is no gap.
-bool isGapBetween(const PoseWithCovariance& before, const PoseWithCovariance& now) {
-  const MapRecoveryOptions gap;
-  const Eigen::Matrix3d expected =
-      carried(before.covariance, now.pose.position() - before.pose.position());
-  return grewWider(expected, now.covariance, gap) || grewWider(now.covariance, expected, gap);
+/// Covariance of the vehicle at another position if it is as certain there as at this pose. An
+/// uncertain heading of the map itself makes what is farther on more uncertain, and is no gap.
+Eigen::Matrix3d expectedAt(const PoseWithCovariance& there, const PoseWithCovariance& before) {
+  return carried(before.covariance, there.pose.position() - before.pose.position());
 }
 
 /// The grid, unknown where it is occupied near a mover (m, the grid's frame).
@@ -122,6 +119,11 @@ void MapFuser::reset() {
   pose_.reset();
 }
 
+bool MapFuser::isLessCertain(const PoseWithCovariance& base_in_map) const {
+  return pose_ &&
+         grewWider(expectedAt(base_in_map, *pose_), base_in_map.covariance, MapRecoveryOptions());
+}
+
 bool MapFuser::isElsewhere(const PoseWithCovariance& base_in_map,
                            const std::optional<Pose2>& motion) const {
   if (!pose_) {
@@ -130,7 +132,8 @@ bool MapFuser::isElsewhere(const PoseWithCovariance& base_in_map,
   const bool has_jumped =
       motion &&
       ((pose_->pose * *motion).position() - base_in_map.pose.position()).norm() > kMaxMotionError;
-  return has_jumped || isGapBetween(*pose_, base_in_map);
+  return has_jumped || isLessCertain(base_in_map) ||
+         grewWider(base_in_map.covariance, expectedAt(base_in_map, *pose_), MapRecoveryOptions());
 }
 
 void MapFuser::moveTo(const PoseWithCovariance& base_in_map, const std::optional<Pose2>& motion) {

@@ -24,6 +24,10 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
         monitor_.condition(HealthLevel::kOk,
                            "not found again: goes on in a new map, and the pose's "
                            "covariance keeps what is not known of it");
+      } else if (result.may_be_kidnapped) {
+        monitor_.condition(HealthLevel::kDegraded,
+                           "the map contradicts what is seen, as if the vehicle had been carried "
+                           "elsewhere: its pose is not known, and nothing is written to the map");
       } else if (monitor_.health() != HealthLevel::kOk) {
         monitor_.condition(HealthLevel::kOk, "located in the map");
       }

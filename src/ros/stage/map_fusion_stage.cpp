@@ -18,6 +18,9 @@ namespace datmo {
 
 namespace {
 
+/// s: a pose that stays less certain for so long is in a new map (KeyframeOptions::new_map_after).
+constexpr double kNewMapAfter = 7.0;
+
 /// The source that has the poses.
 constexpr char kPoses[] = "labeled_scan";
 
@@ -166,6 +169,10 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
 
 std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const LabeledScan& scan) {
   std::vector<MissingSource> missing = matched.missing;
+  if (fuser_.isLessCertain(scan.base_in_map) && last_pose_ &&
+      secondsBetween(*last_pose_, scan.stamp) < kNewMapAfter) {
+    return missing;
+  }
   const std::vector<Point2> movers = moversOf(scan);
   fuser_.moveTo(scan.base_in_map,
                 last_pose_ ? inputs_.motion(*last_pose_, scan.stamp) : std::nullopt);

@@ -35,11 +35,11 @@ nav_msgs::OccupancyGrid gridMessage(double seconds, Percent percent,
 }
 
 LabeledScanMessage scanMessage(double seconds, const Pose2& pose = Pose2(),
-                               const std::string& map_frame = "map") {
+                               const std::string& map_frame = "map", double variance = 1e-4) {
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(seconds);
   scan.base_in_map.pose = pose;
-  scan.base_in_map.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  scan.base_in_map.covariance = variance * Eigen::Matrix3d::Identity();
   return toMessage(scan, "base_link", map_frame);
 }
 
@@ -234,6 +234,28 @@ TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
   allAt(100.2, kOccupied, kOccupied, Pose2(12.0, 0.0, 0.0));
   const auto output = allAt(101.0, kFree, kFree, Pose2(14.0, 0.0, 0.0));
   ASSERT_TRUE(output && output->fused);
+  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0);
+}
+
+TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
+  ASSERT_TRUE(allAt(100.0, kOccupied, kOccupied));
+  const auto uncertainAt = [this](double seconds) {
+    take("lidar", gridMessage(seconds, kFree));
+    take("stereo", gridMessage(seconds, kFree));
+    take(scanMessage(seconds, Pose2(), "map", 1e4));
+    return nextAt(seconds);
+  };
+  for (int i = 1; i < 10; ++i) {
+    EXPECT_TRUE(uncertainAt(100.0 + 0.1 * i));
+  }
+  const auto output = allAt(101.0, kOccupied, kOccupied);
+  ASSERT_TRUE(output && output->fused);
+  EXPECT_GT(percentAt(*output->fused, kCell), 80) << "nothing was taken";
+  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 0.0);
+  // One that stays so is in a new map.
+  for (int i = 1; i <= 72; ++i) {
+    EXPECT_TRUE(uncertainAt(101.0 + 0.1 * i));
+  }
   EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0);
 }
 

@@ -71,8 +71,8 @@ TEST_F(KeyframeSelectorTest, AfterAGapTheDriveGoesOnWhenTheVehicleIsFound) {
 TEST_F(KeyframeSelectorTest, ANewMapBeginsANewDrive) {
   take(0.0, 0.0, 0.1);
   EXPECT_EQ(take(3.0, 20.0, 5.0), Use::kNothing);
-  EXPECT_EQ(take(9.1, 40.0, 5.0), Use::kFirst);
-  EXPECT_EQ(take(9.2, 41.2, 5.0), Use::kKeyframe) << "no less certain than its start";
+  EXPECT_EQ(take(10.1, 40.0, 5.0), Use::kFirst);
+  EXPECT_EQ(take(10.2, 41.2, 5.0), Use::kKeyframe) << "no less certain than its start";
 }
 
 TEST_F(KeyframeSelectorTest, ALeapOfThePoseBeginsANewDrive) {

@@ -30,7 +30,7 @@ TEST(KidnappingDetectorTest, ASuddenRiseIsSuspectedAndConfirmedWhenItStays) {
   EXPECT_FALSE(scans.detector.isSuspected());
   for (int i = 0; i <= 10; ++i) {
     EXPECT_FALSE(scans.detector.isKidnapped());
-    scans.add(i == 0 ? 31 : 16);  // a quarter of the rise is enough
+    scans.add(i == 0 ? 31 : 16);  // more than 10 + 0.25 * 20
     EXPECT_TRUE(scans.detector.isSuspected());
   }
   EXPECT_TRUE(scans.detector.isKidnapped());
@@ -61,10 +61,15 @@ TEST(KidnappingDetectorTest, ABumpIsForgotten) {
   EXPECT_FALSE(scans.detector.isKidnapped());
 }
 
-TEST(KidnappingDetectorTest, FewBeamsSayNothing) {
+TEST(KidnappingDetectorTest, FewBeamsSayNothingAndEndASuspicion) {
   Scans scans;
   scans.add(19, 20, 19);
   EXPECT_FALSE(scans.detector.isSuspected());
+  scans.add(90);
+  EXPECT_TRUE(scans.detector.isSuspected());
+  scans.add(0, 20, 19);
+  EXPECT_FALSE(scans.detector.isSuspected());
+  EXPECT_FALSE(scans.detector.isKidnapped());
 }
 
 TEST(KidnappingDetectorTest, ItComparesWithinOneMapOnly) {

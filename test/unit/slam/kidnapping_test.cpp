@@ -85,6 +85,22 @@ TEST(KidnappingTest, WhereTheMapKnowsNothingItGoesOnInANewOne) {
   EXPECT_GT(sigmaOf(last), 100.0);
 }
 
+TEST(KidnappingTest, AGapMeanwhileEndsNoSearch) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  Pose2 truth;
+  double seconds = 0.0;
+  SlamResult result;
+  for (int i = 0; i < 60; ++i) {
+    truth = i == 40 ? truth * kKnown.front() : truth;
+    seconds += i == 55 ? 3.0 : kInterval;  // it goes on meanwhile
+    truth = truth * arc(kTwist, i == 55 ? 3.0 : kInterval);
+    slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), kTwist});
+    result = slam.process(yard.scan(truth, seconds));
+  }
+  EXPECT_TRUE(result.kidnapped);
+}
+
 TEST(KidnappingTest, NothingMovesMeanwhile) {
   const std::vector<Step> steps = drive(kKnown.front(), 10);
   for (std::size_t i = 40; i < steps.size(); ++i) {
@@ -125,6 +141,7 @@ TEST(KidnappingTest, WhereTheVehiclePitchesOnlyThePoseIsUncertain) {
     slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), kTwist});
     const Step step{slam.process(scan), truth};
     EXPECT_EQ(step.result.localization, Localization::kLocated);
+    EXPECT_EQ(step.result.may_be_kidnapped, pitches) << i;
     EXPECT_EQ(sigmaOf(step) > 100.0, pitches) << i;
     EXPECT_LT(errorOf(step), 0.3) << i;
     truth = truth * arc(kTwist, kInterval);

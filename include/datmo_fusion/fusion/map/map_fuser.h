@@ -69,6 +69,9 @@ class MapFuser {
   /// The map of what was there before; its window must be as that of the grids.
   void setPrior(OccupancyMap prior) { prior_ = std::move(prior); }
 
+  /// Whether the vehicle is known much worse at this pose than at the last one.
+  bool isLessCertain(const PoseWithCovariance& base_in_map) const;
+
   /// The vehicle's pose from now on, for the window and for what take() and fuse() do. `motion`: of
   /// the vehicle since the last pose, as something else than the map knows it; none: nothing does.
   void moveTo(const PoseWithCovariance& base_in_map,
