@@ -29,15 +29,15 @@ void keep(std::deque<double>& values, double value) {
 
 double SensorClock::add(Stamp stamp, Stamp arrival) {
   const Message message{stamp, arrival};
-  if (!last_ || beginsAgain(message)) {
-    restart(message);
-  } else if (std::abs(message.delay() - last_->delay()) < kMaxStep) {
-    jumped_.reset();
-    follow(message);
-  } else if (goesOnFromJump(message)) {
+  const bool is_first = !last_ || beginsAgain(message);
+  const bool is_jump = !is_first && std::abs(message.delay() - last_->delay()) >= kMaxStep;
+  if (is_jump && !goesOnFromJump(message)) {
+    return ahead_;
+  }
+  if (is_first || is_jump) {
     restart(message);
   } else {
-    return ahead_;
+    follow(message);
   }
   const double lead = -message.delay() - ahead_;
   const bool is_early = lead >= kMinStep && lead < kMaxStep;
@@ -61,6 +61,7 @@ bool SensorClock::goesOnFromJump(const Message& message) {
 }
 
 void SensorClock::follow(const Message& message) {
+  jumped_.reset();
   judge(message);
   keep(recent_, message.delay() + ahead_);
   min_delay_ += kMaxDrift * std::max(0.0, secondsBetween(last_->arrival, message.arrival));
