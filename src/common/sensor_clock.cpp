@@ -15,6 +15,9 @@ constexpr double kTolerance = 0.5 * SensorClock::kMinStep;
 /// s/s; as fast as two clocks may drift apart: a crystal's 100 ppm twice, with room.
 constexpr double kMaxDrift = 5e-4;
 
+/// Whether messages of this smallest delay (s) come before their stamps.
+bool isEarly(double min_delay) { return min_delay < -kTolerance; }
+
 void keep(std::deque<double>& values, double value) {
   values.push_back(value);
   if (values.size() > SensorClock::kRemembered) {
@@ -26,7 +29,12 @@ void keep(std::deque<double>& values, double value) {
 
 double SensorClock::add(Stamp stamp, Stamp arrival) {
   const Message message{stamp, arrival};
-  if (!last_ || std::abs(message.delay() - last_->delay()) >= kMaxStep) {
+  const bool is_first = !last_ || beginsAgain(message);
+  const bool is_jump = !is_first && std::abs(message.delay() - last_->delay()) >= kMaxStep;
+  if (is_jump && !goesOnFromJump(message)) {
+    return ahead_;
+  }
+  if (is_first || is_jump) {
     restart(message);
   } else {
     follow(message);
@@ -38,7 +46,22 @@ double SensorClock::add(Stamp stamp, Stamp arrival) {
   return ahead_;
 }
 
+bool SensorClock::beginsAgain(const Message& message) const {
+  return secondsBetween(message.stamp, last_->stamp) >= kMaxStep &&
+         secondsBetween(message.arrival, last_->arrival) >= kMaxStep;
+}
+
+bool SensorClock::goesOnFromJump(const Message& message) {
+  if (!jumped_ || std::abs(message.delay() - jumped_->delay()) >= kMaxStep) {
+    jumped_ = message;
+    return false;
+  }
+  const bool is_late = message.stamp > last_->stamp && message.delay() > last_->delay();
+  return !is_late || secondsBetween(jumped_->arrival, message.arrival) >= kMaxDoubt;
+}
+
 void SensorClock::follow(const Message& message) {
+  jumped_.reset();
   judge(message);
   keep(recent_, message.delay() + ahead_);
   min_delay_ += kMaxDrift * std::max(0.0, secondsBetween(last_->arrival, message.arrival));
@@ -114,11 +137,33 @@ void SensorClock::decide() {
   other_.reset();
   if (likeliest != ahead_) {
     set(likeliest);
+  } else if (ahead_ != 0.0 && isRight()) {
+    takeAsRight();
   }
+}
+
+bool SensorClock::isRight() const {
+  const double min_delay = min_delay_ - ahead_;  // by the clock as it is
+  const bool tells =
+      std::min(min_delay_, min_delay) > -kMaxStep;  // else arrivals have another clock
+  if (tells && isEarly(min_delay_) != isEarly(min_delay)) {
+    return isEarly(min_delay_);
+  }
+  return secondsBetween(set_, last_->arrival) >= kMaxDoubt;
+}
+
+void SensorClock::takeAsRight() {
+  ++taken_;
+  min_delay_ -= ahead_;
+  for (double& delay : recent_) {
+    delay -= ahead_;
+  }
+  ahead_ = 0.0;
 }
 
 void SensorClock::set(double ahead) {
   ++steps_;
+  set_ = last_->arrival;
   ahead_ = ahead;
   delays_.clear();
 }
@@ -128,6 +173,7 @@ void SensorClock::restart(const Message& message) {
   intervals_.clear();
   delays_.clear();
   other_.reset();
+  jumped_.reset();
   ahead_ = 0.0;
   last_ = message;
   min_delay_ = message.delay();

@@ -127,6 +127,16 @@ TEST_F(RunBagFaults, AScannersClockThatIsSetCostsNothing) {
   }
 }
 
+TEST_F(RunBagFaults, AScannersClockThatIsOffStaysKnownOverAStampFarOff) {
+  runSpoiled([](int i, Step& step) {
+    const double off = i < 24 ? 0.0 : 0.1;
+    step.scan.header.stamp += ros::Duration(i == 26 ? 1.5 : off);
+  });
+  const std::vector<double> x = poses();
+  ASSERT_EQ(x.size(), kScans - 1U);
+  EXPECT_NEAR(x.back(), kDriven, 0.1);
+}
+
 TEST_F(RunBagFaults, ALoopedBagBeginsANewMapAtItsSecondMessage) {
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);

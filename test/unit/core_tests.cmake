@@ -9,6 +9,7 @@ datmo_fusion_add_core_test(common
   common/pose2_test.cpp
   common/quantile_test.cpp
   common/renamed_options_test.cpp
+  common/sensor_clock_reference_test.cpp
   common/sensor_clock_test.cpp
   common/stamp_gate_test.cpp
   common/stamp_test.cpp

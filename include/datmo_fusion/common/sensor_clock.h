@@ -23,9 +23,16 @@ namespace datmo {
 /// Where the message comes a period after one that was in time, this is certain at once, else with
 /// the delays of the next kRemembered messages.
 ///
+/// Which of the two clocks is wrong is certain where messages come before the stamps of one of them
+/// and not before the other's. Else it may be either: a smaller delay is no proof, as a scan that
+/// is stamped with its first beam comes a turn later. Then the clock of before is taken for the
+/// right one for kMaxDoubt, and after that the new one: a wrong clock that is watched is set back
+/// by then.
+///
 /// Nothing is found of a sensor that keeps to no period, and from kMaxStep on a step is left to
-/// StampGate. Of an offset that was there from the start nothing is known, unless messages come
-/// before their stamps. Not thread safe.
+/// StampGate: a message that is off by so much tells nothing, and where the next ones are as well,
+/// clocks are compared anew. Of an offset that was there from the start nothing is known, unless
+/// messages come before their stamps. Not thread safe.
 class SensorClock {
  public:
   /// s; smaller steps cannot be told from the jitter of drivers and networks, and are a cell or two
@@ -33,12 +40,15 @@ class SensorClock {
   static constexpr double kMinStep = 0.03;
   static constexpr double kMaxStep = 1.0;
 
+  /// s; a synchronized clock is looked at as often (minpoll of chrony and ntpd: 2^6 s).
+  static constexpr double kMaxDoubt = 64.0;
+
   /// Messages that tell the period, and how small the delay is: two seconds of a scanner, less of
   /// odometry.
   static constexpr std::size_t kRemembered = 20;
 
   /// The next message, in the order of arrival. Returns by how much (s) its stamp is ahead of the
-  /// clock that the first ones had; negative: behind.
+  /// clock that is taken for the right one; negative: behind.
   double add(Stamp stamp, Stamp arrival);
 
   /// Of the newest message; 0 where nothing is wrong.
@@ -52,12 +62,22 @@ class SensorClock {
   /// How often the clock was set, back to what it was included.
   std::uint64_t steps() const { return steps_; }
 
+  /// How often a clock that was set was then taken for the right one.
+  std::uint64_t taken() const { return taken_; }
+
  private:
   struct Message {
     Stamp stamp;
     Stamp arrival;
     double delay() const { return secondsBetween(stamp, arrival); }  ///< s, by the clock as it is
   };
+
+  /// Whether stamps and arrivals both began again: a looped bag.
+  bool beginsAgain(const Message& message) const;
+
+  /// Whether a message that is off by kMaxStep or more is not the only one: the second one of other
+  /// stamps, or of those that are late, which may wait in a queue, the first after kMaxDoubt.
+  bool goesOnFromJump(const Message& message);
 
   void follow(const Message& message);
 
@@ -72,17 +92,23 @@ class SensorClock {
   void judge(const Message& message);
   /// Decides by the smallest of the last delays what the clock is.
   void decide();
+  /// Whether the clock that was set is the right one, as far as can be told.
+  bool isRight() const;
   void set(double ahead);
+  void takeAsRight();
   void restart(const Message& message);
 
   std::optional<Message> last_;
-  std::deque<double> intervals_;  ///< s, between the last stamps
-  std::deque<double> recent_;     ///< s, the last delays, by the first clock
-  std::deque<double> delays_;     ///< s, since the last step that may have been one of the clock
-  double min_delay_ = 0.0;       ///< s, of the first clock, as far as clocks may have drifted since
+  std::optional<Message> jumped_;  ///< the first of those since that are off by kMaxStep or more
+  std::deque<double> intervals_;   ///< s, between the last stamps
+  std::deque<double> recent_;      ///< s, the last delays, by the right clock
+  std::deque<double> delays_;      ///< s, since the last step that may have been one of the clock
+  double min_delay_ = 0.0;       ///< s, of the right clock, as far as clocks may have drifted since
   double ahead_ = 0.0;           ///< s
+  Stamp set_;                    ///< the arrival before the last step
   std::optional<double> other_;  ///< s, what it may be as well, until that is decided
   std::uint64_t steps_ = 0;
+  std::uint64_t taken_ = 0;
   std::uint64_t judged_ = 0;  ///< intervals, and among how many of them there was a period
   std::uint64_t regular_ = 0;
   std::size_t early_ = 0;  ///< messages in a row that came before their stamps

@@ -17,6 +17,16 @@ std::string stepSentence(const std::string& input, double ahead) {
   return text;
 }
 
+std::string takenSentence(const std::string& input, double ahead) {
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "stamps of %s that stay %.3f s %s the sensor's clock of before, which is not surely "
+      "the right one, or are right since: that clock was set; takes them as they are",
+      input.c_str(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind");
+  return text;
+}
+
 std::string leadSentence(const std::string& input, double lead) {
   char text[240];
   std::snprintf(
@@ -28,13 +38,23 @@ std::string leadSentence(const std::string& input, double lead) {
   return text;
 }
 
+/// Whether ros::Time has it; 0 is none.
+bool isTime(Stamp stamp) { return stamp > Stamp{} && stamp <= toStamp(ros::TIME_MAX); }
+
 }  // namespace
 
 ros::Time ClockCheck::corrected(const ros::Time& stamp, Stamp now) {
-  const std::uint64_t steps_before = clock_.steps();
+  if (stamp.isZero()) {
+    return stamp;
+  }
+  const double before = clock_.ahead();
+  const std::uint64_t taken_before = clock_.taken();
   const double ahead = clock_.add(toStamp(stamp), now);
-  if (clock_.steps() > steps_before) {
+  if (ahead != before) {
     monitor_.figure("clock of " + input_ + " ahead [s]", ahead);
+  }
+  if (clock_.taken() > taken_before) {
+    monitor_.warned(InputError("clock_set", takenSentence(input_, before)));
   }
   if (clock_.lead() > 0.0) {
     monitor_.warned(InputError("clock_ahead", leadSentence(input_, clock_.lead())));
@@ -43,7 +63,8 @@ ros::Time ClockCheck::corrected(const ros::Time& stamp, Stamp now) {
     return stamp;
   }
   monitor_.warned(InputError("clock_off", stepSentence(input_, ahead)));
-  return toTime(toStamp(stamp) + -ahead);
+  const Stamp right = toStamp(stamp) + -ahead;
+  return isTime(right) ? toTime(right) : stamp;
 }
 
 }  // namespace datmo

@@ -19,15 +19,19 @@ namespace datmo {
 /// their stamps are warned of (`clock_ahead`) and served as they are: the clock that is off may be
 /// ours.
 ///
-/// The offset is a difference of stamps, which are the same for all stages that take the input, and
-/// so are the stamps that they put right.
+/// A clock that was set and is then taken for the right one is said (`clock_set`).
+///
+/// Each stage has a check of its own: the offset is a difference of stamps, which are the same for
+/// all of them, but one that was started later, or that gets the messages at other times, may have
+/// another clock for the right one, or find a step up to SensorClock::kRemembered messages later.
 class ClockCheck {
  public:
   /// `monitor` must outlive it.
   ClockCheck(std::string input, StageMonitor& monitor)
       : input_(std::move(input)), monitor_(monitor) {}
 
-  /// A message's stamp, put right. `now`: ROS time at which it came.
+  /// A message's stamp, put right; one that is none, or would not be a time then, as it is. `now`:
+  /// ROS time at which it came.
   ros::Time corrected(const ros::Time& stamp, Stamp now);
 
  private:
