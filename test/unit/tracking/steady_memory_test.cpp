@@ -74,7 +74,7 @@ Counts countsOf(TargetSet& targets) {
     } else {
       for (const BestTarget& best : targets.best()) {
         targets.change(best.target->number(), [&](Target& target) {
-          target.confirm(static_cast<std::uint32_t>(target.number()), true);
+          target.confirm(target.number(), true);
         });
       }
     }
