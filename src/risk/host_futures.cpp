@@ -161,11 +161,7 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
 HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
                          const HostVehicleOptions& vehicle, const HostFutureOptions& options,
                          const HorizonOptions& horizon, const RandomDraws& draws)
-    : follows_road_(course.has_value()),
-      host_(host),
-      vehicle_(vehicle),
-      options_(options),
-      horizon_(horizon) {
+    : host_(host), vehicle_(vehicle), options_(options), horizon_(horizon) {
   const double steering = course ? course->angle : host.steering;
   // Of the bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());

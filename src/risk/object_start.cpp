@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -30,14 +31,22 @@ double shareOfDrivers(const Track& track) {
   return std::min(1.0, share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist));
 }
 
+/// A smaller share of the modes cannot be told from none: messages have each in single precision
+/// (6e-8), and it is what is left of 1.
+constexpr double kMinStraight = 1e-6;
+
 /// How much likelier the measurements are of what turns as often as others do than of what never
-/// does: its modes without and with them.
+/// does: its modes without and with them. 1: the modes are not known.
 double turnEvidence(const Track& track, double turn_share) {
   const auto share = [&](MotionMode mode) {
     return track.mode_probabilities[static_cast<std::size_t>(mode)];
   };
+  const auto& modes = track.mode_probabilities;
+  if (std::accumulate(modes.begin(), modes.end(), 0.0) <= 0.0) {
+    return 1.0;
+  }
   const double straight = 1.0 - share(MotionMode::kLeftTurn) - share(MotionMode::kRightTurn);
-  return (1.0 - turn_share) / std::max(straight, 1e-6);
+  return (1.0 - turn_share) / std::max(straight, kMinStraight);
 }
 
 /// The direction along the road that is nearer to the heading, rad.

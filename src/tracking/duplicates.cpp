@@ -30,8 +30,9 @@ bool isPartOf(const BoxedTarget& part, const BoxedTarget& whole, const Duplicate
   if (offset.squaredNorm() > reach * reach) {
     return false;
   }
-  const bool older = whole.target->confirmed() &&
-                     (!part.target->confirmed() || whole.target->id() < part.target->id());
+  const bool older =
+      whole.target->confirmed() &&
+      (!part.target->confirmed() || whole.target->confirmedAs() < part.target->confirmedAs());
   if (!older || !(reaches(whole.box, part.box, options.reach) ||
                   reaches(part.box, whole.box, options.reach))) {
     return false;

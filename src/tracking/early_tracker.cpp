@@ -3,13 +3,24 @@
 
 #include <utility>
 
+#include "datmo_fusion/common/waiting_bound.h"
+
 namespace datmo {
 
 namespace {
 
-/// More than of a fast scanner come while the slowest source is waited for
-/// (SourceMatcherOptions::max_wait, 0.3 s for images that a processor matches).
-constexpr std::size_t kMaxWaiting = 16;
+/// What was left out or cut short between the two.
+void addEffort(TrackerCounts& sum, const TrackerCounts& before, const TrackerCounts& after) {
+  sum.intake.accepted += after.intake.accepted - before.intake.accepted;
+  sum.intake.rejected += after.intake.rejected - before.intake.rejected;
+  sum.intake.refused += after.intake.refused - before.intake.refused;
+  sum.association.refused_births +=
+      after.association.refused_births - before.association.refused_births;
+  sum.association.cut_hypotheses +=
+      after.association.cut_hypotheses - before.association.cut_hypotheses;
+  sum.association.best_only_steps +=
+      after.association.best_only_steps - before.association.best_only_steps;
+}
 
 }  // namespace
 
@@ -39,14 +50,27 @@ TrackList EarlyTracker::process(const TrackerInput& complete) {
 
 TrackList EarlyTracker::processEarly(TrackerInput early) {
   if (!ahead_) {
-    ahead_ = complete_;
+    ahead_ = complete_.ahead();
   }
-  if (waiting_.size() == kMaxWaiting) {
+  if (waiting_.size() == kMaxWaitingSamples) {
     waiting_.pop_front();
   }
   waiting_.push_back(std::move(early));
-  const TrackerInput& newest = waiting_.back();
-  return ahead_->process(newest.objects, newest.base_in_fixed, newest.visibility);
+  return goOn(waiting_.back());
+}
+
+TrackerCounts EarlyTracker::counts() const {
+  TrackerCounts counts = complete_.counts();
+  addEffort(counts, TrackerCounts(), early_effort_);
+  return counts;
+}
+
+TrackList EarlyTracker::goOn(const TrackerInput& early) {
+  const TrackerCounts before = ahead_->counts();
+  TrackList tracks = ahead_->process(early.objects, early.base_in_fixed, early.visibility);
+  addEffort(early_effort_, before, ahead_->counts());
+  complete_.keepIds(*ahead_);
+  return tracks;
 }
 
 void EarlyTracker::runAgain() {
@@ -54,9 +78,9 @@ void EarlyTracker::runAgain() {
     ahead_.reset();
     return;
   }
-  ahead_ = complete_;
+  ahead_ = complete_.ahead();
   for (const TrackerInput& early : waiting_) {
-    ahead_->process(early.objects, early.base_in_fixed, early.visibility);
+    goOn(early);
   }
 }
 
@@ -64,6 +88,7 @@ void EarlyTracker::reset() {
   complete_.reset();
   ahead_.reset();
   waiting_.clear();
+  early_effort_ = TrackerCounts();
 }
 
 }  // namespace datmo

@@ -172,8 +172,8 @@ double Target::sameClassProbability(const Object& object) const {
   return own * said + (1.0 - own) * (1.0 - said) / static_cast<double>(kObjectClasses - 1);
 }
 
-void Target::confirm(std::uint32_t id, bool moves) {
-  id_ = id;
+void Target::confirm(std::uint64_t order, bool moves) {
+  confirmed_as_ = order;
   moving_ = moves;
   seen_points_.clear();
 }

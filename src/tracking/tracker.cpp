@@ -76,6 +76,22 @@ TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed
   return process(objects, base_in_fixed, unknown_view_);
 }
 
+Tracker Tracker::ahead() const {
+  Tracker copy = *this;
+  copy.confirmable_ = targets_->nextNumber();
+  return copy;
+}
+
+void Tracker::keepIds(const Tracker& ahead) {
+  for (const BestTarget& best : ahead.targets_->best()) {
+    const std::uint32_t id = best.target->id();
+    if (id >= next_id_) {
+      targets_->change(best.target->number(), [id](Target& target) { target.setId(id); });
+    }
+  }
+  next_id_ = ahead.next_id_;
+}
+
 void Tracker::reset() {
   targets_->clear();
   clutter_.clear();
@@ -167,14 +183,15 @@ bool Tracker::isPublished(const BestTarget& best) const {
 void Tracker::confirm() {
   for (const BestTarget& best : targets_->best()) {
     if (!best.target->confirmed() && isConfirmable(*best.target)) {
-      const std::uint32_t id = next_id_++;
+      const std::uint32_t id = best.target->id() != 0 ? best.target->id() : next_id_++;
+      const std::uint64_t order = ++counts_.confirmed_tracks;
       const JumpCounts prior = transition_priors_.of(best.target->objectClass());
       const bool moves = isLikelyMoving(*best.target);
       targets_->change(best.target->number(), [&](Target& target) {
-        target.confirm(id, moves);
+        target.setId(id);
+        target.confirm(order, moves);
         target.setTransitionPrior(prior);
       });
-      ++counts_.confirmed_tracks;
     }
   }
 }
@@ -187,7 +204,7 @@ bool Tracker::isLikelyMoving(const Target& target) const {
 }
 
 bool Tracker::isConfirmable(const Target& target) const {
-  return target.measurementIndex() != kUnseen &&
+  return target.number() < confirmable_ && target.measurementIndex() != kUnseen &&
          target.hits() >= static_cast<std::uint32_t>(options_.confirmation_hits) &&
          target.objectClass() != ObjectClass::kPole &&
          existence(target) >= options_.confirmation_existence &&

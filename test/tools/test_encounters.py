@@ -46,6 +46,18 @@ class Scenes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(main([folder, "--programs", folder, "--only", "nobody"]), 1)
 
+    def test_a_random_scene_that_fails_leaves_no_bags_behind(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for program, script in (("simulate", 'touch "$2"'), ("run_bag", 'touch "$2"; exit 1'),
+                                    ("replay_risks", "exit 1")):  # fmt: skip
+                (folder / program).write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+                (folder / program).chmod(0o755)
+            main([str(folder / "out"), "--programs", name, "--tracks", "own", "--random", "1",
+                  "--config", str(folder / "any.yaml")])  # fmt: skip
+            self.assertFalse(list((folder / "out").rglob("*.bag")))
+            self.assertTrue((folder / "out" / "own").is_dir())
+
 
 @unittest.skipUnless(PROGRAM, "DATMO_FUSION_TRUE_RISKS is not set")
 class Contacts(unittest.TestCase):

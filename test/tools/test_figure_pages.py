@@ -77,7 +77,7 @@ class Pages(InFolder):
         methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
         traffic = {"warnings": 8, "seconds": 410.0}
         pages = self.pages(risk={"true": methods, "own": methods, "traffic": traffic})
-        self.assertIn("7 min | 19 of 29; 4 of 86; 8 | `x` |", pages["README.md"])
+        self.assertIn("7 min | 19 of 29; 4 of 86; 8 | `x`, `run_bag --risk` |", pages["README.md"])
         page = pages["doc/results.md"]
         self.assertIn("| own | `futures` (ours) | 0.04, 0.20 | 19 of 29 | 5 of 14 | 0.75 | 4 of 86 |", page)
         self.assertEqual(page.count("0.050, 0.050, 0.050, 0.050 | 0.090 |"), 8)

@@ -40,6 +40,15 @@ class LiveLaunch(unittest.TestCase):
         self.assertNotIn("/object_fusion/retroactive", waiting)
         self.assertNotEqual(waiting.get("/track_fusion/max_wait"), 0.0)
 
+    def test_what_the_sensor_set_says_of_early_tracks_counts(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
+            settings.write("track_fusion: {max_wait: 0.1}\nobject_fusion: {retroactive: false}\n")
+            settings.flush()
+            _, parameters = loaded("object_fusion:=true", "track_fusion:=true", f"config:={settings.name}")
+        self.assertEqual(parameters["/track_fusion/max_wait"], 0.1)
+        self.assertEqual(parameters["/track_fusion/tolerance"], 0.7)
+        self.assertIs(parameters["/object_fusion/retroactive"], False)
+
     def test_a_scanner_of_hokuyos_is_served_in_the_same_process(self):
         nodes, parameters = loaded("lidar:=hokuyo", "lidar_address:=10.0.0.7", "lidar_frame:=roof",
                                    "scan:=/front/scan")

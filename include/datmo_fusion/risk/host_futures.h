@@ -57,8 +57,6 @@ class HostFutures {
               const HorizonOptions& horizon, const RandomDraws& draws);
 
   const std::vector<BodyPath>& paths() const { return paths_; }
-  /// Whether it comes to the course of the road's borders.
-  bool followsRoad() const { return follows_road_; }
   /// Without spread.
   const BodyPath& nominal() const { return nominal_; }
 
@@ -67,7 +65,6 @@ class HostFutures {
   BodyPath path(double steering, std::uint32_t future, const RandomDraws& draws) const;
   void advance(BicycleState& state, double acceleration, double steering) const;
 
-  bool follows_road_;
   HostState host_;
   const HostVehicleOptions& vehicle_;
   const HostFutureOptions& options_;

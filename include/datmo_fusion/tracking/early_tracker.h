@@ -27,11 +27,14 @@ struct TrackerInput {
 /// What is late is no measurement out of sequence to be fitted into a later state (Bar-Shalom,
 /// Update with out-of-sequence measurements in tracking, 2002), which with several hypotheses would
 /// be an approximation: its time is done again. There are a tracker that gets the complete lists
-/// alone, and is at each of them as if there had been no early ones, bit for bit; and a copy of it
-/// that has gone on with the early lists that are newer. When a complete list comes they are run
-/// again from there, so that the next early one finds it considered.
+/// alone, and is at each of them as if there had been no early ones, bit for bit but for ids; and a
+/// copy of it that has gone on with the early lists that are newer. When a complete list comes they
+/// are run again from there, so that the next early one finds it considered.
 ///
-/// What early lists confirm is published; whether it stays, and under which id, complete lists say.
+/// What early lists confirm is published; whether it stays, complete lists say. Its id is the
+/// target's from then on, of complete lists too, and of no other: so those alone differ from what
+/// they would be without early lists. What early lists start is confirmed no sooner than a complete
+/// one has it: until then nothing tells that it is the same target after they were run again.
 ///
 /// Not thread safe; early and complete lists each by rising stamps.
 class EarlyTracker {
@@ -44,14 +47,15 @@ class EarlyTracker {
   void setOptions(const Checked<TrackerOptions>& options);
   void addScan(const LabeledScan& scan);
 
-  /// The tracks by a complete list and those before, and by nothing else.
+  /// The tracks by a complete list and those before; by early ones, their ids.
   TrackList process(const TrackerInput& complete);
 
   /// The tracks by an early list, newer than all complete ones, and all before.
   TrackList processEarly(TrackerInput early);
 
-  /// Of the complete lists.
-  const TrackerCounts& counts() const { return complete_.counts(); }
+  /// What was confirmed, merged and evicted by the complete lists, and what was left out or cut
+  /// short of all, of the early ones each time that they were run.
+  TrackerCounts counts() const;
 
   /// Early lists that wait for the complete ones of their time; bounded, the oldest gives way.
   std::size_t waiting() const { return waiting_.size(); }
@@ -60,11 +64,13 @@ class EarlyTracker {
   void reset();
 
  private:
+  TrackList goOn(const TrackerInput& early);
   void runAgain();
 
   Tracker complete_;
   std::optional<Tracker> ahead_;      ///< none: as complete_
   std::deque<TrackerInput> waiting_;  ///< what it went on with, newer than the last complete list
+  TrackerCounts early_effort_;        ///< of early lists, what was left out or cut short
 };
 
 }  // namespace datmo

@@ -28,6 +28,7 @@ class MultipleHypotheses : public TargetSet {
   void predict(double seconds, const AssociationScan& scan) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;
   const std::vector<BestTarget>& best() const override;
+  std::uint64_t nextNumber() const override { return next_number_; }
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }

@@ -109,13 +109,17 @@ class Target {
     return existence_.probability(options.existence);
   }
 
-  /// It becomes a track; `moves`: as far as is known now.
-  void confirm(std::uint32_t id, bool moves);
+  /// Before it is confirmed: the id that it is published under, from 1.
+  void setId(std::uint32_t id) { id_ = id; }
+  /// It becomes a track, the `order`th of all, from 1; `moves`: as far as is known now.
+  void confirm(std::uint64_t order, bool moves);
 
   /// As its class becomes known; without effect where nothing is learned.
   void setTransitionPrior(const JumpCounts& prior) { filter_.setTransitionPrior(prior); }
-  bool confirmed() const { return id_ != 0; }
-  std::uint32_t id() const { return id_; }
+  bool confirmed() const { return confirmed_as_ != 0; }
+  /// As which of all it was confirmed; 0: not.
+  std::uint64_t confirmedAs() const { return confirmed_as_; }
+  std::uint32_t id() const { return id_; }  ///< 0: none
   std::uint64_t number() const { return number_; }
 
   const ImmFilter& filter() const { return filter_; }
@@ -146,6 +150,7 @@ class Target {
   // What is asked of all targets several times in a step comes first, side by side: many targets
   // are more than the cache holds.
   std::uint64_t number_;
+  std::uint64_t confirmed_as_ = 0;
   std::uint32_t id_ = 0;
   std::uint32_t hits_ = 1;
   std::size_t measurement_index_;

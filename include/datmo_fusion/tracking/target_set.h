@@ -44,6 +44,9 @@ class TargetSet {
   /// Targets of the most likely hypothesis, by rising number; valid until the set changes.
   virtual const std::vector<BestTarget>& best() const = 0;
 
+  /// All targets so far have a lower number.
+  virtual std::uint64_t nextNumber() const = 0;
+
   /// Applies a change to all hypotheses of the target with this number.
   virtual void change(std::uint64_t number, const std::function<void(Target&)>& change) = 0;
 

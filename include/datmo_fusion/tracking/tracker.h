@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,9 +26,9 @@ namespace datmo {
 struct TrackerCounts {
   ScanIntakeCounts intake;
   AssociationCounts association;
-  std::uint64_t confirmed_tracks = 0;  ///< ids given out
-  std::uint64_t merged_tracks = 0;     ///< removed as another view of a confirmed track
-  std::uint64_t evicted_targets = 0;   ///< unconfirmed ones that made room for new objects
+  std::uint64_t confirmed_tracks = 0;
+  std::uint64_t merged_tracks = 0;    ///< removed as another view of a confirmed track
+  std::uint64_t evicted_targets = 0;  ///< unconfirmed ones that made room for new objects
 };
 
 /// Follows moving objects over time (thesis 3.3.4).
@@ -37,8 +38,6 @@ struct TrackerCounts {
 /// several times, surely move or have moved (motionProbability), and are likely enough to exist. A
 /// track lives without objects for as long as it was followed with them, up to a limit, and as long
 /// as it is not missed where it should be seen.
-///
-/// A copy goes on by itself, from the same state.
 ///
 /// Not thread safe; lists in rising stamp order, which the caller ensures (StampGate). The order of
 /// the objects in a list does not matter.
@@ -65,6 +64,15 @@ class Tracker {
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed);
 
   const TrackerCounts& counts() const { return counts_; }
+
+  /// A copy, to go on by itself from the same state with what this one will get completed
+  /// (EarlyTracker). Of those that it follows it confirms only targets of this one: what it starts
+  /// itself is not certain to be the same one here.
+  Tracker ahead() const;
+
+  /// Targets have the ids that such a copy, made since the last step, has confirmed them under,
+  /// whether they are confirmed here or not; no other gets them.
+  void keepIds(const Tracker& ahead);
 
   /// Forgets all tracks; ids go on, so that none is reused.
   void reset();
@@ -104,6 +112,7 @@ class Tracker {
   TrackPaths paths_;
   std::optional<Stamp> stamp_;
   std::uint32_t next_id_ = 1;
+  std::uint64_t confirmable_ = std::numeric_limits<std::uint64_t>::max();  ///< lower numbers are
   TrackerCounts counts_;
 };
 

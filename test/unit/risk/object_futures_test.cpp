@@ -218,6 +218,14 @@ TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
   EXPECT_NEAR(turns / (1.0 - turns), 0.3 * straight / (1.0 - straight), 1e-9);
 }
 
+TEST(RoadFollower, ModesThatAreNotKnownAreNoEvidence) {
+  Track track = vagueOncoming(1.5);
+  track.mode_probabilities = {1.0 - kTurnShare, 0.0, kTurnShare, 0.0, 0.0};  // as of any object
+  const double usual = followerOf(track)->probability;
+  track.mode_probabilities.fill(0.0);
+  EXPECT_NEAR(followerOf(track)->probability, usual, 1e-12);
+}
+
 TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
   const Track car = knownTrack(1, {40, 3.5}, {-10, 0});
   ObjectFutureOptions options;

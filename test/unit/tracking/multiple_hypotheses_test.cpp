@@ -113,7 +113,10 @@ void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   for (int i = 0; i < 20; ++i) {
     see(targets, source, {objectAt(0.5 * i, 0.0)});
   }
-  targets.change(1, [](Target& target) { target.confirm(3, true); });
+  targets.change(1, [](Target& target) {
+    target.setId(3);
+    target.confirm(1, true);
+  });
   std::vector<Object> objects{objectAt(10.0, 0.35)};
   if (another) {
     objects.push_back(objectAt(10.0, -0.3));

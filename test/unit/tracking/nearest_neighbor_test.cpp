@@ -67,7 +67,10 @@ TEST_F(NearestNeighborTest, AFullListRefusesNewObjectsAndCountsThem) {
 
 TEST_F(NearestNeighborTest, ChangesRemovesAndForgets) {
   see(targets_, source_, objectsAlong({0.0, 10.0, 20.0}));
-  targets_.change(2, [](Target& target) { target.confirm(7, true); });
+  targets_.change(2, [](Target& target) {
+    target.setId(7);
+    target.confirm(1, true);
+  });
   EXPECT_EQ(targets_.best()[1].target->id(), 7U);
   EXPECT_EQ(targets_.best()[0].target->id(), 0U);
   targets_.removeIf([](const Target& target) { return target.confirmed(); });

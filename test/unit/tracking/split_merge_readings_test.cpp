@@ -26,7 +26,7 @@ class SplitMergeReadings : public testing::Test {
     const std::uint64_t number = cluster_.trees.size() + 1;
     Leaf leaf(Leaf::Nodes{}, object, 0, number, TargetOptions());
     if (confirmed) {
-      leaf.target.confirm(static_cast<std::uint32_t>(number), true);
+      leaf.target.confirm(number, true);
     }
     cluster_.trees.push_back({{leaf}});
     cluster_.hypotheses.resize(1);

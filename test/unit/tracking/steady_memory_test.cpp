@@ -73,9 +73,8 @@ Counts countsOf(TargetSet& targets) {
       counts.associate += static_cast<double>(allocations - predicted) / (kTargets * kScans);
     } else {
       for (const BestTarget& best : targets.best()) {
-        targets.change(best.target->number(), [&](Target& target) {
-          target.confirm(static_cast<std::uint32_t>(target.number()), true);
-        });
+        targets.change(best.target->number(),
+                       [&](Target& target) { target.confirm(target.number(), true); });
       }
     }
   }

@@ -107,14 +107,17 @@ def _of_truth(each, folder, values):
 def _of_tracks(each, folder, values):
     recorded, run = folder / f"{each.stem}_recorded.bag", folder / f"{each.stem}_run.bag"
     config = ("--config", values.config)
-    programs.call(values.programs / "simulate", each, recorded, "--quiet")
-    programs.call(values.programs / "run_bag", recorded, run, *config, "--road-border", "--with-truth",
-                  "--quiet")  # fmt: skip
-    for method in values.methods:
-        programs.call(values.programs / "replay_risks", run, recorded, folder / method / f"{each.stem}.bag",
-                      *config, *_options("--set", method, values))  # fmt: skip
-    recorded.unlink()
-    run.unlink()
+    try:
+        programs.call(values.programs / "simulate", each, recorded, "--quiet")
+        programs.call(values.programs / "run_bag", recorded, run, *config, "--road-border", "--with-truth",
+                      "--quiet")  # fmt: skip
+        for method in values.methods:
+            programs.call(values.programs / "replay_risks", run, recorded,
+                          folder / method / f"{each.stem}.bag", *config,
+                          *_options("--set", method, values))  # fmt: skip
+    finally:
+        recorded.unlink(missing_ok=True)
+        run.unlink(missing_ok=True)
 
 
 def _options(option, method, values):

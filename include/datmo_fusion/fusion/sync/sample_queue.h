@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/common/waiting_bound.h"
 
 namespace datmo {
 
@@ -42,7 +43,7 @@ class SampleQueue {
     }
     last_ = stamp;
     samples_.push_back({stamp, std::move(payload)});
-    if (samples_.size() > kMaxSamples) {
+    if (samples_.size() > kMaxWaitingSamples) {
       dropOldest();
     }
     return true;
@@ -96,9 +97,6 @@ class SampleQueue {
   }
 
  private:
-  /// So that no rate fills the memory; at 50 Hz those of more than a second.
-  static constexpr std::size_t kMaxSamples = 64;
-
   template <typename Predicate>
   Sample* find(const Predicate& predicate) {
     const auto found = std::find_if(samples_.begin(), samples_.end(), predicate);
