@@ -103,6 +103,7 @@ void SensorClock::judge(const Message& message) {
   const std::optional<double> period = this->period();
   if (!period || std::abs(interval - *period) < kMinStep) {
     keep(intervals_, interval);
+    confirm(message, period);
     return;
   }
   const double stepped = ahead_ + interval - *period;
@@ -111,12 +112,22 @@ void SensorClock::judge(const Message& message) {
   const bool is_first = !other_ || std::abs(ahead - *other_) < kMinStep;
   delays_.clear();
   other_ = ahead;
-  if (is_first && cameInTime(message, *period)) {
-    other_ = ahead_;
+  set_back_.reset();
+  if (!is_first || !cameInTime(message, *period)) {
+    keep(intervals_, interval);
+  } else if (interval > kTolerance) {
     set(ahead);
   } else {
-    keep(intervals_, interval);
+    set_back_ = ahead;  // or it is an old message once more
   }
+}
+
+void SensorClock::confirm(const Message& message, const std::optional<double>& period) {
+  if (set_back_ && period &&
+      std::abs(secondsBetween(last_->arrival, message.arrival) - *period) <= kTolerance) {
+    set(*set_back_);
+  }
+  set_back_.reset();
 }
 
 void SensorClock::decide() {
@@ -134,10 +145,13 @@ void SensorClock::decide() {
     min_delay_ = delay + likeliest;  // clocks drift
   }
   delays_.clear();
-  other_.reset();
   if (likeliest != ahead_) {
     set(likeliest);
-  } else if (ahead_ != 0.0 && isRight()) {
+    other_.reset();
+    return;
+  }
+  other_.reset();
+  if (ahead_ != 0.0 && isRight()) {
     takeAsRight();
   }
 }
@@ -164,6 +178,7 @@ void SensorClock::takeAsRight() {
 void SensorClock::set(double ahead) {
   ++steps_;
   set_ = last_->arrival;
+  other_ = ahead_;
   ahead_ = ahead;
   delays_.clear();
 }
@@ -173,6 +188,7 @@ void SensorClock::restart(const Message& message) {
   intervals_.clear();
   delays_.clear();
   other_.reset();
+  set_back_.reset();
   jumped_.reset();
   ahead_ = 0.0;
   last_ = message;

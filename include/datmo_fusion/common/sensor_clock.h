@@ -90,6 +90,9 @@ class SensorClock {
 
   /// Takes the time between two messages as one of the sensor's, or as a step of its clock.
   void judge(const Message& message);
+  /// Whether the message before was the first one of a clock that was set back, as this one, a
+  /// period after it, says: then the clock is set.
+  void confirm(const Message& message, const std::optional<double>& period);
   /// Decides by the smallest of the last delays what the clock is.
   void decide();
   /// Whether the clock that was set is the right one, as far as can be told.
@@ -107,6 +110,7 @@ class SensorClock {
   double ahead_ = 0.0;           ///< s
   Stamp set_;                    ///< the arrival before the last step
   std::optional<double> other_;  ///< s, what it may be as well, until that is decided
+  std::optional<double> set_back_;  ///< s, what it is if the last message is no repeated one
   std::uint64_t steps_ = 0;
   std::uint64_t taken_ = 0;
   std::uint64_t judged_ = 0;  ///< intervals, and among how many of them there was a period
