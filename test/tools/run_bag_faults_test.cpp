@@ -112,17 +112,23 @@ TEST_F(RunBagFaults, OneImpossibleTwistIsOneMessage) {
   }
 }
 
-TEST_F(RunBagFaults, AScannersClockThatIsSetCostsNothing) {
+TEST_F(RunBagFaults, AScannersClockThatIsSetCostsOneScan) {
+  constexpr int kBegin = 24;
+  constexpr int kEnd = 28;
   for (const double off : {0.1, -0.1}) {
     const std::string table = runSpoiled([off](int i, Step& step) {
-      step.scan.header.stamp += ros::Duration(i >= 24 && i < 28 ? off : 0.0);
+      step.scan.header.stamp += ros::Duration(i >= kBegin && i < kEnd ? off : 0.0);
     });
     EXPECT_TRUE(holds(table, "clock_off")) << off;
     const std::vector<double> x = poses();
-    ASSERT_EQ(x.size(), static_cast<std::size_t>(kScans)) << off;
+    ASSERT_EQ(x.size(), static_cast<std::size_t>(kScans - 1)) << off;
+    // The first one of a clock that is set back, which may be an old one.
+    const int dropped = off > 0.0 ? kEnd : kBegin;
     for (int i = 20; i < kScans; ++i) {
-      EXPECT_NEAR(x[static_cast<std::size_t>(i)], i * kPeriod * kSpeed, 0.1)
-          << off << ", scan " << i;
+      if (i != dropped) {
+        EXPECT_NEAR(x[static_cast<std::size_t>(i < dropped ? i : i - 1)], i * kPeriod * kSpeed, 0.1)
+            << off << ", scan " << i;
+      }
     }
   }
 }
