@@ -21,6 +21,9 @@ namespace datmo {
 ///
 /// A clock that was set and is then taken for the right one is said (`clock_set`).
 ///
+/// Nothing is judged in simulated time: /clock goes in steps, and which of a step and a message
+/// comes first is left to chance, so that arrivals tell nothing of the sensor's clock.
+///
 /// Each stage has a check of its own: the offset is a difference of stamps, which are the same for
 /// all of them, but one that was started later, or that gets the messages at other times, may have
 /// another clock for the right one, or find a step up to SensorClock::kRemembered messages later.
