@@ -8,34 +8,31 @@ namespace datmo {
 
 namespace {
 
-std::string stepSentence(const std::string& input, double ahead) {
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "stamps of %s that are %.3f s %s the sensor's clock so far, though its messages "
-                "come as before: that clock was set; puts its stamps right by that",
-                input.c_str(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind");
+/// "0.100 s ahead of" or "0.100 s behind".
+std::string offsetInWords(double ahead) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3f s %s", std::abs(ahead),
+                ahead > 0.0 ? "ahead of" : "behind");
   return text;
+}
+
+std::string stepSentence(const std::string& input, double ahead) {
+  return "stamps of " + input + " that are " + offsetInWords(ahead) +
+         " the sensor's clock so far, though its messages come as before: that clock was set; puts "
+         "its stamps right by that";
 }
 
 std::string takenSentence(const std::string& input, double ahead) {
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "stamps of %s that stay %.3f s %s the sensor's clock of before, which is not surely "
-      "the right one, or are right since: that clock was set; takes them as they are",
-      input.c_str(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind");
-  return text;
+  return "stamps of " + input + " that stay " + offsetInWords(ahead) +
+         " the sensor's clock of before, which is not surely the right one, or are right since: "
+         "that clock was set; takes them as they are";
 }
 
 std::string leadSentence(const std::string& input, double lead) {
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "messages of %s that come %.3f s and more before their stamps: expected after them; "
-      "the sensor's clock is ahead, or that of this computer or of the recording is "
-      "behind: synchronize them",
-      input.c_str(), lead);
-  return text;
+  return "messages of " + input + " that come at least " + offsetInWords(lead) +
+         " their stamps: expected after them; the sensor's clock is ahead, or that of this "
+         "computer "
+         "or of the recording is behind: synchronize them";
 }
 
 /// Whether ros::Time has it; 0 is none.

@@ -120,8 +120,8 @@ std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyG
 
 GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
   showMatch(result);
-  showLocalization(result);
   GridSlamOutput output = outputOf(result);
+  showLocalization(*output.localization);
   runner_.processed(result.labeled_scan.stamp);
   return output;
 }
@@ -142,7 +142,7 @@ void GridSlamStage::reset() {
   held_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;
-  maps_begun_ = 0;
+  maps_started_ = 0;
   forgotten_tiles_ = 0;
 }
 
@@ -165,6 +165,7 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   since_start.covariance += result.drift;
   output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(*output.local_pose);
   output.pose->pose = toMessage(since_start);
+  output.localization = localizationOf(result);
   output.transforms = transformsTo(result.labeled_scan.base_in_map.pose, stamp);
   for (const geometry_msgs::TransformStamped& transform : output.transforms) {
     monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
@@ -204,6 +205,7 @@ void GridSlamStage::connect(StagePorts& ports) {
   const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
   const auto local_pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose/local");
+  const auto localization = ports.out<LocalizationState>("localization");
   const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
   ports.service<datmo_fusion::SaveMap>("save_map",
@@ -218,6 +220,7 @@ void GridSlamStage::connect(StagePorts& ports) {
     transforms.publish(message);
     pose.publish(output->pose);
     local_pose.publish(output->local_pose);
+    localization.publish(output->localization);
     labeled_scan.publish(output->labeled_scan);
     map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
   };

@@ -1,10 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GridSlamStage says of its input, the match and whether it is located, in /diagnostics.
+// What GridSlamStage reports about its input, the match and whether the vehicle is located.
+#include <cstdint>
 #include <string>
 
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 
 namespace datmo {
+
+namespace {
+
+std::uint8_t stateOf(const SlamResult& result) {
+  switch (result.localization) {
+    case Localization::kLost:
+      return LocalizationState::LOST;
+    case Localization::kUncertain:
+      return LocalizationState::UNCERTAIN;
+    case Localization::kLocated:
+      break;
+  }
+  return result.may_be_kidnapped ? LocalizationState::UNCERTAIN : LocalizationState::LOCATED;
+}
+
+/// In words, why the vehicle is not located; empty while it is.
+std::string reasonOf(const SlamResult& result) {
+  const bool is_lost = result.localization == Localization::kLost;
+  if (result.localization == Localization::kLocated) {
+    return result.may_be_kidnapped
+               ? "the map contradicts what is seen, as if the vehicle had been carried elsewhere: "
+                 "its pose is not known, and nothing is written to the map"
+               : "";
+  }
+  if (result.searches_prior_map) {
+    return std::string(is_lost ? "lost" : "uncertain") +
+           ": searches the prior map, and writes nothing to it until one place alone fits what was "
+           "seen on the way";
+  }
+  if (result.kidnapped) {
+    return "carried elsewhere, as the map contradicts what is seen: searches all of its window, "
+           "and keeps the map as it was";
+  }
+  return is_lost ? "lost after a gap: the map fits nowhere that the vehicle can be, or that is too "
+                   "much of it"
+                 : "uncertain where in the map after a gap: searches, and keeps the map as it was";
+}
+
+}  // namespace
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
   for (const InputError& fault :
@@ -16,50 +57,32 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
   }
 }
 
-void GridSlamStage::showLocalization(const SlamResult& result) {
-  monitor_.figure("maps started over", result.maps_begun);
-  switch (result.localization) {
-    case Localization::kLocated:
-      if (result.maps_begun > maps_begun_) {
-        monitor_.condition(HealthLevel::kOk,
-                           "not found again: goes on in a new map, and the pose's "
-                           "covariance keeps what is not known of it");
-      } else if (result.may_be_kidnapped) {
-        monitor_.condition(HealthLevel::kDegraded,
-                           "the map contradicts what is seen, as if the vehicle had been carried "
-                           "elsewhere: its pose is not known, and nothing is written to the map");
-      } else if (monitor_.health() != HealthLevel::kOk) {
-        monitor_.condition(HealthLevel::kOk, "located in the map");
-      }
-      maps_begun_ = result.maps_begun;
-      return;
-    case Localization::kUncertain:
-    case Localization::kLost:
-      showSearch(result);
-      return;
-  }
+LocalizationStatePtr GridSlamStage::localizationOf(const SlamResult& result) const {
+  const auto message = boost::make_shared<LocalizationState>();
+  message->header.stamp = toTime(result.labeled_scan.stamp);
+  message->header.frame_id = options_.frames.map;
+  message->state = stateOf(result);
+  message->maps_started = static_cast<std::uint32_t>(result.maps_begun);
+  message->reason = reasonOf(result);
+  return message;
 }
 
-void GridSlamStage::showSearch(const SlamResult& result) {
-  const bool is_lost = result.localization == Localization::kLost;
-  const HealthLevel health = is_lost ? HealthLevel::kNoOutput : HealthLevel::kDegraded;
-  if (result.searches_prior_map) {
-    monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
-                                   ": searches the prior map, and writes nothing to it until one "
-                                   "place alone fits what was seen on the way");
-  } else if (result.kidnapped) {
-    monitor_.condition(health,
-                       "carried elsewhere, as the map contradicts what is seen: searches all of "
-                       "its window, and keeps the map as it was");
-  } else if (is_lost) {
-    monitor_.condition(health,
-                       "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
-                       "too much of it");
-  } else {
-    monitor_.condition(health,
-                       "uncertain where in the map after a gap: searches, and keeps the map as it "
-                       "was");
+void GridSlamStage::showLocalization(const LocalizationState& state) {
+  monitor_.figure("maps started over", state.maps_started);
+  if (state.state != LocalizationState::LOCATED) {
+    monitor_.condition(
+        state.state == LocalizationState::LOST ? HealthLevel::kNoOutput : HealthLevel::kDegraded,
+        state.reason);
+    return;
   }
+  if (state.maps_started > maps_started_) {
+    monitor_.condition(HealthLevel::kOk,
+                       "not found again: goes on in a new map, and the pose's "
+                       "covariance keeps what is not known of it");
+  } else if (monitor_.health() != HealthLevel::kOk) {
+    monitor_.condition(HealthLevel::kOk, "located in the map");
+  }
+  maps_started_ = state.maps_started;
 }
 
 void GridSlamStage::showForgottenTiles() {

@@ -13,13 +13,11 @@
 #include "datmo_fusion/ros/map_files.h"
 #include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/slam/keyframe_selector.h"
 
 namespace datmo {
 
 namespace {
-
-/// s: a pose that stays less certain for so long is in a new map (KeyframeOptions::new_map_after).
-constexpr double kNewMapAfter = 7.0;
 
 /// The source that has the poses.
 constexpr char kPoses[] = "labeled_scan";
@@ -170,7 +168,8 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
 std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const LabeledScan& scan) {
   std::vector<MissingSource> missing = matched.missing;
   if (fuser_.isLessCertain(scan.base_in_map) && last_pose_ &&
-      secondsBetween(*last_pose_, scan.stamp) < kNewMapAfter) {
+      secondsBetween(*last_pose_, scan.stamp) < KeyframeOptions().new_map_after) {
+    monitor_.figure("scans left out, their pose being uncertain", static_cast<double>(++left_out_));
     return missing;
   }
   const std::vector<Point2> movers = moversOf(scan);

@@ -3,6 +3,7 @@
 
 #include <datmo_fusion/DroppedObjects.h>
 #include <datmo_fusion/LabeledScan.h>
+#include <datmo_fusion/LocalizationState.h>
 #include <datmo_fusion/ObjectArray.h>
 #include <datmo_fusion/PartClock.h>
 #include <datmo_fusion/RoadBorders.h>
@@ -36,6 +37,8 @@ using datmo_fusion::DroppedObjectsConstPtr;
 using datmo_fusion::DroppedObjectsPtr;
 using datmo_fusion::LabeledScanConstPtr;
 using datmo_fusion::LabeledScanPtr;
+using datmo_fusion::LocalizationState;
+using datmo_fusion::LocalizationStatePtr;
 using datmo_fusion::ObjectArray;
 using datmo_fusion::ObjectArrayConstPtr;
 using datmo_fusion::ObjectArrayPtr;

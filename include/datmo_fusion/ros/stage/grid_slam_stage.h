@@ -57,6 +57,7 @@ struct GridSlamOutput {
   LabeledScanPtr labeled_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
   geometry_msgs::PoseWithCovarianceStampedPtr local_pose;  ///< without the drift of the map
+  LocalizationStatePtr localization;
   std::vector<geometry_msgs::TransformStamped> transforms;
 };
 
@@ -125,11 +126,11 @@ class GridSlamStage : public Stage {
 
   /// For diagnostics.
   void showMatch(const SlamResult& result);
-  void showLocalization(const SlamResult& result);
-  void showSearch(const SlamResult& result);
+  void showLocalization(const LocalizationState& state);
   void showForgottenTiles();
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
+  LocalizationStatePtr localizationOf(const SlamResult& result) const;
   /// By the odometry's poses.
   std::optional<Pose2> motionBetween(Stamp from, Stamp to) const;
   /// map -> odom at the stamp of an odometry that was taken now, while scans are silent; else null.
@@ -150,7 +151,7 @@ class GridSlamStage : public Stage {
   HeldTransform held_;
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
-  int maps_begun_ = 0;
+  std::uint32_t maps_started_ = 0;
   std::size_t forgotten_tiles_ = 0;
 };
 

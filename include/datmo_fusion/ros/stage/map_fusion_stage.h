@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -102,6 +103,7 @@ class MapFusionStage : public Stage {
   MapFuser fuser_;
   std::optional<GridWindow> window_;  ///< of the first grid
   std::optional<Stamp> last_pose_;
+  std::uint64_t left_out_ = 0;  ///< scans whose pose was too uncertain
   std::optional<Stamp> last_output_;
   StagePublisher<nav_msgs::OccupancyGrid> fused_;
   StagePublisher<nav_msgs::OccupancyGrid> conflicts_;
