@@ -32,7 +32,6 @@ namespace datmo {
 /// to StampGate: a single message that far off carries no information, and if the next ones are
 /// as well, the comparison starts over. An offset that was there from the start is not detected,
 /// unless messages arrive before their stamps. Not thread-safe.
-/// messages come before their stamps. Not thread safe.
 class SensorClock {
  public:
   /// s; smaller steps cannot be told from the jitter of drivers and networks, and amount to a cell
