@@ -17,8 +17,7 @@ namespace datmo {
 enum class AlignmentTerm {
   kDisparity,  ///< px: by how much the camera's disparities are too large
   kSurface,    ///< m: its surfaces lie behind the scanner's, along their normal: no body is upright
-  kForward,    ///< m: by how much it is mounted farther back than tf says, along its horizontal
-               ///< heading
+  kForward,    ///< m: its mount is this much farther back than in tf, along its horizontal heading
   kHeading,    ///< rad: by how much it is turned farther to the left than tf says
   kTime,       ///< s: by how much it captured its cloud before the stamp
 };
