@@ -12,7 +12,7 @@ namespace datmo {
 /// Indices of surfaces that belong together, by column.
 using SurfaceGroup = std::vector<std::size_t>;
 
-/// The visible outline of one object is convex towards the camera; at a dent in a group, another
+/// The visible outline of one object is convex toward the camera; at a dent in a group, another
 /// object begins: a parked car next to a cyclist, a house behind a car.
 class DentSplitter {
  public:

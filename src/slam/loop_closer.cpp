@@ -38,7 +38,7 @@ bool isAtRest(const StampedPose& before, const StampedPose& now) {
          secondsBetween(before.stamp, now.stamp) < kRestPeriod;
 }
 
-/// m; by which the old submap is extended for drift on either side at most.
+/// m; maximum by which the old submap is extended on either side for drift.
 constexpr double kMaxHalf = 60.0;
 
 /// The covariance `later` minus what was known before, as far as that is a covariance.

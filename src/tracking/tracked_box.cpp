@@ -40,7 +40,7 @@ struct SeenAxis {
   bool isSeenBehind() const { return std::isfinite(behind); }
 
   /// `position_variance`, m^2: of the object along the axis, which is also the uncertainty of the
-  /// visible limit towards a hidden end.
+  /// visible limit toward a hidden end.
   VisibleExtent visible(double position_variance) const {
     return {extent, (isSeenAhead() ? ahead : 0.0) + (isSeenBehind() ? behind : 0.0),
             isSeenAhead() && isSeenBehind(), std::sqrt(position_variance)};

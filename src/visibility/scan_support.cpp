@@ -84,7 +84,7 @@ ScanSupport::ScanSupport(const LabeledScan& scan, const Checked<ScanSupportOptio
       field_(scan.field),
       fan_(field_.first_bearing, field_.beam_spacing) {
   if (2.0 * kPi > kMaxBeams * std::abs(field_.beam_spacing)) {
-    return;  // finer than any scanner: counting the beams towards an object would take too long
+    return;  // finer than any scanner: counting the beams toward an object would take too long
   }
   beams_.assign(field_.beams, {End::kNothing, field_.free_range});
   for (const std::uint32_t beam : scan.blind_beams) {

@@ -53,9 +53,9 @@ class SensorClock {
   /// Returns the same for the newest message; 0 if nothing is wrong.
   double ahead() const { return ahead_; }
 
-  /// Returns the time (s) by which all of the last kRemembered messages at least arrived before
-  /// their stamps: the clock is ahead, or that of the arrivals is behind. 0 if they did not, and
-  /// from kMaxStep on, where the two clocks are unrelated.
+  /// Returns the least time (s) by which the last kRemembered messages arrived before their stamps:
+  /// the clock is ahead, or that of the arrivals is behind. 0 if not all of them did, and from
+  /// kMaxStep on, where the two clocks are unrelated.
   double lead() const;
 
   /// Returns how often the clock was set, including back to its former time.

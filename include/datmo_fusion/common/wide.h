@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arithmetic on four doubles at a time, for wide registers that many processors have but not all:
 // compiled for both and selected at startup. Results are identical: the same additions and
-// multiplications are done on more elements at a time, and AVX2 does not fuse the two. Where the
+// multiplications are done on more elements at a time, and AVX2 does not fuse the two. If the
 // compiler could fuse them (-march with FMA, AArch64), -ffp-contract=off prevents it.
 #pragma once
 

@@ -48,7 +48,7 @@ struct RadarObjects {
   std::size_t unclustered = 0;  ///< returns in no cluster: noise
 };
 
-/// Detects objects that move towards or away from a radar: clusters of returns that are close to
+/// Detects objects that move toward or away from a radar: clusters of returns that are close to
 /// each other in position and in velocity over ground along the line of sight (DBSCAN, Ester et al.
 /// 1996, by a distance that grows with the bearing's noise).
 ///

@@ -6,8 +6,8 @@
 
 namespace datmo {
 
-/// Where along a beam space is known to be free: within a margin before its end, given by the range
-/// uncertainty, it may already be inside the object that it hit.
+/// The part of a beam along which space is known to be free: within a margin before its end, given
+/// by the range uncertainty, it may already be inside the object that it hit.
 struct BeamEndOptions {
   double range_sigma = 0.0;  ///< m, range noise (standard deviation); 0: unknown
   double end_margin = 3.0;   ///< in range_sigma; 0: a beam frees cells up to its end

@@ -33,7 +33,7 @@ struct OccupancyMapOptions {
   double static_after = 0.8;    ///< s, between first and last hit of a static cell
   int static_neighborhood = 1;  ///< cells around an end point that can make it static
   int ghost_after = 2;          ///< beam ends refuted by other sensors
-  int max_tiles = 2000;         ///< of 32 x 32 cells outside of the window, in memory
+  int max_tiles = 2000;         ///< of 32 x 32 cells outside the window, in memory
   TileFileOptions tile_file;    ///< for further tiles
 
   void visit(OptionVisitor& visitor);

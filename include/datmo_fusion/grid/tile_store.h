@@ -49,7 +49,7 @@ class TileStore {
     }
   }
 
-  /// Like put(), but the tile stays in memory and does not count towards `max_tiles`.
+  /// Like put(), but the tile stays in memory and does not count toward `max_tiles`.
   void putPermanently(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {

@@ -63,8 +63,8 @@ struct SurfacePair {
   double inverseDepth() const { return intercept + slope * tangent; }
 };
 
-/// Returns the derivative of a pair's difference by each term. `disparity_at_meter`: px m, focal
-/// length times baseline. `twist`: of the vehicle.
+/// Returns the derivative of a pair's difference with respect to each term. `disparity_at_meter`:
+/// px m, focal length times baseline. `twist`: of the vehicle.
 AlignmentVector alignmentRates(const SurfacePair& pair, double disparity_at_meter,
                                const Twist2& twist);
 

@@ -16,7 +16,7 @@ struct GradualCorrectionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Moves one frame within another towards its estimated pose, gradually, so that nothing jumps as
+/// Moves one frame within another toward its estimated pose, gradually, so that nothing jumps as
 /// seen from the vehicle: a turn about a distant origin alone would throw it sideways.
 class GradualCorrection {
  public:

@@ -44,7 +44,7 @@ struct VisibleExtent {
   double length = 0.0;      ///< m, at least 0
   double variance = 0.0;    ///< m^2, at least 0; of the visible ends
   bool whole = false;       ///< both ends were visible; otherwise the object may be longer
-  double hidden_std = 0.0;  ///< m, at least 0; of the visible limit towards a hidden end
+  double hidden_std = 0.0;  ///< m, at least 0; of the visible limit toward a hidden end
 };
 
 /// The size of one tracked object along the two axes of its box: one estimate (mean and variance,

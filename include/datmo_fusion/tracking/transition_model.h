@@ -74,7 +74,7 @@ ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 /// the mixture also matches its total variance, so that uninformative data change nothing.
 ///
 /// Beyond the paper: rows are kept as rates (JumpCounts), so that steps of all lengths have the
-/// same effect; what was learned decays towards the prior; rates are bounded.
+/// same effect; what was learned decays toward the prior; rates are bounded.
 class TransitionModel {
  public:
   TransitionModel(const JumpCounts& prior, const TransitionLearningOptions& options);

@@ -65,13 +65,13 @@ class ScanHistory {
   /// Returns the distance along a beam, m, within which an end lies on a surface.
   double tolerance() const { return options_.tolerance; }
 
-  /// Returns the beam of that scan towards a point (m, map frame); none if it is not in view.
+  /// Returns the beam of that scan toward a point (m, map frame); none if it is not in view.
   std::optional<std::size_t> beamIndex(std::size_t back, const Point2& position) const;
 
   /// Returns whether a beam of that scan ended within tolerance() of a point (m, map frame).
   bool endsAt(std::size_t back, const Point2& position) const;
 
-  /// Returns what that scan observed at a point, by the beam towards it.
+  /// Returns what that scan observed at a point, by the beam toward it.
   BeamCrossing look(std::size_t back, const ReflectionPoint& location) const;
 
  private:

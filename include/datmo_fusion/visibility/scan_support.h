@@ -17,7 +17,7 @@ struct ScanSupportOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Evidence of a scan at the position of an object, as shares of the beams towards it. The
+/// Evidence of a scan at the position of an object, as shares of the beams toward it. The
 /// remaining beams are occluded, blind, outside the field, or end there on something not static.
 struct PositionEvidence {
   double static_share = 0.0;   ///< end there on known static obstacles
