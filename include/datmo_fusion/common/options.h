@@ -142,8 +142,8 @@ void readAll(const OptionValues& values, const OptionWalk& visit);
 }  // namespace detail
 
 /// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed,
-/// and for options that contradict each other, as far as `Options::check() const`, if it exists,
-/// throws.
+/// and whatever `Options::check() const`, if it exists, throws for options that contradict each
+/// other.
 template <typename Options>
 void checkOptions(const Options& options) {
   Options copy = options;

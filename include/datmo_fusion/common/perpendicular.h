@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// Returns the vector turned left by 90 degrees: the its derivative with respect to rotation.
+/// Returns the vector turned left by 90 degrees: the derivative of a rotated vector by angle.
 inline Point2 perpendicular(const Point2& vector) { return {-vector.y(), vector.x()}; }
 
 }  // namespace datmo

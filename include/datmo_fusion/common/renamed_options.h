@@ -8,7 +8,8 @@
 namespace datmo {
 
 /// Returns the current key, among `keys`, of an option that was renamed; none if `key` is not a
-/// former key of any of them. Keys are full (`segmentation/longest_gap`); groups were renamed, too.
+/// former key of any of them. Keys are full ones (`segmentation/longest_gap`); groups were renamed,
+/// too.
 std::optional<std::string> renamedOption(const std::string& key, const std::set<std::string>& keys);
 
 }  // namespace datmo

@@ -51,7 +51,7 @@ struct StereoAlignmentOptions {
   std::array<const AlignmentTermOptions*, kAlignmentTerms> terms() const;
 };
 
-/// One plane upright surface that both sensors see: the scanner's inverse depth on it is
+/// One planar upright surface that both sensors see: the scanner's inverse depth on it is
 /// `intercept + slope * tangent` in the camera's level view (StereoView).
 struct SurfacePair {
   double tangent = 0.0;     ///< of its middle, to the right of the camera's heading

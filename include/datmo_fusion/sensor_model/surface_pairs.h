@@ -63,7 +63,7 @@ class SurfacePairFinder {
   /// Adds the pair of a piece, if there is one.
   void add(const Piece& piece, const StereoCamera& camera, const StereoAlignment& expected,
            const Twist2& twist, std::vector<SurfacePair>& pairs);
-  /// Fits the plane of a piece; false if it is not plane or not frontal. `variance`: px^2.
+  /// Fits the plane of a piece; false if it is not planar or not frontal. `variance`: px^2.
   bool fit(const Piece& piece, double disparity_at_meter, SurfacePair& pair) const;
   /// False if the cloud's points between two tangents are not on one surface.
   bool compare(double left, double right, double disparity_at_meter, double predicted,
