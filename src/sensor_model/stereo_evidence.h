@@ -14,14 +14,13 @@ namespace datmo {
 
 /// How the points of one cloud are counted.
 struct EvidenceLimits {
-  double cell_size = 0.0;     ///< m, of the requested grid
-  double min_depth = 0.0;     ///< m, obstacles beyond are ignored
-  double max_depth = 0.0;     ///< m, obstacles beyond are not of interest
-  double layer_bottom = 0.0;  ///< m above the road
-  double layer_top = 0.0;     ///< m above the road
-  double road_sigmas = 0.0;   ///< of the depth: points this close to the road are on it
-  double obstacle_sigmas =
-      0.0;  ///< of the depth: lines of sight are free up to this before their end
+  double cell_size = 0.0;        ///< m, of the requested grid
+  double min_depth = 0.0;        ///< m, obstacles beyond are ignored
+  double max_depth = 0.0;        ///< m, obstacles beyond are not of interest
+  double layer_bottom = 0.0;     ///< m above the road
+  double layer_top = 0.0;        ///< m above the road
+  double road_sigmas = 0.0;      ///< of the depth: points this close to the road are on it
+  double obstacle_sigmas = 0.0;  ///< of the depth: margin before the end of a line of sight
 };
 
 /// The points of one cloud, counted in columns of the camera's level image over depth: how many are

@@ -116,7 +116,8 @@ class GridSlam {
   /// Predicts the pose at the next scan's stamp, in the map that it will be matched with. Returns
   /// whether odometry measured most of the motion.
   bool predict(Stamp stamp);
-  /// Switches to the map that a prediction has returned to, if it has. Returns the same.
+  /// Switches to the map that a prediction has returned to, if it has. Returns the same as
+  /// predict().
   bool follow(const PoseTracker::Prediction& prediction);
   /// Starts a new map after a gap.
   void leaveMap(Stamp stamp);

@@ -38,13 +38,13 @@ struct ClosedLoop {
 /// Results of the searches so far.
 struct LoopCounts {
   std::size_t closed = 0;
-  std::size_t unconfirmed = 0;  ///< found, but rejected
+  std::size_t unconfirmed = 0;  ///< found, but not confirmed by another
   std::size_t ambiguous = 0;
   std::size_t unlike = 0;   ///< the submaps do not match
   std::size_t refuted = 0;  ///< removed later, because the other loops contradict them
 };
 
-/// Loop closure behind the live SLAM (Hess et al. 2016): keeps scans of the drive, searches early
+/// Loop closure behind the live SLAM (Hess et al. 2016): keeps scans of the drive, searches earlier
 /// ones for what the vehicle has just seen, and optimizes the whole trajectory.
 ///
 /// Frames: `map` is that of the live SLAM, which drifts; `global` is that of the optimized poses.

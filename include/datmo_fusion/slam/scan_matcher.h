@@ -41,9 +41,8 @@ struct MatchQuality {
   /// m, standard deviation of the position by the match alone, in its least observable direction;
   /// infinite if unobservable (a corridor, a guard rail).
   double weakest_sigma = std::numeric_limits<double>::infinity();
-  bool degenerate = false;  ///< that direction was taken from the prediction
-  double surface_age =
-      0.0;  ///< s, mean age of the surfaces, weighted by their information on position
+  bool degenerate = false;   ///< that direction was taken from the prediction
+  double surface_age = 0.0;  ///< s, mean of the surfaces, by their information on position
 };
 
 /// The pose at which a scan fits the map best, in the map frame, and its uncertainty.

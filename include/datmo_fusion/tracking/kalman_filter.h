@@ -21,8 +21,7 @@ struct StateEstimate {
 struct PositionMeasurement {
   Point2 position = Point2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  double delay =
-      0.0;  ///< s after the time of the state; the object has moved on at its velocity by then
+  double delay = 0.0;  ///< s after the time of the state; the object has moved on until then
 };
 
 /// Returns the state with its position extrapolated by its velocity over this many seconds, which
