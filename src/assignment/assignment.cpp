@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// Scratch space on the stack, bytes: most problems are tiny, and need no other.
+/// Scratch memory on the stack, bytes: enough for most problems, which are tiny.
 constexpr std::size_t kScratch = 2048;
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// In place of the row that a column was reached from.
+/// Stands for the row from which a column was reached.
 constexpr int kVoid = -2;
 
 void giveCheapestFree(int row, const AssignmentCosts& costs, PricedAssignment& assignment) {
@@ -76,7 +76,7 @@ void AugmentingPath::start() {
   waiting_rows_.clear();
 }
 
-/// The length of the shortest path, or kForbidden.
+/// Returns the length of the shortest path, or kForbidden.
 double AugmentingPath::find(const Search& search, const PricedAssignment& assignment) {
   start();
   leaveRow(search.root, search.root_cost, 0.0, assignment);
@@ -105,8 +105,8 @@ double AugmentingPath::find(const Search& search, const PricedAssignment& assign
   }
 }
 
-/// Equal distances: columns before the void, unless the path to it is over a free column, and that
-/// before rows.
+/// The nearest open node. On a tie, columns come before the void, unless its path is through a free
+/// column, and the void before rows.
 AugmentingPath::Node AugmentingPath::nearest(const PricedAssignment& assignment) const {
   Node result;
   for (int position = 0; position < static_cast<int>(reached_.size()); ++position) {
@@ -128,7 +128,7 @@ AugmentingPath::Node AugmentingPath::nearest(const PricedAssignment& assignment)
   return result;
 }
 
-/// Whether a column that is no farther than the nearest one until now is left before it: of equally
+/// Whether a column that is no farther than the nearest one so far is visited before it: of equally
 /// near ones the free ones, which end most searches, then the earlier ones.
 bool AugmentingPath::comesFirst(int column, const Node& nearest,
                                 const PricedAssignment& assignment) const {
@@ -144,7 +144,7 @@ bool AugmentingPath::comesFirst(int column, const Node& nearest,
   return free == other_free ? column < other : free;
 }
 
-/// Takes a column out of the reached ones.
+/// Removes a column from the reached ones.
 int AugmentingPath::close(int position) {
   const int column = reached_[position];
   reached_[position] = reached_.back();
@@ -166,7 +166,7 @@ void AugmentingPath::reach(int column, double distance, int from) {
   reached_from_[column] = from;
 }
 
-/// Shortens the paths to all open columns, and to the void, by those over this row.
+/// Shortens the paths to all open columns and to the void by those through this row.
 void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
                               const PricedAssignment& assignment) {
   const Possible columns = costs_.possible(row);
@@ -183,7 +183,7 @@ void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
   }
 }
 
-/// On to the row that has it, or, as a free one, to the void.
+/// Continues to the row that has the column, or, if it is free, to the void.
 void AugmentingPath::leaveColumn(int column, double distance, const PricedAssignment& assignment) {
   const int row = assignment.row_of_column[column];
   if (row != kUnassigned) {
@@ -199,7 +199,7 @@ void AugmentingPath::reachVoid(double distance, int row, int column) {
   void_from_column_ = column;
 }
 
-/// Columns may become free, and rows without column may come to one.
+/// Columns may become free, and rows without a column may get one.
 void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& assignment) {
   void_left_ = true;
   work_ += static_cast<std::int64_t>(assignment.open_rows.size()) + costs_.columns();
@@ -226,7 +226,7 @@ double AugmentingPath::distanceOf(int row, const PricedAssignment& assignment) c
   return column == kUnassigned ? throughVoid(row, assignment) : distance_[column];
 }
 
-/// What was left is no farther than the end of the path; the void keeps its price of 0. Where the
+/// Visited nodes are no farther than the end of the path; the void keeps its price of 0. If the
 /// path does not lead through the void, nothing else changes.
 void AugmentingPath::updatePrices(const Search& search, double length,
                                   PricedAssignment& assignment) const {
@@ -234,7 +234,7 @@ void AugmentingPath::updatePrices(const Search& search, double length,
     updateAllPrices(search, length, assignment);
     return;
   }
-  // A new root has no price yet: its path may be shorter than 0.
+  // A new root has no price yet: its path may have a negative length.
   assignment.row_price[search.root] += length;
   for (const int column : left_) {
     const double change = length - std::min(distance_[column], length);
@@ -261,7 +261,7 @@ void AugmentingPath::updateAllPrices(const Search& search, double length,
   }
 }
 
-/// Changes what the path changes, from its end back to the root.
+/// Applies the changes along the path, from its end back to the root.
 void AugmentingPath::apply(const Search& search, PricedAssignment& assignment) const {
   int column = search.target;
   int row = kUnassigned;

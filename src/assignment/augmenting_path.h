@@ -11,25 +11,25 @@
 
 namespace datmo {
 
-/// Finds the cheapest change that gives one row another column: the shortest path from the row by
-/// reduced costs (Dijkstra), along pairs, back along assigned pairs, and through the void, where
-/// one row gives its column up and another one comes to a column.
+/// Finds the cheapest change that assigns another column to a row: the shortest path from the row
+/// by reduced costs (Dijkstra), forward along pairs, backward along assigned pairs, and through the
+/// void, where one row gives up its column and another one gets a column.
 ///
 /// Jonker and Volgenant 1987; Crouse, On implementing 2D rectangular assignment algorithms, 2016.
-/// The columns of staying unassigned, which every row has to itself, are never stored. Pairs that
-/// are forbidden, in most problems nearly all, are not looked at: a search costs what it reaches.
+/// Each row's private column for staying unassigned is never stored. Forbidden pairs, which in most
+/// problems are nearly all, are not visited: the cost of a search depends on what it reaches.
 class AugmentingPath {
  public:
   AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
 
-  /// A row that has nothing yet gets the best column, and is open from then on.
+  /// Assigns the best column to a row that has nothing yet, and opens the row.
   void add(int row, PricedAssignment& assignment);
 
-  /// An open row gets another column than it has, by the costs given for it. False, and nothing
-  /// changed: there is no other column.
+  /// Assigns another column to an open row, by the costs given for it. Returns false, without any
+  /// change, if there is no other column.
   bool replace(int row, const RowCost& row_cost, PricedAssignment& assignment);
 
-  /// Possible pairs, rows and columns that were looked at until now.
+  /// Returns the number of possible pairs, rows and columns visited so far.
   std::int64_t work() const { return work_; }
 
  private:
@@ -68,22 +68,22 @@ class AugmentingPath {
   const AssignmentCosts& costs_;
   std::int64_t work_ = 0;
 
-  // Of the present search.
+  // Of the current search.
   std::pmr::vector<double> distance_;   ///< of each column; kForbidden: not reached
   std::pmr::vector<int> reached_from_;  ///< row, or kVoid
-  std::pmr::vector<char> is_left_;      ///< by column: the shortest path to it is known
-  std::pmr::vector<int> reached_;       ///< columns that may be left next
-  std::pmr::vector<int> left_;          ///< columns
+  std::pmr::vector<char> is_left_;      ///< by column: visited, the shortest path to it is known
+  std::pmr::vector<int> reached_;       ///< columns that may be visited next
+  std::pmr::vector<int> left_;          ///< visited columns
   double void_distance_ = kForbidden;
-  int void_from_row_ = kUnassigned;     ///< that gave its column up, or
+  int void_from_row_ = kUnassigned;     ///< that gave up its column, or
   int void_from_column_ = kUnassigned;  ///< that was free
   bool void_left_ = false;
-  std::pmr::vector<int> waiting_rows_;  ///< without column, reached through the void
+  std::pmr::vector<int> waiting_rows_;  ///< without a column, reached through the void
 };
 
-/// The best assignment, from one that has nothing yet: one row after the other gets its column.
-/// False: it took more work than allowed, and the rows that were left, in their order, got the
-/// cheapest column that was free; the assignment is valid but not the best, and nor are its prices.
+/// Finds the best assignment, starting from an empty one, row by row. Returns false if the work
+/// limit was reached: the remaining rows, in their order, then got the cheapest free column; the
+/// assignment is valid, but neither it nor its prices are optimal.
 bool assignAll(const AssignmentCosts& costs, std::int64_t max_work, AugmentingPath& path,
                PricedAssignment& assignment);
 

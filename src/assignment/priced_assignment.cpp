@@ -10,10 +10,10 @@ namespace datmo {
 
 namespace {
 
-/// Columns that a row may have in most problems; memory for more is taken when needed.
+/// Maximum number of columns per row in most problems; memory for more is allocated when needed.
 constexpr int kUsualColumns = 4;
 
-/// Whether four costs all are.
+/// Returns whether all of four costs are forbidden.
 bool isForbidden(const double* costs) {
   return std::min(std::min(costs[0], costs[1]), std::min(costs[2], costs[3])) == kForbidden;
 }
@@ -29,7 +29,7 @@ double minOut(int row, const RowCost& row_cost, const AssignmentCosts& costs,
   return min - assignment.row_price[row];
 }
 
-/// From the void, where the column may stay, or from another open row.
+/// From the void, if the column may stay free, or from another open row.
 double minIntoColumn(int column, int row, const AssignmentCosts& costs, const RowsOfColumns& rows,
                      const PricedAssignment& assignment) {
   double min = 0.0;
@@ -74,7 +74,7 @@ RowsOfColumns::RowsOfColumns(const AssignmentCosts& costs, std::pmr::memory_reso
   rows_.resize(first_.back());
   for (int row = 0; row < costs.rows(); ++row) {
     for (const int column : costs.possible(row)) {
-      rows_[first_[column + 1]++] = row;  // it was the end of the column before
+      rows_[first_[column + 1]++] = row;  // the end of the previous column
     }
   }
 }

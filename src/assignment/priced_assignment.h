@@ -9,13 +9,13 @@
 
 namespace datmo {
 
-/// What one row may have: costs of all columns, and of none.
+/// The options of one row: the costs of all columns, and of none.
 struct RowCost {
   const double* columns = nullptr;
   double unassigned = 0.0;
 };
 
-/// The columns that a row may have, rising; or the rows that may have a column.
+/// The columns that a row may have, ascending; or the rows that may have a column.
 class Possible {
  public:
   Possible(const int* begin, const int* end) : begin_(begin), end_(end) {}
@@ -28,8 +28,8 @@ class Possible {
   const int* end_;
 };
 
-/// The costs of a problem, which are kept elsewhere, and which pairs are possible: in most problems
-/// few of all.
+/// The costs of a problem, which are stored elsewhere, and the possible pairs, in most problems
+/// few.
 class AssignmentCosts {
  public:
   AssignmentCosts(const CostMatrix& all_pairs, const Eigen::VectorXd& unassigned_cost,
@@ -42,7 +42,7 @@ class AssignmentCosts {
   int columns() const { return static_cast<int>(pairs.cols()); }
   RowCost row(int row) const { return {pairs.row(row).data(), unassigned[row]}; }
 
-  /// Columns that a row may have.
+  /// Returns the columns that a row may have.
   Possible possible(int row) const {
     return {columns_.data() + first_[row], columns_.data() + first_[row + 1]};
   }
@@ -52,7 +52,7 @@ class AssignmentCosts {
   std::pmr::vector<int> first_;    ///< of each row, and the end
 };
 
-/// The rows that may have each column: of those that are possible at all, in most problems few.
+/// The rows that may have each column; in most problems few pairs are possible.
 class RowsOfColumns {
  public:
   RowsOfColumns(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
@@ -66,14 +66,14 @@ class RowsOfColumns {
   std::pmr::vector<int> first_;  ///< of each column, and the end
 };
 
-/// In place of the row that has a column.
+/// Stands for the row that has a column.
 inline constexpr int kFixed = -2;
 
-/// An assignment and the prices (dual variables) that prove it to be the best.
+/// An assignment and the prices (dual variables) that prove its optimality.
 ///
-/// The problem as a flow: each row sends one unit to a column, for the pair's cost, or straight to
-/// the void, for its cost of having no column; a column that takes a unit hands it on to the void,
-/// for nothing. With the price of the void at 0, of a row p and of a column q:
+/// The problem as a flow: each row sends one unit to a column, at the pair's cost, or directly to
+/// the void, at its cost of having no column; a column that receives a unit passes it on to the
+/// void, for free. With the price of the void at 0, that of a row p and that of a column q:
 ///   cost - p - q >= 0 for every pair, = 0 where assigned;
 ///   p <= cost of having no column where the row has one, >= where it has none;
 ///   q <= 0 where the column is taken, >= 0 where it is free.
@@ -81,38 +81,38 @@ struct PricedAssignment {
   /// Nothing assigned, all prices 0, no row open.
   PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory);
 
-  /// A row may get another column.
+  /// Allows a row to get another column.
   void open(int row);
 
-  /// A row keeps what it has.
+  /// Fixes what a row has.
   void fix(int row);
 
-  /// These rows are open, and no others.
+  /// Opens these rows, and no others.
   void openOnly(const int* begin, const int* end);
 
   std::pmr::vector<double> row_price;
   std::pmr::vector<double> column_price;
   std::pmr::vector<int> column_of_row;
-  std::pmr::vector<int> row_of_column;  ///< kUnassigned: free; kFixed: of a row that keeps it
+  std::pmr::vector<int> row_of_column;  ///< kUnassigned: free; kFixed: its row is fixed
   std::pmr::vector<int> open_rows;      ///< that may get another column
   std::pmr::vector<char> is_open;       ///< the same, by row
 };
 
-/// Sum over all rows.
+/// Returns the sum over all rows.
 double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCosts& costs);
 
-/// Bound from below of how much dearer the assignment becomes once an open row may only have what
-/// `row_cost` allows, which is not what it has: the first step of the path to its new column, and
-/// the last one to its old column (AugmentingPath). kForbidden: there is no other column.
-/// `into_void`: see minIntoVoid(); only of use if the row has no column.
+/// Returns a lower bound of the cost increase if an open row may only have what `row_cost` allows,
+/// which excludes its current column: the first step of the path to its new column, and the last
+/// one to its old column (AugmentingPath). kForbidden: there is no other column. `into_void`: see
+/// minIntoVoid(); only used if the row has no column.
 double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
                    const RowsOfColumns& rows, const PricedAssignment& assignment, double into_void);
 
-/// The last step of such a path to the void: from an open row that gives its column up, or from a
-/// free column. The same for all rows without column.
+/// Returns the last step of such a path to the void: from an open row that gives up its column, or
+/// from a free column. The same for all rows without a column.
 double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment);
 
-/// Throws std::invalid_argument where they do not belong together.
+/// Throws std::invalid_argument if the sizes do not match.
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);
 
 }  // namespace datmo

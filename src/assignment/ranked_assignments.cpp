@@ -17,21 +17,21 @@ namespace datmo {
 
 namespace {
 
-/// The first memory of a ranking, bytes: enough for the first few assignments of a tiny problem.
+/// Initial memory of a ranking, bytes: enough for the first few assignments of a tiny problem.
 constexpr std::size_t kFirstMemory = 4096;
 
-/// Parts of fewer rows are split faster than they are ordered.
+/// Parts with fewer rows are split faster than they are sorted.
 constexpr int kRowsWorthOrdering = 8;
 
-/// In the queue: a part, or one that a part was split into and that was not searched yet.
+/// An entry of the queue: a part, or one split from a part and not searched yet.
 struct Candidate {
-  double min_cost = 0.0;  ///< of a part: exact, else a lower bound
+  double min_cost = 0.0;  ///< of a part: exact, otherwise a lower bound
   int part = 0;
   int position =
       kNoIndex;  ///< of the row, in the order of `part`, that is to differ; kNoIndex: a part
   int number = 0;
 
-  /// Order of the queue, which has the greatest on top.
+  /// Order of the queue, which has the greatest element on top.
   bool operator<(const Candidate& other) const {
     return min_cost != other.min_cost ? min_cost > other.min_cost : number > other.number;
   }
@@ -78,7 +78,7 @@ class RankedAssignments::State {
   void push(double min_cost, int part, int position);
   Candidate pop();
 
-  /// What is kept of a part: prices of rows and columns, and the rows' columns.
+  /// Number of stored entries of a part: prices of rows and columns, and the rows' columns.
   std::int64_t entriesOfPart() const { return 2 * std::int64_t{costs_.rows()} + costs_.columns(); }
 
   const int* columnsOf(int part) const {
@@ -95,25 +95,25 @@ class RankedAssignments::State {
   AssignmentCosts costs_{cost_, unassigned_cost_, &memory_};
   RowsOfColumns rows_of_columns_;
   std::int64_t max_work_;
-  std::int64_t own_work_ = 0;  ///< entries that were copied, or looked at for bounds
+  std::int64_t own_work_ = 0;  ///< entries that were copied, or read for bounds
   bool cut_ = false;
   AugmentingPath path_;
 
-  // Of one part at a time.
+  // For one part at a time.
   PricedAssignment present_;
-  std::optional<double> into_void_;   ///< see minIntoVoid(); none: not known
-  std::pmr::vector<double> allowed_;  ///< costs of one row, in its possible columns
+  std::optional<double> into_void_;   ///< see minIntoVoid(); none: unknown
+  std::pmr::vector<double> allowed_;  ///< costs of one row, for its possible columns
   std::pmr::vector<RowBound> bounds_;
 
-  // Of all parts, one after the other.
+  // For all parts, one after the other.
   std::pmr::vector<RankedPart> parts_;
   std::pmr::vector<double> prices_;  ///< of the rows, then of the columns
   std::pmr::vector<int> columns_;    ///< of the rows
-  std::pmr::vector<int> orders_;     ///< of the rows, only of those that got their own
+  std::pmr::vector<int> orders_;     ///< of the rows, only for parts with their own order
 
   std::pmr::vector<Candidate> queue_;
   int pushed_ = 0;
-  int returned_ = kNoIndex;  ///< the part whose best was returned last
+  int returned_ = kNoIndex;  ///< the part whose best assignment was returned last
 };
 
 std::optional<Assignment> RankedAssignments::State::next() {
@@ -154,7 +154,7 @@ Assignment RankedAssignments::State::best(int part) const {
   return {{columnsOf(part), columnsOf(part) + costs_.rows()}, parts_[part].cost, cut_};
 }
 
-/// Keeps the present assignment as the best of a new part.
+/// Stores the current assignment as the best of a new part.
 void RankedAssignments::State::keep(const RankedPart& part) {
   own_work_ += entriesOfPart();
   parts_.push_back(part);
@@ -164,7 +164,7 @@ void RankedAssignments::State::keep(const RankedPart& part) {
   columns_.insert(columns_.end(), present_.column_of_row.begin(), present_.column_of_row.end());
 }
 
-/// Makes the best of a part the present assignment, with the rows open from a position on.
+/// Makes the best of a part the current assignment, with the rows from a position on open.
 void RankedAssignments::State::load(int part, int position) {
   const int rows = costs_.rows();
   own_work_ += entriesOfPart();
@@ -184,7 +184,7 @@ void RankedAssignments::State::load(int part, int position) {
   }
 }
 
-/// Queues all that is left of a part without its best.
+/// Queues all parts that remain of a part without its best assignment.
 void RankedAssignments::State::split(int part) {
   const int first = parts_[part].position;
   load(part, first);
@@ -200,13 +200,13 @@ void RankedAssignments::State::split(int part) {
     }
     present_.fix(row);
     if (present_.column_of_row[row] != kUnassigned) {
-      into_void_.reset();  // over this row no more
+      into_void_.reset();  // not through this row any longer
     }
   }
 }
 
-/// The row that must differ stays first; of the others those come first where another column costs
-/// most, so that the largest parts have the dearest best, and most of them are never searched.
+/// The row that must differ stays first; then come rows for which another column costs most, so
+/// that the largest parts have the costliest best, and most of them are never searched.
 void RankedAssignments::State::orderRows(int part) {
   const int kept = parts_[part].position + (parts_[part].row == kNoIndex ? 0 : 1);
   const int* order = orderOf(parts_[part]);
@@ -226,7 +226,7 @@ void RankedAssignments::State::orderRows(int part) {
   parts_[part].order = costs_.rows() == 0 ? 0 : static_cast<int>(begin) / costs_.rows();
 }
 
-/// Finds the best of a part of a part, and queues it.
+/// Finds the best assignment of a part of a part, and queues it.
 void RankedAssignments::State::search(const Candidate& candidate) {
   const RankedPart& whole = parts_[candidate.part];
   const int row = orderOf(whole)[candidate.position];
@@ -238,7 +238,7 @@ void RankedAssignments::State::search(const Candidate& candidate) {
   }
 }
 
-/// Of how much dearer the best of a part becomes where this row differs.
+/// Lower bound of the cost increase of the best of a part if this row differs.
 double RankedAssignments::State::bound(int part, int row) {
   own_work_ += costs_.possible(row).size();
   if (!into_void_ && present_.column_of_row[row] == kUnassigned) {
@@ -248,13 +248,13 @@ double RankedAssignments::State::bound(int part, int row) {
                      into_void_.value_or(kForbidden));
 }
 
-/// What a row may have that is to differ from the part's best, and from all that was taken away
-/// from the part before.
+/// What a row may have that must differ from the part's best, and from all that was excluded from
+/// the part before.
 RowCost RankedAssignments::State::allowed(int part, int row) {
   RowCost cost = costs_.row(row);
   const Possible possible = costs_.possible(row);
   own_work_ += possible.size();
-  for (const int column : possible) {  // no other one is looked at
+  for (const int column : possible) {  // no other one is read
     allowed_[column] = cost.columns[column];
   }
   cost.columns = allowed_.data();

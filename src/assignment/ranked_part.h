@@ -6,9 +6,8 @@ namespace datmo {
 /// No part, row or position.
 inline constexpr int kNoIndex = -1;
 
-/// Some of all assignments, and the best one of them: those where the rows before `position`, in
-/// the parent's order, have what they have in the parent's best, and `row`, which is there, has
-/// not.
+/// A subset of all assignments, and the best one of it: those where the rows before `position`, in
+/// the parent's order, have the same as in the parent's best, and `row`, at `position`, does not.
 struct RankedPart {
   int parent = kNoIndex;
   int position = 0;

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// m, for what distances are rounded by.
+/// m, bound on the rounding error of distances.
 constexpr double kRounding = 1e-6;
 
 }  // namespace
@@ -27,8 +27,8 @@ Point2 Box2::beyond(const Point2& point) const {
 }
 
 bool Box2::contains(const Point2& point) const {
-  // A quick answer for most points: half of both sides is farther than the corners, and half of the
-  // shorter one is nearer than all sides.
+  // Quick test for most points: half the sum of both sides reaches beyond the corners, and half
+  // the shorter side is the distance to the nearest side.
   const double distance2 = (point - center.position()).squaredNorm();
   const double reach = 0.5 * (length + width) + kRounding;
   const double inside = 0.5 * std::min(length, width) - kRounding;

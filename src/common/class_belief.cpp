@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
 
-/// Share of equal probabilities that is mixed in with every observation: no class falls below a
-/// fifth of it, so that two or three clear observations turn any belief.
+/// Share of the uniform distribution that is mixed in with every observation: no class falls below
+/// a fifth of it, so that two or three clear observations overturn any belief.
 constexpr double kDoubt = 0.05;
 
 constexpr double kKnown = 0.5;
 
 std::size_t indexOf(ObjectClass object_class) { return static_cast<std::size_t>(object_class); }
 
-/// Of relative probabilities; of zeros alone nothing is known.
+/// Normalizes relative probabilities and mixes in the doubt; all zeros become uniform.
 ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
   const double sum = std::accumulate(relative.begin(), relative.end(), 0.0);
   for (double& value : relative) {
@@ -32,7 +32,7 @@ bool saysNothing(const ClassProbabilities& belief) {
   return std::all_of(belief.begin(), belief.end(), [](double one) { return one <= 0.0; });
 }
 
-/// Of zeros alone nothing is known.
+/// Normalizes; all zeros become uniform.
 ClassProbabilities normalized(ClassProbabilities relative) {
   const double total = std::accumulate(relative.begin(), relative.end(), 0.0);
   for (double& probability : relative) {
@@ -41,7 +41,7 @@ ClassProbabilities normalized(ClassProbabilities relative) {
   return relative;
 }
 
-/// Equal probabilities for a belief that says nothing.
+/// The belief, or uniform probabilities if it carries no information.
 ClassProbabilities orEqual(const ClassProbabilities& belief) {
   return saysNothing(belief) ? normalized(belief) : belief;
 }

@@ -20,7 +20,7 @@ void ClockOffsetEstimator::add(const ClockExchange& exchange) {
     return;
   }
   exchanges_.push_back(exchange);
-  // What is of later than now is of our clock before it was set back.
+  // A stamp later than now is from before our clock was set back.
   const auto is_old = [&](const ClockExchange& other) {
     return std::abs(secondsBetween(other.received, exchange.received)) > options_.window;
   };
@@ -43,7 +43,7 @@ std::optional<ClockOffset> ClockOffsetEstimator::at(Stamp now) const {
 std::optional<ClockOffsetEstimator::Interval> ClockOffsetEstimator::intersection(Stamp now) const {
   Interval all{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (const ClockExchange& exchange : exchanges_) {
-    // It was answered after it was asked: the clocks drift for this long at most since.
+    // The reply was sent after the request: this bounds how long the clocks may have drifted since.
     const double drift = options_.max_drift * std::abs(secondsBetween(exchange.asked, now));
     all.lower = std::max(all.lower, secondsBetween(exchange.received, exchange.answered) - drift);
     all.upper = std::min(all.upper, secondsBetween(exchange.asked, exchange.answered) + drift);

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Least number of letters to change, leave out or put in (Levenshtein 1966).
+/// Minimum number of letters to change, delete or insert (Levenshtein 1966).
 std::size_t editDistance(const std::string& from, const std::string& to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), 0U);

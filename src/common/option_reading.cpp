@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Sets options from values and remembers which keys there are.
+/// Sets options from values and records which keys exist.
 class Reader : public OptionVisitor {
  public:
   explicit Reader(const OptionValues& values) : values_(values) {}
@@ -50,8 +50,7 @@ class Reader : public OptionVisitor {
     for (auto given = values_.lower_bound(groups);
          given != values_.end() && given->first.compare(0, groups.size(), groups) == 0; ++given) {
       const std::size_t end = given->first.find('/', groups.size());
-      // A value directly under the group is no entry; it will be refused as a key that nobody
-      // reads.
+      // A value directly under the group is not an entry; it will be rejected as an unknown key.
       if (end != std::string::npos) {
         names.push_back(given->first.substr(groups.size(), end - groups.size()));
       }

@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// m: nearer to the sensor than this a bearing carries no direction.
+/// m; closer to the sensor than this, a bearing carries no directional information.
 constexpr double kMinRange = 0.1;
 
 }  // namespace

@@ -8,14 +8,14 @@ namespace datmo {
 
 namespace {
 
-/// s; the period and the delay of a sensor in good order keep to this: half of the smallest step,
-/// so that one is not taken for the other.
+/// s; period and delay of a healthy sensor stay within this: half of the smallest step, so that
+/// the two are not confused.
 constexpr double kTolerance = 0.5 * SensorClock::kMinStep;
 
-/// s/s; as fast as two clocks may drift apart: a crystal's 100 ppm twice, with room.
+/// s/s; maximum drift between two clocks: twice a crystal's 100 ppm, with a margin.
 constexpr double kMaxDrift = 5e-4;
 
-/// Whether messages of this smallest delay (s) come before their stamps.
+/// Whether messages with this minimum delay (s) arrive before their stamps.
 bool isEarly(double min_delay) { return min_delay < -kTolerance; }
 
 void keep(std::deque<double>& values, double value) {
@@ -108,7 +108,7 @@ void SensorClock::judge(const Message& message) {
   }
   const double stepped = ahead_ + interval - *period;
   const double ahead = std::abs(stepped) < kMinStep ? 0.0 : stepped;
-  // Of messages that overtake each other, both go astray, one after the other.
+  // If messages overtake each other, both step, one after the other.
   const bool is_first = !other_ || std::abs(ahead - *other_) < kMinStep;
   delays_.clear();
   other_ = ahead;
@@ -118,7 +118,7 @@ void SensorClock::judge(const Message& message) {
   } else if (interval > kTolerance) {
     set(ahead);
   } else {
-    set_back_ = ahead;  // or it is an old message once more
+    set_back_ = ahead;  // unless it is an old message sent again
   }
 }
 
@@ -138,7 +138,7 @@ void SensorClock::decide() {
     likeliest = std::abs(later(ahead)) < std::abs(later(likeliest)) ? ahead : likeliest;
   }
   if (later(likeliest) < -kTolerance) {
-    restart(*last_);  // too early for any of them: the arrivals' clock goes at another rate
+    restart(*last_);  // too early for any candidate: the arrivals' clock runs at another rate
     return;
   }
   if (later(likeliest) <= kTolerance) {
@@ -157,9 +157,9 @@ void SensorClock::decide() {
 }
 
 bool SensorClock::isRight() const {
-  const double min_delay = min_delay_ - ahead_;  // by the clock as it is
+  const double min_delay = min_delay_ - ahead_;  // by the clock's own time
   const bool tells =
-      std::min(min_delay_, min_delay) > -kMaxStep;  // else arrivals have another clock
+      std::min(min_delay_, min_delay) > -kMaxStep;  // else arrivals are on another clock
   if (tells && isEarly(min_delay_) != isEarly(min_delay)) {
     return isEarly(min_delay_);
   }

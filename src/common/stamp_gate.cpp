@@ -8,15 +8,15 @@ namespace datmo {
 
 namespace {
 
-/// A stream goes on when a step is not longer than so many of the one before: a slow sensor, which
-/// leaves out a message.
+/// A stream continues if a step is at most this many times the previous one: a slow sensor may
+/// skip a message.
 constexpr double kMaxSteps = 2.5;
 
-/// ROS time confirms a jump that it has made itself up to this share of it: messages wait in
-/// queues.
+/// ROS time confirms a jump if it has moved itself by a jump within this share of it: messages wait
+/// in queues.
 constexpr double kTimeTolerance = 0.5;
 
-/// A jump ahead is one of the clock if ROS time has followed it by a smaller share.
+/// A jump ahead is one of the clock if ROS time followed it by less than this share.
 constexpr double kMinFollowed = 0.5;
 
 }  // namespace

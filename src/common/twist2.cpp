@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// Below this turn (rad) the arc's chord differs from its length by less than double precision.
+/// rad; below this turn, arc and chord lengths are equal in double precision.
 constexpr double kStraight = 1e-9;
 
 }  // namespace

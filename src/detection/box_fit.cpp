@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kRefinements = 3;
 
-/// A single point beside a line may be an outlier, two are the other side.
+/// A single point off a line may be an outlier, two are the other side.
 constexpr std::size_t kMinAlone = 2;
 
-/// The expected noise counts like this many points besides those that there are.
+/// The expected noise counts like this many additional points.
 constexpr double kNoisePoints = 4.0;
 
-/// rad; no vehicle is a perfect rectangle, however many points there are on it.
+/// rad; minimum standard deviation: no vehicle is a perfect rectangle, however many points it has.
 constexpr double kMinHeadingStd = 0.01;
 
 /// Weighted moments of the points on one side.
@@ -49,10 +49,10 @@ struct Corner {
   NearSides sides;
   double squares = 0.0;      ///< m^2, weighted sum of the points' distances squared
   double information = 0.0;  ///< m^2, of the heading for a noise of 1 m
-  double weight = 0.0;       ///< points that it rests on
+  double weight = 0.0;       ///< points on which it is based
 };
 
-/// One step of least squares over the heading and both near sides, which are at right angles; each
+/// One least-squares step over the heading and both near sides, which are at right angles; each
 /// point counts for its nearer side.
 Corner refined(const Points& points, const Corner& corner, double sigma) {
   const Axes axes(corner.heading);
@@ -65,7 +65,7 @@ Corner refined(const Points& points, const Corner& corner, double sigma) {
   }
   const Eigen::Matrix2d across_first = moments[0].scatter();
   const Eigen::Matrix2d across_second = moments[1].scatter();
-  // Sum of squares for the first axis turned by a: of the second side, a quarter turn farther on.
+  // Sum of squares for the first axis turned by a: for the second side, a quarter turn further.
   const double first = across_first(0, 0) + across_second(1, 1);
   const double second = across_first(1, 1) + across_second(0, 0);
   const double mixed = across_first(0, 1) - across_second(0, 1);
@@ -94,8 +94,8 @@ double noiseOf(const Corner& corner, const PointNoise& expected) {
       (freedom + kNoisePoints));
 }
 
-/// How many points lie on the side across each axis. A side of which most points may as well lie on
-/// the other one is not seen.
+/// Number of points on the side across each axis. A side is not seen if most of its points may as
+/// well lie on the other one.
 std::array<std::size_t, 2> pointsOnSides(const Points& points, const Corner& corner, double noise) {
   const Axes axes(corner.heading);
   std::array<std::size_t, 2> counts{};
@@ -157,7 +157,7 @@ BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner,
   }
   const HeadingSearch search(seen, expected);
   const Point2 between = seen.back() - seen.front();
-  // Two points are most simply explained by one side; many headings fit them as well.
+  // Two points are best explained by one side, although many headings fit them as well.
   const double start =
       seen.size() == 2 ? std::atan2(between.y(), between.x()) + kQuarterTurn : search.best();
   Corner corner{start, extentOf(seen, Axes(start)).nearSides()};

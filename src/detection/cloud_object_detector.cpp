@@ -18,10 +18,10 @@ namespace datmo {
 
 namespace {
 
-/// Who saw them.
+/// Sensor name of the objects.
 constexpr char kSensor[] = "cloud";
 
-/// What stands on the ground, at the cloud's stamp.
+/// The points in the height band, at the cloud's stamp.
 class Band {
  public:
   Band(const CloudObjectDetectorOptions& options, const RoadPlane& ground, const Point2& lidar)
@@ -39,8 +39,8 @@ class Band {
   Point2 lidar_;
 };
 
-/// A point of the sweep at the stamp: what stands is where the vehicle's motion says. Its time goes
-/// along as intensity.
+/// Transforms a point of the sweep to the stamp, by the vehicle's motion, assuming that it is
+/// static. Its time is stored as intensity.
 pcl::PointXYZI atStamp(const pcl::PointXYZ& point, float time, const std::optional<Twist2>& twist) {
   const Point2 seen(point.x, point.y);
   const Point2 moved = twist ? arc(*twist, static_cast<double>(time)) * seen : seen;
@@ -52,12 +52,12 @@ pcl::PointXYZI atStamp(const pcl::PointXYZ& point, float time, const std::option
   return result;
 }
 
-/// Points that are near to each other: their indices, cluster by cluster. They are put together by
-/// the centroids of voxels, so that dense points near the lidar cost no more than far ones.
+/// Clusters of neighboring points, as indices. They are formed from the centroids of voxels, so
+/// that dense points near the lidar cost no more than distant ones.
 std::vector<std::vector<int>> clusters(const TimedPoints::ConstPtr& points,
                                        const CloudObjectDetectorOptions& options) {
   if (points->empty()) {
-    return {};  // PCL would complain on the console
+    return {};  // avoids PCL's console warning
   }
   pcl::VoxelGrid<pcl::PointXYZI> grid;
   const auto leaf = static_cast<float>(options.voxel_size);
@@ -89,7 +89,7 @@ std::vector<std::vector<int>> clusters(const TimedPoints::ConstPtr& points,
   return found;
 }
 
-/// The box and its sides, of an object whose points are given.
+/// Sets the box and its sides from the object's points.
 void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
             const CloudObjectDetectorOptions& options) {
   const BoxFit fit = fitBox(object.points, lidar, {options.range_sigma});
@@ -164,10 +164,10 @@ void CloudObjectDetectorOptions::visit(OptionVisitor& visitor) {
 
 namespace {
 
-/// Cells of the grid of voxels that a cloud may span, so that it takes 400 MB at most.
+/// Maximum number of voxels that a cloud may span, for at most 400 MB.
 constexpr double kMaxVoxels = 1e8;
 
-/// The ground may slope, and the band of heights with it.
+/// The ground may slope, and the height band with it.
 double voxelsOf(const CloudObjectDetectorOptions& options) {
   const double across = 2.0 * options.max_range;
   const double up =

@@ -12,11 +12,10 @@ namespace datmo {
 
 namespace {
 
-/// What is beside an end and nearer by this, m, hides what is beyond it.
+/// m; points next to an end that are nearer by this hide what is beyond.
 constexpr double kBefore = 0.3;
 
-/// Columns beside an end that are looked at: voxels are as wide as several columns where it is
-/// near.
+/// Columns next to an end that are checked: at close range voxels are as wide as several columns.
 constexpr int kBeside = 3;
 
 double bearingOf(const Point2& from_lidar) { return std::atan2(from_lidar.y(), from_lidar.x()); }
@@ -75,7 +74,7 @@ CloudOutline CloudColumns::outlineOf(const std::vector<int>& indices,
   };
   const pcl::PointXYZI& any = at(indices.front());
   const double middle = bearingOf(Point2(any.x, any.y) - lidar_);
-  // By columns from that of any point on, so that none is torn apart behind the lidar.
+  // By columns relative to that of any point, so that clusters behind the lidar are not split.
   std::map<long, Point2> nearest;
   CloudOutline outline;
   for (const int index : indices) {

@@ -8,10 +8,10 @@ namespace datmo {
 
 namespace {
 
-/// Where what is seen of a group is dented by more, another object begins: one alone bulges, m.
+/// m; a group with a deeper dent than this is split: the outline of a single object is convex.
 constexpr double kDent = 1.0;
 
-/// The dent must also be so many standard deviations of the depth.
+/// Minimum depth of the dent in standard deviations of the depth.
 constexpr double kDentSigmas = 2.5;
 
 }  // namespace
@@ -39,7 +39,7 @@ void DentSplitter::split(SurfaceGroup group, std::vector<SurfaceGroup>& parts) {
   }
 }
 
-/// Smoothed over three columns.
+/// Computes the profile, smoothed over three columns.
 void DentSplitter::profileOf(const SurfaceGroup& group) {
   raw_profile_.clear();
   for (const std::size_t index : group) {
@@ -55,7 +55,7 @@ void DentSplitter::profileOf(const SurfaceGroup& group) {
   }
 }
 
-/// The side toward the camera of the convex hull (Andrew 1979).
+/// Computes the side of the convex hull that faces the camera (Andrew 1979).
 void DentSplitter::hullOfProfile() {
   hull_.clear();
   for (std::size_t i = 0; i < profile_.size(); ++i) {

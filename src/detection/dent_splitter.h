@@ -12,18 +12,18 @@ namespace datmo {
 /// Indices of surfaces that belong together, by column.
 using SurfaceGroup = std::vector<std::size_t>;
 
-/// What one object shows of itself bulges toward the camera; where a group has a dent, another
-/// object begins: a parked car beside a cyclist, a house behind a car.
+/// The visible outline of one object is convex toward the camera; at a dent in a group, another
+/// object begins: a parked car next to a cyclist, a house behind a car.
 class DentSplitter {
  public:
-  /// What is passed must outlive this.
+  /// The arguments must outlive this object.
   DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera);
 
-  /// Adds the parts of a group to `parts`, left ones first.
+  /// Appends the parts of a group to `parts`, from left to right.
   void split(SurfaceGroup group, std::vector<SurfaceGroup>& parts);
 
  private:
-  /// In these coordinates straight walls are straight lines.
+  /// A point in coordinates in which straight walls are straight lines.
   struct ProfilePoint {
     int column;
     double inverse;  ///< 1/m: of the depth of the nearest surface in the column

@@ -12,21 +12,20 @@ namespace datmo {
 
 namespace {
 
-/// Share of an object's columns that are not higher than it is: some reach into what is behind it.
+/// Quantile of the columns' tops taken as an object's height: some columns include what is behind.
 constexpr double kTopShare = 0.9;
 
-/// Shares of its surfaces that are nearer, and farther, than what its extent in depth is taken
-/// from.
+/// Quantiles of its surfaces' depths between which its extent in depth is taken.
 constexpr double kNearShare = 0.05;
 constexpr double kFarShare = 0.95;
 
-/// Standard deviations of the depth by which something in front is surely so.
+/// Standard deviations of the depth by which something is certainly in front.
 constexpr double kSurelyInFront = 2.0;
 
-/// An end nearer to the border of the image than this, px, may be the border's.
+/// px; an end closer than this to the border of the image may be due to the border.
 constexpr double kBorderPixels = 4.0;
 
-/// Standard deviations of where an edge is within which another surface is beside it.
+/// Standard deviations of an edge's position within which another surface counts as adjacent.
 constexpr double kBesideSigmas = 3.0;
 
 }  // namespace
@@ -78,8 +77,8 @@ GroupEnd OutlineFinder::endAt(const ColumnSurface& last, Step step) const {
   return end;
 }
 
-/// Of the image; of what both cameras see: the right one (or the projector) does not see what is at
-/// the left border of the left image; or of where the matcher finds anything at all.
+/// At the border of the image; or of what both cameras see: the right one (or the projector) does
+/// not see what is at the left border of the left image; or of where the matcher finds anything.
 bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
   const double tangent = columns_.tangentOf(last.column);
   const double pixel = 1.0 / camera_.focal_length;
@@ -94,8 +93,8 @@ bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
          !surfaces_.density().hasPoints(tangent + pixel, tangent + margin + pixel);
 }
 
-/// What is nearer may hide where a surface goes on; the right camera does not see what is just to
-/// the left of it either.
+/// Nearer surfaces may hide the continuation of this one; nor does the right camera see what is
+/// just to the left of them.
 bool OutlineFinder::isBesideNearer(const ColumnSurface& last, Step step) const {
   const auto depth = static_cast<double>(last.depth);
   const double margin =

@@ -12,12 +12,12 @@ namespace datmo {
 namespace {
 
 /// Squared distances in standard deviations, each bounded (Geman & McClure 1985). A second side is
-/// one more parameter: it must explain more than that by chance (Schwarz 1978).
+/// an additional parameter: it must explain more than by chance (Schwarz 1978).
 double costOf(const Points& points, double heading, double variance, double correlated_points) {
   const Axes axes(heading);
   const NearSides sides = extentOf(points, axes).nearSides();
   double cost = 0.0;
-  Point2 farthest = Point2::Zero();  // from each side
+  Point2 farthest = Point2::Zero();  // for each side
   for (const Point2& point : points) {
     const Point2 distances = (axes(point) - sides.position).cwiseAbs();
     farthest = farthest.cwiseMax(distances);
@@ -35,7 +35,7 @@ double costOf(const Points& points, double heading, double variance, double corr
 
 HeadingSearch::HeadingSearch(const Points& points, const PointNoise& noise) {
   const Extent extent = extentOf(points, Axes(0.0));
-  // The best of the headings that are tried is up to half a step off.
+  // The best of the tested headings is up to half a step off.
   const double slant = 0.25 * heading(1) * (extent.max - extent.min).norm();
   for (std::size_t i = 0; i < kHeadings; ++i) {
     costs_[i] =

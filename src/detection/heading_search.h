@@ -10,17 +10,17 @@
 
 namespace datmo {
 
-/// How badly each of some headings over a quarter turn explains points about a scanner, if they lie
-/// on the sides of a rectangle that face it.
+/// Cost of each of a set of headings over a quarter turn, for points about a scanner that lie on
+/// the sides of a rectangle facing it.
 class HeadingSearch {
  public:
   HeadingSearch(const Points& points, const PointNoise& noise);
 
-  /// rad, the one that explains them best.
+  /// Returns the heading with the lowest cost, rad.
   double best() const { return heading(best_); }
 
-  /// Variance of the likely headings about this one, modulo a quarter turn, rad^2; what the steps
-  /// themselves make of it left out.
+  /// Returns the variance of likely headings about this one, modulo a quarter turn, rad^2, without
+  /// the part due to the steps.
   double spreadAbout(double center) const;
 
  private:

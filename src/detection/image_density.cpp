@@ -10,11 +10,11 @@ namespace datmo {
 
 namespace {
 
-/// Rows of the image with fewer points than this share of the fullest one's are not of the image:
-/// the camera is not quite level.
+/// Rows with fewer points than this fraction (1 / kMinRowShare) of the fullest row are outside the
+/// image: the camera is not quite level.
 constexpr int kMinRowShare = 20;
 
-/// Along each side of the image, for any camera.
+/// Limit along each side of the image, for any camera.
 constexpr double kMaxCells = 8192.0;
 
 }  // namespace
@@ -55,8 +55,7 @@ void ImageDensity::add(const Tangents& right, const Tangents& up, const Flags& i
     rows[i] = static_cast<int>(inside != 0 ? row : 0.0F);
     tiles[i] = (rows[i] >> kTileBits) * tile_columns + (columns[i] >> kTileBits);
   }
-  // Neighbors are mostly in one row and tile: counted one by one, each would wait for the one
-  // before.
+  // Neighbors are mostly in one row and tile: counted one by one, each would wait for the previous.
   int row = 0;
   int tile = 0;
   int run = 0;

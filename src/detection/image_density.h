@@ -15,24 +15,24 @@ namespace datmo {
 /// matchers find nothing at the image's border.
 class ImageDensity {
  public:
-  /// Forgets what it knew.
+  /// Clears all counts.
   void reset(const StereoCamera& camera);
 
-  /// Of points that are looked at together.
+  /// Values of points that are processed together.
   using Tangents = std::array<float, ViewedPoints::kMax>;
   using Flags = std::array<int, ViewedPoints::kMax>;
 
-  /// Those of `count` points that are seen (not 0), at these tangents: to the right, and above the
-  /// horizon.
+  /// Counts those of `count` points that are seen (flag not 0), at these tangents: to the right,
+  /// and above the horizon.
   void add(const Tangents& right, const Tangents& up, const Flags& is_seen, std::size_t count);
 
-  /// Pixels of the image for each point where it has no holes; at least 1.
+  /// Returns the number of image pixels per point where there are no holes; at least 1.
   double pixelsPerPoint() const;
 
-  /// Above the horizon: up to where there are points.
+  /// Returns the tangent above the horizon up to which there are points.
   double maxTangent() const;
 
-  /// Whether there is a point between two tangents to the right.
+  /// Returns whether there is a point between two tangents to the right.
   bool hasPoints(double from, double to) const;
 
  private:
@@ -40,7 +40,7 @@ class ImageDensity {
   static constexpr int kTileSize = 1 << kTileBits;  ///< cells
   static constexpr float kMaxTangent = 1.0F;        ///< above and below the horizon
 
-  // Cells are pixels, but in images larger than any.
+  // Cells are pixels, except in extremely large images.
   float left_ = 0.0F;         ///< tangent of the image's left border
   float per_tangent_ = 0.0F;  ///< cells
   double cell_pixels_ = 1.0;  ///< px, side of a cell

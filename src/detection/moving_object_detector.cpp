@@ -84,7 +84,7 @@ ObjectList MovingObjectDetector::detect(const LabeledScan& scan) const {
         continue;
       }
       if (touches_static && object.dynamic_state == DynamicState::kUnknown) {
-        // A wall comes into view piece by piece: what joins on to it belongs to it.
+        // A wall comes into view piece by piece: what is connected to it belongs to it.
         object.dynamic_state = DynamicState::kStatic;
       }
       list.objects.push_back(std::move(object));
@@ -110,7 +110,7 @@ Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
   return object;
 }
 
-/// The box and its sides, of an object whose points are given, from the first to the last beam.
+/// Sets the box and its sides from the object's points, from the first to the last beam.
 void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
                                   const LabeledScan& scan) const {
   const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), {options_.range_sigma});

@@ -10,16 +10,16 @@
 
 namespace datmo {
 
-/// Cost of a point that lies nowhere near a side, as of one at so many standard deviations squared.
+/// Cost of a point far from all sides, as at this many squared standard deviations.
 inline constexpr double kMaxCost = 4.0;
 
-/// Points nearer to a line than this, in standard deviations, may lie on it.
+/// Points closer to a line than this, in standard deviations, may lie on it.
 inline constexpr double kOnLine = 3.0;
 
-/// Where a side is that there is none of.
+/// Position of a side that does not exist.
 inline constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Points about the scanner.
+/// Points relative to the scanner.
 using Points = std::vector<Point2>;
 
 /// The axes of a heading.
@@ -38,10 +38,10 @@ struct NearSides {
   Point2 position;
   std::array<bool, 2> ahead{};  ///< the side is at the positive end of the object
 
-  /// Distance to the nearer one, m.
+  /// Returns the distance to the nearer one, m.
   double distance(const Point2& local) const { return (local - position).cwiseAbs().minCoeff(); }
 
-  /// The axis that the nearer one is across.
+  /// Returns the axis that the nearer one is across.
   int nearest(const Point2& local) const {
     return std::abs(local.x() - position.x()) <= std::abs(local.y() - position.y()) ? 0 : 1;
   }
@@ -51,7 +51,7 @@ struct Extent {
   Point2 min = Point2::Constant(kNone);
   Point2 max = Point2::Constant(-kNone);
 
-  /// Where the near sides are if no point is in front of them.
+  /// Returns the near sides if no point is in front of them.
   NearSides nearSides() const {
     const auto position = [&](int axis) {
       return min[axis] > 0.0 ? min[axis] : (max[axis] < 0.0 ? max[axis] : kNone);

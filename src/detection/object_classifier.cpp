@@ -12,38 +12,38 @@ namespace datmo {
 
 namespace {
 
-/// Share of the road users that are seen from straight ahead or behind: they keep to lanes; the
-/// others from anywhere.
+/// Share of road users that are seen from straight ahead or behind, because they follow lanes; the
+/// others are seen from any direction.
 constexpr double kAheadShare = 0.6;
 
-/// m, mean sizes of anything else, of which nothing more is known: buildings, hedges, bushes.
+/// m; mean sizes of all other objects: buildings, hedges, bushes.
 constexpr double kMeanHeight = 5.0;
 constexpr double kMeanExtent = 10.0;
 
-/// Directions from which a kind may be looked at, over a quarter turn from straight ahead.
+/// Number of directions from which a kind is evaluated, over a quarter turn from straight ahead.
 constexpr int kAspects = 8;
 
-/// m; a side that is seen narrower than this carries no information on its depth.
+/// m; a side whose visible width is less carries no information on its depth.
 constexpr double kMinFace = 0.1;
 
-/// rad; what keeps to a lane beside the sensor's is seen from ahead or behind, up to so much aside.
+/// rad; road users in a parallel lane are seen from ahead or behind, up to this angle.
 constexpr double kAhead = degrees(20.0);
 
-/// Share of the extents of which only a part is seen.
+/// Share of the extents of which only a part is visible.
 constexpr double kPartShare = 0.2;
 
-/// Nothing is surer than this: probabilities near to 0 and 1 are those of the kinds' tails.
+/// Limit of certainty: probabilities near 0 and 1 depend on the tails of the kinds' distributions.
 constexpr double kSure = 1e-6;
 
-/// Probability density of a size that is seen as `seen`, or that it is at least that.
+/// Probability density of a measured size, or, with `more`, of being at least that large.
 double likelihood(double seen, double mean, double variance, bool more) {
   const double ratio = (seen - mean) / std::sqrt(variance);
   return more ? 0.5 * std::erfc(ratio / std::sqrt(2.0))
               : std::exp(-0.5 * square(ratio)) / std::sqrt(2.0 * kPi * variance);
 }
 
-/// The same of an extent of which nothing but a part may have been seen: sides without texture, or
-/// at a flat angle.
+/// The same for an extent that may be only partly visible: sides without texture, or at a grazing
+/// angle.
 double likelihoodOfExtent(double seen, double mean, double variance, bool more) {
   const double whole = likelihood(seen, mean, variance, more);
   const double sigma = std::sqrt(variance);
@@ -52,9 +52,9 @@ double likelihoodOfExtent(double seen, double mean, double variance, bool more) 
   return (1.0 - kPartShare) * whole + kPartShare * part;
 }
 
-/// Of a box of a kind, turned by `aspect` (rad, 0 to a quarter turn) from where its front or rear
-/// faces the sensor: what is seen of it across the line of sight, and in depth of the sides that
-/// are seen.
+/// Likelihood for a box of a kind, turned by `aspect` (rad, 0 to a quarter turn) from where its
+/// front or rear faces the sensor: of its visible extent across the line of sight, and of the depth
+/// of its visible sides.
 double likelihoodAt(double aspect, const SeenSize& seen, const KindSize& kind) {
   const double s = std::sin(aspect);
   const double c = std::cos(aspect);
@@ -83,7 +83,7 @@ double likelihood(const SeenSize& seen, const KindSize& kind, double ahead_share
   return by_height * by_extent;
 }
 
-/// Of a size of which only the mean is known: the distribution that assumes nothing more.
+/// For a size of which only the mean is known: the maximum-entropy distribution (exponential).
 double likelihoodOfAny(double seen, double mean, bool more) {
   const double tail = std::exp(-seen / mean);
   return more ? tail : tail / mean;

@@ -16,10 +16,10 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations of a bearing by which returns of one thing lie apart at most.
+/// Maximum distance of returns from one object, in standard deviations of the bearing.
 constexpr double kBearingSigmas = 3.0;
 
-/// Of what shows no extent, m.
+/// m; extent of an object without visible extent.
 constexpr double kMinExtent = 0.5;
 
 }  // namespace
@@ -62,7 +62,7 @@ struct RadarObjectDetector::Detection {
   Point2 position = Point2::Zero();
   double range = 0.0;             ///< m, from the radar
   double speed = 0.0;             ///< m/s over the ground, away from the radar
-  double bearing_variance = 0.0;  ///< (m/s)^2 of the speed, by the bearing
+  double bearing_variance = 0.0;  ///< (m/s)^2, of the speed, due to the bearing
 };
 
 RadarObjectDetector::RadarObjectDetector(const Checked<RadarObjectDetectorOptions>& options)
@@ -80,7 +80,7 @@ std::vector<RadarObjectDetector::Detection> RadarObjectDetector::detectionsOf(
     detection.position = lever + one.range * along;
     detection.range = one.range;
     detection.speed = one.range_rate + own.dot(along);
-    // A bearing that is off takes another part of both motions across for one along.
+    // A bearing error mixes part of the lateral motion of both into the radial one.
     detection.bearing_variance =
         square(options_.bearing_sigma) *
         (square(own.dot(perpendicular(along))) + square(options_.tangential_sigma));
@@ -111,7 +111,7 @@ std::vector<std::vector<std::size_t>> RadarObjectDetector::clustersOf(
   };
   DisjointSets sets(detections.size());
   for (std::size_t i = 0; i < detections.size(); ++i) {
-    // One at the edge is of the first core that is near to it.
+    // A return at the edge belongs to the first core nearby.
     bool has_core = is_core(i);
     for (const std::size_t j : near[i]) {
       if (is_core(j) && (is_core(i) || !has_core)) {
@@ -156,7 +156,7 @@ Object RadarObjectDetector::objectOf(const std::vector<Detection>& detections,
                              square(options_.bearing_sigma) / count) +
       square(options_.reflection_sigma) * Eigen::Matrix2d::Identity();
   object.side_variance.fill(kHiddenSide);
-  // The vehicle's speed counts as far as the radar looks that way.
+  // The error of the vehicle's speed counts in proportion to the radar's direction of view.
   const double along_variance = (square(options_.range_rate_sigma) + bearing_variance) / count +
                                 square(options_.own_speed_sigma * along.x());
   object.velocity =

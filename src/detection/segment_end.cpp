@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// Ranges that differ by more standard deviations than this are of different surfaces.
+/// Ranges that differ by more standard deviations than this belong to different surfaces.
 constexpr double kSurelyApart = 3.0;
 
 Point2 turned(const Point2& vector, double angle) {
@@ -23,7 +23,7 @@ Point2 turned(const Point2& vector, double angle) {
 std::optional<SurfaceEnd> SegmentEnds::beyond(const ScanPoint& last, const Point2& along,
                                               double heading_std) const {
   const Point2 ray = (last.position - scan_.scanner_in_base.position()).normalized();
-  // Beams rise to the left if their spacing is positive.
+  // Beam indices increase to the left if their spacing is positive.
   const bool to_left = cross(ray, along) > 0.0;
   const std::optional<std::uint32_t> next =
       nextBeam(last.beam, to_left == (scan_.field.beam_spacing > 0.0) ? 1 : -1);
@@ -35,7 +35,7 @@ std::optional<SurfaceEnd> SegmentEnds::beyond(const ScanPoint& last, const Point
   double expected = 0.0;
   double widest = 0.0;
   for (const double turn : {-heading_std, heading_std, 0.0}) {
-    // Where last + gap * along = range * next_ray, from the scanner.
+    // Solves last + gap * along = range * next_ray, relative to the scanner.
     const Point2 direction = turned(along, turn);
     const double determinant = cross(direction, next_ray);
     const double gap = -last.range * cross(ray, next_ray) / determinant;
@@ -50,7 +50,7 @@ std::optional<SurfaceEnd> SegmentEnds::beyond(const ScanPoint& last, const Point
   return SurfaceEnd{expected, kUniformVariance * widest * widest + slant * slant};
 }
 
-/// Nothing at the edge of the field of view, and where the next beam's measurement is not valid.
+/// None at the edge of the field of view, and if the next beam's measurement is not valid.
 std::optional<std::uint32_t> SegmentEnds::nextBeam(std::uint32_t beam, int step) const {
   if (beam >= scan_.field.beams || (step < 0 ? beam == 0 : beam + 1 == scan_.field.beams)) {
     return std::nullopt;

@@ -13,36 +13,36 @@ namespace datmo {
 
 namespace {
 
-/// rad; with a vaguer heading, what seems to be two sides may be one.
+/// rad; if the heading is less certain, what seems to be two sides may be one.
 constexpr double kSureOfCorner = 0.15;
 
-/// rad, the deviation of the heading counts up to this: a side that was seen faces the sensor.
+/// rad; maximum deviation of the heading: a visible side faces the sensor.
 constexpr double kMaxSlant = 0.3;
 
 constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(side); }
 
 constexpr std::size_t opposite(std::size_t side) { return side ^ 1U; }
 
-/// A fitted box given by how far its sides are from its middle, to be moved one by one.
+/// A fitted box, given by the distances of its sides from its middle, which are moved one by one.
 class SideBox {
  public:
-  /// `fit` must outlive this.
+  /// `fit` must outlive this object.
   explicit SideBox(const BoxFit& fit)
       : fit_(fit),
         reach_{0.5 * fit.box.length, 0.5 * fit.box.length, 0.5 * fit.box.width,
                0.5 * fit.box.width} {}
 
-  /// Unit vector out of the box.
+  /// Outward unit normal.
   Point2 normal(std::size_t side) const;
 
   bool isSeen(std::size_t side) const { return fit_.points_on_side[side] > 0; }
 
-  /// Whether a side that was seen ends at this one. With a vague heading (`heading_std`, rad), what
-  /// seems to be the shorter one of two sides may be none: its ends carry no information.
+  /// Whether a visible side ends at this one. With an uncertain heading (`heading_std`, rad), the
+  /// shorter one of two apparent sides may not exist: its ends carry no information.
   bool isEndOfSeen(std::size_t side, double heading_std) const;
 
-  /// m, of the box along a side whose opposite was seen: a turn of the box moves the position of
-  /// the side, relative to that one, by so much times its angle.
+  /// m, of the box along a side whose opposite was seen: a rotation of the box shifts the side,
+  /// relative to the opposite one, by this times its angle.
   double across(std::size_t side) const;
 
   void extend(std::size_t side, double by) { reach_[side] += by; }
@@ -50,7 +50,7 @@ class SideBox {
   Box2 box() const;
 
  private:
-  /// How many points lie on the sides that end at this one.
+  /// Number of points on the sides that end at this one.
   std::size_t pointsUpTo(std::size_t side) const;
 
   const BoxFit& fit_;

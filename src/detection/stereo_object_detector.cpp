@@ -16,10 +16,10 @@ namespace datmo {
 
 namespace {
 
-/// What is neither road user nor pole with more than this probability is left out.
+/// Objects that are neither road user nor pole with more than this probability are left out.
 constexpr double kMaxOther = 0.9;
 
-/// Bearings to the left about the camera's x axis on the ground, of what lies to the right.
+/// The field of view on the ground, by bearings to the left of the camera's x axis.
 FieldOfView fieldOf(const StereoCamera& camera, const StereoView& view,
                     const StereoObjectDetectorOptions& options) {
   const Point2 ahead = view.positionOf({1.0, 0.0}) - view.position();
@@ -71,7 +71,7 @@ class StereoObjectDetector::State {
   StereoObjectDetectorOptions options_;
   RoadPlaneEstimator road_;
   ObjectClassifier classifier_;
-  StereoSurfaces surfaces_;  ///< memory that is used again
+  StereoSurfaces surfaces_;  ///< reused memory
 };
 
 StereoObjectDetector::StereoObjectDetector(const Checked<StereoObjectDetectorOptions>& options)

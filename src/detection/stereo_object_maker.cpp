@@ -14,26 +14,26 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviation of how far bodies reach in depth, besides that of the depth, m.
+/// m; standard deviation of an extent in depth, in addition to that of the depth.
 constexpr double kExtentSigma = 0.2;
 
-/// Points of the outline of an object, at most: columns beside each other are averaged.
+/// Maximum number of outline points of an object: neighboring columns are averaged.
 constexpr std::size_t kMaxPoints = 40;
 
-/// Sides whose normal is nearer to the line of sight than this (sine of the angle) end in depth, of
-/// which the ends in the image carry no information.
+/// Sides whose normal is closer to the line of sight than this (sine of the angle) end in depth;
+/// the ends in the image carry no information on them.
 constexpr double kSideways = 0.5;
 
 /// Share of the noise that points within the correlated width have in common.
 constexpr double kCorrelatedShare = 0.5;
 
-/// Standard deviations between the least and the most of many values, but for a few of each.
+/// Standard deviations between the minimum and maximum of many values, without a few outliers.
 constexpr double kSpreadSigmas = 3.3;
 
-/// Of an extent along a line of sight and of its ends in the image, standard deviations of one end.
+/// Number of ends of an extent, each of which adds to its error.
 constexpr double kBothEnds = 2.0;
 
-/// m; what ends less below the highest that is looked at may be higher.
+/// m; a top that is closer than this to the upper height limit may be higher.
 constexpr double kBelowHighest = 0.3;
 
 }  // namespace
@@ -77,7 +77,7 @@ std::vector<Point2> StereoObjectMaker::pointsOf(const GroupOutline& outline) con
   return points;
 }
 
-/// A wrong depth moves all of an object along its line of sight, a wrong edge aside.
+/// A wrong depth shifts all of an object along its line of sight, a wrong edge sideways.
 Eigen::Matrix2d StereoObjectMaker::covarianceOf(const GroupOutline& outline) const {
   const double middle = 0.5 * (columns_.tangentOf(outline.columns.front().column) +
                                columns_.tangentOf(outline.columns.back().column));
@@ -90,7 +90,7 @@ Eigen::Matrix2d StereoObjectMaker::covarianceOf(const GroupOutline& outline) con
          square(options_.noise.body_sigma) * Eigen::Matrix2d::Identity();
 }
 
-/// The box and its sides, of an object whose points are given.
+/// Sets the box and its sides from the object's points.
 void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) const {
   const double sigma = std::hypot(columnNoise(outline.depth), options_.noise.body_sigma);
   // Points that share their noise count as fewer.
@@ -109,8 +109,8 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
   setSides(object, fit, {seen_variance, end_beyond});
 }
 
-/// Where it ends in the image is known well, where on the line of sight as well as the depth of
-/// its last column is.
+/// The end in the image is known precisely, that along the line of sight as well as the depth of
+/// the last column.
 std::optional<SurfaceEnd> StereoObjectMaker::endOn(const Point2& normal,
                                                    const GroupOutline& outline) const {
   std::optional<SurfaceEnd> result;
@@ -155,7 +155,7 @@ void StereoObjectMaker::setClass(Object& object, const GroupOutline& outline) co
   const auto best = std::max_element(probabilities.begin(), probabilities.end());
   object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
   object.class_probability = *best;
-  // Over the odds of the average object: those by the kinds' shares.
+  // Relative to the prior odds, from the kinds' shares.
   const double odds = classifier_.logOddsOfKnown(probabilities);
   object.log_odds = std::clamp(odds, -options_.max_doubt, 0.0);
 }

@@ -15,13 +15,13 @@
 
 namespace datmo {
 
-/// Who saw them, in objects and views.
+/// Sensor name of objects and views.
 inline constexpr char kStereoSensor[] = "stereo";
 
-/// Makes objects of what a stereo camera sees of them.
+/// Makes objects from groups of surfaces that a stereo camera sees.
 class StereoObjectMaker {
  public:
-  /// What is passed must outlive this.
+  /// The arguments must outlive this object.
   StereoObjectMaker(const StereoObjectDetectorOptions& options, const ObjectClassifier& classifier,
                     const StereoCamera& camera, const StereoView& view,
                     const StereoSurfaces& surfaces);
@@ -29,7 +29,7 @@ class StereoObjectMaker {
   Object objectOf(const GroupOutline& outline) const;
 
  private:
-  /// Where the sides that were seen end along `normal`, of a side that they end at, out of the box:
+  /// Where visible sides end along `normal`, the outward normal of the side at which they end:
   /// beyond the middle of the last column.
   std::optional<SurfaceEnd> endOn(const Point2& normal, const GroupOutline& outline) const;
   std::vector<Point2> pointsOf(const GroupOutline& outline) const;
@@ -38,7 +38,7 @@ class StereoObjectMaker {
   void setClass(Object& object, const GroupOutline& outline) const;
   Eigen::Matrix2d covarianceOf(const GroupOutline& outline) const;
 
-  /// m, of the depth of a column of points against the others of the same object.
+  /// m, depth noise of one column of points relative to the others of the same object.
   double columnNoise(double depth) const {
     return options_.noise.column * camera_.depthSigma(depth);
   }

@@ -8,21 +8,21 @@ namespace datmo {
 
 namespace {
 
-/// Points between min_height and this make objects: higher, one sees over road users at what is
-/// behind them, m.
+/// m; points between min_height and this make objects: above, the camera looks over road users at
+/// what is behind them.
 constexpr double kLayerTop = 2.2;
 
-/// A point is one of the road if a depth that is wrong by so many standard deviations puts it where
-/// it is.
+/// A point belongs to the road if a depth error of this many standard deviations explains its
+/// height.
 constexpr double kRoadSigmas = 2.0;
 
-/// Height of surface that must be seen in a column, m.
+/// m; minimum visible height of a surface in a column.
 constexpr double kMinVisible = 0.35;
 
-/// m; cameras mark a depth that they do not know by a far one.
+/// m; some cameras mark unknown depths by very large ones.
 constexpr float kMaxDepth = 1000.0F;
 
-/// Whatever the options, there are no more columns than in any image, nor bins.
+/// Limits on columns and bins, independent of the options: as fine as any image.
 constexpr double kMaxColumns = 4096.0;
 constexpr double kMaxBins = 2048.0;
 
@@ -32,16 +32,17 @@ constexpr double kValley = 0.6;
 /// A mode ends where its counts fall below this share of its peak.
 constexpr double kTail = 0.1;
 
-/// Bins (half standard deviations of the depth) to both sides of a mode's peak that support it.
+/// Bins (half standard deviations of the depth) on both sides of a mode's peak that support it.
 constexpr int kCore = 3;
 
-/// Heights are counted in slices of this, m.
+/// m; size of the slices in which heights are counted.
 constexpr float kSlice = 0.2F;
 
-/// A slice belongs to a surface that has this share of the points that it would have without holes.
+/// A slice belongs to a surface if it has this share of the points that it would have without
+/// holes.
 constexpr double kSliceShare = 0.3;
 
-/// Slices without points in a surface: of a region without texture.
+/// Maximum number of empty slices within a surface, in regions without texture.
 constexpr int kMaxHole = 2;
 
 constexpr std::int32_t kNoSurface = -1;
@@ -66,7 +67,7 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   const auto min = static_cast<float>(options.min_height);
   const auto highest = static_cast<float>(options.max_height);
   const float camera_height = view.cameraHeight();
-  // A depth that is off by its noise lifts a point of the road by this much of height / depth.
+  // A depth error of the noise lifts a point of the road by this much of height / depth.
   const InverseDepthMargin road_margin(cloud.camera.noise, kRoadSigmas);
   ViewedPoints viewed;
   ImageDensity::Tangents right;
@@ -77,7 +78,7 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
     const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
     view.view(cloud.points, begin, count, viewed);
     int seen = 0;
-    // No branches: which points are seen cannot be predicted.
+    // Without branches, because which points are seen is unpredictable.
     for (std::size_t i = 0; i < count; ++i) {
       const float forward = viewed.forward[i];
       const float height = viewed.height[i];
@@ -203,7 +204,7 @@ void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& optio
   const int core_end = std::min(end, mode.peak + kCore + 1);
   const int points = pointsIn(first, end);
   const double depth = static_cast<double>(depth_bins_.middle(mode.peak));
-  // The peak may be that of the columns beside it alone.
+  // The peak may come from neighboring columns only.
   if (points < options.min_points || points < kMinVisible * pointsPerMeter(depth) ||
       pointsIn(core, core_end) == 0) {
     return;
@@ -247,7 +248,7 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   }
 }
 
-/// From the fullest slice as far up and down as it goes on, but for holes.
+/// From the fullest slice up and down to where the surface ends, across holes.
 void StereoSurfaces::setHeights(ColumnSurface& surface, const std::uint16_t* slices,
                                 const StereoSurfaceOptions& options) const {
   const auto end = static_cast<int>(slicesUpTo(options.max_height));
@@ -262,7 +263,7 @@ void StereoSurfaces::setHeights(ColumnSurface& surface, const std::uint16_t* sli
     }
     return last;
   };
-  // The outermost slices are filled in part.
+  // The outermost slices are only partly filled.
   const int highest = reach(1);
   const int lowest = reach(-1);
   const double share = std::min(1.0, slices[highest] / dense);

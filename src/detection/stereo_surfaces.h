@@ -14,48 +14,48 @@
 
 namespace datmo {
 
-/// What stands upright in one column of the camera's level image at one depth.
+/// An upright surface at one depth in one column of the camera's level image.
 struct ColumnSurface {
   int column = 0;
   float depth = 0.0F;   ///< m ahead of the camera: of the mean inverse depth of its points
   float points = 0.0F;  ///< near that depth, in the layer of road users
-  float bottom = 0.0F;  ///< m above the road, of what is seen of it
+  float bottom = 0.0F;  ///< m above the road, of the visible part
   float top = 0.0F;     ///< m above the road
 };
 
-/// The columns of the camera's level image, and what is seen in them.
+/// The columns of the camera's level image, and the surfaces in them.
 struct SurfaceColumns {
   int count = 0;
   double left = 0.0;         ///< tangent of the first column's left border
   double per_tangent = 0.0;  ///< columns
-  /// Where each column's surfaces begin in the list; one more than there are columns.
+  /// Start index of each column's surfaces in the list; one more entry than columns.
   std::vector<std::size_t> begin;
-  std::vector<ColumnSurface> surfaces;  ///< by column, near ones first
+  std::vector<ColumnSurface> surfaces;  ///< by column, nearest first
 
-  /// Tangent to the right of a column's middle.
+  /// Returns the tangent of a column's middle, to the right.
   double tangentOf(int column) const { return left + (column + 0.5) / per_tangent; }
-  /// Of a column, at a depth (m): m.
+  /// Returns the width of a column at a depth (m), m.
   double widthAt(double depth) const { return depth / per_tangent; }
 };
 
 /// Finds the upright surfaces in the columns of a cloud: in each column the points above the road
-/// are counted over depth, in bins in which the noise of the camera is uniform; each mode of
-/// these counts is a surface, so that there may be several behind each other (u-disparity;
-/// Labayrade, Aubert, Tarel, Real time obstacle detection in stereovision on non flat road geometry
-/// through v-disparity representation, 2002; surfaces in columns: Badino, Franke, Pfeiffer, The
-/// stixel world, 2009).
+/// are counted over depth, in bins in which the noise of the camera is uniform; each mode of these
+/// counts is a surface, so there may be several behind each other (u-disparity; Labayrade, Aubert,
+/// Tarel, Real time obstacle detection in stereovision on non flat road geometry through
+/// v-disparity representation, 2002; surfaces in columns: Badino, Franke, Pfeiffer, The stixel
+/// world, 2009).
 ///
-/// A cloud may be dense or thinned, organized or not: columns are as wide as its points are apart.
+/// A cloud may be dense or thinned, organized or not: the column width follows the point spacing.
 class StereoSurfaces {
  public:
-  /// Forgets what it knew. `view`: of this cloud. `farthest`: m.
+  /// Replaces the contents. `view`: of this cloud. `farthest`: m.
   void find(const StereoCloud& cloud, const StereoView& view, const StereoSurfaceOptions& options,
             double farthest);
 
   const SurfaceColumns& columns() const { return columns_; }
   const ImageDensity& density() const { return density_; }
 
-  /// Points that are finite and in front of the camera.
+  /// Returns the number of points that are finite and in front of the camera.
   std::size_t points() const { return points_; }
 
  private:
@@ -89,9 +89,9 @@ class StereoSurfaces {
   std::size_t slot(int column, int bin) const {
     return static_cast<std::size_t>(column) * bins_ + static_cast<std::size_t>(bin);
   }
-  /// Slices of height that points are counted in.
+  /// Number of height slices in which points are counted.
   static std::size_t slicesUpTo(double height);
-  /// Points one above the other in a column, for each m at a depth (m).
+  /// Number of points above each other in a column, per m of height, at a depth (m).
   double pointsPerMeter(double depth) const { return columns_.per_tangent / depth; }
 
   DepthBins depth_bins_;

@@ -11,23 +11,23 @@ namespace datmo {
 
 namespace {
 
-/// Surfaces farther apart sideways are not of one object, m.
+/// m; surfaces with a larger lateral gap do not belong to one object.
 constexpr double kLateralGap = 0.4;
 
-/// Depth from a surface to one of the same object that is seen above it: from a bonnet to the
-/// windscreen, m.
+/// m; maximum depth from a surface to one of the same object seen above it: from a hood to the
+/// windshield.
 constexpr double kStackedGap = 1.2;
 
-/// m; what begins higher up than this below another surface's top may stand on it.
+/// m; a surface that begins at most this far below another one's top may stand on it.
 constexpr float kOverlap = 0.2F;
 
-/// m above the road; what is farther away and seen only above this may be seen through a window.
+/// m above the road; farther surfaces seen only above this may be seen through a window.
 constexpr float kWindow = 0.8F;
 
-/// Pixels beside an edge at which the depths of both sides are mixed.
+/// Pixels next to an edge at which the depths of both sides are mixed.
 constexpr double kEdgePixels = 2.0;
 
-/// A surface between two others that has fewer points than this share of both is made of them.
+/// A surface between two others with fewer points than this share of both is a mixture of them.
 constexpr float kMixedShare = 0.6F;
 
 /// Joins surfaces pair by pair.
@@ -56,7 +56,7 @@ class SurfaceLinks {
   const ColumnSurface& at(std::size_t index) const { return columns_.surfaces[index]; }
   std::size_t begin(int column) const { return columns_.begin[static_cast<std::size_t>(column)]; }
 
-  /// m: surfaces of one object may differ by so much in depth.
+  /// m; surfaces of one object may differ by this much in depth.
   float gapAt(float depth) const {
     return static_cast<float>(
         std::max(options_.depth_gap,
@@ -69,8 +69,8 @@ class SurfaceLinks {
     return high > options_.tall && low < options_.low;
   }
 
-  /// Surfaces that are none: beside an edge, points of what is behind it are seen at any depth
-  /// between the two.
+  /// Finds surfaces that are not real: next to an edge, points of the background appear at any
+  /// depth between foreground and background.
   void findMixed() {
     const double pixels = camera_.focal_length / columns_.per_tangent;
     const int reach = std::max(1, static_cast<int>(std::lround(kEdgePixels / pixels)));
@@ -92,7 +92,7 @@ class SurfaceLinks {
     return farther && nearer;
   }
 
-  /// With what is seen above it, little behind it.
+  /// Joins it with what is seen above it, slightly behind.
   void mergeAbove(std::size_t i) {
     const ColumnSurface& surface = at(i);
     const float gap = std::max(static_cast<float>(kStackedGap), gapAt(surface.depth));
@@ -104,7 +104,7 @@ class SurfaceLinks {
     }
   }
 
-  /// With what is beside it, as far as nothing is seen between them that is farther away.
+  /// Joins it with adjacent surfaces, unless something farther away is seen between them.
   void mergeBeside(std::size_t i) {
     const ColumnSurface& surface = at(i);
     const double width = columns_.widthAt(static_cast<double>(surface.depth));

@@ -8,10 +8,11 @@
 
 namespace datmo {
 
-/// Surfaces that belong together: beside each other at the same depth, within its noise,
-/// with nothing farther away seen between them; or one seen above the other and little behind it,
-/// as a windscreen over a bonnet. What is very different in height is apart, as a pedestrian beside
-/// a pole, and so is what is beyond a dent (DentSplitter). Groups by their first surfaces.
+/// Groups surfaces that belong together: adjacent at the same depth, within its noise, with nothing
+/// farther away seen between them; or one seen above the other and slightly behind it, such as a
+/// windshield above a hood. Surfaces of very different height are separated, such as a pedestrian
+/// next to a pole, as are those beyond a dent (DentSplitter). Groups are ordered by their first
+/// surfaces.
 std::vector<SurfaceGroup> groupSurfaces(const SurfaceColumns& columns, const StereoCamera& camera,
                                         const SurfaceGroupOptions& options);
 

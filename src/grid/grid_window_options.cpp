@@ -12,7 +12,7 @@ int cellsAlong(double length, double cell_size) {
   return std::max(1, static_cast<int>(std::lround(length / cell_size)));
 }
 
-/// Cells of about 50 bytes in a map: more do not fit the memory of a vehicle's computer.
+/// Cells of about 50 bytes in a map: more do not fit in the memory of a vehicle's computer.
 constexpr double kMaxCells = 2.5e7;
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// Nine times as many, and the table of all values up to there, are small numbers still.
+/// Nine times this, and the table of all values up to there, are still small.
 constexpr int kSaturation = 100000;
 
 }  // namespace
@@ -125,7 +125,7 @@ void HitGrid::add(const Point2& point, Stamp stamp) {
     ++cell.hits;
     addAround(index, 1, window());
   }
-  // When it is full the mean follows what is seen now.
+  // At max_hits the mean follows recent measurements.
   const Eigen::Vector2f offset = (point - window().centerOf(index)).cast<float>();
   cell.mean += (offset - cell.mean) / static_cast<float>(cell.hits);
 }

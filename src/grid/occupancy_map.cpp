@@ -18,7 +18,7 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-/// Hits that a cell holds at the most, so that its surface follows what is seen now.
+/// Maximum number of hits in a cell, so that its surface follows recent measurements.
 constexpr float kMaxHits = 50.0F;
 
 }  // namespace
@@ -136,7 +136,7 @@ void OccupancyMap::change(Cell& cell, float log_odds_step) const {
   const float log_odds =
       std::clamp(cell.log_odds + log_odds_step, -log_odds_limit_, log_odds_limit_);
   if (log_odds == cell.log_odds) {
-    return;  // as most free cells are, at the limit
+    return;  // like most free cells, which are at the limit
   }
   cell.log_odds = log_odds;
   cell.occupancy = 1.0F / (1.0F + std::exp(-cell.log_odds));
@@ -153,7 +153,7 @@ OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
   if (cell.updated != update_) {
     change(cell, hit_log_odds_);
     cell.updated = update_;
-    cell.freed = 1.0F;  // no beam frees it in this scan
+    cell.freed = 1.0F;  // no beam can free it in this scan
   }
   return &cell;
 }
@@ -161,8 +161,8 @@ OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
 void OccupancyMap::hit(const Point2& point) {
   const CellIndex index = window().cellAt(point);
   if (Cell* cell = occupy(index)) {
-    // What is known to within some cells only has no age: a mover blurred so is over a cell for
-    // longer than it takes to pass.
+    // Only cells with exact points get an age: a mover known to within several cells covers each of
+    // them for longer than it takes to pass.
     if (cell->hits.count == 0.0F) {
       cell->first_hit = now_;
     }
@@ -182,7 +182,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
   const HitDistribution surface = sums.about(window().centerOf(index));
   const Point2 across = perpendicular(direction);
   const double distance = across.dot(surface.mean - from);
-  // The spread of hits at one point may be rounded to below 0.
+  // By rounding, the spread of hits at one point may be negative.
   const double variance = std::max(0.0, across.dot(surface.covariance * across)) +
                           options_.surface_sigma * options_.surface_sigma;
   return static_cast<float>(std::exp(-0.5 * distance * distance / variance));
@@ -200,7 +200,7 @@ void OccupancyMap::pass(CellIndex index, const Point2& from, const Point2& direc
   if (cell.freed >= 1.0F) {
     return;
   }
-  // Of all beams of the scan the one that contradicts most counts, whatever their order.
+  // Only the strongest contradiction among the scan's beams counts, whatever their order.
   const float freed = contradiction(cell, index, from, direction);
   if (freed > cell.freed) {
     change(cell, free_log_odds_ * (freed - cell.freed));
@@ -221,8 +221,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
     const CellIndex last = window().cellAt(to);
     const Point2 direction = (to - from).normalized();
     walkRay(window(), from, to, [&](CellIndex cell) {
-      // The cell in which a beam ends is not free, whatever the reason that it was not marked as
-      // hit.
+      // The cell in which a beam ends is not free, even if it was not marked as hit.
       if (!ray.hit || (cell != end && cell != last)) {
         pass(cell, from, direction);
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an OccupancyMap knows beyond its window, and beyond its life.
+// The parts of OccupancyMap that concern cells beyond its window, and saved maps.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// s: so long ago a restored map was made, for all that a drive takes.
+/// s, age given to the cells of a restored map: longer than any drive.
 constexpr float kLongAgo = 1e6F;
 
 /// Calls `visit(CellIndex)` for each cell of a window, row by row.
@@ -24,7 +24,7 @@ void forEachCell(const GridWindow& window, Visit&& visit) {
   }
 }
 
-/// The window with the cell in it.
+/// Returns the window, extended to include the cell.
 GridWindow extended(GridWindow window, CellIndex cell) {
   const CellIndex end{std::max(window.corner.column + window.columns, cell.column + 1),
                       std::max(window.corner.row + window.rows, cell.row + 1)};
@@ -40,7 +40,7 @@ GridWindow extended(GridWindow window, CellIndex cell) {
 template <typename Visit>
 void OccupancyMap::forEachKnown(Visit&& visit) const {
   outside_.forEach([&](CellIndex index, const Cell& cell) {
-    // What came back into the window of a map that is made is in the tiles alone, until it is seen
+    // In a map being built, what came back into the window is only in the tiles until it is seen
     // again; a restored map has it in the window, too.
     const bool in_window = window().contains(index) && (is_restored_ || isKnown(cells_.at(index)));
     if (isKnown(cell) && !in_window) {
@@ -114,7 +114,7 @@ void OccupancyMap::setWindow(const GridWindow& window) {
       cells.at(index) = cell;
     }
   });
-  // Only then, since what leaves the window may make tiles forgotten.
+  // Only now, since cells that leave the window may cause tiles to be dropped.
   forEachCell(cells_.window(), [&](CellIndex index) {
     if (!isKnown(cells_.at(index))) {
       return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an OccupancyMap says of cells, of the ends of beams, and of what beams passed.
+// The parts of OccupancyMap that classify cells, beam ends and beams.
 #include <algorithm>
 
 #include "datmo_fusion/grid/neighborhood.h"
@@ -10,17 +10,17 @@ namespace datmo {
 
 namespace {
 
-/// A ghost is refuted by at least this share of all beams that ended there: a few are refuted by
-/// mistake where much traffic passes.
+/// A ghost is refuted by at least this share of all beams that ended there: with heavy traffic, a
+/// few are refuted by mistake.
 constexpr double kGhostShare = 0.1;
 
-/// A cell more occupied than this, for long enough, is static.
+/// Minimum occupancy of a static cell, if it has been occupied long enough.
 constexpr double kStaticAbove = 0.7;
 
-/// In surface_sigma: this near to its end a beam has not passed a surface, but hit it.
+/// In surface_sigma: closer than this to its end, a beam has not passed a surface, but hit it.
 constexpr double kHitMargin = 3.0;
 
-/// Contradiction of a beam that went through a surface rather than past its edge.
+/// Minimum contradiction of a beam that passed through a surface rather than by its edge.
 constexpr float kThrough = 0.5F;
 
 }  // namespace

@@ -18,7 +18,7 @@ std::string systemError() {
   return errno == 0 ? "it is cut" : std::generic_category().message(errno);
 }
 
-/// A file that has no name; where the file system knows no such, one whose name is taken away.
+/// Opens an unnamed file; if the file system does not support that, a named one that is unlinked.
 int openUnnamed(const std::string& folder) {
   constexpr mode_t kOwner = 0600;
   const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kOwner);
@@ -33,8 +33,8 @@ int openUnnamed(const std::string& folder) {
   return named;
 }
 
-/// `transfer(done)`: pread or pwrite of what is left after `done` bytes. False with errno if there
-/// is no more.
+/// Repeats `transfer(done)`, a pread or pwrite of what is left after `done` bytes, until all are
+/// transferred. Returns false, with errno, if it ends before.
 template <typename Transfer>
 bool transferAll(std::size_t bytes, Transfer&& transfer) {
   for (std::size_t done = 0; done < bytes;) {

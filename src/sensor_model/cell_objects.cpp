@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// The object that a cell belongs to, out of those that are left.
+/// Extracts the object that a cell belongs to from the remaining cells.
 std::vector<CellIndex> takeObject(CellIndex seed, RollingGrid<char>& left) {
   std::vector<CellIndex> object = {seed};
   left.at(seed) = 0;

@@ -7,8 +7,8 @@
 
 namespace datmo {
 
-/// Cells of a window sorted into objects: those together that touch each other, also at a corner
-/// only. `cells`: inside of the window, each once. Objects in the order of their first cells.
+/// Groups cells of a window into objects: connected cells, also if they touch only at a corner.
+/// `cells`: inside the window, each once. Objects are in the order of their first cells.
 std::vector<std::vector<CellIndex>> objectsOf(const std::vector<CellIndex>& cells,
                                               const GridWindow& window);
 

@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// Part of the ground that a stereo camera's grid covers.
+/// The part of the ground that a stereo camera's grid covers.
 struct FieldOfView {
   double left_tangent = 0.0;  ///< right / forward
   double right_tangent = 0.0;
@@ -24,7 +24,7 @@ struct FieldOfView {
   }
 };
 
-/// `visit(CellIndex, PointInView)` for each cell of the window whose center is in view, row by row.
+/// Calls `visit(CellIndex, PointInView)` for each cell whose center is in view, row by row.
 template <typename Visit>
 void forEachCellInView(const GridWindow& window, const StereoView& view, const FieldOfView& field,
                        Visit&& visit) {

@@ -13,14 +13,14 @@ namespace datmo {
 
 namespace {
 
-/// Samples of RANSAC: with a third of the points on the ground, 120 find it with a probability of
+/// RANSAC samples: with a third of the points on the ground, 120 find it with a probability of
 /// 0.99.
 constexpr int kMaxIterations = 200;
 
-/// Points that are looked at, of however many there are: several for each voxel.
+/// Maximum number of points that are used: several for each voxel.
 constexpr std::size_t kMaxGroundSamples = 20000;
 
-/// The points that may be of the ground, thinned.
+/// The points that may be on the ground, subsampled.
 LidarPoints::Ptr candidates(const LidarPoints& points, const std::vector<int>& indices,
                             const CloudGroundOptions& options) {
   const std::size_t stride = indices.size() / kMaxGroundSamples + 1;
@@ -38,7 +38,7 @@ LidarPoints::Ptr candidates(const LidarPoints& points, const std::vector<int>& i
   return chosen;
 }
 
-/// Their centroids in voxels; flat ones, so that what stands on the ground is not mixed with it.
+/// Centroids of voxels; these are flat, so that objects on the ground do not mix with it.
 LidarPoints::Ptr voxels(const LidarPoints::Ptr& points, const CloudGroundOptions& options) {
   const auto size = static_cast<float>(options.voxel_size);
   pcl::VoxelGrid<pcl::PointXYZ> grid;
@@ -49,7 +49,7 @@ LidarPoints::Ptr voxels(const LidarPoints::Ptr& points, const CloudGroundOptions
   return centroids;
 }
 
-/// Keeps PCL from the console while it lives: that there is no plane is a result, no error.
+/// Suppresses PCL's console output during its lifetime: that there is no plane is not an error.
 class QuietPcl {
  public:
   QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
@@ -68,7 +68,7 @@ RoadPlane planeOf(const pcl::ModelCoefficients& coefficients) {
   return {-values[3] / up, -values[0] / up, -values[1] / up};
 }
 
-/// In this order a plane that is none is not credible.
+/// With comparisons in this order, a plane with NaN is not credible.
 bool isCredible(const RoadPlane& plane, const CloudGroundOptions& options) {
   return std::abs(plane.height) <= options.max_height &&
          std::hypot(plane.slope_x, plane.slope_y) <= options.max_slope;

@@ -15,12 +15,12 @@ namespace {
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr float kBlind = std::numeric_limits<float>::quiet_NaN();
 
-/// Rounding that bearings are allowed, rad: far less than any beam.
+/// rad; rounding tolerance for bearings: far less than any beam.
 constexpr double kRounding = 1e-5;
 
 bool isWholeTurn(double field_of_view) { return field_of_view > kTurn - kRounding; }
 
-/// The beams of the scan, and which of them a bearing falls on.
+/// The beams of the scan, and the lookup of beams by bearing.
 struct Beams {
   double first_bearing = 0.0;
   double spacing = 0.0;     ///< signed
@@ -29,17 +29,17 @@ struct Beams {
 
   double lastBearing() const { return first_bearing + spacing * (count - 1); }
 
-  /// Beams from the first one to where `bearing` is, -0.5 or more.
+  /// Beams from the first one to `bearing`, -0.5 or more.
   double stepsTo(float bearing) const {
-    // Both bearings are within half a turn of 0, so that one turn more or less is enough: this is
-    // done for each point of the cloud.
+    // Both bearings are within half a turn of 0, so at most one turn must be added; this is done
+    // for each point of the cloud.
     const double steps = (bearing - first_bearing) / spacing;
     const double turn = kTurn / std::abs(spacing);
     return steps < -0.5 ? steps + turn : steps >= turn - 0.5 ? steps - turn : steps;
   }
 };
 
-/// In the order in which the lidar turns, from where its turn begins if they are a whole turn.
+/// In the lidar's direction of rotation, from the start of its turn if they are a full turn.
 Beams layOut(const CloudToScanOptions& options, const std::optional<SweepTiming>& sweep) {
   const bool whole = isWholeTurn(options.field_of_view);
   const int steps = static_cast<int>(std::lround(options.field_of_view / options.beam_spacing));
@@ -57,7 +57,7 @@ Beams layOut(const CloudToScanOptions& options, const std::optional<SweepTiming>
   return beams;
 }
 
-/// Sets the scan's times; `sweep` or none.
+/// Sets the scan's times; `sweep` may be none.
 void setTimes(const std::optional<SweepTiming>& sweep, const Beams& beams, PlanarScan& scan) {
   if (!sweep) {
     return;
@@ -73,8 +73,8 @@ void setTimes(const std::optional<SweepTiming>& sweep, const Beams& beams, Plana
   }
 }
 
-/// Beams without any point as NaN, but for gaps narrower than `max_gap` beams: between the lidar's
-/// own columns. `seen`: by beam; the gaps of a whole turn go on from the last beam to the first.
+/// Marks beams without points as seen if one with points is at most `max_gap` beams away: such gaps
+/// are between the lidar's own columns. `seen`: by beam; in a full turn gaps wrap around.
 std::vector<bool> withoutGaps(std::vector<bool> seen, int max_gap, bool whole_turn) {
   const auto count = static_cast<int>(seen.size());
   const std::vector<bool> points = seen;
@@ -90,7 +90,7 @@ std::vector<bool> withoutGaps(std::vector<bool> seen, int max_gap, bool whole_tu
   return seen;
 }
 
-/// The nearest point of each beam in the band, and which beams see anything.
+/// The nearest point of each beam in the height band, and which beams have any points.
 class Band {
  public:
   Band(const CloudToScanOptions& options, const Beams& beams, const RoadPlane& ground,
@@ -107,7 +107,8 @@ class Band {
     const float x = point.x - lidar_.x();
     const float y = point.y - lidar_.y();
     const double steps = beams_.stepsTo(std::atan2(y, x));
-    // Rounded, as no step is below -0.5; std::lround is a call for each of 130,000 points.
+    // Rounds, because no step is below -0.5; std::lround would be a call for each of 130,000
+    // points.
     const auto beam =
         static_cast<std::size_t>(steps + 0.5);  // NOLINT(bugprone-incorrect-roundings)
     if (beam >= seen_.size()) {

@@ -10,14 +10,14 @@ namespace datmo {
 
 namespace {
 
-/// From a point to the farthest point of the window, m.
+/// Distance from a point to the farthest point of the window, m.
 double reachFrom(const Point2& point, const GridWindow& window) {
   const Point2 low = window.origin();
   const Point2 high = low + window.cell_size * Point2(window.columns, window.rows);
   return (point - low).cwiseAbs().cwiseMax((point - high).cwiseAbs()).norm();
 }
 
-/// Writes what beams say into a grid.
+/// Writes the evidence of beams into a grid.
 class BeamWriter {
  public:
   BeamWriter(SensorGrid& grid, double beam_width, const LidarGridOptions& options)
@@ -26,9 +26,9 @@ class BeamWriter {
         cut_per_turn_(1.0 / std::tan(options.min_incidence)),
         beam_end_(options.beam_end) {}
 
-  /// A surface that is met at a flat angle comes toward the scanner on one side of the beam: away
-  /// from its axis the beam is free as far as such a surface lets it. What lies as near to that as
-  /// the range is uncertain may be the surface.
+  /// A surface hit at a grazing angle comes closer to the scanner on one side of the beam: away
+  /// from its axis the beam is only free up to such a surface. Within the range uncertainty before
+  /// that, it may already be the surface.
   void pass(const Ray& ray, Percent free) {
     const Beam beam = beamOf(ray);
     const Point2 axis = beam.along.normalized();
@@ -37,7 +37,7 @@ class BeamWriter {
       const Point2 line = to - beam.from;
       const double turn = std::acos(std::min(1.0, axis.dot(line.normalized())));
       const double share = ray.hit ? std::max(0.0, 1.0 - turn * cut_per_turn_) : 1.0;
-      // Of the margin a part may lie beyond the window.
+      // A part of the margin may lie beyond the window.
       const double shown_margin = std::max(0.0, margin - share * (ray.range - beam.range));
       const double free_share = share - shown_margin / beam.range;
       if (free_share >= 0.0) {
@@ -50,7 +50,7 @@ class BeamWriter {
   void end(const Ray& ray, Percent occupied) {
     const Beam beam = beamOf(ray);
     if (beam.range < ray.range) {
-      return;  // it ends beyond the window
+      return;  // it ends outside the window
     }
     Point2 previous = ray.end;
     forEachLine(grid_.window(), beam, [&](const Point2& to) {
@@ -60,7 +60,7 @@ class BeamWriter {
   }
 
  private:
-  /// As far as the window shows it: a far end would take long to walk to.
+  /// Clipped to the window, because a distant end would take long to reach.
   Beam beamOf(const Ray& ray) const {
     const Point2 along = ray.end - ray.origin;
     const double shown = std::min(1.0, reachFrom(ray.origin, grid_.window()) / ray.range);
@@ -77,7 +77,7 @@ class BeamWriter {
 
   SensorGrid& grid_;
   double beam_width_;
-  double cut_per_turn_;  ///< 1/rad, share of the range that a line is shorter by
+  double cut_per_turn_;  ///< 1/rad, relative shortening of a line by the angle from the beam's axis
   BeamEndOptions beam_end_;
 };
 
@@ -114,7 +114,7 @@ SensorGrid LidarGridModel::grid(const Scan& scan) const {
   for (const Ray& ray : scan.rays) {
     writer.pass(ray, toPercent(options_.free_probability));
   }
-  // After all that is free: an end wins over a neighbor that passes beside it.
+  // After all free space: an end takes precedence over a neighboring beam that passes it.
   for (const Ray& ray : scan.rays) {
     if (ray.hit) {
       writer.end(ray, toPercent(options_.occupied_probability));

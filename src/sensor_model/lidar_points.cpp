@@ -11,7 +11,7 @@ namespace datmo {
 LidarPoints::Ptr toBase(const LidarCloud& cloud) {
   LidarPoints::Ptr points(new LidarPoints);
   if (cloud.points->empty()) {
-    return points;  // PCL would complain on the console
+    return points;  // avoids PCL's console warning
   }
   const Eigen::Matrix4f transform = cloud.lidar_in_base.matrix().cast<float>();
   pcl::transformPointCloud(*cloud.points, *points, transform);

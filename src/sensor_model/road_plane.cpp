@@ -15,17 +15,17 @@ namespace datmo {
 
 namespace {
 
-/// Points that are looked at, of however many there are: a few for each square meter.
+/// Maximum number of points that are used: a few for each square meter.
 constexpr std::size_t kMaxSamples = 8000;
 
-/// Side of the cells that have one vote each, m.
+/// m; side of the cells that have one vote each.
 constexpr double kVoteSize = 1.0;
 
-/// Samples without which a cell has no vote.
+/// Minimum number of samples for a cell's vote.
 constexpr int kMinSamples = 2;
 
-/// One round of the fit: how far out, as a share of the distance, and how far from the last plane,
-/// in tolerances, its points may be. A pitch is small in meters where it is near.
+/// One round of the fit: how far out its points may be, as a share of the distance, and how far
+/// from the last plane, in tolerances. Close to the vehicle, a pitch error is small in meters.
 struct Round {
   double reach;
   double tolerances;
@@ -37,10 +37,10 @@ struct Sample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< base frame, m
   double depth = 0.0;                                  ///< m ahead of the camera
   double variance = 0.0;                               ///< m^2, of the height
-  std::size_t cell = 0;                                ///< that it votes in
+  std::size_t cell = 0;                                ///< in which it votes
 };
 
-/// A square meter's points that are near to the last plane.
+/// The points in a square meter that are close to the last plane.
 struct Vote {
   Eigen::Vector3d position_sum = Eigen::Vector3d::Zero();
   double variance_sum = 0.0;
@@ -53,7 +53,7 @@ struct Vote {
   }
 };
 
-/// Plane through the votes, each weighed by the variance of its height; nothing for too few.
+/// Plane through the votes, each weighted by the variance of its height; none if there are too few.
 class PlaneFit {
  public:
   void add(const Eigen::Vector3d& position, double variance) {
@@ -76,7 +76,7 @@ class PlaneFit {
   int votes_ = 0;
 };
 
-/// The square meters where the road is looked for, and the points in them.
+/// The square meters in which the road is searched for, and the points in them.
 class RoadSamples {
  public:
   RoadSamples(const StereoCloud& cloud, const RoadPlaneOptions& options)
@@ -94,7 +94,7 @@ class RoadSamples {
     }
   }
 
-  /// Through the samples that are near to a plane.
+  /// Fits a plane to the samples close to a given one.
   PlaneFit fitNear(const RoadPlane& plane, const Round& round) const {
     const double reach = round.reach * options_.max_distance;
     const double tolerance = round.tolerances * options_.tolerance;
@@ -121,20 +121,20 @@ class RoadSamples {
     const ViewedPoint seen = view(point);
     const double depth = seen.forward;
     const double column = (seen.right + options_.half_width) / kVoteSize;
-    // In this order what is not a number is left out.
+    // Comparisons in this order exclude NaN.
     if (depth > 0.0 && depth < options_.max_distance && column >= 0.0 &&
         column < static_cast<double>(columns_)) {
       const auto row = static_cast<int>(depth / kVoteSize);
-      // Lines of sight fall by the camera's height before they reach the road, so that a depth that
-      // is off by its standard deviation lifts or lowers the point.
+      // A line of sight drops by the camera's height over the distance to the road, so a depth that
+      // is off by its standard deviation raises or lowers the point.
       const double sigma = camera_height_ * camera_.depthSigma(depth) / depth;
       samples_.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma,
                           rowMajorIndex(static_cast<int>(column), row, columns_)});
     }
   }
 
-  /// Which of `stride` points is taken: spread by the golden ratio, so that no width of an image
-  /// makes all of them fall on the same columns.
+  /// Index of the point taken from a block of `stride`: spread by the golden ratio, so that for no
+  /// image width all of them fall on the same columns.
   static std::size_t offset(std::size_t block, std::size_t stride) {
     constexpr double kGolden = 0.6180339887498949;
     const double turns = static_cast<double>(block) * kGolden;
@@ -189,7 +189,7 @@ std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
       plane = fit.plane();
     }
   }
-  // In this order a plane that is none is not credible.
+  // With comparisons in this order, a plane with NaN is not credible.
   const bool credible = plane.heightOf(cloud.camera_in_base.translation()) > 0.0 &&
                         std::abs(plane.height) <= options_.max_height &&
                         std::abs(plane.slope_x) <= options_.max_slope &&

@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// Points up to so many standard deviations beyond the effective range still belong to it.
+/// Points up to this many standard deviations beyond the effective range still belong to it.
 constexpr double kBeyondRange = 2.0;
 
 }  // namespace

@@ -14,14 +14,14 @@ namespace {
 constexpr float kNothingThere = std::numeric_limits<float>::infinity();
 constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
-/// A range replaces what is not measured, and a farther one.
+/// Sets a range if none was measured there, or a farther one.
 void put(float range, float& slot) {
   if (std::isnan(slot) || range < slot) {
     slot = range;
   }
 }
 
-/// rad, 0 to a turn, from one bearing to the left to another.
+/// Angle from one bearing counterclockwise to another, rad, 0 to a full turn.
 double leftTurn(double from, double to) {
   const double turn = normalizeAngle(to - from);
   return turn < 0.0 ? turn + kTurn : turn;
@@ -31,7 +31,7 @@ bool isIn(double bearing, double from, double to) {
   return leftTurn(from, bearing) <= leftTurn(from, to);
 }
 
-/// Range (m) from the origin to the line through two points, in a direction.
+/// Range (m) from the origin, in a direction, to the line through two points.
 double rangeToLine(const Point2& a, const Point2& b, double bearing) {
   const Point2 across(-(b - a).y(), (b - a).x());
   const Point2 direction(std::cos(bearing), std::sin(bearing));

@@ -10,13 +10,13 @@ namespace datmo {
 
 namespace {
 
-/// s; before the second image a surface counts for as long as an image of a usual camera.
+/// s; time that the first image counts for: the period of a typical camera.
 constexpr double kUsualPeriod = 0.1;
 
 /// Surfaces that count as having agreed before any has been seen.
 constexpr double kUsualAgreement = 5.0;
 
-/// Standard deviations beyond which a term surely is so.
+/// Standard deviations from which a term certainly exceeds a limit.
 constexpr double kSure = 2.0;
 
 void visitTerm(OptionVisitor& visitor, const char* name, const char* unit, const char* what,
@@ -77,7 +77,7 @@ std::array<const AlignmentTermOptions*, kAlignmentTerms> StereoAlignmentOptions:
   return {&disparity, &surface, &forward, &heading, &time};
 }
 
-/// To first order, of a plane: 1/depth = intercept + slope tangent.
+/// First-order derivatives for a plane: 1/depth = intercept + slope tangent.
 AlignmentVector alignmentRates(const SurfacePair& pair, double disparity_at_meter,
                                const Twist2& twist) {
   const double inverse = pair.inverseDepth();
@@ -145,7 +145,7 @@ void StereoAlignmentFilter::drift(double seconds) {
   const auto terms = options_.terms();
   for (std::size_t i = 0; i < kAlignmentTerms; ++i) {
     double& variance = alignment_.covariance(static_cast<int>(i), static_cast<int>(i));
-    // No farther than nothing was known at first.
+    // Never more uncertain than the prior.
     variance = std::min(square(terms[i]->sigma), variance + square(terms[i]->drift) * seconds);
   }
 }

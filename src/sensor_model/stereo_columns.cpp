@@ -13,26 +13,26 @@ namespace datmo {
 
 namespace {
 
-/// A cell with this share of what makes it occupied is not called free any more.
+/// A cell with at least this share of the surface that makes it occupied is not marked as free.
 constexpr double kDoubtfulShare = 0.5;
 
-/// An occupied cell becomes unknown if it has less surface than so many times what the noise of the
-/// depth alone brings there from another point on the line of sight; 0: none does.
+/// An occupied cell becomes unknown if its surface is less than this many times what depth noise
+/// alone can move there from another point on the line of sight; 0: never.
 constexpr double kNoiseFactor = 1.0;
 
-/// Lines of sight without which no cell is called free.
+/// Minimum number of lines of sight through a free cell.
 constexpr int kMinLines = 3;
 
-/// A cell is free if at least this share of the lines of sight that cross it below the layer of
-/// obstacles, in an image without holes, does so: whatever reaches up to the layer would have
-/// stopped them.
+/// A cell is free if at least this share of the lines of sight that would cross it below the layer
+/// of obstacles, in an image without holes, does: anything that reaches up to the layer would have
+/// blocked them.
 constexpr double kMinSeenShare = 0.3;
 
-/// Neighboring cells with less surface than this in all are noise, m^2.
+/// m^2; neighboring cells with less total surface than this are noise.
 constexpr double kMinObjectSurface = 0.05;
 
-/// What noise brings from elsewhere comes from so far (standard deviations of the depth) at most;
-/// looked for in such steps.
+/// Maximum distance, in standard deviations of the depth, from which noise moves surface to a cell,
+/// and the step in which it is searched.
 constexpr double kSmearReach = 2.0;
 constexpr double kSmearStep = 0.5;
 
@@ -55,8 +55,8 @@ void StereoColumns::fill(SensorGrid& grid) const {
 }
 
 StereoColumns::Depths StereoColumns::around(double depth, double sigmas) const {
-  // In the inverse depth, where the noise of a stereo camera is uniform; what may be endlessly far
-  // is cut where nothing is of interest any more.
+  // In inverse depth, where the noise of a stereo camera is uniform; an infinite far end is clipped
+  // to the range of interest.
   const double inverse = 1.0 / depth;
   const double inverse_sigma = noise_.inverseSigma(inverse);
   const double min_inverse = 1.0 / (2.0 * field_.effective_range);
@@ -78,7 +78,7 @@ bool StereoColumns::isSmear(const PointInView& position) const {
     return false;
   }
   const double surface = surfaceAt(position);
-  // The window that surface is counted in widens the noise.
+  // The window in which surface is counted adds to the noise.
   const double half_window = std::max(half_cell_, sigma);
   const double variance = sigma * sigma + half_window * half_window / 3.0;
   for (double sigmas = -kSmearReach; sigmas <= kSmearReach; sigmas += kSmearStep) {
@@ -123,7 +123,7 @@ bool StereoColumns::isNoise(const std::vector<CellIndex>& object, const GridWind
   for (const CellIndex cell : object) {
     const PointInView position = view_.viewedPoint(window.centerOf(cell));
     const Depths depths = around(position.forward, 1.0);
-    // What the cell's neighbors count as theirs too is shared with them.
+    // Surface that neighboring cells count as well is shared with them.
     const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
     surface += share * surfaceAt(position);
   }

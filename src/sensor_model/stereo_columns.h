@@ -11,11 +11,10 @@
 
 namespace datmo {
 
-/// Evidence of one cloud on each cell in view: the method `columns` of
-/// StereoGridModel.
+/// Evidence of one cloud on each cell in view: the method `columns` of StereoGridModel.
 class StereoColumns {
  public:
-  /// What is passed must outlive this.
+  /// The arguments must outlive this object.
   StereoColumns(const StereoGridOptions& options, const StereoCamera& camera,
                 const StereoView& view, const FieldOfView& field, const StereoEvidence& evidence);
 
@@ -23,32 +22,31 @@ class StereoColumns {
   void fill(SensorGrid& grid) const;
 
  private:
-  /// m^2 in the layer of obstacles in a cell there; around it as far as the depth is uncertain.
+  /// m^2 in the layer of obstacles in a cell there, and around it within the depth uncertainty.
   double surfaceAt(const PointInView& position) const;
 
-  /// Whether the surface there is no more than what the noise of the depth brings there from
-  /// another point on the line of sight.
+  /// Whether the surface there is no more than what depth noise moves there from another point on
+  /// the line of sight.
   bool isSmear(const PointInView& position) const;
 
-  /// Whether an object has too little surface in all.
+  /// Whether an object has too little total surface.
   bool isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const;
 
   /// Whether enough lines of sight cross a point near the ground.
   bool isSeenThrough(const PointInView& position) const;
 
-  /// By what is seen there alone; returns the occupied ones.
+  /// Marks cells by their own evidence only; returns the occupied ones.
   std::vector<CellIndex> markCells(SensorGrid& grid) const;
 
-  /// Occupied cells that are noise become unknown; returns the others.
+  /// Sets occupied cells that are noise to unknown; returns the others.
   std::vector<CellIndex> withoutNoise(const std::vector<CellIndex>& occupied,
                                       SensorGrid& grid) const;
 
-  /// Free cells that may be where an occupied one seems to be become unknown: along the line of
-  /// sight by the noise of the depth, and all neighbors.
+  /// Sets free cells to unknown that may be the true position of an occupied one: along the line of
+  /// sight by the depth noise, and all neighbors.
   void clearMargin(CellIndex occupied, SensorGrid& grid) const;
 
-  /// From the nearest to the farthest depth (m) that is within so many standard deviations of a
-  /// depth.
+  /// The nearest and the farthest depth (m) within a number of standard deviations of a depth.
   struct Depths {
     double near, far;
   };

@@ -15,8 +15,8 @@ namespace datmo {
 
 namespace {
 
-/// What an object hides: bearings from the camera (rad, rising to the right), and beyond which
-/// range (m).
+/// The region that an object hides: bearings from the camera (rad, ascending to the right), and the
+/// range (m) from which on.
 struct Cone {
   double min_bearing = std::numeric_limits<double>::infinity();
   double max_bearing = -std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ double bearingOf(const PointInView& position) {
 }
 double rangeOf(const PointInView& position) { return std::hypot(position.right, position.forward); }
 
-/// How many points of the layer each cell holds (eq. 3.2.2): the thesis's grid of counts.
+/// Number of points of the layer in each cell (eq. 3.2.2): the thesis's grid of counts.
 RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud& cloud,
                              const StereoView& view, const FieldOfView& field,
                              const GridWindow& window, StereoCounts& counts) {

@@ -12,26 +12,26 @@ namespace datmo {
 
 namespace {
 
-/// Columns and bins are this much finer than the cells that they are to fill, at the farthest one.
+/// How much finer columns and bins are than the cells that they fill, at the farthest one.
 constexpr double kColumnsPerCell = 2.0;
 constexpr double kBinsPerCell = 4.0;
 
-/// Bounds of the memory needed, whatever the options: as fine as any image.
+/// Memory limits, independent of the options: as fine as any image.
 constexpr double kMaxColumns = 4096.0;
 constexpr double kMaxBins = 2048.0;
 
-/// m; cameras mark a depth that they do not know by a far one.
+/// m; some cameras mark unknown depths by very large ones.
 constexpr float kMaxDepth = 1000.0F;
 
-/// How dense the points are is taken from square tiles of the image: about so wide, px, and up to
+/// The density of points is estimated in square tiles of the image: about this wide, px, and up to
 /// this tangent above and below the horizon.
 constexpr double kTileSize = 16.0;
 constexpr double kMaxTangent = 1.0;
 
-/// Of clouds with more points, the line of sight of each second one is counted, or of fewer.
+/// In clouds with more points, the line of sight of every second one is counted, or of fewer.
 constexpr std::size_t kEnoughLines = 100000;
 
-/// After so many points, the lines that are counted are one point later: no image is so wide that
+/// After this many points, the counted lines are shifted by one point: no image is so wide that
 /// they would all be in the same columns.
 constexpr std::size_t kRun = 1021;
 
@@ -156,13 +156,13 @@ inline void StereoEvidence::addObstacle(const ColumnPoint& point, const Scales& 
 }
 
 inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scales) {
-  // m that the line falls before the point.
+  // Drop of the line over the distance to the point, m.
   const float fall = scales.camera_height - point.height;
   const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {
     ++tiles_[rowMajorIndex(point.column >> tile_shift_, static_cast<int>(row), tile_columns_)];
   }
-  // From where to where the line is below the layer, and nothing stops it.
+  // The interval in which the line is below the layer and unobstructed.
   const float per_fall = point.forward / fall;
   const float at_bottom = per_fall * scales.above_layer;
   const float stop = point.on_road
@@ -184,7 +184,7 @@ double StereoEvidence::pixelsPerLine() const {
 
 StereoEvidence::Columns StereoEvidence::columnsAt(const PointInView& position,
                                                   double half_width) const {
-  // In columns; those are in whose middles are.
+  // In columns; those whose middles are in between.
   const double middle = (position.tangent() - left_) * columns_per_tangent_;
   const double half = half_width / position.forward * columns_per_tangent_;
   const int first = std::max(0, roundedUp(middle - half - 0.5));

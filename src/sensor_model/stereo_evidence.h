@@ -12,29 +12,29 @@
 
 namespace datmo {
 
-/// What the points of one cloud are counted by.
+/// How the points of one cloud are counted.
 struct EvidenceLimits {
   double cell_size = 0.0;        ///< m, of the requested grid
-  double min_depth = 0.0;        ///< m, nearer points are mismatches
+  double min_depth = 0.0;        ///< m, obstacles beyond are ignored
   double max_depth = 0.0;        ///< m, obstacles beyond are not of interest
   double layer_bottom = 0.0;     ///< m above the road
   double layer_top = 0.0;        ///< m above the road
-  double road_sigmas = 0.0;      ///< of the depth: what is so near to the road is on it
-  double obstacle_sigmas = 0.0;  ///< of the depth: lines of sight are sure up to so much before it
+  double road_sigmas = 0.0;      ///< of the depth: points this close to the road are on it
+  double obstacle_sigmas = 0.0;  ///< of the depth: margin before the end of a line of sight
 };
 
-/// The points of one cloud, counted in columns of the camera's level image over depth: how many
-/// stand in the layer of obstacles, and how many lines of sight cross each point near the ground.
+/// The points of one cloud, counted in columns of the camera's level image over depth: how many are
+/// in the layer of obstacles, and how many lines of sight cross each point near the ground.
 class StereoEvidence {
  public:
-  /// Forgets what it knew, and counts the cloud's points. `view`: of this cloud.
+  /// Replaces the contents by the cloud's points. `view`: of this cloud.
   void take(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
 
-  /// Surface (m^2) in the layer of obstacles that is seen from one depth to another (m), within
-  /// `half_width` (m) to either side of a point in view.
+  /// Returns the surface (m^2) in the layer of obstacles that is seen between two depths (m),
+  /// within `half_width` (m) to either side of a point in view.
   double surface(const PointInView& position, double half_width, double near, double far) const;
 
-  /// Surface (m^2) that one point at a depth (m) stands for, if it faces the camera.
+  /// Returns the surface (m^2) that one point at a depth (m) represents, if it faces the camera.
   double surfaceOfPoint(double depth) const {
     const double pixel = depth / focal_length_;
     return pixel * pixel * pixels_per_point_;
@@ -56,10 +56,10 @@ class StereoEvidence {
     int first, end;
   };
 
-  /// What a point is compared with, in the numbers that points have.
+  /// What a point is compared with, in single precision like the points.
   struct Scales {
-    float nearest, layer_bottom, layer_top;  ///< m
-    float highest;                           ///< m above the road, of points that carry information
+    float nearest, layer_bottom, layer_top;    ///< m
+    float highest;                             ///< m above the road, of informative points
     float left, columns_per_tangent, columns;  ///< of the columns
     float tiles_per_tangent, tile_rows;        ///< of the tiles
     float camera_height;                       ///< m above the road
@@ -78,16 +78,16 @@ class StereoEvidence {
     bool on_road;
   };
 
-  /// Whether a point is one, in a column, and carries information. `inverse`: of its depth, 1/m.
+  /// Whether a point is valid, in a column, and informative. `inverse`: of its depth, 1/m.
   bool locate(const ViewedPoint& point, float inverse, const Scales& scales, ColumnPoint& located);
   void addObstacle(const ColumnPoint& point, const Scales& scales);
   void addLine(const ColumnPoint& point, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);
   void addPoints(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
-  /// Pixels of the image for each of the points whose lines are counted.
+  /// Image pixels per point whose line is counted.
   double pixelsPerLine() const;
 
-  /// At least one.
+  /// At least one column.
   Columns columnsAt(const PointInView& position, double half_width) const;
 
   DepthBins bins_;
@@ -100,10 +100,10 @@ class StereoEvidence {
   int tile_rows_ = 0;
   int tile_columns_ = 0;
 
-  SummedCounts obstacles_;     ///< points, by bin and column
-  SummedCounts lines_;         ///< lines of sight that begin less those that end, by bin and column
-  std::vector<int> tiles_;     ///< lines in each tile of the image, row by row
-  std::size_t line_step_ = 1;  ///< the line of one in so many points is counted
+  SummedCounts obstacles_;  ///< points, by bin and column
+  SummedCounts lines_;      ///< lines of sight that begin minus those that end, by bin and column
+  std::vector<int> tiles_;  ///< lines in each tile of the image, row by row
+  std::size_t line_step_ = 1;  ///< lines are counted for one in this many points
   double pixels_per_line_ = 1.0;
   double pixels_per_point_ = 1.0;  ///< 1: the cloud is dense
   std::size_t points_ = 0;

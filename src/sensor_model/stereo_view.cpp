@@ -8,10 +8,10 @@ namespace datmo {
 
 namespace {
 
-/// Least horizontal part of the optical axis, 0 to 1: steeper, the camera has no heading.
+/// Minimum horizontal part of the optical axis, 0 to 1: if steeper, the camera has no heading.
 constexpr double kMinLevel = 0.1;
 
-/// m: cameras measure depths from the nearer to the farther one.
+/// m; range of depths at which the noise is checked.
 constexpr double kNearDepth = 0.1;
 constexpr double kFarDepth = 100.0;
 
@@ -22,7 +22,7 @@ bool isPositive(const DepthNoise& noise) {
 void checkCamera(const StereoCamera& camera) {
   const bool measures = camera.focal_length > 0.0 && camera.baseline >= 0.0 &&
                         camera.noise.disparity_at_meter > 0.0 && isPositive(camera.noise);
-  // In this order a number that is not one is refused as well.
+  // Written so that NaN is rejected as well.
   if (!measures || !(camera.right_tangent > camera.left_tangent)) {
     throw std::invalid_argument(
         "stereo camera: expected a focal length above 0, a baseline of 0 or more, a noise of the "
@@ -68,7 +68,7 @@ void StereoView::view(const PointsView& points, std::size_t begin, std::size_t c
   }
   const Eigen::Matrix3f& m = from_optical_;
   const float height = camera_height_;
-  // In the order in which Eigen adds.
+  // In the same order as Eigen.
   for (std::size_t i = 0; i < count; ++i) {
     viewed.forward[i] = m(0, 0) * x[i] + (m(0, 1) * y[i] + m(0, 2) * z[i]);
     viewed.right[i] = m(1, 0) * x[i] + (m(1, 1) * y[i] + m(1, 2) * z[i]);

@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// Columns that points are put into: of no effect but on time.
+/// Number of columns into which points are sorted: only affects speed.
 constexpr int kColumns = 512;
 
-/// 1/m; nearer than this the scanner's inverse depths make no plane.
+/// 1/m; closer than this, the scanner's inverse depths do not form a plane.
 constexpr double kMaxInverse = 1.0;
 
 }  // namespace
@@ -138,7 +138,7 @@ void SurfacePairFinder::add(const Piece& piece, const StereoCamera& camera,
       std::minmax_element(piece.begin(), piece.end(),
                           [](const InView& a, const InView& b) { return a.tangent < b.tangent; });
   const double edge = options_.edge_pixels / camera.focal_length;
-  // Left of it the right camera may not see what is there.
+  // To the left of this, the right camera may not see the surface.
   const double left = std::max(first->tangent + edge,
                                camera.left_tangent + camera.baseline * pair.inverseDepth() + edge);
   const double right = std::min(last->tangent - edge, camera.right_tangent - edge);
@@ -175,7 +175,7 @@ bool SurfacePairFinder::fit(const Piece& piece, double disparity_at_meter,
   }
   const double incidence =
       inverse / (std::hypot(pair.intercept, pair.slope) * std::hypot(1.0, tangent));
-  // Of inverse depths, of a surface and of the scanner's noise.
+  // Of inverse depths: from the surface's shape and the scanner's noise.
   const double rms = std::sqrt(residual_sum / count);
   if (incidence < options_.min_incidence || rms > options_.straightness * square(inverse)) {
     return false;

@@ -14,23 +14,23 @@ namespace datmo {
 
 namespace {
 
-/// Sectors of a degree: finer than a beam of the scan needs, and with many points each.
+/// Sectors of one degree: finer than the beams of the scan need, and with many points each.
 constexpr int kSectors = 360;
 constexpr double kSectorWidth = kTurn / kSectors;
 
-/// Sectors with points, and neighbors among them, without which no turn is estimated.
+/// Minimum number of sectors with points, and of neighbors among them, for an estimate.
 constexpr std::size_t kMinSectors = 30;
 
-/// Points that are looked at, of however many there are.
+/// Maximum number of points that are used.
 constexpr std::size_t kMaxTimedPoints = 20000;
 
-/// A shorter spread of times (s) is none.
+/// s; a smaller spread of times counts as simultaneous.
 constexpr double kMinSpread = 1e-4;
 
-/// Share of the turn by which a sector's time may differ from that of an even turn.
+/// Share of the turn by which a sector's time may deviate from a uniform turn.
 constexpr double kMaxResidual = 0.1;
 
-/// 0 to 2 pi.
+/// The angle, wrapped to 0 to 2 pi.
 double fullAngle(double angle) { return angle - kTurn * std::floor(angle / kTurn); }
 
 struct Sector {
@@ -65,7 +65,7 @@ class Sectors {
 
   double spread() const { return all_.count > 0 ? all_.latest - all_.earliest : 0.0; }
 
-  /// It has points, and none of both the begin and the end of the turn.
+  /// It has points, but not from both the start and the end of the turn.
   bool isUsable(int index) const {
     const Sector& sector = at(index);
     return sector.count > 0 && sector.latest - sector.earliest < 0.5 * spread();
@@ -75,7 +75,7 @@ class Sectors {
     return sectors_[static_cast<std::size_t>((index + kSectors) % kSectors)];
   }
 
-  /// s from each sector to its neighbor to the left, where no turn ends between them.
+  /// s, from each sector to its neighbor to the left, unless the turn ends between them.
   std::vector<double> steps() const {
     std::vector<double> steps;
     for (int i = 0; i < kSectors; ++i) {
@@ -87,7 +87,7 @@ class Sectors {
     return steps;
   }
 
-  /// The usable one that is measured first.
+  /// The usable sector that is measured first.
   int first() const {
     int first = -1;
     for (int i = 0; i < kSectors; ++i) {
@@ -103,8 +103,8 @@ class Sectors {
   Sector all_;
 };
 
-/// Duration and begin by least squares through the usable sectors; first bearing and direction are
-/// those of `timing`.
+/// Fits duration and start by least squares over the usable sectors; first bearing and direction
+/// are those of `timing`.
 SweepTiming fitted(const Sectors& sectors, const SweepTiming& timing) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -119,7 +119,7 @@ SweepTiming fitted(const Sectors& sectors, const SweepTiming& timing) {
   return {timing.first_bearing, timing.clockwise, solution[1], solution[0]};
 }
 
-/// Whether the times of all usable sectors are those of `timing`.
+/// Whether the times of all usable sectors agree with `timing`.
 bool isEven(const Sectors& sectors, const SweepTiming& timing) {
   const double max_residual = kMaxResidual * timing.duration;
   for (int i = 0; i < kSectors; ++i) {

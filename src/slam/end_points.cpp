@@ -11,17 +11,16 @@ namespace datmo {
 
 namespace {
 
-/// The end point of a beam, and what its neighbors are compared by.
+/// The end point of a beam, and what it is compared with its neighbors by.
 struct End {
   Point2 position;
   double range;
   Point2 across;  ///< from this beam to the next one at this range, m
 };
 
-/// Step along the surface that the beam hit, as its neighbors show it: the mean of the steps to
-/// those nearer than `max_step`. If neither is, the surface is met at a flat angle, and the
-/// shorter step gives its direction; but what stands out in front of both is an object of its own:
-/// none.
+/// Step along the surface that the beam hit, from its neighbors: the mean of the steps to those
+/// nearer than `max_step`. If neither is, the surface is hit at a grazing angle, and the shorter
+/// step gives its direction; but an end point in front of both is a separate object: none.
 std::optional<Point2> stepAlongSurface(const End* previous, const End& end, const End* next,
                                        double max_step) {
   Point2 sum = Point2::Zero();

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// s; behind a gap the correction goes on from where it was.
+/// s; after a gap the correction continues from where it was.
 constexpr double kMaxStepTime = 1.0;
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// The beam as far as the field reaches, without a hit.
+/// The beam up to the end of the field, without a hit.
 Ray rayOf(const Scan& scan, std::uint32_t beam) {
   Ray ray;
   ray.beam = beam;
@@ -33,7 +33,7 @@ std::vector<Ray> raysOfField(const Scan& scan) {
   return rays;
 }
 
-/// Lets the ray end where it passes the center of a cell nearest.
+/// Ends the ray at the point nearest to the center of a cell.
 void endAt(const Point2& center, Ray& ray) {
   const Point2 direction = (ray.end - ray.origin).normalized();
   ray.range = std::max(0.0, direction.dot(center - ray.origin));
@@ -56,7 +56,7 @@ class Unexplained {
  public:
   explicit Unexplained(const SensorGrid& grid) : rest_(grid) {}
 
-  /// What a beam hits may lie anywhere across its width, and in the next cell.
+  /// The hit of a beam may lie anywhere across its width, and in a neighboring cell.
   void explain(const Ray& ray, double beam_spacing) {
     const Point2 half_footprint = 0.5 * stepAcross(ray, beam_spacing);
     walkRay(rest_.window(), ray.end - half_footprint, ray.end + half_footprint,
@@ -94,7 +94,7 @@ GridMaskedScan maskScanWithGrid(const SensorGrid& grid, const Scan& scan, GridEn
   Unexplained unexplained(grid);
   for (Ray& ray : view.scan.rays) {
     const CellIndex end = grid.window().cellAt(ray.end);
-    // Beyond the window nobody contradicts.
+    // Outside the window nothing contradicts the scan.
     const bool confirmed = ray.hit && (!grid.window().contains(end) || isOccupied(grid.at(end)));
     if (ray.hit && !confirmed && isFree(grid.at(end))) {
       view.refuted.push_back(ray.end);

@@ -13,10 +13,10 @@ namespace datmo {
 
 namespace {
 
-/// Each pass halves what is wrong with the yaw rate, where the beams go all round.
+/// Each pass halves the error of the yaw rate, if the field of view is 360 degrees.
 constexpr int kPassesWithoutOdometry = 4;
 
-/// m, of the beams with a hit; 0 without any.
+/// Mean range of the beams with a hit, m; 0 without any.
 double meanRange(const Scan& scan) {
   double sum = 0.0;
   int hits = 0;
@@ -125,7 +125,7 @@ void GridSlam::leaveMap(Stamp stamp) {
 }
 
 bool GridSlam::mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states) {
-  if (!maps_.isSearching()) {  // a map that has just begun knows too little
+  if (!maps_.isSearching()) {  // a new map knows too little
     kidnapping_.add(scan.stamp, agreementOf(scan, states, maps_.map(), tracker_.pose().pose));
   }
   return kidnapping_.isSuspected();

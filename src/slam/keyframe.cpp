@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep = 0.005;  // m
 
-/// m; farther away the steps have no number.
+/// m; limit of what 16 bits of steps can hold.
 constexpr double kMaxCoordinate = 160.0;
 static_assert(kMaxCoordinate / kStep < std::numeric_limits<std::int16_t>::max());
 

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations (max_position_sigma) by which a pose that is known may still be corrected.
+/// Standard deviations (max_position_sigma) by which a known pose may still be corrected.
 constexpr double kCorrectionSigmas = 3.0;
 
 }  // namespace
@@ -69,7 +69,7 @@ KeyframeSelector::Use KeyframeSelector::take(Stamp stamp, const PoseWithCovarian
                ? Use::kNothing
                : startAt(stamp, base_in_map);
   }
-  // A long gap alone widens what is expected.
+  // A long gap by itself widens the expected covariance.
   const bool is_found = last_ && isFarBelow(base_in_map.covariance, expected) &&
                         isFarBelow(base_in_map.covariance, last_->covariance);
   if (!last_ || is_found || isLeap(stamp, pose)) {

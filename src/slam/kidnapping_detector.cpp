@@ -8,15 +8,16 @@ namespace datmo {
 
 namespace {
 
-/// Scans before the rise, the most contradicted of which counts: their shares differ by up to 0.1
-/// in traffic (measured on simulated and recorded drives).
+/// Scans before the rise, of which the most contradicted one counts: their shares differ by up to
+/// 0.1 in traffic (measured on simulated and recorded drives).
 constexpr std::size_t kScansBefore = 5;
 
-/// Share of min_rise that the rise must keep. In the map where the vehicle was it goes back to
-/// about 0; elsewhere it varies as the vehicle drives on.
+/// Share of min_rise that must remain. If the vehicle is still in the map, the share of
+/// contradicted beams returns to about its former value; elsewhere it varies as the vehicle drives
+/// on.
 constexpr double kRemaining = 0.25;
 
-/// With fewer beams one object that comes into view takes more of them than min_rise.
+/// With fewer beams, a single object that comes into view covers more of them than min_rise.
 constexpr int kMinBeams = 20;
 
 }  // namespace

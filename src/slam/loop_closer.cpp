@@ -15,17 +15,18 @@ namespace datmo {
 
 namespace {
 
-/// Least drift from one keyframe to the next one (m): a turn on the spot is not exact either.
+/// m; minimum motion for which drift is assumed between keyframes: a turn in place is not exact,
+/// either.
 constexpr double kMinMotion = 0.2;
 
-/// m: a keyframe driven through in another direction is as good as one that is so much farther for
-/// each rad between them.
+/// m per rad; an old keyframe passed in another direction is ranked as if it were this much farther
+/// away for each rad of difference.
 constexpr double kDistancePerTurn = 5.0;
 
-/// Standard deviations of the drift in which old keyframes are looked at.
+/// Standard deviations of the drift within which old keyframes are considered.
 constexpr double kDriftReach = 3.0;
 
-/// A pose this near to the one before (m, rad) and this soon after it (s) is left out of the
+/// A pose this close to the previous one (m, rad) and this soon after it (s) is left out of the
 /// trajectory.
 constexpr double kRestPosition = 0.005;
 constexpr double kRestHeading = degrees(0.05);
@@ -37,10 +38,10 @@ bool isAtRest(const StampedPose& before, const StampedPose& now) {
          secondsBetween(before.stamp, now.stamp) < kRestPeriod;
 }
 
-/// m; a submap is no longer than this on either side, however much may have drifted.
+/// m; maximum by which the old submap is extended on either side for drift.
 constexpr double kMaxHalf = 60.0;
 
-/// The covariance `later` without what was known before, as far as that is a covariance.
+/// The covariance `later` minus what was known before, as far as that is a covariance.
 Eigen::Matrix3d growth(const Eigen::Matrix3d& before, const Eigen::Matrix3d& later) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(later - before);
   return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the loops that were found LoopCloser believes.
+// Which loops LoopCloser accepts.
 #include <algorithm>
 
 #include <Eigen/Cholesky>
@@ -11,13 +11,13 @@ namespace datmo {
 
 namespace {
 
-/// 99.9 % of a chi-square distribution of three degrees of freedom.
+/// 99.9 % of a chi-square distribution with three degrees of freedom.
 constexpr double kMaxSquaredError = 16.3;
 
-/// A candidate is forgotten when nothing has confirmed it after this many submap lengths.
+/// A candidate is dropped if nothing has confirmed it after this many submap lengths.
 constexpr double kCandidateLife = 5.0;
 
-/// Two candidates confirm each other from so many submap lengths on: with no scan in common.
+/// Candidates can confirm each other if they are this many submap lengths apart: no common scans.
 constexpr double kApart = 1.0;
 
 }  // namespace

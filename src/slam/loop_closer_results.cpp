@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of LoopCloser, and what comes out of it.
+// The options and the outputs of LoopCloser.
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// Cells of the optimized map at the most: 220 MB while it is made.
+/// Maximum number of cells of the optimized map: 220 MB while it is built.
 constexpr double kMaxCells = 4e6;
 
-/// m; of the window before it is set.
+/// m; of the window before its actual size is set.
 constexpr double kAnyLength = 1.0;
 
 GridWindow windowOf(const Eigen::AlignedBox2d& extent, double cell_size) {

@@ -11,11 +11,11 @@ namespace datmo {
 
 namespace {
 
-/// Scans that are remembered; surfaces older than the first of them are as old as their time says
-/// at the mean rate of these.
+/// Scans that are remembered; for surfaces older than the first one, the mean rate of these scans
+/// is extrapolated.
 constexpr std::size_t kMaxWritten = 4096;
 
-/// Matches whose errors make that of the distance between them.
+/// Matches whose errors add up to that of the distance between them.
 constexpr double kMatchesOfADistance = 2.0;
 
 }  // namespace
@@ -34,7 +34,7 @@ void MapDrift::moveTo(const Pose2& base_in_map, bool by_odometry) {
     const Point2 motion = base_in_map.position() - pose_->position();
     Eigen::Matrix<double, kStates, kStates> transition =
         Eigen::Matrix<double, kStates, kStates>::Identity();
-    // An error of the map's heading turns the motion.
+    // An error of the map's heading rotates the motion.
     transition(kX, kHeading) = -motion.y();
     transition(kY, kHeading) = motion.x();
     if (by_odometry) {
@@ -57,7 +57,7 @@ void MapDrift::write(const MatchedScan& scan) {
   }
   ++scans_since_;
   Written now{scan.stamp, written_.empty() ? 0.0 : written_.back().distance};
-  // The noise of matches at rest is no motion.
+  // Match noise at rest is not motion.
   const double progress = moved(*since_, pose, scan.view_range);
   const bool has_moved = progress >= step_;
   if (has_moved) {

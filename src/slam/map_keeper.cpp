@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
+/// m^2, rad^2; covariance of the pose at which a map starts: it must not be 0 for matching.
 constexpr double kStartVariance = 1e-6;
 
-/// Of the window in which a prior map is searched: about 250 MB for each copy of it.
+/// Maximum size of a window in which a prior map is searched: about 250 MB per copy.
 constexpr std::size_t kMaxSearchedCells = 4'000'000;
 
 bool isSearchable(const GridWindow& window) {

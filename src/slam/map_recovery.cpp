@@ -12,16 +12,16 @@ namespace datmo {
 
 namespace {
 
-/// Two searches that find the vehicle this near to each other (m, rad) have found the same place.
+/// Two searches agree if their poses are this close to each other (m, rad).
 constexpr double kSamePosition = 0.8;
 constexpr double kSameHeading = degrees(4.0);
 
-/// Of a vehicle that was carried elsewhere (m, rad): farther than a map's window reaches, and any
-/// heading (standard deviation of a uniform distribution).
+/// Standard deviations for a vehicle that was carried elsewhere (m, rad): farther than a map's
+/// window reaches, and uniform in heading.
 constexpr double kKidnappedSigma = 100.0;
 constexpr double kKidnappedHeadingSigma = kPi / 1.7320508075688772;
 
-/// For so long (s) a search is owed boxes: no scan waits for more, and after a gap none are due.
+/// s; maximum time for which boxes are due: no scan waits for more, and none are due for a gap.
 constexpr double kMaxInterval = 0.5;
 
 }  // namespace
@@ -112,7 +112,7 @@ MapRecovery MapRecovery::afterKidnapping(const Checked<MapRecoveryOptions>& opti
                                          Stamp stamp) {
   MapRecovery recovery(options, std::move(older), anywhereAbout(pose), stamp);
   recovery.is_kidnapped_ = true;
-  recovery.is_searchable_ = true;  // all of it
+  recovery.is_searchable_ = true;  // all of the map is searched
   return recovery;
 }
 
@@ -179,8 +179,7 @@ std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer
   }
   std::optional<PoseWithCovariance> found;
   if (outcome != MapSearch::Outcome::kFound) {
-    // Others that fit nearly as well do not refute what was found before; one that fits better
-    // does.
+    // Other poses that fit nearly as well do not refute the candidate; one that fits better does.
     const std::optional<Pose2> likeliest = search_->likeliest();
     const bool refuted = outcome == MapSearch::Outcome::kNone ||
                          (candidate_ && likeliest && !agreesWithCandidate(*likeliest));

@@ -12,35 +12,35 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations of the prior that are searched.
+/// Standard deviations of the prior within which poses are searched.
 constexpr double kGate = 3.5;
 
-/// A box no larger than this (m, rad) is not split any more.
+/// A box no larger than this (m, rad) is not split further.
 constexpr double kLeafPosition = 0.15;
 constexpr double kLeafHeading = degrees(0.6);
 
-/// Where hypotheses are told from each other by what is missing, a box's center must stand for all
-/// of it, and boxes are split until they are so much smaller.
+/// If missing surfaces distinguish hypotheses, a box's center must represent the whole box, so
+/// boxes are split down to this fraction.
 constexpr double kFineLeaf = 0.5;
 
-/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there, or one
-/// from the start of a map, of which little is known yet.
+/// Hypotheses this close to the best one (m, rad) are the same one: a match converges from there,
+/// also one with a map that has just started and holds little.
 constexpr double kTogetherPosition = 1.5;
 constexpr double kTogetherHeading = degrees(5.0);
 constexpr double kTogetherHeadingAtStart = degrees(12.0);
 
-/// Of what the prior leaves out: the older map's own error (m, rad).
+/// Error not covered by the prior: that of the older map itself (m, rad).
 constexpr double kMapSigma = 0.3;
 constexpr double kMapHeadingSigma = degrees(1.0);
 
-/// Surfaces of a map that are compared at the most, and of all of a map, where it is searched.
+/// Maximum number of surfaces compared, and the same if a whole map is searched.
 constexpr std::size_t kMaxSurfaces = 250;
 constexpr std::size_t kMaxSurfacesOfAll = 4000;
 
 constexpr double kAllOfIt = std::numeric_limits<double>::infinity();
 
-/// Two maps have the same surface in cells that are neighbors, at the most; in a complete map in no
-/// finer ones than a box that is not split any more.
+/// Two maps agree on a surface in cells that are at most neighbors; in a complete map, not finer
+/// than a box that is not split further.
 constexpr double kToleranceCells = 1.5;
 constexpr double kMinTolerance = 0.2;  // m
 
@@ -184,7 +184,7 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
     if (box.half.isZero()) {
       outcome_ = takeLeaf(box);
     } else if (isLeaf(box)) {
-      // Its center stands for all of it: surfaces may be off by more than it reaches.
+      // Its center represents the whole box: the tolerance of surfaces is larger than the box.
       box.half.setZero();
       open(box);
     } else {

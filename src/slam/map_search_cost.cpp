@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What speaks against a hypothesis of MapSearch.
+// The cost of MapSearch's hypotheses.
 #include <algorithm>
 #include <vector>
 
@@ -63,7 +63,7 @@ int MapSearch::seenThrough(const Box& box) const {
 
 void MapSearch::evaluate(Box& box) const {
   const Contradictions of_newer = contradictionsOf(box);
-  // Of all the surfaces of a map only one pose tells which are near.
+  // If the whole map is searched, only a single pose tells which of its surfaces are near.
   const int seen_through = anywhere_ && !box.half.isZero() ? 0 : seenThrough(box);
   box.contradicted =
       of_newer.in_free_space +

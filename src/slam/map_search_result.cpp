@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose that MapSearch finds.
+// The resulting pose of MapSearch.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,13 +12,14 @@ namespace datmo {
 
 namespace {
 
-/// Of the pose in the older map (m, rad), beside the spread of what lives: the older map's own
-/// error, over the time of a gap or, of a complete map, from one of its walls to the next.
+/// m, rad; standard deviations of the pose in the older map, in addition to the spread of the
+/// hypotheses: the older map's own error, over the time of a gap or, in a complete map, between
+/// neighboring walls.
 constexpr double kFoundSigma = 0.3;
 constexpr double kFoundInCompleteSigma = 0.1;
 constexpr double kFoundHeadingSigma = degrees(1.0);
 
-/// Steps (m, rad) with which a pose is refined: from what two leaves are apart to well below what a
+/// Steps (m, rad) of the refinement of a pose: from the distance of two leaves to well below what a
 /// match corrects.
 constexpr double kFirstStep = 0.08;
 constexpr double kFirstTurn = degrees(0.5);

@@ -45,7 +45,7 @@ VelocityMotionModel::VelocityMotionModel(const Checked<MotionModelOptions>& opti
     : options_(*options) {}
 
 Eigen::Matrix3d VelocityMotionModel::covariance(const Twist2& twist, double seconds) const {
-  // A turn that goes wrong at a constant rate also bends the path: half of it, sideways.
+  // A constant error of the yaw rate also bends the path: half of it acts sideways.
   Eigen::Matrix<double, 3, 2> velocity_to_motion = Eigen::Matrix<double, 3, 2>::Zero();
   velocity_to_motion(0, 0) = seconds;
   velocity_to_motion(1, 1) = 0.5 * twist.forward_speed * seconds * seconds;

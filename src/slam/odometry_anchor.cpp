@@ -10,11 +10,11 @@ namespace datmo {
 
 namespace {
 
-/// s between two poses of the odometry that are a gap: beyond the period of any odometry that
-/// serves a scanner, so that the matches of a scan or two in between are left as they are.
+/// s; minimum gap between two odometry poses: longer than the period of any odometry suited to a
+/// scanner, so that the matches of a scan or two in between are kept.
 constexpr double kGap = 0.25;
 
-/// Of the squared distance of two poses; chi-squared distribution, 3 degrees of freedom, 0.999.
+/// Squared Mahalanobis distance of two poses; chi-square, 3 degrees of freedom, 0.999.
 constexpr double kContradiction = 16.27;
 
 double squaredDistance(const PoseWithCovariance& a, const PoseWithCovariance& b) {

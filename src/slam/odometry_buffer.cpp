@@ -9,11 +9,11 @@ namespace datmo {
 
 namespace {
 
-/// Between poses that are less than this (s) apart a vehicle goes along an arc, and what leads
-/// aside is rounding; over a longer gap its path may have had any shape.
+/// s; between poses less than this apart a vehicle follows an arc, and sideways motion is rounding;
+/// over a longer gap its path may have had any shape.
 constexpr double kBentAfter = 1.0;
 
-/// In which the longest one is looked for.
+/// Number of intervals of which the longest is taken.
 constexpr std::size_t kRecentIntervals = 4;
 
 }  // namespace
@@ -74,7 +74,7 @@ Pose2 OdometryBuffer::motionIn(const Piece& piece, double seconds, const Odometr
 
 std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const OdometryErrors& errors,
                                             double assumed_speed) const {
-  // The first sample also serves for the time just before it.
+  // The first sample also applies to the time just before it.
   auto piece = pieceAt(from);
   if (piece == pieces_.end() || secondsBetween(from, piece->sample.stamp) > max_hold_) {
     return std::nullopt;

@@ -54,11 +54,11 @@ void PoseFilter::move(const Pose2& motion, double seconds, State speed, double s
   const Point2 along = next.rotate(Point2(1.0, 0.0));
   const Point2 aside = next.rotate(Point2(0.0, 1.0));
   Covariance transition = Covariance::Identity();
-  // The heading's error turns the motion.
+  // An error of the heading rotates the motion.
   transition(kX, kHeading) = pose_.y() - next.y();
   transition(kY, kHeading) = next.x() - pose_.x();
   transition.block<2, 1>(kX, speed) = speed_factor * seconds * along;
-  // A turn bends the path, so that half of it also moves the vehicle sideways.
+  // A turn bends the path, so half of it also moves the vehicle sideways.
   const double length = twistOf(motion, seconds).forward_speed * seconds;
   transition.block<2, 1>(kX, yaw_rate) = 0.5 * yaw_rate_factor * length * seconds * aside;
   transition(kHeading, yaw_rate) = yaw_rate_factor * seconds;
@@ -74,12 +74,12 @@ void PoseFilter::addPoseNoise(const Eigen::Matrix3d& motion_noise) {
 
 void PoseFilter::predictMeasured(const Pose2& motion, double seconds) {
   const Twist2 twist = twistOf(motion, seconds);
-  // A larger scale or bias would have meant a shorter motion, and less of a turn.
+  // A larger scale or bias means that the true motion was shorter, or turned less.
   const double speed_factor = -twist.forward_speed / (1.0 + errors_.speed_scale);
   move(motion, seconds, kSpeedScale, speed_factor, kYawRateBias, -1.0);
   addPoseNoise(motion_model_.covariance(twist, seconds));
   addErrorDrift(seconds);
-  // The odometry gives the velocity, whatever the prior.
+  // The velocity is that of odometry, whatever the prior.
   velocity_ = twist;
   covariance_.middleRows<2>(kSpeed).setZero();
   covariance_.middleCols<2>(kSpeed).setZero();
@@ -97,7 +97,7 @@ void PoseFilter::predictTurn(const Pose2& motion, double seconds) {
   const Twist2 twist = twistOf(motion, seconds);
   covariance_(kSpeed, kSpeed) += motion_model_.velocityChange(seconds)(0, 0);
   move(motion, seconds, kSpeed, 1.0, kYawRateBias, -1.0);
-  // The part of the motion's noise that the yaw rate makes, and none of the speed, which is a
+  // The part of the motion noise that is caused by the yaw rate, without the speed, which is a
   // state.
   Eigen::Matrix3d noise = motion_model_.covariance(twist, seconds);
   noise(0, 0) = 0.0;
@@ -116,7 +116,7 @@ void PoseFilter::predictUnmeasured(double seconds) {
 }
 
 void PoseFilter::predictGap(double seconds, const std::optional<Twist2>& velocity_after) {
-  // Of a random walk between two known ends, or one: the mean velocity.
+  // Mean velocity of a random walk between two known ends, or from a single one.
   const Twist2 after = velocity_after ? errors_.correct(*velocity_after) : velocity_;
   const Twist2 mean{0.5 * (velocity_.forward_speed + after.forward_speed),
                     0.5 * (velocity_.yaw_rate + after.yaw_rate)};
@@ -132,7 +132,7 @@ void PoseFilter::predictGap(double seconds, const std::optional<Twist2>& velocit
 
 void PoseFilter::addWalkNoise(const Twist2& twist, double seconds) {
   // Integrals of a Wiener process of this variance per second (Bar-Shalom, Li & Kirubarajan, 2001,
-  // 6.2.2), of the yaw rate up to the third: the heading's error leads aside.
+  // 6.2.2), up to the third for the yaw rate: the heading error leads sideways.
   const Eigen::Matrix2d walk = motion_model_.velocityChange(1.0);
   const double t = seconds;
   const double v = twist.forward_speed;
@@ -181,7 +181,7 @@ void PoseFilter::restartAt(const PoseWithCovariance& pose) {
 
 void PoseFilter::correct(const PoseWithCovariance& matched) {
   const Eigen::Matrix3d prior = covariance_.topLeftCorner<3, 3>();
-  // What the pose learned, carried over to what is correlated with it.
+  // Propagates the correction of the pose to all correlated states.
   const Eigen::Matrix<double, kStates, 3> gain = covariance_.leftCols<3>() * prior.inverse();
   const Eigen::Vector3d learned(matched.pose.x() - pose_.x(), matched.pose.y() - pose_.y(),
                                 angleBetween(pose_.heading(), matched.pose.heading()));

@@ -13,7 +13,7 @@ namespace {
 
 using Parameters = std::array<double, 3>;  // x, y (m), heading (rad)
 
-/// Matrix that turns an error of this covariance into one of standard deviations.
+/// Matrix that scales an error of this covariance to standard deviations.
 Eigen::Matrix3d whitening(const Eigen::Matrix3d& covariance) {
   return covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
 }
@@ -115,7 +115,7 @@ bool PoseGraph::optimize() {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   solver.max_num_iterations = options_.max_iterations;
-  solver.num_threads = 1;  // the same sums in the same order: the same poses
+  solver.num_threads = 1;  // summation in a fixed order gives identical poses
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well PoseGraph knows where its poses are from each other.
+// How certain the relative poses in a PoseGraph are.
 #include <algorithm>
 #include <limits>
 #include <queue>
@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// A pose up to which a path leads, and what the path adds to the position's variance (m^2).
+/// The pose at the end of a path, and the variance that the path adds to its position (m^2).
 struct PathEnd {
   double variance;
   std::size_t pose;
@@ -42,7 +42,7 @@ std::vector<Eigen::Matrix3d> PoseGraph::covariancesUntil(std::size_t origin,
       continue;
     }
     for (const PoseConstraint* constraint : at[end.pose]) {
-      // An error of it turns and moves all beyond it, in either direction about its later pose.
+      // Its error rotates and moves all poses beyond it, in either direction about its later pose.
       const Eigen::Matrix3d more =
           carried(turned(constraint->covariance, poses_[constraint->from].heading()),
                   poses_[pose].position() - poses_[constraint->to].position());

@@ -10,8 +10,8 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations of speed (m/s) and yaw rate (rad/s) between two poses: of the surer one, as
-/// what makes a pose unsure is in both, until a correction takes it out of the second.
+/// Standard deviations of speed (m/s) and yaw rate (rad/s) between two poses, from the more certain
+/// one: what makes a pose uncertain is in both, until a correction removes it from the second.
 Eigen::Vector2d twistSigma(const Eigen::Matrix3d& one, const Eigen::Matrix3d& other,
                            double seconds) {
   const auto variances = [](const Eigen::Matrix3d& covariance) {
@@ -34,7 +34,7 @@ std::optional<PoseStep> PoseMotion::add(Stamp stamp, const PoseWithCovariance& p
   const double seconds = secondsBetween(before->stamp, stamp);
   const Pose2 motion = before->pose.pose.inverse() * pose.pose;
   PoseStep step;
-  // The twist of an arc knows nothing of a jump sideways.
+  // The twist of an arc ignores a sideways jump.
   step.twist = {std::copysign(motion.position().norm() / seconds, motion.x()),
                 twistOf(motion, seconds).yaw_rate};
   const Eigen::Vector2d sigma = twistSigma(before->pose.covariance, pose.covariance, seconds);

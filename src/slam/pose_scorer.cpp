@@ -9,14 +9,14 @@ namespace datmo {
 
 namespace {
 
-/// Every so many points come first, then those next to them, and so on.
+/// Every kSpread-th point comes first, then those next to them, and so on.
 constexpr std::size_t kSpread = 8;
 
-/// m, for what a sum of a position and a turned point is rounded by.
+/// m; bound on the rounding error of the sum of a position and a rotated point.
 constexpr double kRounding = 1e-6;
 
-/// The most occupied cell is looked for where that takes no more than this share of what the poses
-/// would look up.
+/// The most occupied cell is searched for if that costs at most this share of the lookups of all
+/// poses.
 constexpr double kSearchShare = 0.1;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ Point2 PoseScorer::pointAt(std::size_t index) const {
   return map_.window().cell_size * Point2(x_[index], y_[index]);
 }
 
-/// As GridWindow::cellAt, in loops that compilers turn into vectors, without a division.
+/// Same as GridWindow::cellAt, in vectorizable loops without a division.
 PoseScorer::Cells PoseScorer::cellsOfBlock(std::size_t begin, const Pose2& pose,
                                            const Eigen::Matrix2d& rotation) const {
   const Point2 from = pose.position() / map_.window().cell_size;
@@ -80,7 +80,7 @@ double PoseScorer::sumOfBlock(std::size_t begin, const Pose2& pose,
                               const Eigen::Matrix2d& rotation) const {
   const std::size_t count = std::min(kBlock, count_ - begin);
   double sum = 0.0;
-  // In this order NaN counts as far away.
+  // With the comparison in this order NaN counts as far away.
   if (std::abs(pose.x()) + std::abs(pose.y()) + max_range_ < max_distance_ &&
       std::isfinite(pose.heading())) {
     const Cells cells = cellsOfBlock(begin, pose, rotation);
@@ -162,7 +162,7 @@ Pose2 PoseScorer::bestOf(const std::vector<Pose2>& poses) const {
       begin += kBlock;
     }
     const double score = count_ == 0 ? 0.0 : sum / static_cast<double>(count_);
-    // Of sums that are not the same the quotients may be.
+    // Quotients of unequal sums may still be equal.
     if (begin >= count_ && score > best_score) {
       best = i;
       best_sum = sum;

@@ -7,21 +7,21 @@ namespace datmo {
 
 namespace {
 
-/// Without scans the pose follows the odometry before the buffer forgets it, this long (s) behind:
-/// for a scan that is still on its way.
+/// s; without scans, the pose follows odometry at this delay, before the buffer discards it: a scan
+/// may still arrive.
 constexpr double kScanDelay = 0.4 * kOdometryMemory;
 
-/// Of a motion that counts as measured, the largest share that may be extrapolated.
+/// Maximum extrapolated share of a motion that counts as measured.
 constexpr double kMaxExtrapolated = 0.5;
 
-/// Scans further apart than this (s), and than so many times their mean interval, leave a gap.
+/// Scans further apart than this (s), and than this many mean intervals, leave a gap.
 constexpr double kMinGap = 0.4;
 constexpr double kGapIntervals = 4.0;
 
-/// Odometry is waited for this long (s) after the first scan behind a gap.
+/// s; how long odometry is waited for after the first scan after a gap.
 constexpr double kOdometryDelay = 0.6;
 
-/// Weight of the newest interval in their mean.
+/// Weight of the newest interval in the mean.
 constexpr double kIntervalShare = 0.1;
 
 }  // namespace
@@ -95,7 +95,7 @@ Twist2 PoseTracker::twistDuring(Stamp stamp, double seconds) const {
 
 void PoseTracker::keepScan(Stamp stamp, bool saw_anything, bool is_located) {
   stamp_ = std::max(stamp, stamp_.value_or(stamp));
-  if (is_located) {  // else the pose is in the newer map's frame, and the anchor leads to the older
+  if (is_located) {  // otherwise the pose is in the newer map's frame, the anchor in the older
     anchor_.keep(stamp, filter_, odometry_);
   }
   if (saw_anything) {

@@ -18,19 +18,19 @@ namespace datmo {
 
 namespace {
 
-/// A refinement that moves less than this (m, rad) has converged.
+/// A refinement step smaller than this (m, rad) has converged.
 constexpr double kConverged = 1e-4;
 
-/// Hits spread wider than this share of a uniform distribution through the cells that they were
-/// gathered from, and this many times as wide as thick, are a wall that goes on outside of them.
+/// Hits that spread wider than this share of a uniform distribution over the cells that they come
+/// from, and are this many times as wide as thick, belong to a wall that continues outside.
 constexpr double kWallShare = 0.6;
 constexpr double kWallElongation = 2.0;
 
 /// Information of an end point near these hits on its position, 1/m^2. Along a wall it is 0: the
-/// hits' mean is only the middle of the `aperture` (m) that they were gathered from.
+/// mean of the hits is only the middle of the `aperture` (m) that they come from.
 Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_variance,
                               double aperture) {
-  // Eigenvalues of a symmetric matrix of two rows; asked for each point, so not by a solver.
+  // Eigenvalues of a symmetric 2 x 2 matrix; computed for each point, so without a solver.
   const double middle = 0.5 * spread.trace();
   const double half_gap =
       std::sqrt(square(0.5 * (spread(0, 0) - spread(1, 1))) + square(spread(0, 1)));
@@ -38,14 +38,14 @@ Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_varian
   const double along = middle + half_gap;
   if (along > kUniformVariance * square(kWallShare * aperture) &&
       along > square(kWallElongation) * across) {
-    // (along - spread) / (along - across) projects on the axis across the wall.
+    // (along - spread) / (along - across) projects onto the axis across the wall.
     return (along * Eigen::Matrix2d::Identity() - spread) /
            (2.0 * half_gap * (std::max(0.0, across) + point_variance));
   }
   return (spread + point_variance * Eigen::Matrix2d::Identity()).inverse();
 }
 
-/// The shift of a pose by a small x, y (map frame) and heading.
+/// The pose, shifted by a small x, y (map frame) and heading.
 Pose2 shifted(const Pose2& pose, const Eigen::Vector3d& by) {
   return {pose.x() + by[0], pose.y() + by[1], pose.heading() + by[2]};
 }
@@ -56,13 +56,13 @@ Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
 
 }  // namespace
 
-/// What is to be matched.
+/// Input of a match.
 struct ScanMatcher::Task {
   const OccupancyMap& map;
   const std::vector<EndPoint>& points;
   const PoseWithCovariance& prediction;
   PoseScorer scorer;
-  double full_maturity = 1.0;  ///< of surfaces, that counts fully
+  double full_maturity = 1.0;  ///< maturity of surfaces that count fully
 };
 
 /// Normal equations of a match around a pose: information * step = gradient.
@@ -90,13 +90,13 @@ struct ScanMatcher::Normal {
     gradient[2] += per_turn.dot(pull);
   }
 
-  /// Leaves out directions of the position that are known worse than `limit` (m).
+  /// Removes directions of the position that are less certain than `limit` (m).
   void leaveOutWeak(double limit) {
     if (information(2, 2) <= 0.0) {
       degenerate = true;
       return;
     }
-    // Of the position alone: the heading is estimated with it.
+    // Information on position alone, after marginalizing the heading.
     const Eigen::Matrix2d position = information.topLeftCorner<2, 2>() -
                                      information.topRightCorner<2, 1>() *
                                          information.bottomLeftCorner<1, 2>() / information(2, 2);
@@ -157,7 +157,7 @@ Pose2 ScanMatcher::bestSample(const Task& task, Random& random) const {
   std::vector<Pose2> samples{prediction.pose};
   samples.reserve(static_cast<std::size_t>(options_.samples));
   for (int i = 1; i < options_.samples; ++i) {
-    // One after the other: the order of arguments is the compiler's.
+    // In sequence, because compilers may evaluate arguments in any order.
     const double turn = random.normal(1.0);
     const double y = random.normal(1.0);
     const double x = random.normal(1.0);
@@ -185,8 +185,8 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
         surface->covariance + rotation * point.sampling * rotation.transpose(), variance, aperture);
     const Point2 error = surface->mean - end;
     const double distance = error.dot(information * error);
-    // Points that do not fit fade out (the score of Biber & Strasser is this Gaussian). What has
-    // not been there for long may be a mover: a platoon that keeps pace would take the pose along.
+    // Points that do not fit are faded out (this Gaussian is the score of Biber & Strasser). Recent
+    // surfaces may be movers: vehicles driving alongside at equal speed would drag the pose along.
     const double maturity =
         surface->maturity < task.full_maturity ? surface->maturity / task.full_maturity : 1.0;
     const double weight = std::exp(-0.5 * distance) * std::max(options_.min_maturity, maturity);
@@ -235,7 +235,7 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   if (coarse.points < options_.min_points) {
     return result;
   }
-  // In a map that has just begun nothing is mature yet.
+  // In a new map nothing is mature yet.
   task.full_maturity =
       prediction.measured ? std::max(coarse.max_maturity, options_.min_maturity) : 0.0;
   for (const Resolution resolution : {Resolution::kNeighborhood, Resolution::kCell}) {

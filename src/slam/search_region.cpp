@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// Of an interval of length 1 in which any value is as likely.
+/// Variance of a uniform distribution over an interval of length 1.
 constexpr double kVarianceOfUniform = 1.0 / 12.0;
 
 /// Mean and covariance of the poses within a map's window.

@@ -8,10 +8,10 @@ namespace datmo {
 
 namespace {
 
-/// Of a cell of which nothing is known.
+/// Occupancy of an unknown cell.
 constexpr double kUnknownOccupancy = 0.5;
 
-/// The part of a map's window that holds its free cells; at least one cell.
+/// The part of a map's window that contains its free cells; at least one cell.
 GridWindow freePart(const OccupancyMap& map) {
   const GridWindow& all = map.window();
   CellIndex first{all.corner.column + all.columns - 1, all.corner.row + all.rows - 1};
@@ -28,7 +28,7 @@ GridWindow freePart(const OccupancyMap& map) {
           std::max(1, last.row - first.row + 1), first};
 }
 
-/// The window with one more cell on all sides.
+/// The window, extended by one cell on all sides.
 GridWindow withMargin(GridWindow window) {
   window.corner = {window.corner.column - 1, window.corner.row - 1};
   window.columns += 2;

@@ -30,7 +30,7 @@ std::vector<float> staticRanges(const LabeledScan& scan, bool include_unknown) {
       ranges[beam] = kNothingKnown;
     }
   }
-  // Of several end points of a beam the nearest says what the beam meets first.
+  // Of several end points of a beam, the nearest is what it meets first.
   std::vector<double> nearest(ranges.size(), std::numeric_limits<double>::infinity());
   for (const ScanPoint& point : scan.points) {
     if (point.beam < ranges.size() && point.range < nearest[point.beam]) {

@@ -10,10 +10,10 @@ namespace datmo {
 
 namespace {
 
-/// Boxes of poses that the search looks at in one go: it goes on until it has an answer.
+/// Boxes of poses per call of the search, which is repeated until it has an answer.
 constexpr int kBoxes = 10000;
 
-/// Standard deviations by which a match may lead away from what the search found.
+/// Standard deviations by which a match may differ from the search result.
 constexpr double kMaxCorrection = 3.0;
 
 constexpr std::uint64_t kSeed = 1;
@@ -22,7 +22,7 @@ constexpr std::uint64_t kSeed = 1;
 
 SubmapMatcherOptions::SubmapMatcherOptions() : search(MapSearchOptions::inCompleteMap()) {
   search.max_boxes = 1000000;
-  match.information_share = 0.1;  // ends of beams on one surface, from pose to pose
+  match.information_share = 0.1;  // beam ends on one surface, at successive poses
 }
 
 void SubmapMatcherOptions::visit(OptionVisitor& visitor) {

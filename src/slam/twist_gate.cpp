@@ -8,7 +8,8 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations of a measured change that its noise alone explains: one in 1.7 million.
+/// Standard deviations of a measured change that is within its noise: one in 1.7 million exceeds
+/// it.
 constexpr double kNoiseSigmas = 5.0;
 
 }  // namespace

@@ -22,10 +22,10 @@ Box2 moved(const Pose2& frame, const Box2& box) {
   return {frame * box.center, box.length, box.width};
 }
 
-/// Where a target is expected.
+/// The expected position of a target, and its gate.
 struct Expected {
   Box2 box;
-  double variance;  ///< m^2, of both coordinates together
+  double variance;  ///< m^2, sum over both coordinates
   CenterGate gate;
 };
 
@@ -34,9 +34,9 @@ double detectionProbability(const Expected& target, const AssociationScan& scan)
   return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box), sigma);
 }
 
-/// The objects by themselves that may be within a target's gate, to be taken the nearest first:
-/// most pairs are so far apart that nothing more needs to be known of them, and of many near
-/// objects the first few are enough.
+/// The single objects that may be within a target's gate, in the order of distance: most pairs are
+/// so far apart that nothing else needs to be computed for them, and if many objects are near, the
+/// first few are enough.
 class NearObjects {
  public:
   NearObjects(const Expected& target, const AssociationScan& scan,
@@ -72,10 +72,10 @@ class NearObjects {
   }
 
  private:
-  /// Square of the distance (m^2), and index.
+  /// Squared distance (m^2), and index.
   using NearObject = std::pair<double, std::size_t>;
 
-  /// For so many the stack has room.
+  /// Number of objects for which the stack has room.
   static constexpr std::size_t kMany = 128;
 
   alignas(NearObject) std::array<std::byte, kMany * sizeof(NearObject)> scratch_;
@@ -137,10 +137,10 @@ void addCandidate(const Target& target, const AssociationScan& scan, std::size_t
   }
   const PositionMeasurement measured = target.measurementOf(observation.object);
   const Innovation innovation = innovationOf(target.filter().estimate(), measured);
-  if (!(innovation.squaredDistance() <= options.gate)) {  // NaN is not within it
+  if (!(innovation.squaredDistance() <= options.gate)) {  // excludes NaN
     return;
   }
-  // That classes agree is nothing special: objects of no target have classes too.
+  // Equal classes are no evidence beyond chance: objects of no target have classes, too.
   const double of_class = std::log(std::min(1.0, same_class / kChanceOfClass));
   const double likelihood = target.filter().logLikelihood(measured) + of_class;
   scores.candidates.push_back({index, scores.seen + likelihood - observation.log_density});

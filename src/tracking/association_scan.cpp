@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// An object in the fixed frame, and where it stood in the list.
+/// An object in the fixed frame, and its index in the list.
 struct Entry {
   Object object;
   std::size_t listed;
@@ -31,7 +31,7 @@ bool isNearer(const Entry& a, const Entry& b) {
   return std::tie(a.distance) < std::tie(b.distance) || (a.distance == b.distance && isLeft(a, b));
 }
 
-/// Upper limit for the center from the visible sides, m^2.
+/// Upper bound for the variance of the center from the visible sides, m^2.
 double variance(const Object& object) {
   double sum = object.position_covariance.trace();
   for (const double side : object.side_variance) {
@@ -84,7 +84,7 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
     entries.resize(max);
   }
   counts.accepted += entries.size();
-  std::vector<Entry*> from_left;  // objects are large, and stay where they are
+  std::vector<Entry*> from_left;  // pointers, because objects are too large to move
   from_left.reserve(entries.size());
   for (Entry& entry : entries) {
     from_left.push_back(&entry);

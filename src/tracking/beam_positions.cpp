@@ -12,10 +12,10 @@ namespace datmo {
 
 namespace {
 
-/// s, by which stamps of one scan may differ.
+/// s, tolerance for stamps of the same scan.
 constexpr double kSameScan = 0.03;
 
-/// The scan that was taken at `time` on the clock of a target; none if it is forgotten.
+/// The scan taken at `time` on the clock of a target; none if it was dropped.
 std::optional<std::size_t> scanAt(const ScanHistory& history, double time, Stamp now,
                                   double clock) {
   std::optional<std::size_t> nearest;

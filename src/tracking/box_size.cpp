@@ -10,17 +10,17 @@ namespace datmo {
 
 namespace {
 
-/// No hypothesis falls farther below the best one, so that it can come back: logarithm of odds.
+/// Log odds; no hypothesis falls farther below the best one, so that it can recover.
 constexpr double kMinLogWeight = -12.0;
 
-/// Mahalanobis distance squared of an extent that is hardly of this object: three sigma.
+/// Squared Mahalanobis distance from which an extent is hardly of this object: three sigma.
 constexpr double kFarOff = 9.0;
 
-/// Standard deviations by which a lower bound stays below what was seen: noise exceeds it once in
-/// fifteen times.
+/// Standard deviations by which a lower bound stays below the visible extent: noise exceeds this
+/// once in fifteen times.
 constexpr double kSureBound = 1.5;
 
-/// Odds that a classifier which is sure of itself gives: it may err all the same.
+/// Limit for the probability from a classifier that is certain: it may still err.
 constexpr double kSurestClass = 0.999;
 constexpr double kMinClass = 1e-6;
 
@@ -48,9 +48,10 @@ bool isOfClass(std::size_t kind, ObjectClass object_class) {
   return kind == 4;
 }
 
-/// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
-/// is the same for all estimates. One that is far off may be of two objects, or of a side that was
-/// taken for another: it raises doubts only, which let in the third of its kind.
+/// Updates one estimate with an extent; returns its log-likelihood, up to a term that is the same
+/// for all estimates. An extent that is far off may be from two objects, or from a side that was
+/// confused with another: it only increases the variance, so that the third of its kind is
+/// accepted.
 double ingest(const VisibleExtent& seen, double noise, double& mean, double& variance) {
   const double length = seen.whole ? seen.length : seen.length - kSureBound * seen.hidden_std;
   const double residual = length - mean;
@@ -197,7 +198,7 @@ void BoxSize::swapAxes() {
   summarize();
 }
 
-/// Weights relative to the best one, and the moments of the mixture.
+/// Computes weights relative to the best one, and the moments of the mixture.
 void BoxSize::summarize() {
   double best = hypotheses_[0].log_weight;
   double best_size = hypotheses_[0].log_size;
@@ -205,7 +206,7 @@ void BoxSize::summarize() {
     best = std::max(best, hypothesis.log_weight);
     best_size = std::max(best_size, hypothesis.log_size);
   }
-  const double min_weight = std::exp(kMinLogWeight);  // of most
+  const double min_weight = std::exp(kMinLogWeight);  // for most hypotheses
   double total = 0.0;
   double along_first = 0.0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -11,11 +11,11 @@ namespace datmo {
 
 namespace {
 
-/// More than what distances (m) and, as a share, variances are rounded by.
+/// Bounds on the rounding error of distances (m) and, as a share, of variances.
 constexpr double kRoundedDistance = 1e-6;
 constexpr double kRoundedShare = 1e-9;
 
-/// What the sides along one axis bound. See measured() in tracked_box.cpp.
+/// Adds the bounds from the sides along one axis. See measured() in tracked_box.cpp.
 void addAxis(double one, double opposite, CenterBound& bound) {
   if (std::isfinite(one) && std::isfinite(opposite)) {
     const double sum = one + opposite;
@@ -57,10 +57,10 @@ void CenterBound::widen(const CenterBound& other) {
 }
 
 double CenterGate::reach(const CenterBound& object) const {
-  // Position and velocity may err alike.
+  // Errors of position and velocity may be correlated.
   double total = square(position_std + object.delay * velocity_std) + object.variance +
                  square(share + object.share) * size_variance;
-  if (object.hides_side) {  // of opposite ones perhaps both
+  if (object.hides_side) {  // possibly both of two opposite ones
     total += kUniformVariance * (square(diagonal) + size_variance);
   }
   const double apart =

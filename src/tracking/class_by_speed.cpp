@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// No speed makes a class impossible, relative to the likeliest of the three.
+/// Minimum likelihood relative to the most likely class: no speed makes a class impossible.
 constexpr double kMinLikelihood = 1e-9;
 
-/// Up to a term that is the same for all.
+/// Log density, up to a term that is the same for all.
 double logDensity(const ClassSpeed& class_speed, const MeasuredSpeed& speed) {
   const double variance = square(class_speed.std) + square(speed.std);
   return -0.5 * (square(speed.value - class_speed.mean) / variance + std::log(variance));

@@ -10,14 +10,14 @@ namespace datmo {
 
 namespace {
 
-/// m, more than what distances are rounded by: a quick answer is the same as the long one.
+/// m, more than the rounding error of distances: the quick test agrees with the exact one.
 constexpr double kSlack = 1e-6;
 
-/// A target with its box, which takes longer to ask for than most pairs need.
+/// A target and its box, which is too costly to compute for most pairs.
 struct BoxedTarget {
   const Target* target;
   Box2 box;
-  double reach;  ///< m, from its center; reaches() reaches no farther
+  double reach;  ///< m, from its center; upper bound for reaches()
 };
 
 bool hasLowerX(const BoxedTarget& a, const BoxedTarget& b) {
@@ -75,7 +75,7 @@ std::vector<std::uint64_t> findDuplicates(const std::vector<BestTarget>& targets
     const Target* target = best.target;
     const Box2 box = target->box();
     if (!(std::isfinite(box.center.x()) && std::isfinite(box.center.y()))) {
-      continue;  // it is lost, and has no place in an order
+      continue;  // it is lost, and cannot be sorted
     }
     all.push_back({target, box, kSlack + 0.5 * options.reach * (box.length + box.width)});
     if (target->confirmed()) {

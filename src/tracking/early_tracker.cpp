@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// What was left out or cut short between the two.
+/// Adds what was left out or cut short between the two.
 void addEffort(TrackerCounts& sum, const TrackerCounts& before, const TrackerCounts& after) {
   sum.intake.accepted += after.intake.accepted - before.intake.accepted;
   sum.intake.rejected += after.intake.rejected - before.intake.rejected;

@@ -15,17 +15,17 @@ namespace {
 /// The 95 % quantile of chi-square with one degree of freedom.
 constexpr double kSignificant = 3.84;
 
-/// s, over which the scanner's own velocity is taken, and between two of them.
+/// s, over which the scanner's velocity is averaged, and time between two such velocities.
 constexpr double kVelocityTime = 0.3;
 constexpr double kTurnTime = 1.0;
 
-/// rad; how well its direction tells where the vehicle will pass on a straight road.
+/// rad; accuracy of the course as a prediction of where the vehicle will pass on a straight road.
 constexpr double kCourseStd = 0.02;
 
-/// m, of the scanner's motion in kVelocityTime.
+/// m, error of the scanner's motion in kVelocityTime.
 constexpr double kMotionStd = 0.02;
 
-/// The scan of this age (s) or more; at most the last but one, of at least two.
+/// The newest scan of at least this age (s), but not the oldest one; there must be at least two.
 std::size_t scanOfAge(const ScanHistory& history, double age) {
   std::size_t back = 0;
   while (back + 2 < history.size() && history.age(back) < age) {
@@ -34,7 +34,7 @@ std::size_t scanOfAge(const ScanHistory& history, double age) {
   return back;
 }
 
-/// The scanner's mean velocity in kVelocityTime before a scan, which is not the oldest one.
+/// The scanner's mean velocity in the kVelocityTime before a scan, which is not the oldest one.
 Point2 scannerVelocity(const ScanHistory& history, std::size_t last) {
   std::size_t back = last + 1;
   while (back + 1 < history.size() && history.age(back) - history.age(last) < kVelocityTime) {
@@ -43,7 +43,7 @@ Point2 scannerVelocity(const ScanHistory& history, std::size_t last) {
   return (history.scanner(last) - history.scanner(back)) / (history.age(back) - history.age(last));
 }
 
-/// Standard deviation, m, of how far from its present course the vehicle will pass at this range.
+/// Standard deviation, m, of how far from its current course the vehicle will pass at this range.
 double pathStd(const ScanHistory& history, const Point2& velocity, double range) {
   const std::size_t before = scanOfAge(history, kTurnTime);
   const Point2 velocity_before = scannerVelocity(history, before);

@@ -15,7 +15,7 @@ namespace datmo {
 
 namespace {
 
-/// Takes the trees of these indices out, with the weights that the hypotheses give them alone.
+/// Extracts the trees of these indices, with the weights that the hypotheses give to them alone.
 HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t>& trees) {
   HypothesisCluster result;
   result.trees.reserve(trees.size());
@@ -35,10 +35,10 @@ HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t
   return result;
 }
 
-/// Gives targets, by their numbers, indices from 0 on, in the order in which they come.
+/// Assigns indices from 0 on to targets, by their numbers, in the order in which they are added.
 class NumberIndex {
  public:
-  /// Room for so many numbers.
+  /// `max`: capacity.
   explicit NumberIndex(std::size_t max) { entries_.reserve(max); }
 
   void add(std::uint64_t number) {
@@ -48,7 +48,7 @@ class NumberIndex {
     }
   }
 
-  /// Of a number that was added.
+  /// Returns the index of a number that was added.
   std::size_t operator[](std::uint64_t number) { return lowerBound(number)->second; }
   std::size_t size() const { return entries_.size(); }
 
@@ -69,7 +69,7 @@ struct HypothesisPair {
   std::size_t second;
 };
 
-/// All pairs are ordered, and only those that are kept are made: of ten hypotheses each, a tenth.
+/// All pairs are sorted, but only those that are kept are built: of ten hypotheses each, a tenth.
 std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>& a,
                                              const std::vector<GlobalHypothesis>& b,
                                              std::size_t max) {
@@ -85,7 +85,7 @@ std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>
   std::partial_sort(
       pairs.begin(), end, pairs.end(),
       [&](const HypothesisPair& left, const HypothesisPair& right) {
-        // As sortByWeight() does.
+        // The same order as in sortByWeight().
         return std::tie(right.log_weight, a[left.first].leaf_of_tree, b[left.second].leaf_of_tree) <
                std::tie(left.log_weight, a[right.first].leaf_of_tree, b[right.second].leaf_of_tree);
       });
@@ -103,7 +103,7 @@ std::vector<GlobalHypothesis> likeliestPairs(const std::vector<GlobalHypothesis>
   return result;
 }
 
-/// The only hypothesis of another cluster holds in all of these: their order and weights stay.
+/// Adds another cluster's only hypothesis to all of these: their order and weights stay.
 void append(const GlobalHypothesis& other, std::vector<GlobalHypothesis>& hypotheses) {
   for (GlobalHypothesis& hypothesis : hypotheses) {
     hypothesis.leaf_of_tree.insert(hypothesis.leaf_of_tree.end(), other.leaf_of_tree.begin(),
@@ -153,7 +153,8 @@ HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t ma
   assert(max > 0 && isSorted(a) && isSorted(b) && !haveCommonTarget(a, b));
   const std::size_t pairs = a.hypotheses.size() * b.hypotheses.size();
   if (b.hypotheses.size() == 1 && pairs <= max) {
-    append(b.hypotheses.front(), a.hypotheses);  // as of most: of one that nothing is to decide of
+    append(b.hypotheses.front(),
+           a.hypotheses);  // the common case: nothing to decide in the other cluster
   } else {
     a.hypotheses = likeliestPairs(a.hypotheses, b.hypotheses, max);
   }
@@ -197,7 +198,7 @@ void split(HypothesisCluster cluster, std::uint64_t oldest_scan,
     parts.push_back(std::move(cluster));
     return;
   }
-  // Targets that are gone still link those that are left: they come after these.
+  // Targets that no longer exist still link the remaining ones: they are indexed after these.
   NumberIndex index_of(cluster.trees.size() + 2 * links.size());
   for (const TrackTree& tree : cluster.trees) {
     index_of.add(tree.number());

@@ -14,8 +14,8 @@ namespace datmo {
 
 namespace {
 
-/// Assignments that are looked at for each hypothesis that may be kept: where track trees are full,
-/// hardly any of the many that are left finds room.
+/// Assignments that are evaluated for each hypothesis that may be kept: if track trees are full,
+/// hardly any of the many remaining ones fits.
 constexpr std::size_t kMaxScans = 10;
 
 std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,

@@ -15,7 +15,7 @@ bool isBetter(const GlobalHypothesis& a, const GlobalHypothesis& b) {
          std::make_tuple(-b.log_weight, std::cref(b.leaf_of_tree));
 }
 
-/// Of two sums of probabilities given by their logarithms.
+/// Logarithm of the sum of two probabilities given by their logarithms.
 double logSum(double a, double b) {
   const double largest = std::max(a, b);
   return largest + std::log1p(std::exp(std::min(a, b) - largest));
@@ -35,7 +35,7 @@ void mergeEqual(std::vector<GlobalHypothesis>& hypotheses) {
   if (hypotheses.size() < 2) {
     return;
   }
-  std::vector<std::size_t> order(hypotheses.size());  // equal ones beside each other
+  std::vector<std::size_t> order(hypotheses.size());  // puts equal ones next to each other
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const std::vector<int>& first = hypotheses[a].leaf_of_tree;

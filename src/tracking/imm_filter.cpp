@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::size_t kStanding = static_cast<std::size_t>(MotionMode::kStanding);
 
-/// Standard deviation of the velocity from which something comes to stand, per that with which it
-/// starts (1 m/s): as the filter knows it, which follows hard braking (8 m/s^2) within a third of a
-/// second.
+/// Standard deviation of the velocity from which an object can stop, relative to that with which it
+/// starts (1 m/s): as estimated by the filter, which follows hard braking (8 m/s^2) within a third
+/// of a second.
 constexpr double kStopPerStart = 3.0;
 
-/// Mean over the velocity v of exp(-v^2 / (2 stop_variance)): of what would come to stand within
-/// the step, the share that is slow enough to.
+/// Mean over the velocity v of exp(-v^2 / (2 stop_variance)): the share of jumps into standing
+/// within the step that is slow enough.
 double stopShare(const StateEstimate& estimate, const ImmStep& step) {
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
   Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
@@ -31,7 +31,7 @@ double stopShare(const StateEstimate& estimate, const ImmStep& step) {
          std::exp(-0.5 * velocity.dot(covariance.inverse() * velocity));
 }
 
-/// By the mode that is left; what stands goes on standing at any speed.
+/// By the mode that is left; a standing object continues to stand at any speed.
 ModeVector stopShares(const std::array<StateEstimate, kMotionModes>& modes, const ImmStep& step) {
   ModeVector shares;
   std::transform(modes.begin(), modes.end(), shares.begin(),
@@ -86,7 +86,7 @@ void ImmFilter::predict(const ImmStep& step) {
   ModeMoments moments;
   momentsAbout(combined_.mean, modes_, probabilities_, moments);
   stop_shares_ = stopShares(modes_, step);
-  ModeMatrix weights = probabilities_.asDiagonal() * transition;  // of both modes together, as yet
+  ModeMatrix weights = probabilities_.asDiagonal() * transition;  // joint weights at first
   const ModeVector too_fast =
       weights.col(kStanding).cwiseProduct(ModeVector::Ones() - stop_shares_);
   weights.col(kStanding) -= too_fast;
@@ -132,13 +132,14 @@ ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const Measurement& measured)
   return {possible.select(densities.array(), 0.0), -0.5 * nearest - std::log(2.0 * kPi)};
 }
 
-/// `learn`: it is the first measurement since the prediction, which the transitions learn from.
+/// `learn`: this is the first measurement since the prediction, from which transitions are learned.
 template <typename Measurement>
 double ImmFilter::updateModes(const Measurement& measured, double outlier_probability, bool learn) {
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
   const double total = probabilities_.dot(likelihoods.relative);
-  // An outlier is as likely in each mode, and as likely as the measurement is on average: so the
-  // probabilities become those by Bayes, and with the outliers' probability stay as they were.
+  // An outlier is equally likely in all modes, with the mean likelihood of the measurement: so the
+  // mode probabilities are Bayes' with a weight of 1 - outlier_probability, and unchanged
+  // otherwise.
   ModeVector contaminated = ModeVector::Ones();
   if (total > 0.0) {
     contaminated = (1.0 - outlier_probability) * likelihoods.relative +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mixtures of the modes of an IMM filter, as sums over arrays: a tracker spends much of its time
+// Mixtures of the modes of an IMM filter, as sums over arrays: trackers spend much of their time
 // here.
 #pragma once
 
@@ -12,12 +12,12 @@ namespace datmo {
 
 using ModeEstimates = std::array<StateEstimate, kMotionModes>;
 
-/// First and second moments, one below the other, so that mixtures are sums: one column per mode.
+/// First and second moments, stacked, so that mixtures are sums: one column per mode.
 inline constexpr int kMoments = kTrackState + kTrackState * kTrackState;
 using ModeMoments = Eigen::Matrix<double, kMoments, kMotionModes>;
 
-/// Of each mode, about an origin near all of them, so that no digits are lost. Modes of probability
-/// 0 have no say.
+/// Moments of each mode, about an origin near all of them, so that no digits are lost. Modes of
+/// probability 0 are ignored.
 void momentsAbout(const TrackState& origin, const ModeEstimates& modes,
                   const ModeVector& probabilities, ModeMoments& moments);
 

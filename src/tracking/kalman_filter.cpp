@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// Rounding must not make the two halves drift apart.
+/// Prevents the two halves from drifting apart by rounding.
 void symmetrize(TrackCovariance& covariance) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
@@ -35,14 +35,14 @@ StateEstimate carriedOn(const StateEstimate& estimate, double seconds) {
 //     F = | I  A |    P = | Ppp  Ppr |    Q = | Qpp  Qpr |
 //         | 0  B |        | Prp  Prr |        | Qrp  Qrr |
 //
-// so that of P' = F P F^T + Q there are left, block by block and without what is 0 or 1 in F:
+// so that P' = F P F^T + Q becomes, block by block and without the zeros and ones in F:
 //
 //     p' = p + A r                  r' = B r
 //     Prr' = B Prr B^T + Qrr
 //     Ppr' = M B^T + Qpr            with M = Ppr + A Prr
 //     Ppp' = Ppp + A Prp + M A^T + Qpp
 //
-// What is of the rest comes in fours: a column of B, Prr or Qrr, a row of Ppr, M or Qpr.
+// The elements of the rest come in fours: a column of B, Prr or Qrr, a row of Ppr, M or Qpr.
 DATMO_FUSION_WIDE
 void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEstimate& result) {
   static_assert(kTrackState == 6, "position, and four others");
@@ -136,7 +136,7 @@ StateEstimate update(const StateEstimate& predicted, const MeasuredVelocity& mea
   const Innovation innovation = innovationOf(predicted, measured);
   const Eigen::Matrix<double, kTrackState, 2> of_velocity = predicted.covariance.middleCols<2>(2);
   const Eigen::Matrix<double, kTrackState, 2> gain = of_velocity * innovation.covariance.inverse();
-  // Joseph's form: the covariance stays positive however sure the measurement is.
+  // Joseph's form: the covariance stays positive definite, however precise the measurement.
   TrackCovariance kept = TrackCovariance::Identity();
   kept.middleCols<2>(2) -= gain;
   StateEstimate result;

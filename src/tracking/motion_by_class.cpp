@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// Odds that one of a set of classes moves, each with its weight.
+/// Odds of motion for a set of weighted classes.
 double oddsOfMotion(const ClassProbabilities& weights, const ClassProbabilities& moving_shares) {
   double moving = 0.0;
   double standing = 0.0;

@@ -14,25 +14,25 @@ namespace datmo {
 
 namespace {
 
-/// That a normal variable of this standard deviation lies within +-`half` of `offset`'s origin:
-/// by the nearer end alone, as the farther one matters little.
+/// Probability that a normal variable of this standard deviation, centered on `offset`, lies within
+/// +-`half`: by the nearer end only, because the farther one hardly matters.
 double insideProbability(double offset, double half, double sigma) {
   return 0.5 * std::erfc((std::abs(offset) - half) / (std::sqrt(2.0) * sigma));
 }
 
-/// Where the moving body was at other times.
+/// The positions of the moving body at other times.
 class Coverage {
  public:
   Coverage(const MovingBody& body, double range_sigma)
       : body_(body), fixed_in_box_(body.box.center.inverse()), range_sigma_(range_sigma) {}
 
-  /// That the body lay, `since` s before now, within the tolerance of where a beam crossed a line.
+  /// Probability that the body, `since` s ago, lay within the tolerance of a beam's crossing point.
   double at(const BeamCrossing& crossing, double since) const {
     const Point2 in_box = fixed_in_box_ * (crossing.position + since * body_.velocity);
     const Point2 reach = crossing.tolerance * fixed_in_box_.rotate(crossing.along_beam).cwiseAbs();
     const double drift = square(range_sigma_) + square(since) * body_.speed_variance;
     const auto along = [&](double offset, double half, double size_variance) {
-      // A side moves by half of what the size is wrong.
+      // A side is off by half of the size error.
       return insideProbability(offset, half, std::sqrt(drift + 0.25 * size_variance));
     };
     return along(in_box.x(), 0.5 * body_.box.length + reach.x(), body_.size_variance.x()) *
@@ -45,7 +45,7 @@ class Coverage {
   double range_sigma_;
 };
 
-/// std::lgamma writes a global variable, which threads share.
+/// std::lgamma writes a global variable that threads share.
 double logGamma(double value) {
   int sign = 0;
   return lgamma_r(value, &sign);
@@ -53,12 +53,12 @@ double logGamma(double value) {
 
 double logBeta(double a, double b) { return logGamma(a) + logGamma(b) - logGamma(a + b); }
 
-/// Beams that crossed positions of a target; of beams that count in part, the parts.
+/// Beams that crossed positions of a target; partial counts for weighted beams.
 struct CrossingBeams {
   double hits = 0.0;
   double misses = 0.0;
-  double expected_hits = 0.0;  ///< if something stands there, as the options' detection has it
-  double log_moving = 0.0;     ///< logarithm of the likelihood if it moves
+  double expected_hits = 0.0;  ///< if something stands there, by the options' detection
+  double log_moving = 0.0;     ///< log-likelihood if it moves
   std::size_t observed = 0;
 
   void add(BeamOutcome outcome, double covered, double detection, double background) {
@@ -78,7 +78,7 @@ struct CrossingBeams {
     observed += other.observed;
   }
 
-  /// Logarithm of the likelihood if it stands: how well it reflects is a beta variable.
+  /// Log-likelihood if it stands: its reflectivity is a beta variable.
   double logStanding(double detection_strength) const {
     const double expected = expected_hits / (hits + misses);
     const double prior_hits = detection_strength * expected;
@@ -93,7 +93,7 @@ struct CrossingBeams {
   }
 };
 
-/// What the beams of one scan say of the positions of `seen`, at `time` on its clock.
+/// Evaluates the beams of one scan at the positions of `seen`, at `time` on its clock.
 class ScanBeams {
  public:
   ScanBeams(const ScanHistory& history, const MovingBody& body, double clock,
@@ -193,7 +193,7 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
       CrossingBeams of_scan;
       int asked = 0;
       for (const BeamPositions::OfScan& seen_in_scan : positions.scans()) {
-        if (seen_in_scan.back != back) {  // its own beams say nothing new
+        if (seen_in_scan.back != back) {  // its own beams carry no new information
           of_scan.add(scan_beams.of(back, time, seen_in_scan.points, echo_direction), 1.0);
           ++asked;
         }

@@ -34,8 +34,8 @@ void findObjects(HypothesisCluster& cluster) {
   objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
 }
 
-/// One target of which nothing is left to decide and that no object is near: so are most of those
-/// that false alarms have started.
+/// A single target without any open decision or nearby object: most targets that false alarms have
+/// started are like this.
 bool isUnseenSingle(const HypothesisCluster& cluster) {
   return cluster.trees.size() == 1 && cluster.hypotheses.size() == 1 &&
          cluster.trees.front().leaves.size() == 1 && cluster.objects.empty();
@@ -55,7 +55,7 @@ MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
 
 std::unique_ptr<TargetSet> MultipleHypotheses::clone() const {
   auto copy = std::make_unique<MultipleHypotheses>(*this);
-  copy->best_known_ = false;  // its best targets are its own
+  copy->best_known_ = false;  // it points to its own targets
   return copy;
 }
 
@@ -97,7 +97,7 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
   counts_.best_only_steps = std::min(counts_.best_only_steps, hurried + 1);
 }
 
-/// Clusters that may have been seen as the same object become one.
+/// Merges clusters whose targets may share an object.
 void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   constexpr std::size_t kNobody = kUnseen;
   std::vector<std::size_t> claimer(objects, kNobody);
@@ -118,7 +118,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
     for (std::size_t i = 1; i < group.size(); ++i) {
       all = merge(std::move(all), std::exchange(clusters_[group[i]], HypothesisCluster()), max);
     }
-    findObjects(all);  // leaves may be gone
+    findObjects(all);  // leaves may have been removed
   }
   removeEmpty();
 }
@@ -152,12 +152,12 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
       expand(std::move(cluster), interpretations, context, next_node_, room_, counts_);
   const bool decided = whole.hypotheses.size() == 1;
   const auto history = static_cast<std::uint64_t>(hypothesis_options_.scan_history);
-  const std::uint64_t open = decided ? 0 : history;  // scans of which something is left to decide
+  const std::uint64_t open = decided ? 0 : history;  // scans with open decisions
   const std::uint64_t oldest = scan_number_ + 1 > open ? scan_number_ + 1 - open : 0;
   split(std::move(whole), oldest, next);
 }
 
-/// As expand() and split() would make it.
+/// Same result as expand() and split().
 void MultipleHypotheses::missSingle(HypothesisCluster& cluster) {
   Leaf& leaf = cluster.trees.front().leaves.front();
   std::copy_backward(leaf.nodes.begin(), leaf.nodes.end() - 1, leaf.nodes.end());

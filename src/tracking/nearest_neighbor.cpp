@@ -46,7 +46,7 @@ void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& 
 
 std::vector<int> NearestNeighborTargets::assign(std::size_t objects) {
   const std::size_t targets = targets_.size();
-  DisjointSets groups(targets + objects);  // first the targets, then the objects
+  DisjointSets groups(targets + objects);  // targets first, then objects
   for (std::size_t i = 0; i < targets; ++i) {
     for (const Candidate& candidate : targets_[i].scores.candidates) {
       groups.join(i, targets + candidate.observation);
@@ -68,7 +68,7 @@ std::vector<int> NearestNeighborTargets::assign(std::size_t objects) {
         costs(row, column - group.begin() - rows) = -candidate.score;
       }
     }
-    // Costs are relative to a miss and a birth, which so cost nothing.
+    // Costs are relative to a missed target and a new one, which therefore cost nothing.
     const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(rows);
     const Assignment assignment = solveAssignment(costs, no_cost, std::max<std::int64_t>(0, work));
     cut = cut || assignment.cut;

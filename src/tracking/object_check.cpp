@@ -10,14 +10,14 @@ namespace datmo {
 
 namespace {
 
-/// m/s: a sensor that measures more is broken.
+/// m/s; a sensor that measures more is broken.
 constexpr double kMaxObjectSpeed = 100.0;
 
-/// m^2 and (m/s)^2: what is known no better than to a kilometer is not measured, and sums of such
-/// numbers with those of other sensors keep no digit of theirs.
+/// m^2 and (m/s)^2; a position known to no better than a kilometer is not a measurement, and in
+/// sums with such numbers those of other sensors lose all digits.
 constexpr double kMaxVariance = 1e6;
 
-/// s, before or after its list's stamp: no sensor takes as long for one measurement.
+/// s, before or after the list's stamp: no sensor takes that long for one measurement.
 constexpr double kMaxDelay = 10.0;
 
 bool isPrecise(const Eigen::Matrix2d& covariance) {
@@ -30,7 +30,7 @@ bool isVelocity(const MeasuredVelocity& measured) {
          isShare(measured.wrong_probability);
 }
 
-/// Of two perpendicular axes that are turned by `rotation`.
+/// Covariance along two perpendicular axes that are turned by `rotation`.
 Eigen::Matrix2d turned(const Eigen::Matrix2d& rotation, const Eigen::Matrix2d& covariance) {
   const Eigen::Matrix2d result = rotation * covariance * rotation.transpose();
   return 0.5 * (result + result.transpose());

@@ -17,7 +17,7 @@ std::array<Point2, kBoxSides> normalsOf(const Box2& box) {
   return {ahead, -ahead, left, -left};
 }
 
-/// How far the box reaches in a direction, from the origin, m.
+/// How far the box extends in a direction from the origin, m.
 double reachAlong(const Box2& box, const Point2& direction) {
   double reach = -std::numeric_limits<double>::infinity();
   for (const Point2& corner : box.corners()) {
@@ -26,7 +26,7 @@ double reachAlong(const Box2& box, const Point2& direction) {
   return reach;
 }
 
-/// Variance of the side that looks most in this direction.
+/// Variance of the side that faces this direction most.
 double sideVariance(const Object& object, const Point2& direction) {
   const std::array<Point2, kBoxSides> normals = normalsOf(object.box);
   std::size_t best = 0;
@@ -38,7 +38,7 @@ double sideVariance(const Object& object, const Point2& direction) {
   return object.side_variance[best];
 }
 
-/// The smallest box of this heading that holds all points; at least one.
+/// The smallest box of this heading that contains all points; at least one.
 Box2 boxHolding(const std::vector<Point2>& points, double heading) {
   const Pose2 axes(Point2::Zero(), heading);
   const Pose2 back = axes.inverse();
@@ -53,8 +53,8 @@ Box2 boxHolding(const std::vector<Point2>& points, double heading) {
   return {Pose2(axes * Point2(0.5 * (min + max)), heading), size.x(), size.y()};
 }
 
-/// What an object was taken for says little of the whole that it is a part of, or of its own parts;
-/// and in the axes of a target it carries no information on the target's heading.
+/// The class of an object tells little about the whole that it is a part of, or about its own
+/// parts; and along the axes of a target it carries no information on the target's heading.
 void forgetKind(Object& object) {
   object.object_class = ObjectClass::kUnknown;
   object.class_probability = 0.0;

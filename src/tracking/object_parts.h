@@ -7,12 +7,12 @@
 
 namespace datmo {
 
-/// Several objects, at least one, as one, in the axes of the target that they may be parts of.
+/// Merges several objects, at least one, along the axes of the target that they may be parts of.
 Object unionOf(const std::vector<const Object*>& parts, double heading);
 
-/// Some points of an object, at least one, as the part of it that belongs to one target, in that
-/// target's axes; the other target is in the direction `other`, where the part ends without having
-/// been seen to.
+/// Returns some points of an object, at least one, as the part of it that belongs to one target,
+/// along that target's axes; the other target is in the direction `other`, where the end of the
+/// part is hidden.
 Object partOf(const Object& whole, std::vector<Point2> points, double heading, const Point2& other);
 
 }  // namespace datmo

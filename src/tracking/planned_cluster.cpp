@@ -121,7 +121,7 @@ TrackTree PlannedCluster::grow(const PlannedTree& plan) {
   TrackTree tree;
   if (plan.old_tree != kNoTree && plan.leaves.size() == 1 &&
       old_.trees[plan.old_tree].leaves.size() == 1) {
-    tree = std::move(old_.trees[plan.old_tree]);  // most do not branch: the target stays in place
+    tree = std::move(old_.trees[plan.old_tree]);  // most do not branch: reuse the target
     Leaf& leaf = tree.leaves.front();
     leaf.nodes = plan.leaves.front().nodes;
     continueTarget(leaf.target, plan.leaves.front().observation, leaf.scores.detection_probability);
@@ -168,7 +168,7 @@ void PlannedCluster::noteUse(std::size_t observation, std::uint64_t number) {
   }
 }
 
-/// Targets that may have been seen as the same object depend on each other.
+/// Links targets that may share an object: they depend on each other.
 void PlannedCluster::linkSharers(HypothesisCluster& cluster) {
   std::sort(uses_.begin(), uses_.end());
   uses_.erase(std::unique(uses_.begin(), uses_.end()), uses_.end());

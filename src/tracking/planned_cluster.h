@@ -18,11 +18,11 @@
 
 namespace datmo {
 
-/// Of new targets.
+/// For new targets.
 inline constexpr std::size_t kNoTree = std::numeric_limits<std::size_t>::max();
 
-/// A leaf of the next scan before its target is made: many of those that hypotheses ask for do not
-/// outlive the pruning, and a target is costly to update.
+/// A leaf of the next scan before its target is built: many leaves that hypotheses need do not
+/// survive pruning, and updating a target is costly.
 struct PlannedLeaf {
   int parent;               ///< leaf of the old tree that it continues; kAbsent: a new target
   std::size_t observation;  ///< kUnseen: missed
@@ -36,26 +36,26 @@ struct PlannedTree {
   std::pmr::vector<PlannedLeaf> leaves;
 };
 
-/// The cluster of the next scan, as its hypotheses come in. All that it is made of must outlive it.
+/// The cluster of the next scan while its hypotheses are added. All inputs must outlive it.
 class PlannedCluster {
  public:
-  /// `cluster`: the old one, of which finish() takes the targets. `room`, `counts`: see expand().
+  /// `cluster`: the old one, whose targets finish() takes over. `room`, `counts`: see expand().
   PlannedCluster(HypothesisCluster& cluster, const ExpansionContext& context,
                  std::uint64_t& next_node, std::size_t& room, AssociationCounts& counts);
 
-  /// Adds the present assignment of a source, unless it needs more leaves than there may be.
+  /// Adds the current assignment of a source, unless it needs more leaves than allowed.
   void add(const RankedHypothesis& source);
 
   std::size_t size() const { return hypotheses_.size(); }
 
-  /// Logarithm; of at least one.
+  /// Returns the log weight of the best hypothesis; there must be one.
   double bestWeight() const { return hypotheses_.front().log_weight; }
 
-  /// Prunes, and makes the targets of what is left, out of the old ones: to be called last.
+  /// Prunes, and builds the targets of the remaining leaves from the old ones; call this last.
   HypothesisCluster finish();
 
  private:
-  /// Memory of the leaves of most clusters, bytes; for larger ones more is taken when needed.
+  /// Memory for the leaves of most clusters, bytes; larger ones allocate more.
   static constexpr std::size_t kFirstMemory = 4096;
 
   int find(std::size_t tree, int parent, std::size_t observation) const;
@@ -76,11 +76,11 @@ class PlannedCluster {
   AssociationCounts& counts_;
   alignas(std::max_align_t) std::array<std::byte, kFirstMemory> buffer_;
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};  ///< of the leaves
-  std::vector<PlannedTree> trees_;  ///< the old ones, then those that start now
+  std::vector<PlannedTree> trees_;  ///< the old ones, then new ones
   std::vector<GlobalHypothesis> hypotheses_;
   std::map<std::size_t, std::size_t> tree_of_birth_;  ///< by observation
-  std::set<std::size_t> refused_;                     ///< observations that found no room
-  /// Objects, and the numbers of the targets that may have been seen as them.
+  std::set<std::size_t> refused_;                     ///< observations for which there was no room
+  /// Objects, and the numbers of the targets that may be associated with them.
   std::vector<std::pair<std::size_t, std::uint64_t>> uses_;
 };
 

@@ -8,8 +8,8 @@ namespace datmo {
 
 namespace {
 
-/// For a target of an observation that needs one, so that the assignments that have them all come
-/// first: more than all scores together.
+/// Reward for a target of an observation that needs one, larger than all scores together, so that
+/// assignments in which all have one come first.
 constexpr double kReward = 1e6;
 
 }  // namespace

@@ -11,31 +11,32 @@
 
 namespace datmo {
 
-/// One hypothesis of a cluster with one interpretation of its objects, and its continuations: its
-/// assignments of observations to targets, best first. Only those that give a target to each
-/// observation that needs one. All that it is made of must outlive it.
+/// One hypothesis of a cluster with one interpretation of its objects, and its continuations: the
+/// assignments of observations to targets, best first, but only those that assign a target to each
+/// observation that needs one. All inputs must outlive it.
 class RankedHypothesis {
  public:
   RankedHypothesis(const HypothesisCluster& cluster, const AssociationScan& scan,
                    const GlobalHypothesis& parent, const Interpretation& interpretation);
 
-  /// No assignment weighs more (logarithm).
+  /// Returns an upper bound for the log weight of all assignments.
   double bound() const;
 
-  /// Finds the best assignment, if there is any; with no more than this work (see
-  /// RankedAssignments); to be called before all below.
+  /// Finds the best assignment, if there is any, within this work limit (see RankedAssignments);
+  /// call this before all functions below.
   void rank(std::int64_t max_work);
 
-  /// The work allowed was not enough, and the present assignment may not be the best.
+  /// Returns whether the work limit was reached, so that the current assignment may not be the
+  /// best.
   bool cut() const { return ranked_->cut(); }
 
   void advance();
   bool isDone() const { return !present_; }
 
-  /// Of the present assignment, logarithm.
+  /// Returns the log weight of the current assignment.
   double weight() const;
 
-  /// Observation of each tree of the cluster in the present assignment; kUnseen: none.
+  /// Returns the observation of each tree of the cluster in the current assignment; kUnseen: none.
   std::vector<std::size_t> observations() const;
 
   const GlobalHypothesis& parent() const { return *parent_; }
@@ -48,7 +49,7 @@ class RankedHypothesis {
   const HypothesisCluster* cluster_;
   const GlobalHypothesis* parent_;
   const Interpretation* interpretation_;
-  double base_;                    ///< logarithm of the weight if all targets are missed
+  double base_;                    ///< log weight if all targets are missed
   std::vector<std::size_t> rows_;  ///< trees that are present
   std::vector<int> needy_;         ///< columns that need a target
   std::unique_ptr<RankedAssignments> ranked_;

@@ -32,7 +32,7 @@ bool mayCover(const Object& object, const Box2& target, const SplitMergeOptions&
 
 /// Another interpretation of some objects: the observations that replace them.
 struct Alternative {
-  std::vector<std::size_t> sources;  ///< rising
+  std::vector<std::size_t> sources;  ///< ascending
   std::vector<std::size_t> observations;
 };
 
@@ -68,7 +68,7 @@ class Reader {
   }
 
  private:
-  /// A confirmed target, by its tree, where the best hypothesis expects it.
+  /// A confirmed target, by its tree, at its expected position in the best hypothesis.
   struct ExpectedTarget {
     std::size_t tree;
     Box2 box;
@@ -129,7 +129,7 @@ class Reader {
     result.push_back(std::move(both));
   }
 
-  /// Adds an observation that only this target may have been seen as.
+  /// Adds an observation that can only belong to this target.
   std::size_t observe(const Object& object, const std::vector<std::size_t>& sources,
                       double log_density, std::size_t tree) {
     const std::size_t index = scan_.observations.size();

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// The first object gives its position; that it may have any velocity is an assumption.
+/// The first object gives the position; the velocity is only assumed.
 ImmFilter birth(const Object& object, const PositionMeasurement& measured,
                 const TargetOptions& options, const std::optional<TransitionModel>& transitions) {
   StateEstimate estimate;
@@ -26,10 +26,10 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
           transitions};
 }
 
-/// That something is as likely as not.
+/// Probability of an even chance.
 constexpr double kEven = 0.5;
 
-/// Logarithm of how much likelier a velocity is for what moves than for what stands.
+/// Log-likelihood ratio of a velocity for a moving versus a standing target.
 double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         double false_motion, const TargetOptions& options) {
   return velocityLogRatio(velocity, covariance,
@@ -139,7 +139,7 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
                         0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
   BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
-  // The end of a beam moves along a wall that stands, and what was measured is the wall.
+  // The end of a beam moves along a standing wall, and the measured velocity is that of the wall.
   beams.log_ratio_to_grazing -= std::log(standing_velocity_ratio_);
   const double false_motion =
       beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
@@ -150,8 +150,9 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
                                   options.motion_likelihood);
 }
 
-/// That it seems to move if it stands: what is seen of it slides, and a measured velocity, as far
-/// as it tells at all, is of something else. No product: one wrong match of points can cause both.
+/// Probability that it seems to move while standing: its visible part slides, and a measured
+/// velocity, if informative, is of something else. Not a product: one wrong match of points can
+/// cause both.
 double Target::falseMotion(const TargetOptions& options) const {
   return std::min(options.motion_likelihood.apparent_motion, standing_velocity_ratio_);
 }
@@ -185,8 +186,8 @@ void Target::takeClass(const Object& object, const TargetOptions& options) {
   }
 }
 
-/// What was measured is its own velocity, or of something else: then any is as likely as that of a
-/// new object, and it is left out where that explains it better.
+/// The measured velocity is its own, or of something else: then it is distributed as that of a new
+/// object, and the measurement is ignored if this explains it better.
 void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
   const double wrong =
       std::max(options.motion_likelihood.wrong_velocity, measured.wrong_probability);
@@ -196,15 +197,15 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
   if (own + std::log(1.0 - wrong) < other + std::log(wrong)) {
     return;
   }
-  // No product: what misleads a detector in one image does so in the next.
+  // Not a product: what misleads a detector in one image does so in the next.
   standing_velocity_ratio_ =
       std::min(standing_velocity_ratio_,
                std::exp(-velocityEvidence(measured.velocity, measured.covariance, wrong, options)));
   filter_.update(measured, options.filter.outlier_probability);
 }
 
-/// Between standing and a velocity that is likelier of what moves it stays as it was. Which of both
-/// is likelier does not depend on how often standing things seem to move.
+/// Between standing and a velocity that is more likely of a moving target, the state is kept. Which
+/// of both is more likely does not depend on how often standing objects seem to move.
 void Target::judgeMotion(const TargetOptions& options) {
   const double standing = filter_.modeProbabilities()[static_cast<int>(MotionMode::kStanding)];
   if (standing > kEven || filter_.estimate().mean.segment<2>(2).norm() < options.stop_speed) {
@@ -232,7 +233,7 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities = class_.probabilities();
-  if (!tellsAnything(class_by_size_.probabilities())) {  // those have it in them
+  if (!tellsAnything(class_by_size_.probabilities())) {  // otherwise these include the size
     track.class_probabilities =
         posterior(track.class_probabilities, ofEachClass(box_.sizeLikelihoods(options.box)));
   }

@@ -7,10 +7,10 @@ namespace datmo {
 
 namespace {
 
-/// Below this angle (rad) the series are exact to double precision, and the quotients are not.
+/// rad; below this angle the series are exact to double precision, and the quotients are not.
 constexpr double kSmallAngle = 1e-3;
 
-/// The integrals of a turning velocity, free of the division by a small angle.
+/// The integrals of a turning velocity, without division by a small angle.
 struct TurnSeries {
   double sine;        ///< sin a / a
   double cosine;      ///< (1 - cos a) / a^2
@@ -33,7 +33,7 @@ Eigen::Matrix2d complexMatrix(double real, double imaginary) {
   return matrix;
 }
 
-/// From position, velocity and unexplained acceleration to the state.
+/// Transforms position, velocity and unmodeled acceleration to the state.
 TrackCovariance withCentripetal(double turn_rate) {
   TrackCovariance matrix = TrackCovariance::Identity();
   matrix.block<2, 2>(4, 2) = complexMatrix(0.0, turn_rate);

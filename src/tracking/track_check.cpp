@@ -26,10 +26,10 @@ bool isState(const TrackState& state, const TrackCovariance& covariance) {
          covariance.diagonal().maxCoeff() <= kMaxMagnitude * kMaxMagnitude;
 }
 
-/// Of the sum of probabilities: messages have them as floats.
+/// Rounding error of a sum of probabilities, which messages have as floats.
 constexpr double kRounding = 1e-3;
 
-/// Of alternatives: no more than one of them is true; where nothing is known all are 0.
+/// Probabilities of exclusive alternatives; all are 0 if nothing is known.
 template <std::size_t count>
 bool areShares(const std::array<double, count>& values) {
   return std::all_of(values.begin(), values.end(), isShare) &&

@@ -10,22 +10,23 @@ namespace datmo {
 
 namespace {
 
-/// Velocities of successive scans are nearly the same information: logarithm of odds of one.
+/// Limit of the log odds from one velocity: those of successive scans are nearly the same
+/// information.
 constexpr double kMaxOddsOfOneVelocity = 2.0;
 
-/// Share of the step from the sides that the filter's center rests on to those seen now, in one
-/// scan: the filter believes the new ones little as long as the size between them is not known.
+/// Share of the step, per scan, from the sides on which the filter's center is based to those seen
+/// now: the filter trusts the new ones little while the size between them is uncertain.
 constexpr double kHandover = 0.3;
 
-/// The other axis must be as likely as this to become the forward one: no flips to and fro.
+/// Minimum probability of the other axis to become the forward one: avoids toggling.
 constexpr double kSureOfOtherAxis = 0.7;
 
-/// Of the two directions of a line, the one nearer to `reference`.
+/// The one of the two directions of a line that is nearer to `reference`.
 double nearerDirection(double direction, double reference) {
   return std::cos(direction - reference) < 0.0 ? normalizeAngle(direction + kPi) : direction;
 }
 
-/// Quarter turns to the left that bring one direction nearest to another, 0 to 3.
+/// Quarter turns to the left, 0 to 3, that bring one direction closest to another.
 int quartersBetween(double from, double to) {
   return (static_cast<int>(std::lround(angleBetween(from, to) / kQuarterTurn)) + 4) % 4;
 }
@@ -38,15 +39,15 @@ struct SeenAxis {
   bool isSeenAhead() const { return std::isfinite(ahead); }
   bool isSeenBehind() const { return std::isfinite(behind); }
 
-  /// `position_variance`, m^2: of the object along the axis. How far something was seen to reach to
-  /// a hidden end is as uncertain as that.
+  /// `position_variance`, m^2: of the object along the axis, which is also the uncertainty of the
+  /// visible limit toward a hidden end.
   VisibleExtent visible(double position_variance) const {
     return {extent, (isSeenAhead() ? ahead : 0.0) + (isSeenBehind() ? behind : 0.0),
             isSeenAhead() && isSeenBehind(), std::sqrt(position_variance)};
   }
 };
 
-/// An object, given in the axes of the box that are nearest to its own.
+/// An object along the axes of the box that are nearest to its own.
 struct SeenBox {
   double heading;  ///< rad, of the object's axis that is nearest to the box's heading
   std::array<SeenAxis, 2> axes;
@@ -67,15 +68,15 @@ SeenBox seenFrom(double heading, const Object& object) {
            SeenAxis{across ? box.length : box.width, variance(1), variance(3)}}};
 }
 
-/// The center along one axis is best estimated by `middle of the sides seen + share * (size -
+/// The best estimate of the center along one axis is `middle of the visible sides + share * (size -
 /// extent)`.
 struct AxisMeasurement {
   double share;     ///< -0.5 to 0.5
-  double variance;  ///< m^2, of what is independent from scan to scan
+  double variance;  ///< m^2, of the part that is independent from scan to scan
 };
 
-/// Least squares over both sides and the size as it is known, whose error moves the center away
-/// from either side: C = [a + P/4, -P/4; -P/4, b + P/4].
+/// Least squares over both sides and the current size, whose error moves the center away from
+/// either side: C = [a + P/4, -P/4; -P/4, b + P/4].
 AxisMeasurement measured(const SeenAxis& seen, double size, double size_variance,
                          double last_share) {
   if (!seen.isSeenAhead() && !seen.isSeenBehind()) {
@@ -176,7 +177,7 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   const Eigen::Vector2d share = sharesOf(seen, size_, anchor_share_);
   const Point2 before = offset();
   size_.classify(object.object_class, object.class_probability);
-  // Of a box that is turned by an angle, what seems its width is in part its length.
+  // The apparent width of a rotated box is partly its length.
   const double slant_variance = std::min(object.heading_variance, kUnknownAxisVariance);
   const Eigen::Matrix2d axes = axesOf(seen.heading);
   const Eigen::Matrix2d in_axes = axes.transpose() * object.position_covariance * axes;
@@ -220,7 +221,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
     ahead_ = 0.0;
   }
   takeFrontAhead(direction, speed, options);
-  // Velocities of successive scans are no independent news of the heading: the surer one counts.
+  // Velocities of successive scans are not independent measurements of the heading: keep the best.
   if (variance < heading_variance_) {
     setHeading(nearerDirection(direction, heading_));
     heading_variance_ = variance;
@@ -246,12 +247,12 @@ double TrackedBox::headingVariance() const {
                   heading_variance_ + other_axis * kQuarterTurn * kQuarterTurn);
 }
 
-/// From the sides that were seen to the center, m, fixed frame.
+/// From the visible sides to the center, m, fixed frame.
 Eigen::Vector2d TrackedBox::offset() const {
   return axes_ * anchor_share_.cwiseProduct(size_.mean());
 }
 
-/// First motion is ahead, and so is fast motion; otherwise it may be reversing.
+/// The first motion is forward, and so is fast motion; otherwise it may be reversing.
 void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options) {
   const bool backward = std::cos(direction - heading_) < 0.0;
   ahead_ += backward ? -since_velocity_ : since_velocity_;
@@ -264,7 +265,7 @@ void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBox
   sign_known_ = true;
 }
 
-/// Takes another side for the front; nothing of the box moves.
+/// Makes another side the front; the box itself does not move.
 void TrackedBox::turnByQuarters(int quarters) {
   setHeading(normalizeAngle(heading_ + quarters * kQuarterTurn));
   for (int i = 0; i < quarters; ++i) {

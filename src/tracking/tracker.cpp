@@ -14,11 +14,11 @@ namespace datmo {
 
 namespace {
 
-/// A track is published unseen for this share of the time for which it was followed: half as long
-/// as it is kept.
+/// A track is published without detections for this share of the time for which it was followed:
+/// half as long as it is kept.
 constexpr double kPublishedShare = 0.5;
 
-/// s, for which a track coasts however young it is.
+/// s; minimum coasting time of a young track.
 constexpr double kMinCoasting = 0.5;
 
 double positionStd(const Target& target) {
@@ -125,7 +125,7 @@ void Tracker::makeRoom(std::size_t objects, double seconds) {
   }
   std::vector<const Target*> unlikely;
   for (const BestTarget& best : all) {
-    const bool missed = best.target->sinceUpdate() > seconds;  // in the last scan already
+    const bool missed = best.target->sinceUpdate() > seconds;  // even in the last scan
     if (!best.target->confirmed() && missed) {
       unlikely.push_back(best.target);
     }
@@ -165,7 +165,7 @@ bool Tracker::isLost(const Target& target) const {
                              : options_.tentative_silence;
   return (target.confirmed() && existence(target) < options_.min_existence) ||
          target.sinceUpdate() > allowed ||
-         !(positionStd(target) <= options_.max_position_std);  // nor what is not a number
+         !(positionStd(target) <= options_.max_position_std);  // true for NaN
 }
 
 double Tracker::existence(const Target& target) const {
@@ -198,7 +198,7 @@ void Tracker::confirm() {
 
 bool Tracker::isLikelyMoving(const Target& target) const {
   const double required = options_.target.motion_likelihood.required_probability;
-  // What moves exists: of what hardly does no beam has to be asked.
+  // A moving target exists: if existence is unlikely, the beams need not be evaluated.
   return existence(target) >= required &&
          target.motionProbability(scans_, *stamp_, options_.target) >= required;
 }

@@ -8,10 +8,10 @@ namespace datmo {
 
 namespace {
 
-/// Least weight of a row, as a share of its prior's.
+/// Minimum weight of a row, as a share of its prior's.
 constexpr double kMinWeight = 0.1;
 
-/// Of a step so long that a mode is hardly ever kept, no rate can be estimated.
+/// For a step so long that a mode is hardly ever kept, rates cannot be estimated.
 constexpr double kMinKept = 1e-3;
 
 JumpCounts operator+(const JumpCounts& a, const JumpCounts& b) {
@@ -22,7 +22,7 @@ JumpCounts operator-(const JumpCounts& a, const JumpCounts& b) {
   return {a.jumps - b.jumps, a.exposure - b.exposure};
 }
 
-/// Modes not in use have a sojourn time of 0.
+/// Disabled modes have a sojourn time of 0.
 ModeVector sojournTimes(const TransitionOptions& options) {
   ModeVector times;
   times << options.straight_sojourn, options.accelerating_sojourn, options.turn_sojourn,
@@ -30,9 +30,9 @@ ModeVector sojournTimes(const TransitionOptions& options) {
   return times;
 }
 
-/// Puts a row back into its bounds: each jump at its least share, their sum as the bounds of the
-/// sojourn time say. Jumps that the prior does not know stay impossible, and a row of which hardly
-/// any weight is left becomes the prior's.
+/// Clamps a row to its bounds: each jump to its minimum share, their sum to the bounds of the
+/// sojourn time. Jumps that the prior excludes stay impossible, and a row with hardly any weight
+/// left is reset to the prior.
 void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
               const TransitionLearningOptions& options) {
   if (counts.exposure[from] < kMinWeight * prior.exposure[from]) {
@@ -40,7 +40,7 @@ void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
     counts.jumps.row(from) = prior.jumps.row(from);
   }
   const double min = counts.exposure[from] / options.max_sojourn;
-  // Where the bounds contradict each other, max_sojourn holds.
+  // If the bounds contradict each other, max_sojourn takes precedence.
   const double max = std::max(min, counts.exposure[from] / options.min_sojourn);
   const double floor = options.min_share * std::max(counts.jumps.row(from).sum(), min);
   for (int to = 0; to < kMotionModes; ++to) {
@@ -53,7 +53,7 @@ void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
   }
 }
 
-/// The counts with no row of more than this exposure (s).
+/// The counts with the exposure of each row limited to this (s).
 JumpCounts limited(JumpCounts counts, double max_exposure) {
   const ModeVector factor = (max_exposure / counts.exposure.array()).min(1.0);
   return {factor.asDiagonal() * counts.jumps, factor.cwiseProduct(counts.exposure)};
@@ -162,7 +162,7 @@ void TransitionModel::setPrior(const JumpCounts& prior) {
 }
 
 const ModeMatrix& TransitionModel::predict(double seconds) {
-  if (!learns_) {  // the prior alone, and most sensors keep their period
+  if (!learns_) {  // only the prior, and most sensors have a constant period
     matrix_ = seconds == seconds_ ? matrix_ : transitionMatrix(prior_, seconds);
     seconds_ = seconds;
     return matrix_;
@@ -188,7 +188,7 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
                          likelihoods.cwiseProduct(ModeVector::Ones() - stop_shares));
   const double evidence = joint.sum();
   if (!(evidence > 0.0)) {
-    return;  // less than a double resolves
+    return;  // below double precision
   }
   JumpCounts all = counts();
   for (int from = 0; from < kMotionModes; ++from) {
@@ -198,7 +198,7 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
   learns_ = true;
 }
 
-/// `joint`: probabilities that the mode was `from` and is each one now.
+/// `joint`: probabilities that the mode was `from` and is each of the modes now.
 void TransitionModel::updateRow(JumpCounts& counts, int from, const ModeVector& joint) const {
   const ModeVector mean = matrix_.row(from).transpose();
   if (mean[from] < kMinKept || mean[from] >= 1.0) {

@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// Nothing that a sensor detects is narrower (m): a leg, a post.
+/// m; width of the narrowest objects that sensors detect: a leg, a post.
 constexpr double kMinWidth = 0.1;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace datmo {
 
 namespace {
 
-/// Tolerance of an end point's bearing: noise, the body's pitch and roll, the pose, rad.
+/// rad; tolerance of an end point's bearing: noise, pitch and roll of the body, pose error.
 constexpr double kBearingTolerance = 0.005;
 
 }  // namespace
@@ -78,7 +78,7 @@ const ScanHistory::Beam* ScanHistory::beamToward(const Scan& scan, const Point2&
   const BeamFan fan(field.first_bearing, field.beam_spacing);
   const double position = fan.positionAt(std::atan2(seen.y(), seen.x()));
   const auto nearest = fan.nearest(position, scan.beams.size());
-  // In this form NaN, of a point at infinity, is excluded.
+  // Written so that NaN, from a point at infinity, is excluded.
   if (!nearest ||
       !(std::abs(static_cast<double>(*nearest) - position) <= 0.5 * options_.lit_share)) {
     return nullptr;
@@ -122,7 +122,7 @@ BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location
   if (crossing <= 0.0) {
     return {};  // the beam beside the point diverges from the line
   }
-  // Flat beams meet the line elsewhere for a small error of their bearing.
+  // At grazing incidence a small bearing error moves the intersection far.
   const double tolerance = options_.tolerance + kBearingTolerance * crossing / std::abs(incidence);
   const bool ends = beam->hit && std::abs(beam->reach - crossing) <= tolerance;
   if (!ends && beam->reach <= crossing + tolerance) {

@@ -15,18 +15,18 @@ namespace datmo {
 namespace {
 
 /// How far from an object's near side static points may end, in standard deviations of its
-/// position: few, since what stands beside it must not freeze it.
+/// position: few, because static neighbors must not make it static.
 constexpr double kStaticReach = 1.0;
 
-/// How far behind an object a beam must end that passed through it, in standard deviations of its
-/// position.
+/// How far behind an object a beam must end to have passed through it, in standard deviations of
+/// its position.
 constexpr double kThroughReach = 2.0;
 
-/// How far behind its near side a beam may meet a body: it has no straight sides, m.
+/// m; how far behind its near side a beam may hit an object: its sides are not straight.
 constexpr double kBodyDepth = 0.5;
 
-/// m^2, of the position of an object along this direction (unit vector in its own frame): of the
-/// whole and of the sides that are seen from there.
+/// Variance of an object's position along this direction (unit vector in its own frame), m^2,
+/// including the sides seen from there.
 double varianceAlong(const Object& object, const Point2& direction) {
   const Point2 in_base = object.box.center.rotate(direction);
   const auto side = [&](BoxSide one) {
@@ -39,7 +39,7 @@ double varianceAlong(const Object& object, const Point2& direction) {
          direction.cwiseAbs2().dot(Point2(x, y));
 }
 
-/// Whether a point (box's frame, m) lies on the object, as far as its position is known.
+/// Whether a point (box's frame, m) lies on the object, given the uncertainty of its position.
 bool isAbout(const Point2& point, const Object& object, const BoxSilhouette& silhouette,
              const ScanSupportOptions& options) {
   Point2 excess = (point.cwiseAbs() - silhouette.half()).cwiseMax(0.0);
@@ -57,7 +57,7 @@ bool isAbout(const Point2& point, const Object& object, const BoxSilhouette& sil
   return distance <= std::min(kStaticReach * sigma, options.max_static_reach);
 }
 
-/// Whether a beam goes on beyond all of the object; `direction`: unit vector in the box's frame.
+/// Whether a beam continues beyond all of the object; `direction`: unit vector in the box's frame.
 bool passesThrough(double range, const Point2& direction, double motion_std, const Object& object,
                    const BoxSilhouette& silhouette) {
   const LineCrossing through = silhouette.crossing(direction);
@@ -84,7 +84,7 @@ ScanSupport::ScanSupport(const LabeledScan& scan, const Checked<ScanSupportOptio
       field_(scan.field),
       fan_(field_.first_bearing, field_.beam_spacing) {
   if (2.0 * kPi > kMaxBeams * std::abs(field_.beam_spacing)) {
-    return;  // finer than any scanner: what looks at an object could not be counted in time
+    return;  // finer than any scanner: counting the beams toward an object would take too long
   }
   beams_.assign(field_.beams, {End::kNothing, field_.free_range});
   for (const std::uint32_t beam : scan.blind_beams) {
@@ -115,8 +115,8 @@ PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) 
   const double spacing = std::abs(field_.beam_spacing);
   const double width = silhouette.width();
   result.beams = width / spacing;
-  // What is narrower than the distance between beams is met by the nearest one, if by any; what
-  // lies beside it may still be a part of it, as far as its position is not known.
+  // An object narrower than the beam spacing is hit by the nearest beam, if by any; a neighboring
+  // point may still be part of it, given the uncertainty of its position.
   const double narrow = std::max(0.0, 0.5 * (spacing - width));
   const double aside =
       std::max(narrow, std::atan2(options_.max_static_reach, silhouette.distance()));

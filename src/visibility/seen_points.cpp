@@ -8,14 +8,14 @@ namespace datmo {
 
 namespace {
 
-/// Scans and points of a scan that are kept: more of them look at the same positions again.
+/// Maximum number of scans, and of points per scan: more would look at the same positions again.
 constexpr std::size_t kMaxScans = 6;
 constexpr std::size_t kMaxPoints = 6;
 
-/// m; nearer points say nothing of the direction between them.
+/// m; closer points do not define the direction between them.
 constexpr double kMinBaseline = 0.05;
 
-/// From a point's neighbor to the other one, of length 1; zero: not known.
+/// Unit vector from a point's one neighbor to the other; zero: unknown.
 Point2 directionAt(const std::vector<Point2>& points, std::size_t index) {
   const Point2& before = points[index > 0 ? index - 1 : 0];
   const Point2& after = points[std::min(index + 1, points.size() - 1)];
@@ -48,7 +48,7 @@ void SeenPointHistory::add(const Object& object, double scan_time, double memory
   }
 }
 
-/// Removes the one without which the smallest gap is left; the first and the last stay.
+/// Removes the scan whose removal leaves the smallest gap; the first and the last stay.
 void SeenPointHistory::thinOut() {
   std::size_t crowded = 1;
   double min_gap = std::numeric_limits<double>::infinity();

@@ -13,10 +13,10 @@ namespace datmo {
 
 namespace {
 
-/// Between beams of a fan that stands for a field of view: a pedestrian at 60 m takes two of them.
+/// Beam spacing of a fan that represents a field of view: a pedestrian at 60 m covers two beams.
 constexpr double kFanSpacing = degrees(0.25);
 
-/// More beams than this add nothing to the chance that one returns.
+/// More beams than this do not increase the probability that one returns.
 constexpr double kManyBeams = 50.0;
 
 }  // namespace
@@ -28,8 +28,8 @@ class Visibility::Outline : public BoxSilhouette {
       : BoxSilhouette(box, sensor.position()),
         to_sensor_(box.center.heading() - sensor.heading()) {}
 
-  /// Calls `use(bearing, crossing)` for the lines through the middles of so many equal parts of the
-  /// width; bearing in rad, about the sensor.
+  /// Calls `use(bearing, crossing)` for the lines through the centers of this many equal parts of
+  /// the width; bearing in rad, about the sensor.
   template <typename Use>
   void forEachLook(std::size_t parts, const Use& use) const;
 
@@ -115,7 +115,7 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
     const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
     outline.forEachLook(parts, [this](double bearing, const LineCrossing& crossing) {
       if (const auto beam = beams_.indexAt(bearing, fan_.reach.size())) {
-        // What was seen does not hide itself.
+        // An object does not occlude itself.
         fan_.reach[*beam] = std::min(fan_.reach[*beam], crossing.exit);
       }
     });
@@ -179,7 +179,7 @@ double Visibility::strengthAt(double range) const {
 }
 
 double Visibility::anyReturns(double beams, double chance) {
-  // A width of 2.3 beams is met by two of them, and by a third one three times in ten.
+  // A width of 2.3 beams is hit by two of them, and by a third one with a probability of 0.3.
   const double whole = std::floor(std::min(beams, kManyBeams));
   const double rest = std::min(beams, kManyBeams) - whole;
   return 1.0 - std::pow(1.0 - chance, whole) * (1.0 - rest * chance);
@@ -214,7 +214,7 @@ double Visibility::ownDetectionProbability(const Box2& box, double sigma) const 
   };
   double mean = seenAt({});
   if (sigma > 0.0) {
-    // Cubature of third order with a point in the middle (Julier & Uhlmann 2004, kappa = 1).
+    // Third-order cubature with a center point (Julier & Uhlmann 2004, kappa = 1).
     const double step = std::sqrt(3.0) * sigma;
     const double turn = step / outline.distance();
     mean = mean / 3.0 + (seenAt({turn, 0.0}) + seenAt({-turn, 0.0}) + seenAt({0.0, step}) +

@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// Length of the box's shadow on a line of this direction (a unit vector), m.
+/// Returns the length of the box's projection onto a line of this direction (a unit vector), m.
 double extentAlong(const Box2& box, const Point2& direction);
 
 }  // namespace datmo

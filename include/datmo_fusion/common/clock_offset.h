@@ -10,15 +10,15 @@
 
 namespace datmo {
 
-/// A question to another machine and its answer. All of its times are of clocks of machines.
+/// A request to another machine and its reply, timed by the clocks of both machines.
 struct ClockExchange {
-  Stamp asked;     ///< when the question was sent, on our clock
-  Stamp answered;  ///< when it was answered, on the other one
-  Stamp received;  ///< when the answer had come, on ours
+  Stamp asked;     ///< when the request was sent, on our clock
+  Stamp answered;  ///< when the reply was sent, on the other clock
+  Stamp received;  ///< when the reply arrived, on our clock
 };
 
-/// By how much another machine's clock is ahead of ours, s: within `ahead` +- `uncertainty`, as
-/// long as the clocks do not drift apart faster than said.
+/// How far another machine's clock is ahead of ours, s: within `ahead` +- `uncertainty`, as long as
+/// the clocks drift apart no faster than ClockOffsetOptions::max_drift.
 struct ClockOffset {
   double ahead = 0.0;
   double uncertainty = 0.0;
@@ -31,26 +31,26 @@ struct ClockOffsetOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The offset of another machine's clock by questions and answers, whose delays are not known and
-/// need not be equal. The answer was given between question and receipt, so each exchange bounds
-/// the offset from both sides, and all of the last time together bound it more closely than any of
-/// them (Marzullo, Owicki, Maintaining the time in a distributed system, 1983): the fastest
-/// question bounds it from above, the fastest answer from below. Bounds widen as they get older.
+/// Estimates the offset of another machine's clock from requests and replies whose delays are
+/// unknown and need not be symmetric. The reply was sent between request and receipt, so each
+/// exchange bounds the offset from both sides, and the intersection over a recent window is tighter
+/// than any single one (Marzullo, Owicki, Maintaining the time in a distributed system, 1983): the
+/// fastest request gives the upper bound, the fastest reply the lower. Bounds widen with age.
 ///
-/// Exchanges that contradict each other tell of a clock that was set: the last one holds.
+/// Exchanges that contradict each other mean that a clock was set: only the latest one is kept.
 class ClockOffsetEstimator {
  public:
   /// Throws OptionError.
   explicit ClockOffsetEstimator(const Checked<ClockOffsetOptions>& options) : options_(*options) {}
 
-  /// In the order of receipt. One whose answer came before its question (our clock was set) is left
-  /// out.
+  /// Adds an exchange, in the order of receipt. One whose reply was received before its request was
+  /// sent (our clock was set) is ignored.
   void add(const ClockExchange& exchange);
 
-  /// At a time of our clock; none before the first exchange.
+  /// Returns the offset at a time of our clock; none before the first exchange.
   std::optional<ClockOffset> at(Stamp now) const;
 
-  /// How often a clock was set.
+  /// Returns how often a clock was set.
   std::uint64_t steps() const { return steps_; }
 
  private:
@@ -59,11 +59,11 @@ class ClockOffsetEstimator {
     double upper = 0.0;
   };
 
-  /// What all exchanges say; none: they contradict each other.
+  /// Intersection of the bounds of all exchanges; none if they contradict each other.
   std::optional<Interval> intersection(Stamp now) const;
 
   ClockOffsetOptions options_;
-  std::deque<ClockExchange> exchanges_;  ///< of the window; the newest one is always there
+  std::deque<ClockExchange> exchanges_;  ///< within the window; never without the newest one
   std::uint64_t steps_ = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace datmo {
 
-/// Owns an object of a derived class, and is copied with it: `Base::clone()` gives the copy. Never
-/// null, but after it was moved from.
+/// Owns an object of a derived class and copies it by `Base::clone()` when copied. Null only after
+/// it was moved from.
 template <typename Base>
 class CopiedPtr {
  public:

@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// The z component of the cross product: positive if b points to the left of a.
+/// Returns the z component of the cross product: positive if b points to the left of a.
 inline double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace datmo

@@ -11,8 +11,8 @@ struct FieldOfView {
   Pose2 sensor_in_base;
   double min_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
   double max_bearing = kPi;   ///< rad, greater than min_bearing, by at most 2 pi
-  double sure_range = 0.0;    ///< m, up to here it finds all that it can see
-  double range = 0.0;         ///< m, from there on less and less of it, up to here
+  double sure_range = 0.0;    ///< m, full detection probability up to here
+  double range = 0.0;         ///< m, detection probability falls to 0 from sure_range to here
 };
 
 }  // namespace datmo

@@ -8,13 +8,13 @@
 
 namespace datmo {
 
-/// An option that may be changed while its stage runs, as a user interface shows it.
+/// An option that may be changed while its stage runs, as shown in a user interface.
 struct LiveOption {
-  std::string key;  ///< complete
+  std::string key;  ///< full key
   std::string description;
-  OptionValue value;                 ///< the present one; it says the type
-  Bounds bounds;                     ///< of numbers
-  std::vector<std::string> choices;  ///< of text; empty: any
+  OptionValue value;                 ///< current value; also defines the type
+  Bounds bounds;                     ///< of a number
+  std::vector<std::string> choices;  ///< for text; empty: any
 };
 
 namespace detail {
@@ -23,15 +23,15 @@ std::vector<LiveOption> liveOptionsOf(const OptionWalk& visit);
 void setLive(const OptionValues& values, const OptionWalk& visit);
 }  // namespace detail
 
-/// The options of Tier::kLive, with their present values.
+/// Returns the options of Tier::kLive with their current values.
 template <typename Options>
 std::vector<LiveOption> liveOptions(const Options& options) {
   Options copy = options;
   return detail::liveOptionsOf([&copy](OptionVisitor& visitor) { copy.visit(visitor); });
 }
 
-/// The options with some of the live ones changed. Throws OptionError for a key that is not live,
-/// and for a value that readOptions refuses.
+/// Returns the options with some of the live ones changed. Throws OptionError for a key that is not
+/// live, and for a value that readOptions rejects.
 template <typename Options>
 Options withLiveValues(Options options, const OptionValues& values) {
   detail::setLive(values, [&options](OptionVisitor& visitor) { options.visit(visitor); });

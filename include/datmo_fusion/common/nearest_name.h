@@ -6,8 +6,8 @@
 
 namespace datmo {
 
-/// The one of `names` that `name` was probably meant to be: with the fewest letters to change,
-/// leave out or put in (Levenshtein 1966), the first by alphabet among equals. `names` must not be
+/// Returns the one of `names` that `name` was probably meant to be: the one at the smallest edit
+/// distance (Levenshtein 1966), the first in alphabetical order on a tie. `names` must not be
 /// empty.
 std::string nearestName(const std::string& name, const std::set<std::string>& names);
 

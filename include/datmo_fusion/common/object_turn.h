@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// Takes another side for the front, a quarter turn to the left: nothing moves.
+/// Makes the left side of the box its front (a quarter turn); the object does not move.
 void turnByQuarter(Object& object);
 
 }  // namespace datmo

@@ -12,7 +12,7 @@ namespace detail {
 std::vector<std::string> keysOf(const OptionWalk& visit);
 }  // namespace detail
 
-/// The full keys of all options, in the order in which they are declared.
+/// Returns the full keys of all options, in the order of declaration.
 template <typename Options>
 std::vector<std::string> optionKeys() {
   Options defaults;

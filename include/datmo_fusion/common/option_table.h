@@ -10,7 +10,7 @@
 namespace datmo {
 
 namespace detail {
-/// The options of one tier, or all, but for those with these keys; empty if there are none.
+/// Options of one tier, or all, except those with these keys; empty if there are none.
 std::string tableOf(const OptionWalk& visit, std::optional<bool> is_public,
                     const std::set<std::string>& left_out);
 
@@ -22,20 +22,20 @@ std::string tableOf(std::optional<bool> is_public, const std::set<std::string>& 
 }
 }  // namespace detail
 
-/// All options of a stage as a Markdown table: key, unit, default, range, description, and whether
-/// it may be changed live. Empty if there are none.
+/// Returns all options of a stage as a Markdown table: key, unit, default, range, description, and
+/// whether it can be changed live. Empty if there are none.
 template <typename Options>
 std::string optionTable() {
   return detail::tableOf<Options>(std::nullopt, {});
 }
 
-/// Those that a user with another sensor, vehicle or city turns, but for some keys.
+/// Returns the options that users of another sensor, vehicle or city adjust, except `left_out`.
 template <typename Options>
 std::string publicOptionTable(const std::set<std::string>& left_out = {}) {
   return detail::tableOf<Options>(true, left_out);
 }
 
-/// All others, but for some keys.
+/// Returns all other options, except `left_out`.
 template <typename Options>
 std::string expertOptionTable(const std::set<std::string>& left_out = {}) {
   return detail::tableOf<Options>(false, left_out);

@@ -12,14 +12,14 @@
 
 namespace datmo {
 
-/// Who sets an option.
+/// Who is expected to set an option.
 enum class Tier {
-  kExpert,  ///< part of the method: who knows it, its tests, the thesis's preset
-  kPublic,  ///< who has another sensor, vehicle or city
-  kLive     ///< the same, also while the stage runs
+  kExpert,  ///< part of the method: set by experts, tests and the thesis preset
+  kPublic,  ///< users with another sensor, vehicle or city
+  kLive     ///< as kPublic, also while the stage runs
 };
 
-/// What a person who sets an option must know about it; stands once, where the option is declared.
+/// What a user must know about an option; written once, where the option is declared.
 struct OptionInfo {
   std::string name;         ///< key in the yaml file
   std::string unit;         ///< "m", "s", "1" for a pure number, "" for text and switches
@@ -27,32 +27,32 @@ struct OptionInfo {
   Tier tier = Tier::kExpert;
 };
 
-/// Closed interval of the values that an option may take.
+/// Closed interval of the values that an option can take.
 struct Bounds {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// An option that has no valid value: the message names it, its value and what was expected.
+/// An option without a valid value; the message gives its name, its value and what was expected.
 class OptionError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// The values of an option that is one of several, by their names in the yaml file.
+/// The values of an enumerated option, by their names in the yaml file.
 template <typename Enum>
 using Choices = std::vector<std::pair<std::string, Enum>>;
 
-/// Walks over the options of a stage. Each `Options` struct of the core declares its members to a
-/// visitor in one function, `void visit(OptionVisitor&)`; reading, checking and documenting them
-/// are visitors, so that nothing is said twice.
+/// Visits the options of a stage. Each `Options` struct of the core declares its members in one
+/// function, `void visit(OptionVisitor&)`; reading, checking and documenting options are visitors,
+/// so that each option is declared only once.
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
 
   virtual void number(const OptionInfo& info, double& value, const Bounds& bounds) = 0;
   virtual void integer(const OptionInfo& info, int& value, const Bounds& bounds) = 0;
-  /// Any number of them, each within the bounds.
+  /// A list of any length, each number within the bounds.
   virtual void numbers(const OptionInfo& info, std::vector<double>& values,
                        const Bounds& bounds) = 0;
   virtual void toggle(const OptionInfo& info, bool& value) = 0;
@@ -60,7 +60,7 @@ class OptionVisitor {
   virtual void text(const OptionInfo& info, std::string& value,
                     const std::vector<std::string>& allowed) = 0;
 
-  /// One of several. Throws OptionError for a name or a value that is none of them.
+  /// One of several values. Throws OptionError for a name or a value that is not among them.
   template <typename Enum>
   void choice(const OptionInfo& info, Enum& value, const Choices<Enum>& choices) {
     std::vector<std::string> names;
@@ -76,12 +76,12 @@ class OptionVisitor {
     }
   }
 
-  /// Options that stand under a common key: `name/…`. None of them is of a higher tier than `max`.
+  /// Options under a common key: `name/…`. None of them has a higher tier than `max`.
   void group(const std::string& name, const std::function<void()>& visit_members,
              Tier max = Tier::kLive);
 
   /// The same options for each of several entries, under the name of each: `name/lidar/…`,
-  /// `name/stereo/…`. A name that is set but was not there is one more entry, with the defaults of
+  /// `name/stereo/…`. A name that is set but has no entry yet adds one, with the defaults of
   /// `Options`.
   template <typename Options>
   void each(const OptionInfo& info, std::map<std::string, Options>& entries) {
@@ -96,20 +96,20 @@ class OptionVisitor {
   }
 
  protected:
-  /// The names that somebody has set directly under the groups around.
+  /// Returns the names that are set directly under the current groups.
   virtual std::vector<std::string> namesSet() const { return {}; }
 
-  /// The key of the groups around, with a slash at its end; empty outside of all.
+  /// Returns the key of the current groups, with a slash at its end; empty outside of all groups.
   std::string prefix() const;
 
-  /// The full key of an option: the names of the groups around it, and its own.
+  /// Returns the full key of an option: the names of the current groups, and its own.
   std::string key(const OptionInfo& info) const;
 
-  /// Throws OptionError for a text that is none of the allowed ones; if there are none, any is.
+  /// Throws OptionError for a text that is not allowed; if `allowed` is empty, any text is.
   void refuseUnlessAllowed(const OptionInfo& info, const std::string& value,
                            const std::vector<std::string>& allowed) const;
 
-  /// The tier of an option within the groups around it.
+  /// Returns the tier of an option within the current groups.
   Tier tier(const OptionInfo& info) const;
 
  private:
@@ -121,17 +121,17 @@ class OptionVisitor {
   std::vector<Group> groups_;
 };
 
-/// What somebody has set, by full key (`map/cell_size`), wherever it was read from.
+/// The values that were set, by full key (`map/cell_size`), from any origin.
 using OptionValue = std::variant<bool, int, double, std::string, std::vector<double>>;
 using OptionValues = std::map<std::string, OptionValue>;
 
-/// As in a yaml file; text in quotes, numbers in brackets.
+/// Returns the value as in a yaml file: text in quotes, numbers in brackets.
 std::string toText(const OptionValue& value);
 
 namespace detail {
 using OptionWalk = std::function<void(OptionVisitor&)>;
 void checkAll(const OptionWalk& visit);
-/// Calls `Options::check() const`, where there is one: what options have to do with each other.
+/// Calls `Options::check() const`, if it exists, which checks options against each other.
 template <typename Options>
 auto checkTogether(const Options& options, int /*preferred*/) -> decltype(options.check()) {
   options.check();
@@ -142,7 +142,7 @@ void readAll(const OptionValues& values, const OptionWalk& visit);
 }  // namespace detail
 
 /// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed,
-/// and as `Options::check() const`, where there is one, does for options that contradict each
+/// and whatever `Options::check() const`, if it exists, throws for options that contradict each
 /// other.
 template <typename Options>
 void checkOptions(const Options& options) {
@@ -151,14 +151,14 @@ void checkOptions(const Options& options) {
   detail::checkTogether(options, 0);
 }
 
-/// Options that are valid: there are none but by their check, so who is given them need not check.
+/// Valid options: they are checked on construction, so functions that take them need not check.
 template <typename Options>
 class Checked {
  public:
   /// The defaults.
   Checked() : Checked(Options()) {}
 
-  /// Throws OptionError as checkOptions does. Implicit: options are passed as they are.
+  /// Throws OptionError as checkOptions does. Implicit, so that plain options can be passed.
   Checked(Options options) : options_(std::move(options)) { checkOptions(options_); }
 
   const Options& operator*() const { return options_; }
@@ -168,11 +168,11 @@ class Checked {
   Options options_;
 };
 
-/// The defaults of the options, overridden by `values`, checked. A whole number serves where a
-/// number is wanted.
+/// Returns the defaults of the options, overridden by `values` and checked. An integer is accepted
+/// for a floating-point option.
 ///
-/// Throws OptionError for a value of the wrong type, one that checkOptions refuses, and a key that
-/// no option has (a misspelled one): the message names the nearest key there is.
+/// Throws OptionError for a value of the wrong type, a value that checkOptions rejects, and an
+/// unknown key (a misspelled one): the message suggests the nearest known key.
 template <typename Options>
 Options readOptions(const OptionValues& values) {
   Options options;

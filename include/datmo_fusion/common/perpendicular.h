@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// A vector turned to the left by a right angle; of a rotated vector the derivative by the angle.
+/// Returns the vector turned left by 90 degrees: the derivative of a rotated vector by angle.
 inline Point2 perpendicular(const Point2& vector) { return {-vector.y(), vector.x()}; }
 
 }  // namespace datmo

@@ -11,8 +11,8 @@ namespace datmo {
 
 using Point2 = Eigen::Vector2d;
 
-/// A rigid motion of the plane, and so the pose of a frame in another one: x and y in m, heading in
-/// rad in (-pi, pi], from the x axis to the left (REP 103).
+/// A rigid motion in the plane, and thus the pose of one frame in another: x and y in m, heading in
+/// rad in (-pi, pi], counterclockwise from the x axis (REP 103).
 ///
 /// Named by role and direction: `base_in_map` takes points of the base frame to the map frame, and
 /// `sensor_in_map = base_in_map * sensor_in_base`.
@@ -28,7 +28,7 @@ class Pose2 {
   double heading() const { return heading_; }
   const Point2& position() const { return position_; }
 
-  /// The vector, turned by the heading but not moved.
+  /// Returns the vector rotated by the heading, without the translation.
   Point2 rotate(const Point2& vector) const {
     const double c = std::cos(heading_);
     const double s = std::sin(heading_);
@@ -48,10 +48,10 @@ class Pose2 {
     return {turned_back.rotate(-position_), -heading_};
   }
 
-  /// This frame's point in the parent frame.
+  /// Transforms a point of this frame to the parent frame.
   Point2 operator*(const Point2& point) const { return position_ + rotate(point); }
 
-  /// This motion after the other one: the other pose, seen from the parent frame.
+  /// Composes two poses: returns the other pose in the parent frame.
   Pose2 operator*(const Pose2& other) const {
     return {*this * other.position_, heading_ + other.heading_};
   }
@@ -61,7 +61,7 @@ class Pose2 {
   double heading_ = 0.0;
 };
 
-/// A pose and its covariance over x (m), y (m), heading (rad), all in the parent frame's axes.
+/// A pose and its covariance over x (m), y (m), heading (rad), all along the parent frame's axes.
 struct PoseWithCovariance {
   Pose2 pose;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

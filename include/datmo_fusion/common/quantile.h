@@ -8,8 +8,8 @@
 
 namespace datmo {
 
-/// The least of the values that at least `share` (0 to 1) of them do not exceed (nearest rank); 0
-/// for no values.
+/// Returns the smallest value that at least `share` (0 to 1) of the values do not exceed (nearest
+/// rank); 0 if there are no values.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) {
     return 0.0;

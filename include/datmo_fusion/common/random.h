@@ -11,15 +11,15 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// Normal with mean 0 and this standard deviation (at least 0).
+  /// Returns a normal deviate with mean 0 and this standard deviation (at least 0).
   double normal(double sigma) { return sigma * standard_normal_(engine_); }
 
-  /// Uniform in [low, high).
+  /// Returns a uniform deviate in [low, high).
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
 
-  /// True with this probability (0 to 1).
+  /// Returns true with this probability (0 to 1).
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// Covariance of a position measured by range and bearing (thesis 3.3.3), in the frame
+/// Returns the covariance of a position measured by range and bearing (thesis 3.3.3), in the frame
 /// of `from_sensor`.
 ///
 /// @param from_sensor m, from the sensor to the position

@@ -7,8 +7,9 @@
 
 namespace datmo {
 
-/// The present key of an option that was renamed, among `keys`; none if `key` is not the former key
-/// of any of them. Keys are complete (`segmentation/longest_gap`); groups were renamed, too.
+/// Returns the current key, among `keys`, of an option that was renamed; none if `key` is not a
+/// former key of any of them. Keys are full ones (`segmentation/longest_gap`); groups were renamed,
+/// too.
 std::optional<std::string> renamedOption(const std::string& key, const std::set<std::string>& keys);
 
 }  // namespace datmo

@@ -10,113 +10,113 @@
 
 namespace datmo {
 
-/// Finds out that a sensor's clock was set while it measured on, and by how much.
+/// Detects that a sensor's clock was set while the sensor was running, and by how much.
 ///
-/// A message is stamped with the time of its measurement by that clock, and arrives by another one
-/// after a delay that is never negative, so that the smallest delay of several messages hardly
-/// changes (Moon, Skelly, Towsley, Estimation and removal of clock skew from network delay
-/// measurements, 1999). A clock that is set leaves two traces, of the same size: stamps step away
-/// from the sensor's period, and the smallest delay moves the other way. A network that becomes
-/// slower or faster leaves the second alone, a lost message the first alone, and a pause of the
-/// sensor moves stamps and arrivals together.
+/// A message is stamped by the sensor's clock at measurement time, and arrives, by another clock,
+/// after a delay that is never negative, so the minimum delay over several messages hardly changes
+/// (Moon, Skelly, Towsley, Estimation and removal of clock skew from network delay measurements,
+/// 1999). A clock that is set leaves two traces of the same size: stamps step away from the
+/// sensor's period, and the minimum delay moves the opposite way. A network that becomes slower or
+/// faster changes only the delay, a lost message only the stamps, and a pause of the sensor shifts
+/// stamps and arrivals together.
 ///
-/// Where the message comes a period after one that was in time, this is certain at once, else with
-/// the delays of the next kRemembered messages.
+/// If a message arrives one period after one that was on time, a step is certain at once, otherwise
+/// after the delays of the next kRemembered messages.
 ///
-/// Which of the two clocks is wrong is certain where messages come before the stamps of one of them
-/// and not before the other's. Else it may be either: a smaller delay is no proof, as a scan that
-/// is stamped with its first beam comes a turn later. Then the clock of before is taken for the
-/// right one for kMaxDoubt, and after that the new one: a wrong clock that is watched is set back
-/// by then.
+/// Which of the two clocks is wrong is certain if messages arrive before the stamps of only one of
+/// them. Otherwise it may be either: a smaller delay is no proof, because a scan that is stamped
+/// with its first beam arrives one revolution later. Then the old clock is trusted for kMaxDoubt,
+/// and after that the new one: a monitored clock that is wrong has been set back by then.
 ///
-/// Nothing is found of a sensor that keeps to no period, and from kMaxStep on a step is left to
-/// StampGate: a message that is off by so much tells nothing, and where the next ones are as well,
-/// clocks are compared anew. Of an offset that was there from the start nothing is known, unless
-/// messages come before their stamps. Not thread safe.
+/// Nothing is detected for a sensor without a regular period. Steps of kMaxStep and more are left
+/// to StampGate: a single message that far off carries no information, and if the next ones are
+/// as well, the comparison starts over. An offset that was there from the start is not detected,
+/// unless messages arrive before their stamps. Not thread-safe.
 class SensorClock {
  public:
-  /// s; smaller steps cannot be told from the jitter of drivers and networks, and are a cell or two
-  /// of the map at 15 m/s.
+  /// s; smaller steps cannot be told from the jitter of drivers and networks, and amount to a cell
+  /// or two of the map at 15 m/s.
   static constexpr double kMinStep = 0.03;
   static constexpr double kMaxStep = 1.0;
 
-  /// s; a synchronized clock is looked at as often (minpoll of chrony and ntpd: 2^6 s).
+  /// s; as often as a synchronized clock is checked (minpoll of chrony and ntpd: 2^6 s).
   static constexpr double kMaxDoubt = 64.0;
 
-  /// Messages that tell the period, and how small the delay is: two seconds of a scanner, less of
-  /// odometry.
+  /// Messages from which the period and the minimum delay are taken: two seconds of a scanner, less
+  /// of odometry.
   static constexpr std::size_t kRemembered = 20;
 
-  /// The next message, in the order of arrival. Returns by how much (s) its stamp is ahead of the
-  /// clock that is taken for the right one; negative: behind.
+  /// Adds the next message, in the order of arrival. Returns how far (s) its stamp is ahead of the
+  /// clock that is trusted; negative: behind.
   double add(Stamp stamp, Stamp arrival);
 
-  /// Of the newest message; 0 where nothing is wrong.
+  /// Returns the same for the newest message; 0 if nothing is wrong.
   double ahead() const { return ahead_; }
 
-  /// s; all of the last kRemembered messages came before their stamps by this or more: the clock is
-  /// ahead, or that of the arrivals is behind. 0 where they did not, and from kMaxStep on, where
-  /// these clocks have nothing to do with each other.
+  /// Returns the least time (s) by which the last kRemembered messages arrived before their stamps:
+  /// the clock is ahead, or that of the arrivals is behind. 0 if not all of them did, and from
+  /// kMaxStep on, where the two clocks are unrelated.
   double lead() const;
 
-  /// How often the clock was set, back to what it was included.
+  /// Returns how often the clock was set, including back to its former time.
   std::uint64_t steps() const { return steps_; }
 
-  /// How often a clock that was set was then taken for the right one.
+  /// Returns how often a clock that was set became the trusted one.
   std::uint64_t taken() const { return taken_; }
 
  private:
   struct Message {
     Stamp stamp;
     Stamp arrival;
-    double delay() const { return secondsBetween(stamp, arrival); }  ///< s, by the clock as it is
+    double delay() const { return secondsBetween(stamp, arrival); }  ///< s, by the clock's own time
   };
 
-  /// Whether stamps and arrivals both began again: a looped bag.
+  /// Whether stamps and arrivals both started over: a looped bag.
   bool beginsAgain(const Message& message) const;
 
-  /// Whether a message that is off by kMaxStep or more is not the only one: the second one of other
-  /// stamps, or of those that are late, which may wait in a queue, the first after kMaxDoubt.
+  /// Whether a message that is off by kMaxStep or more is confirmed by a second one that is off by
+  /// about as much; late ones, which may have waited in a queue, only after kMaxDoubt.
   bool goesOnFromJump(const Message& message);
 
   void follow(const Message& message);
 
-  /// The sensor's, s; none unless the last messages kept to it, and most of those before to theirs.
+  /// The sensor's period, s; none unless the last messages kept to it, and most earlier ones to
+  /// theirs.
   std::optional<double> period();
 
-  /// Whether a message came a period (s) after the last one, and that was in time by a clock that
-  /// goes at the same rate.
+  /// Whether a message arrived one period (s) after the last one, which was on time by a clock that
+  /// runs at the same rate.
   bool cameInTime(const Message& message, double period) const;
 
-  /// Takes the time between two messages as one of the sensor's, or as a step of its clock.
+  /// Decides whether the time between two messages is the sensor's, or a step of its clock.
   void judge(const Message& message);
-  /// Whether the message before was the first one of a clock that was set back, as this one, a
-  /// period after it, says: then the clock is set.
+  /// Sets the clock if this message, one period after the previous one, confirms that the previous
+  /// one was the first of a clock that was set back.
   void confirm(const Message& message, const std::optional<double>& period);
-  /// Decides by the smallest of the last delays what the clock is.
+  /// Decides by the minimum of the last delays what the clock is.
   void decide();
-  /// Whether the clock that was set is the right one, as far as can be told.
+  /// Whether the clock that was set is the right one, as far as can be determined.
   bool isRight() const;
   void set(double ahead);
   void takeAsRight();
   void restart(const Message& message);
 
   std::optional<Message> last_;
-  std::optional<Message> jumped_;  ///< the first of those since that are off by kMaxStep or more
-  std::deque<double> intervals_;   ///< s, between the last stamps
-  std::deque<double> recent_;      ///< s, the last delays, by the right clock
-  std::deque<double> delays_;      ///< s, since the last step that may have been one of the clock
-  double min_delay_ = 0.0;       ///< s, of the right clock, as far as clocks may have drifted since
-  double ahead_ = 0.0;           ///< s
-  Stamp set_;                    ///< the arrival before the last step
-  std::optional<double> other_;  ///< s, what it may be as well, until that is decided
-  std::optional<double> set_back_;  ///< s, what it is if the last message is no repeated one
+  std::optional<Message> jumped_;   ///< the first since `last_` that is off by kMaxStep or more
+  std::deque<double> intervals_;    ///< s, between the last stamps
+  std::deque<double> recent_;       ///< s, the last delays, by the trusted clock
+  std::deque<double> delays_;       ///< s, since the last possible step of the clock
+  double min_delay_ = 0.0;          ///< s, of the trusted clock, allowing for clock drift since
+  double ahead_ = 0.0;              ///< s
+  Stamp set_;                       ///< the arrival before the last step
+  std::optional<double> other_;     ///< s, the other candidate for ahead_, until that is decided
+  std::optional<double> set_back_;  ///< s, ahead_ if the last message is not a repeated one
   std::uint64_t steps_ = 0;
   std::uint64_t taken_ = 0;
-  std::uint64_t judged_ = 0;  ///< intervals, and among how many of them there was a period
+  std::uint64_t judged_ = 0;  ///< intervals, and for how many of them there was a period
   std::uint64_t regular_ = 0;
-  std::size_t early_ = 0;  ///< messages in a row that came before their stamps
-  double lead_ = 0.0;      ///< s, the least of these
+  std::size_t early_ = 0;  ///< consecutive messages that arrived before their stamps
+  double lead_ = 0.0;      ///< s, the smallest of these leads
 };
 
 }  // namespace datmo

@@ -23,7 +23,7 @@ inline bool operator<=(Stamp a, Stamp b) { return a.nanoseconds <= b.nanoseconds
 inline bool operator>(Stamp a, Stamp b) { return b < a; }
 inline bool operator>=(Stamp a, Stamp b) { return b <= a; }
 
-/// Time from one stamp to another, s; negative if `to` is the earlier one.
+/// Returns the time from one stamp to another, s; negative if `to` is the earlier one.
 inline double secondsBetween(Stamp from, Stamp to) {
   return static_cast<double>(to.nanoseconds - from.nanoseconds) * 1e-9;
 }

@@ -3,8 +3,8 @@
 
 namespace datmo {
 
-/// Variance of a value that is equally likely anywhere in an interval of length 1; that of an
-/// interval of length a is a^2 times as large.
+/// Variance of a uniform distribution over an interval of length 1; for length a it is a^2 times as
+/// large.
 inline constexpr double kUniformVariance = 1.0 / 12.0;
 
 }  // namespace datmo

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// Of the samples of one source that wait for those of others, so that no rate fills the memory; at
-/// 50 Hz those of more than a second, the longest that is waited (SourceMatcherOptions::max_wait).
+/// Limit for the samples of one source that wait for those of others, so that no rate fills the
+/// memory: more than a second at 50 Hz, the longest wait (SourceMatcherOptions::max_wait).
 inline constexpr std::size_t kMaxWaitingSamples = 64;
 
 }  // namespace datmo

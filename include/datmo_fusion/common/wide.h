@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arithmetic on four doubles at a time, for registers that many processors have and not all:
-// compiled for both, and chosen when the program starts. Results do not depend on it: the same
-// additions and multiplications are done for more elements at a time, and AVX2 does not fuse the
-// two. Where the compiler may (-march with FMA, AArch64), -ffp-contract=off keeps results the same.
+// Arithmetic on four doubles at a time, for wide registers that many processors have but not all:
+// compiled for both and selected at startup. Results are identical: the same additions and
+// multiplications are done on more elements at a time, and AVX2 does not fuse the two. If the
+// compiler could fuse them (-march with FMA, AArch64), -ffp-contract=off prevents it.
 #pragma once
 
-/// Before a function whose time goes into short loops over doubles. A test that compares the two
-/// defines it before.
+/// Put before a function that spends its time in short loops over doubles. A test that compares the
+/// two versions defines it itself.
 #if defined(DATMO_FUSION_WIDE)
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -18,7 +18,7 @@
 
 namespace datmo {
 
-/// Doubles for arithmetic element by element; at any address.
+/// Doubles for element-wise arithmetic, at any address.
 using TwoDoubles
     __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
 using FourDoubles

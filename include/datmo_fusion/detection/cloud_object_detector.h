@@ -33,31 +33,31 @@ struct CloudObjectDetectorOptions {
   void check() const;
 };
 
-/// What was found in one cloud. All but the points of the vehicle itself, the ground and what is
-/// above the band of heights is in some cluster, but not every cluster is an object.
+/// The result for one cloud. All points except those of the vehicle itself, of the ground and above
+/// the height band are in some cluster, but not every cluster is an object.
 struct CloudObjects {
   ObjectList list;             ///< base_link at the cloud's stamp
-  CloudGround ground;          ///< that heights were counted from
-  std::size_t points = 0;      ///< that were clustered
+  CloudGround ground;          ///< reference of heights
+  std::size_t points = 0;      ///< in the height band, to be clustered
   std::size_t too_large = 0;   ///< clusters: walls, hedges
   std::size_t own_points = 0;  ///< on the vehicle itself
 };
 
-/// Objects in a cloud of a 3D lidar: what stands on the ground, in clusters of points that are near
-/// to each other (pcl::EuclideanClusterExtraction; Rusu, Semantic 3D object maps, 2009, ch. 6.2),
-/// each with a box and its sides as a scanner that looks down on it sees them, a height, and a
-/// class by its size. Whether they move is not known.
+/// Detects objects in a cloud of a 3D lidar: clusters of neighboring points above the ground
+/// (pcl::EuclideanClusterExtraction; Rusu, Semantic 3D object maps, 2009, ch. 6.2), each with a
+/// box, whose sides are those visible from above, a height, and a class by its size. Whether they
+/// move is unknown.
 ///
-/// A side on which points lie is known to the range noise; where a side that is seen ends, to the
-/// gap between two columns of the lidar, unless something nearer hides what is beyond; all others
-/// are kHiddenSide.
+/// A side on which points lie is known to the range noise; the end of a visible side, to the gap
+/// between two columns of the lidar, unless something nearer hides what is beyond; all others are
+/// kHiddenSide.
 class CloudObjectDetector {
  public:
   /// Throws OptionError.
   explicit CloudObjectDetector(const Checked<CloudObjectDetectorOptions>& options);
 
-  /// `twist`: of the vehicle during the sweep, by which points that have times are brought to the
-  /// stamp; none: all are taken as measured at once. An empty cloud has no objects.
+  /// Detects the objects. `twist`: of the vehicle during the sweep, by which points with times are
+  /// compensated to the stamp; none: all are taken as simultaneous. An empty cloud has no objects.
   CloudObjects detect(const LidarCloud& cloud, Stamp stamp,
                       const std::optional<Twist2>& twist) const;
 

@@ -19,22 +19,22 @@ struct MovingObjectDetectorOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Objects that move, or may move, in a scan that was split by the map (thesis 3.3.1): segments of
-/// neighboring end points that the map does not know as static, each with a box and its
-/// covariance, and how well each of its sides is known. A side that beams ended on is known to the
-/// range noise; one that is only known as the end of another side, to the gap between two beams
-/// there; a side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half
-/// a gap beyond the last point: as far as is expected.
+/// Detects objects that move, or may move, in a scan that was split by the map (thesis 3.3.1):
+/// segments of neighboring end points that the map does not know as static, each with a box, its
+/// covariance, and the uncertainty of each of its sides. A side that beams ended on is known to the
+/// range noise; one known only as the end of another side, to the gap between two beams there; a
+/// side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half a gap
+/// beyond the last point, which is the expected position.
 ///
-/// Objects come with dynamic state kMoving (the map has seen their position free), kUnknown
-/// (nothing was known of their position: the tracker decides) or kStatic (nothing was known of it,
-/// but it joins on to something static). Objects by rising beam index. No state from scan to scan.
+/// The dynamic state is kMoving (the map has seen the position free), kUnknown (the position was
+/// unknown: the tracker decides) or kStatic (unknown, but connected to something static). Objects
+/// are in ascending beam order. No state is kept from scan to scan.
 class MovingObjectDetector {
  public:
   /// Throws OptionError.
   explicit MovingObjectDetector(const Checked<MovingObjectDetectorOptions>& options);
 
-  /// Objects in the frame of the scan's points (base_link).
+  /// Returns the objects in the frame of the scan's points (base_link).
   ObjectList detect(const LabeledScan& scan) const;
 
  private:

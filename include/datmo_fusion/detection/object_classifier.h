@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// Size distribution of one kind of object: upright boxes.
+/// Size distribution of one kind of upright object.
 struct KindSize {
   double share = 0.0;                       ///< relative to the other kinds
   double height = 0.0, height_sigma = 0.0;  ///< m
@@ -22,7 +22,7 @@ struct KindSize {
 
 struct ObjectClassifierOptions {
   KindSize pedestrian{4.0, 1.70, 0.15, 0.5, 0.15, 0.55, 0.15, 0.1};
-  /// As long as it looks: wheels are low and thin.
+  /// Lengths are as they appear: wheels are low and thin.
   KindSize cyclist{4.0, 1.72, 0.13, 1.6, 0.3, 0.60, 0.15, 0.3};
   KindSize car{6.0, 1.45, 0.20, 4.2, 0.5, 1.75, 0.15, 0.7};
   KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15, 0.5};
@@ -33,32 +33,32 @@ struct ObjectClassifierOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How large an upright object is, as a sensor sees it.
+/// The visible size of an upright object.
 struct SeenSize {
   double height = 0.0;        ///< m above the road
   double height_sigma = 0.0;  ///< m
-  bool higher = false;        ///< its top was not seen: it may be higher
+  bool higher = false;        ///< its top was not visible: it may be higher
   double across = 0.0;        ///< m, across the line of sight
   double across_sigma = 0.0;  ///< m
-  double along = 0.0;         ///< m, in depth, of the sides that are seen
+  double along = 0.0;         ///< m, in depth, of the visible sides
   double along_sigma = 0.0;   ///< m
-  bool wider = false;         ///< an end was not seen: both may be more
+  bool wider = false;         ///< an end was not visible: both may be larger
 };
 
-/// What an object is, by how large it looks from a direction that is not known: Bayes over kinds of
-/// road users and poles of known sizes, and over anything else, of any size. The thesis takes the
-/// class as its stereo system gives it, by size, shape and motion (3.3.2).
+/// Classifies an object by its apparent size from an unknown direction: Bayes over kinds of road
+/// users and poles of known sizes, and over anything else, of any size. The thesis uses the class
+/// from its stereo system, by size, shape and motion (3.3.2).
 ///
-/// From ahead or behind, a cyclist looks like a pedestrian: then it says so by its probability.
+/// From the front or rear, a cyclist looks like a pedestrian, which the probabilities reflect.
 class ObjectClassifier {
  public:
   /// Throws OptionError.
   explicit ObjectClassifier(const Checked<ObjectClassifierOptions>& options);
 
-  /// Of kUnknown: that it is anything else.
+  /// Returns the class probabilities; kUnknown is that of anything else.
   ClassProbabilities probabilities(const SeenSize& seen) const;
 
-  /// Logarithm of the odds that it is of one of the kinds, over those before it was seen.
+  /// Returns the log odds of one of the known kinds, relative to the prior ones.
   double logOddsOfKnown(const ClassProbabilities& probabilities) const;
 
  private:

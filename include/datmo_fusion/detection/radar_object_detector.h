@@ -11,14 +11,14 @@
 
 namespace datmo {
 
-/// One detection of a radar, relative to it.
+/// One detection of a radar, in polar coordinates about it.
 struct RadarReturn {
-  double range = 0.0;       ///< m, seen from above
+  double range = 0.0;       ///< m, horizontal
   double bearing = 0.0;     ///< rad, to the left of its x axis
-  double range_rate = 0.0;  ///< m/s, by which the range changes (Doppler), from above
+  double range_rate = 0.0;  ///< m/s, rate of change of the range (Doppler), horizontal
 };
 
-/// What a radar has detected in one cycle.
+/// The detections of a radar in one cycle.
 struct RadarCycle {
   Stamp stamp;
   Pose2 radar_in_base;
@@ -41,26 +41,26 @@ struct RadarObjectDetectorOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What was found in one cycle.
+/// The result for one cycle.
 struct RadarObjects {
   ObjectList list;              ///< base_link at the cycle's stamp
-  std::size_t standing = 0;     ///< clusters without motion along the line of sight: left out
+  std::size_t standing = 0;     ///< clusters without motion along the line of sight: omitted
   std::size_t unclustered = 0;  ///< returns in no cluster: noise
 };
 
-/// Objects that move toward or away from a radar: clusters of returns that are near to each other,
-/// in position and in velocity over the ground along the line of sight (DBSCAN, Ester et al. 1996,
-/// by a distance that grows with the bearing's noise).
+/// Detects objects that move toward or away from a radar: clusters of returns that are close to
+/// each other in position and in velocity over ground along the line of sight (DBSCAN, Ester et al.
+/// 1996, by a distance that grows with the bearing's noise).
 ///
-/// The velocity has two axes of which one was measured: along the line of sight by the Doppler
-/// shift, less what the vehicle itself moves the radar, its turning included; across it anything up
-/// to the speed of what drives. Sides are not seen: where on an object a radar reflects is chance.
+/// Only one component of the velocity is measured: along the line of sight, by the Doppler shift
+/// minus the radar's own motion, including that from turning; across it, anything up to the speed
+/// of traffic is possible. Sides are not seen: where on an object a radar reflects is random.
 class RadarObjectDetector {
  public:
   /// Throws OptionError.
   explicit RadarObjectDetector(const Checked<RadarObjectDetectorOptions>& options);
 
-  /// `twist`: of the vehicle at the cycle's stamp. Takes time with the square of the returns.
+  /// Detects the objects. `twist`: of the vehicle at the cycle's stamp. O(returns^2).
   RadarObjects detect(const RadarCycle& cycle, const Twist2& twist) const;
 
  private:

@@ -7,26 +7,26 @@
 
 namespace datmo {
 
-/// How far a surface reaches beyond the last point that was seen on it.
+/// How far a surface extends beyond the last point seen on it.
 struct SurfaceEnd {
   double beyond = 0.0;    ///< m, expected, at least 0
   double variance = 0.0;  ///< m^2
 };
 
-/// Where a surface ends that the beams of a scan met up to one of its points: between that point
-/// and the point where the next beam would have met it, if that beam passed and reached farther.
+/// Estimates where a surface that beams hit ends: between the last hit and the point where the next
+/// beam would have hit it, if that beam passed and reached farther.
 class SegmentEnds {
  public:
-  /// Of a scan, which must live on. `range_sigma` (m): standard deviation of a range. Surfaces with
+  /// `scan` must outlive this. `range_sigma` (m): standard deviation of a range. Surfaces with
   /// points farther apart than `max_gap` (m) are not followed.
   SegmentEnds(const LabeledScan& scan, double range_sigma, double max_gap)
       : scan_(scan), range_sigma_(range_sigma), max_gap_(max_gap) {}
 
-  /// The end of the surface that goes on from a point of the scan along a unit vector, away from
-  /// the object; its direction is known to `heading_std` (rad, at least 0). Nothing where the end
-  /// was not seen: something nearer hides it, the surface continues (as far as the scan shows), the
-  /// field of view ends, the next beam's measurement is not valid, or no next beam on this side
-  /// meets the surface.
+  /// Returns the end of the surface that continues from a point of the scan along a unit vector,
+  /// away from the object; its direction is known to `heading_std` (rad, at least 0). None if the
+  /// end was not seen: something nearer hides it, the surface continues (as far as the scan shows),
+  /// the field of view ends, the next beam's measurement is not valid, or no next beam on this side
+  /// hits the surface.
   std::optional<SurfaceEnd> beyond(const ScanPoint& last, const Point2& along,
                                    double heading_std) const;
 

@@ -18,16 +18,15 @@ struct SegmentationOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Indices of the points of one segment, in their order.
+/// Indices of the points of one segment, in order.
 using Segment = std::vector<std::size_t>;
 
-/// Cuts points, in beam order, where neighbors are too far apart to lie on one object.
+/// Splits points, in beam order, where neighbors are too far apart to lie on one object.
 ///
-/// Fixed: apart by more than `max_gap` (thesis 3.3.1: 2 m). Adaptive: the breakpoint of Borges
-/// & Aldon (Line extraction in 2D range images, 2004): on a surface that a beam meets at
-/// `min_incidence` or more, the next beam ends within r sin(a) / sin(incidence - a), for the
-/// angle a between the two; `min_gap` more than that, for its noise, and at most
-/// `max_gap`.
+/// Fixed: farther apart than `max_gap` (thesis 3.3.1: 2 m). Adaptive: the breakpoint of Borges &
+/// Aldon (Line extraction in 2D range images, 2004): on a surface that a beam hits at
+/// `min_incidence` or more, the next beam ends within r sin(a) / sin(incidence - a), for the angle
+/// a between the two; plus `min_gap` for noise, and at most `max_gap`.
 std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,
                                    const SegmentationOptions& options);
 

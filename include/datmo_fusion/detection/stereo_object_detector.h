@@ -13,7 +13,7 @@
 
 namespace datmo {
 
-/// What of a cloud are upright surfaces.
+/// Which points of a cloud form upright surfaces.
 struct StereoSurfaceOptions {
   double min_depth = 0.5;     ///< m
   double min_height = 0.3;    ///< m
@@ -34,7 +34,7 @@ struct SurfaceGroupOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How well is known what is seen of an object.
+/// Uncertainty of the visible part of an object.
 struct StereoNoiseOptions {
   double common = 0.5;             ///< standard deviations of the depth
   double column = 0.5;             ///< standard deviations of the depth
@@ -54,44 +54,44 @@ struct StereoObjectDetectorOptions : RoadSceneOptions {
   double sure_range = 25.0;   ///< m
   double min_surface = 0.15;  ///< m^2
   double max_size = 12.0;     ///< m
-  double max_doubt = 3.0;     ///< logarithm of odds
+  double max_doubt = 3.0;     ///< log odds
 
   void visit(OptionVisitor& visitor);
 };
 
-/// What one cloud led to.
+/// The result for one cloud.
 struct StereoObjects {
   ObjectList list;         ///< vehicle's frame, with the camera's field of view
-  RoadPlane road;          ///< that heights were counted from
+  RoadPlane road;          ///< reference of heights
   bool road_seen = false;  ///< false: the last known one
-  std::size_t points = 0;  ///< those that are finite and in front of the camera
+  std::size_t points = 0;  ///< finite and in front of the camera
 };
 
-/// One cloud of a stereo camera -> the road users and poles in it, classified cuboids (thesis
+/// Detects the road users and poles in one cloud of a stereo camera, as classified cuboids (thesis
 /// 3.3.2).
 ///
-/// The road's plane is found and what stands on it is looked at in columns of the camera's level
-/// image: the surfaces in each column, several behind each other, are grouped over columns; each
-/// group is fitted with a box (fitBox) and classified by its size (ObjectClassifier). What is
-/// larger than road users, or more probably anything else, is left out.
+/// The road plane is estimated, and what stands on it is processed in columns of the camera's level
+/// image: the surfaces in each column, which may be behind each other, are grouped over columns;
+/// each group is fitted with a box (fitBox) and classified by its size (ObjectClassifier). Objects
+/// larger than road users, or more probably something else, are left out.
 ///
-/// What an object's points have in common of the depth's noise is in its position's covariance,
-/// what they do not is in its sides'. Sides that were not seen are kHiddenSide: those that face
-/// away, those beside something nearer, and those where the image, or what both cameras see, ends.
+/// The depth noise that an object's points have in common is in its position covariance, the rest
+/// in that of its sides. Sides that were not seen are kHiddenSide: those that face away, those next
+/// to something nearer, and those at the end of the image, or of what both cameras see.
 ///
-/// Log odds are 0 or less: what looks more like anything else than the average object does counts
-/// against it, but looking like a road user is no proof of one. `points` are the near outline, left
-/// to right. Objects come from left to right as far as they begin, with dynamic state kUnknown.
+/// Log odds are at most 0: looking less like a road user than the average object counts against an
+/// object, but looking like one is no proof. `points` are the near outline, left to right. Objects
+/// are sorted from left to right by where they begin, with dynamic state kUnknown.
 ///
-/// A cloud may be dense or thinned, organized or not: its density is estimated from it. Not thread
-/// safe. Keeps the last road plane from cloud to cloud.
+/// A cloud may be dense or thinned, organized or not: its density is estimated. Not thread-safe.
+/// Keeps the last road plane from cloud to cloud.
 class StereoObjectDetector {
  public:
   /// Throws OptionError.
   explicit StereoObjectDetector(const Checked<StereoObjectDetectorOptions>& options);
   ~StereoObjectDetector();
 
-  /// Throws std::invalid_argument for a camera as StereoView does.
+  /// Throws std::invalid_argument for invalid cameras, see StereoView.
   StereoObjects detect(const StereoCloud& cloud);
 
   /// Forgets the last road plane, as after construction.

@@ -6,15 +6,15 @@
 
 namespace datmo {
 
-/// Where along a beam space is known to be free: nearer to its end than its range is uncertain is
-/// what it may have hit.
+/// The part of a beam along which space is known to be free: within a margin before its end, given
+/// by the range uncertainty, it may already be inside the object that it hit.
 struct BeamEndOptions {
-  double range_sigma = 0.0;  ///< m, of a beam's end; 0: not known
-  double end_margin = 3.0;   ///< in range_sigma, 0: a beam frees up to its end
+  double range_sigma = 0.0;  ///< m, range noise (standard deviation); 0: unknown
+  double end_margin = 3.0;   ///< in range_sigma; 0: a beam frees cells up to its end
 
   void visit(OptionVisitor& visitor);
 
-  /// m, before the ray's end, in which it frees nothing; 0 for one without a hit.
+  /// Returns how far before its end a ray frees nothing, m; 0 for a ray without a hit.
   double margin(const Ray& ray) const { return ray.hit ? end_margin * range_sigma : 0.0; }
 };
 

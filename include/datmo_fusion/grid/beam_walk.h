@@ -9,16 +9,16 @@
 
 namespace datmo {
 
-/// A beam that opens from a point in both directions about its axis.
+/// A beam that diverges from a point symmetrically about its axis.
 struct Beam {
   Point2 from = Point2::Zero();   ///< m
-  Point2 along = Point2::Zero();  ///< m, to its end
+  Point2 along = Point2::Zero();  ///< m, from `from` to its end
   double range = 0.0;             ///< m, length of `along`
   double width = 0.0;             ///< rad, opening angle; 0: a line
 };
 
-/// The lines of a fan that covers the beam, from its right border to its left one; at its end two
-/// neighbors are at most one cell apart. `visit(Point2 to)` for the end of each.
+/// Calls `visit(Point2 to)` with the end of each line of a fan that covers the beam, from its right
+/// edge to its left one; neighboring ends are at most one cell apart.
 template <typename Visit>
 void forEachLine(const GridWindow& window, const Beam& beam, Visit&& visit) {
   const double spread = beam.width * beam.range;

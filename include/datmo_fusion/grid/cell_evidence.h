@@ -9,17 +9,17 @@
 
 namespace datmo {
 
-/// What a map knows of one cell, as it outlives the map.
+/// What a map knows about one cell, as saved with the map.
 struct CellEvidence {
   CellIndex cell;
   float log_odds = 0.0F;     ///< of being occupied
   float age = 0.0F;          ///< s, between the first and the last hit of its occupant
-  std::int32_t refuted = 0;  ///< ends of beams that other sensors have refuted
+  std::int32_t refuted = 0;  ///< beam ends here that other sensors refuted
   std::int32_t believed = 0;
   CellHits hits;
 };
 
-/// All cells of which a map knows anything.
+/// All cells about which a map knows anything.
 struct MapEvidence {
   double cell_size = 0.0;  ///< m
   std::vector<CellEvidence> cells;

@@ -9,16 +9,15 @@
 
 namespace datmo {
 
-/// Distances from the cells of a window to the nearest one of some kind (Felzenszwalb &
-/// Huttenlocher, Distance transforms of sampled functions, 2012; by OpenCV).
+/// Distances from the cells of a window to the nearest target cell (Felzenszwalb & Huttenlocher,
+/// Distance transforms of sampled functions, 2012; by OpenCV).
 class DistanceField {
  public:
-  /// `is_target`: whether distances lead to this cell. `outside` (m): of what lies outside of the
-  /// window.
+  /// `is_target`: whether a cell is a target. `outside` (m): distance returned outside the window.
   DistanceField(const GridWindow& window, const std::function<bool(CellIndex)>& is_target,
                 double outside);
 
-  /// m, between the centers of cells; `point` in the map frame, m.
+  /// Returns the distance between cell centers, m; `point` in the map frame, m.
   double at(const Point2& point) const {
     const CellIndex cell = window_.cellAt(point);
     return window_.contains(cell)

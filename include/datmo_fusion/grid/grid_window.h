@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Which part of the lattice a grid shows: `columns` x `rows` cells from `corner` on.
+/// The part of the lattice that a grid covers: `columns` x `rows` cells starting at `corner`.
 ///
 ///        y ^   rows
 ///          |  +--+--+--+
@@ -23,16 +23,16 @@ struct GridWindow {
   int rows = 0;
   CellIndex corner;
 
-  /// The cell that holds a point of the map frame; it may lie outside of the window. What is
-  /// farther than kMaxCell, or not a number, is at that limit.
+  /// Returns the cell that contains a point of the map frame; it may lie outside the window.
+  /// Coordinates beyond kMaxCell cells, or NaN, are clamped to that limit.
   CellIndex cellAt(const Point2& point) const { return {indexAt(point.x()), indexAt(point.y())}; }
 
-  /// Center of a cell in the map frame, m.
+  /// Returns the center of a cell in the map frame, m.
   Point2 centerOf(CellIndex cell) const {
     return {(cell.column + 0.5) * cell_size, (cell.row + 0.5) * cell_size};
   }
 
-  /// Lower left corner of the window in the map frame, m.
+  /// Returns the lower left corner of the window in the map frame, m.
   Point2 origin() const { return {corner.column * cell_size, corner.row * cell_size}; }
 
   bool contains(CellIndex cell) const {
@@ -40,7 +40,7 @@ struct GridWindow {
            cell.row >= corner.row && cell.row < corner.row + rows;
   }
 
-  /// Cells from the frame's origin: sums and differences of two indices stay within an int.
+  /// Cells from the frame's origin: keeps sums and differences of two indices within an int.
   static constexpr int kMaxCell = 1 << 28;
 
  private:
@@ -53,7 +53,8 @@ struct GridWindow {
   }
 };
 
-/// Calls `visit(CellIndex)` for the cells of a window that lie outside of another one of its size.
+/// Calls `visit(CellIndex)` for the cells of a window that are outside another one of the same
+/// size.
 template <typename Visit>
 void forEachCellOutside(const GridWindow& window, const GridWindow& other, Visit&& visit) {
   const auto visitRows = [&visit](int column, int first_row, int end_row) {

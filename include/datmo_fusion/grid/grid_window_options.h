@@ -6,8 +6,8 @@
 
 namespace datmo {
 
-/// Extent and resolution of a grid around the vehicle. Grids that are to be fused with each other
-/// need the same ones.
+/// Extent and resolution of a grid around the vehicle. Grids to be fused with each other must have
+/// the same.
 struct GridWindowOptions {
   double length = 90.0;    ///< m, along x
   double width = 108.0;    ///< m, along y
@@ -15,8 +15,8 @@ struct GridWindowOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// The window with the frame's origin in its middle cell. Throws OptionError, also for more cells
-  /// than any memory holds.
+  /// Returns the window with the frame's origin in its middle cell. Throws OptionError, also if it
+  /// has more cells than fit in memory.
   GridWindow window() const;
 };
 

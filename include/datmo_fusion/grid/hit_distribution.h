@@ -7,30 +7,30 @@
 
 namespace datmo {
 
-/// Distribution of the hits around a point: the local surface with more than the grid's resolution.
+/// Distribution of the hits around a point: the local surface at finer than cell resolution.
 struct HitDistribution {
   double hits = 0.0;
   Point2 mean = Point2::Zero();                          ///< m, map frame
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
-  double maturity = 0.0;  ///< 0 to 1, 1: hit for as long as what stands still
-  double age = 0.0;       ///< s, mean of the hits, at the map's last update
+  double maturity = 0.0;  ///< 0 to 1; 1: hit for as long as a static object
+  double age = 0.0;       ///< s, mean age of the hits at the map's last update
 };
 
-/// The hits in one cell, as sums relative to the cell's center, so that floats do.
+/// The hits in one cell, as sums relative to the cell's center, for which floats suffice.
 struct CellHits {
   float count = 0.0F;
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();      ///< m
   Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< m^2: xx, xy, yy
 
-  /// One more, `offset` (m) from the center; older ones fade so that there are `max` at the most,
-  /// and the surface follows what is seen now.
+  /// Adds a hit, `offset` (m) from the center. Older hits are faded so that there are at most `max`
+  /// and the surface follows recent measurements.
   void add(const Eigen::Vector2f& offset, float max);
 
-  /// m, from the center; there must be hits.
+  /// Returns the mean relative to the center, m; there must be hits.
   Point2 mean() const { return (sum / count).cast<double>(); }
 };
 
-/// The hits of several cells, put together.
+/// The combined hits of several cells.
 class HitSums {
  public:
   /// `shift`: of the cell's center from the common reference, m. `maturity`: of the cell, 0 to 1.
@@ -39,7 +39,7 @@ class HitSums {
 
   bool empty() const { return hits_ <= 0.0; }
 
-  /// `reference`: in the map, m. There must be hits.
+  /// Returns the distribution; `reference`: in the map, m. There must be hits.
   HitDistribution about(const Point2& reference) const;
 
  private:

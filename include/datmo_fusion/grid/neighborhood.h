@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// Whether `test(CellIndex)` holds for a cell within `reach` columns and rows of another one,
-/// itself among them; row by row, and no further than the first one for which it does.
+/// Returns whether `test(CellIndex)` holds for a cell within `reach` columns and rows of another
+/// one, including itself. Tests row by row and stops at the first match.
 template <typename Test>
 bool anyNeighbor(CellIndex center, int reach, Test&& test) {
   for (int row = center.row - reach; row <= center.row + reach; ++row) {
@@ -19,7 +19,7 @@ bool anyNeighbor(CellIndex center, int reach, Test&& test) {
   return false;
 }
 
-/// Calls `visit(CellIndex)` for a cell and the eight around it, row by row.
+/// Calls `visit(CellIndex)` for a cell and its eight neighbors, row by row.
 template <typename Visit>
 void forEachNeighbor(CellIndex center, Visit&& visit) {
   anyNeighbor(center, 1, [&visit](CellIndex cell) {

@@ -11,8 +11,8 @@ namespace datmo {
 
 namespace detail {
 
-/// One axis of a walk: how far along the line (0 to 1) the next cell border and each further one
-/// lie.
+/// One axis of a traversal: position along the line (0 to 1) of the next cell border, and the
+/// spacing of further ones.
 struct WalkAxis {
   int step = 0;
   double next_border = std::numeric_limits<double>::infinity();
@@ -31,16 +31,16 @@ struct WalkAxis {
 
 }  // namespace detail
 
-/// Visits every cell that the line from one point to another crosses, in order, with both end
-/// cells: Amanatides & Woo, A fast voxel traversal algorithm for ray tracing, 1987. Neighbors in
-/// the walk share a side. `visit(CellIndex)` is also called outside of the window.
+/// Calls `visit(CellIndex)` for every cell that the line from one point to another crosses, in
+/// order and including both end cells (Amanatides & Woo, A fast voxel traversal algorithm for ray
+/// tracing, 1987). Consecutive cells share a side. Cells outside the window are visited, too.
 template <typename Visit>
 void walkRay(const GridWindow& window, const Point2& from, const Point2& to, Visit&& visit) {
   CellIndex cell = window.cellAt(from);
   const CellIndex last = window.cellAt(to);
   detail::WalkAxis x(from.x(), to.x() - from.x(), cell.column, window.cell_size);
   detail::WalkAxis y(from.y(), to.y() - from.y(), cell.row, window.cell_size);
-  // Counted, not compared with the last cell, so that rounding at a border cannot walk past it.
+  // Counted rather than compared with the last cell, so that rounding at a border cannot overshoot.
   int steps = std::abs(last.column - cell.column) + std::abs(last.row - cell.row);
   visit(cell);
   for (; steps > 0; --steps) {

@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// A rectangle that may be turned.
+/// A rectangle of any orientation.
 struct Rectangle {
   Pose2 center;         ///< m and rad, map frame
   double length = 0.0;  ///< m, along the heading
@@ -18,7 +18,8 @@ struct Rectangle {
 
 namespace detail {
 
-/// Where a line meets a rectangle, by their coordinate along the line; empty: `first` > `last`.
+/// Interval of a line within a rectangle, by the coordinate along the line; empty if `first` >
+/// `last`.
 struct Span {
   double first = -std::numeric_limits<double>::infinity();
   double last = std::numeric_limits<double>::infinity();
@@ -38,17 +39,17 @@ struct Span {
 
 }  // namespace detail
 
-/// Visits the cells of a window whose center lies in a rectangle, row by row: `visit(CellIndex)`.
-/// Only those are touched (the thesis, 3.5, asks of each cell in the upright rectangle around
-/// whether it is one).
+/// Calls `visit(CellIndex)`, row by row, for the cells of a window whose center lies in a
+/// rectangle. Only those are touched (thesis 3.5 tests each cell in the axis-aligned bounding
+/// rectangle).
 template <typename Visit>
 void walkRectangle(const GridWindow& window, const Rectangle& rectangle, Visit&& visit) {
   const double c = std::cos(rectangle.center.heading());
   const double s = std::sin(rectangle.center.heading());
   const double half_length = 0.5 * rectangle.length;
   const double half_width = 0.5 * rectangle.width;
-  // Cells by their center: cell i of an axis has it at (i + 0.5) * cell_size. In this order of min
-  // and max NaN is a limit too.
+  // Cells by their center: that of cell i along an axis is (i + 0.5) * cell_size. With min and max
+  // in this order NaN becomes a limit, too.
   const auto lastUpTo = [&](double coordinate, int min, int max) {
     const double index = std::floor(coordinate / window.cell_size - 0.5);
     return static_cast<int>(std::min(max + 0.0, std::max(min - 1.0, index)));
@@ -63,8 +64,8 @@ void walkRectangle(const GridWindow& window, const Rectangle& rectangle, Visit&&
   const double middle = rectangle.center.y();
   const int last_row = lastUpTo(middle + reach, min.row, max.row);
   for (int row = firstFrom(middle - reach, min.row, max.row); row <= last_row; ++row) {
-    // Along the row, `x` from the rectangle's center: what is inside lies between both long sides
-    // and between both short ones.
+    // Along the row, `x` from the rectangle's center: the inside lies between both long sides and
+    // between both short ones.
     const double y = (row + 0.5) * window.cell_size - middle;
     detail::Span span;
     span.cut(s * y, c, half_length);

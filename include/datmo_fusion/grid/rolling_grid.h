@@ -10,7 +10,7 @@
 namespace datmo {
 
 /// A window of cells that moves over the lattice with the vehicle. Cells that stay inside keep
-/// their content and are not copied (a circular buffer in both directions); those that come in are
+/// their content and are not copied (a circular buffer in both directions); cells that enter are
 /// empty.
 template <typename Cell>
 class RollingGrid {
@@ -21,20 +21,20 @@ class RollingGrid {
     moveTo(window.corner);
   }
 
-  /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's center is the
+  /// `columns`, `rows` and `cell_size` (m) must be more than 0. The window is centered on the
   /// origin of the map frame.
   RollingGrid(int columns, int rows, double cell_size, const Cell& empty)
       : RollingGrid(GridWindow{cell_size, columns, rows, {-columns / 2, -rows / 2}}, empty) {}
 
   const GridWindow& window() const { return window_; }
 
-  /// The cell must be inside of the window.
+  /// The cell must be inside the window.
   const Cell& at(CellIndex cell) const { return cells_[slot(cell)]; }
   Cell& at(CellIndex cell) { return cells_[slot(cell)]; }
 
-  /// What lies outside of the window is as empty as what was never touched.
+  /// Returns the cell, or an empty one outside the window.
   const Cell& atOrEmpty(CellIndex cell) const {
-    // As unsigned numbers, those before the corner are beyond the end.
+    // As unsigned numbers, indices before the corner are beyond the end.
     const bool inside =
         static_cast<unsigned>(cell.column - window_.corner.column) <
             static_cast<unsigned>(window_.columns) &&
@@ -42,7 +42,7 @@ class RollingGrid {
     return inside ? cells_[slot(cell)] : empty_;
   }
 
-  /// The window as centerOn would move it.
+  /// Returns the window as centerOn would move it.
   GridWindow windowOn(const Point2& center) const {
     GridWindow window = window_;
     const CellIndex middle = window_.cellAt(center);
@@ -57,7 +57,7 @@ class RollingGrid {
     forEachCellOutside(window_, old, [this](CellIndex cell) { at(cell) = empty_; });
   }
 
-  /// The same; before anything changes, `leave(CellIndex)` for each cell that will be outside.
+  /// The same, but first calls `leave(CellIndex)` for each cell that will be outside.
   template <typename Leave>
   void centerOn(const Point2& center, Leave&& leave) {
     forEachCellOutside(window_, windowOn(center), leave);
@@ -89,7 +89,7 @@ class RollingGrid {
   }
 
   GridWindow window_;
-  CellIndex corner_slot_;  ///< where in `cells_` the window's corner is held
+  CellIndex corner_slot_;  ///< position of the window's corner in `cells_`
   Cell empty_;
   std::vector<Cell> cells_;
 };

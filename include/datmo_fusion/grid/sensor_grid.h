@@ -12,12 +12,12 @@
 
 namespace datmo {
 
-/// What is known of one cell: its probability of being occupied in percent, 0 to 100, or
+/// Knowledge about one cell: its probability of being occupied in percent, 0 to 100, or
 /// kUnknownPercent (nav_msgs/OccupancyGrid).
 using Percent = std::int8_t;
 inline constexpr Percent kUnknownPercent = -1;
 
-/// As likely occupied as free: a sensor observed the cell without a decision.
+/// As likely occupied as free: a sensor observed the cell, but without a clear result.
 inline constexpr Percent kUndecidedPercent = 50;
 
 inline bool isOccupied(Percent percent) { return percent > kUndecidedPercent; }
@@ -28,9 +28,9 @@ inline Percent toPercent(double probability) {
   return static_cast<Percent>(std::lround(100.0 * probability));
 }
 
-/// What one sensor, or several fused, measured at one time around the vehicle: an
+/// The measurement of one sensor, or of several fused, at one time around the vehicle: an
 /// instantaneous occupancy grid (thesis 3.2). Its frame is the vehicle's (base_link) at its stamp;
-/// the window stands still in it, so that grids of the same window differ in nothing but content.
+/// the window is fixed in that frame, so that grids of the same window differ only in content.
 class SensorGrid {
  public:
   SensorGrid() = default;
@@ -43,11 +43,11 @@ class SensorGrid {
   Stamp stamp() const { return stamp_; }
   const GridWindow& window() const { return window_; }
 
-  /// The cell must be inside of the window.
+  /// The cell must be inside the window.
   Percent at(CellIndex cell) const { return cells_[slot(cell)]; }
   Percent& at(CellIndex cell) { return cells_[slot(cell)]; }
 
-  /// What lies outside of the window is unknown.
+  /// Returns the cell's value; unknown outside the window.
   Percent atOrUnknown(CellIndex cell) const {
     return window_.contains(cell) ? at(cell) : kUnknownPercent;
   }
@@ -56,7 +56,7 @@ class SensorGrid {
   const std::vector<Percent>& cells() const { return cells_; }
   std::vector<Percent>& cells() { return cells_; }
 
-  /// `visit(CellIndex, Percent)` for each cell, in the order of cells().
+  /// Calls `visit(CellIndex, Percent)` for each cell, in the order of cells().
   template <typename Visit>
   void forEach(Visit&& visit) const {
     std::size_t slot = 0;
@@ -79,7 +79,7 @@ class SensorGrid {
   std::vector<Percent> cells_;
 };
 
-/// Whether two windows show the same cells, so that their grids may be compared cell by cell.
+/// Whether two windows cover the same cells, so that their grids can be compared cell by cell.
 inline bool operator==(const GridWindow& a, const GridWindow& b) {
   return a.cell_size == b.cell_size && a.columns == b.columns && a.rows == b.rows &&
          a.corner == b.corner;

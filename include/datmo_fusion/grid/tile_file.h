@@ -19,18 +19,19 @@ struct TileFileOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Tiles that memory has no room for, in a file without a name, which is gone with the process. It
-/// is made when the first one is written. May be used by several threads, and by copies of a map.
+/// Stores tiles that do not fit in memory in an unnamed file, which disappears with the process. It
+/// is created when the first tile is written. May be used by several threads, and by copies of a
+/// map.
 class TileFile : public std::enable_shared_from_this<TileFile> {
  public:
-  /// One tile in the file, which does not change. Its room is free again when nobody has it.
+  /// One immutable tile in the file. Its space is freed with the last reference to it.
   class Tile {
    public:
     ~Tile() { file_->release(offset_); }
     Tile(const Tile&) = delete;
     Tile& operator=(const Tile&) = delete;
 
-    /// Whether `bytes` from `begin` on could be read; if not: TileFile::error().
+    /// Returns whether `bytes` from `begin` on could be read; if not, see TileFile::error().
     bool read(std::size_t begin, void* data, std::size_t bytes) const {
       return file_->read(offset_ + begin, data, bytes);
     }
@@ -44,7 +45,7 @@ class TileFile : public std::enable_shared_from_this<TileFile> {
     std::uint64_t offset_;
   };
 
-  /// `tile_bytes`: of each tile.
+  /// `tile_bytes`: size of each tile.
   static std::shared_ptr<TileFile> make(const TileFileOptions& options, std::size_t tile_bytes) {
     return std::shared_ptr<TileFile>(new TileFile(options, tile_bytes));
   }
@@ -52,10 +53,10 @@ class TileFile : public std::enable_shared_from_this<TileFile> {
   TileFile(const TileFile&) = delete;
   TileFile& operator=(const TileFile&) = delete;
 
-  /// Writes a tile; null if there is no file or no room: see error().
+  /// Writes a tile; returns null if there is no file or no room (see error()).
   std::shared_ptr<const Tile> write(const void* tile);
 
-  /// What failed last, for users; empty if nothing ever did.
+  /// Returns the last error, as a message for users; empty if there was none.
   std::string error() const;
 
  private:

@@ -19,18 +19,18 @@
 
 namespace datmo {
 
-/// Cells of the lattice outside of a rolling window, in square tiles, so that memory grows with the
-/// area that was visited. Of more than so many tiles the first ones go into a file, from where they
-/// come back when something is put into them; without room there they are forgotten. Tiles that are
-/// kept for good stay in memory.
+/// Cells of the lattice outside a rolling window, in square tiles, so that memory grows with the
+/// visited area. Beyond a maximum number of tiles, the oldest ones are moved to a file and read
+/// back when a cell is put into them; if the file has no room, they are dropped. Permanent tiles
+/// stay in memory.
 template <typename Cell>
 class TileStore {
  public:
-  // Of Eigen's small matrices, too, which are not trivially copyable and are nothing but numbers.
+  // Eigen's small matrices are not trivially copyable, but consist of nothing but numbers.
   static_assert(std::is_standard_layout_v<Cell> && std::is_trivially_destructible_v<Cell>,
                 "cells are written as they lie in memory");
 
-  /// `max_tiles`: in memory, 1 and more. `empty`: a cell that was never put.
+  /// `max_tiles`: in memory, at least 1. `empty`: the value of a cell that was never put.
   TileStore(int max_tiles, const Cell& empty, const TileFileOptions& file)
       : max_tiles_(static_cast<std::size_t>(max_tiles)),
         empty_(empty),
@@ -49,7 +49,7 @@ class TileStore {
     }
   }
 
-  /// As put(), in a tile that stays in memory, and does not count.
+  /// Like put(), but the tile stays in memory and does not count toward `max_tiles`.
   void putPermanently(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
@@ -58,7 +58,7 @@ class TileStore {
     tile->second[slotOf(cell)] = content;
   }
 
-  /// Empty where nothing was put, and where it cannot be read.
+  /// Returns the cell; empty if nothing was put there, or it cannot be read.
   Cell at(CellIndex cell) const {
     const Key key = keyOf(cell);
     const auto tile = tiles_.find(key);
@@ -72,14 +72,14 @@ class TileStore {
     return is_read ? content : empty_;
   }
 
-  /// `visit(CellIndex, const Cell&)` for all cells of all tiles, in a fixed order; those that
-  /// cannot be read are left out: fileError().
+  /// Calls `visit(CellIndex, const Cell&)` for all cells of all tiles, in a fixed order; tiles that
+  /// cannot be read are skipped (see fileError()).
   template <typename Visit>
   void forEach(Visit&& visit) const {
     forEachOf([](const Key&) { return true; }, visit);
   }
 
-  /// The same for all cells of those tiles that a window shows a part of.
+  /// The same for all cells of the tiles that overlap a window.
   template <typename Visit>
   void forEachAround(const GridWindow& window, Visit&& visit) const {
     const Key first = keyOf(window.corner);
@@ -92,10 +92,10 @@ class TileStore {
     forEachOf(is_around, visit);
   }
 
-  /// In memory and in the file.
+  /// Returns the number of tiles in memory and in the file.
   std::size_t size() const { return tiles_.size() + filed_.size(); }
 
-  /// How many tiles there was no room for; why: fileError().
+  /// Returns the number of tiles that were dropped; fileError() tells why.
   std::size_t forgotten() const { return forgotten_; }
   std::string fileError() const { return file_->error(); }
 
@@ -104,7 +104,7 @@ class TileStore {
   /// Column and row of a tile.
   using Key = std::pair<int, int>;
 
-  /// Of the tile of a cell.
+  /// Returns the key of the tile that contains a cell.
   static Key keyOf(CellIndex cell) {
     const CellIndex tile = inCoarserLattice(cell, kSide);
     return {tile.column, tile.row};
@@ -159,7 +159,7 @@ class TileStore {
     return is_read ? std::make_optional(std::move(cells)) : std::nullopt;
   }
 
-  /// An empty tile if it is not there.
+  /// Returns an empty tile if it is not there.
   Tile takeFromFile(const Key& key) {
     std::optional<Tile> cells = readTile(key);
     const bool was_filed = filed_.erase(key) > 0;
@@ -180,9 +180,9 @@ class TileStore {
   std::size_t max_tiles_;
   Cell empty_;
   std::map<Key, Tile> tiles_;
-  std::deque<Key> order_;                                       ///< as they were made or came back
-  std::map<Key, std::shared_ptr<const TileFile::Tile>> filed_;  ///< those not in memory
-  std::shared_ptr<TileFile> file_;                              ///< of all copies
+  std::deque<Key> order_;  ///< in the order of creation or return
+  std::map<Key, std::shared_ptr<const TileFile::Tile>> filed_;  ///< tiles not in memory
+  std::shared_ptr<TileFile> file_;                              ///< shared by all copies
   std::size_t forgotten_ = 0;
 };
 

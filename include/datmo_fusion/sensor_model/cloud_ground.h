@@ -25,18 +25,19 @@ struct CloudGroundOptions {
 
 /// The ground below a cloud.
 struct CloudGround {
-  RoadPlane plane;         ///< z = 0 of the base frame where none was found
+  RoadPlane plane;         ///< z = 0 of the base frame if none was found
   bool seen = false;       ///< found in this cloud
-  std::size_t voxels = 0;  ///< of the ground that support it
+  std::size_t voxels = 0;  ///< inliers of the plane
 };
 
-/// The plane of the ground around the vehicle in a cloud of a 3D lidar: RANSAC (Fischler and
-/// Bolles, Random sample consensus, 1981; pcl::SACSegmentation with the fixed seed of PCL, so that
-/// the same cloud gives the same plane) over the centroids of voxels, so that dense points near the
-/// lidar do not outweigh far ones, then least squares through its inliers.
+/// Finds the ground plane around the vehicle in a cloud of a 3D lidar: RANSAC (Fischler and Bolles,
+/// Random sample consensus, 1981; pcl::SACSegmentation with PCL's fixed seed, so that the same
+/// cloud gives the same plane) over the centroids of voxels, so that dense points near the lidar do
+/// not outweigh distant ones, then least squares through its inliers.
 ///
-/// `points`: base_link, m; of them only `indices`. A plane that is too steep, too far from z = 0 of
-/// base_link or has too little support is none: the ground is then what the lidar's mount says.
+/// `points`: base_link, m, of which only `indices` are used. A plane that is too steep, too far
+/// from z = 0 of base_link or has too little support is rejected; the ground then follows from the
+/// lidar's mount.
 CloudGround findGround(const LidarPoints& points, const std::vector<int>& indices,
                        const CloudGroundOptions& options);
 

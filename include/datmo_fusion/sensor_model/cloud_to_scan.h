@@ -12,7 +12,7 @@
 
 namespace datmo {
 
-/// The planar scanner that a cloud is turned into.
+/// The planar scanner that a cloud is converted to.
 struct CloudToScanOptions {
   double min_height = 0.3;          ///< m above the ground
   double max_height = 0.9;          ///< m above the ground
@@ -33,23 +33,23 @@ struct CloudToScanOptions {
 /// A planar scan about the lidar, as seen from above, in the axes of base_link.
 struct PlanarScan {
   double first_bearing = 0.0;  ///< rad, of beam 0
-  double beam_spacing = 0.0;   ///< rad, from a beam to the next one; negative: it is to the right
+  double beam_spacing = 0.0;   ///< rad, from one beam to the next; negative: clockwise
   double first_time = 0.0;     ///< s after the cloud's stamp, of beam 0
-  double beam_time = 0.0;      ///< s, from a beam to the next one; 0: all at once
+  double beam_time = 0.0;      ///< s, from one beam to the next; 0: all at once
   std::vector<float>
       ranges;          ///< m; +inf: no obstacle in the band; NaN: the lidar sees nothing there
-  CloudGround ground;  ///< that heights were counted from
+  CloudGround ground;  ///< reference of heights
   std::size_t own_points = 0;   ///< on the vehicle itself
-  std::size_t band_points = 0;  ///< in the band and within range
-  std::size_t blind_beams = 0;  ///< those that are NaN
-  /// The sweep ends within the field of view, so that the beams' times do not grow from beam to
-  /// beam: they are taken as measured at once.
+  std::size_t band_points = 0;  ///< in the height band and within range
+  std::size_t blind_beams = 0;  ///< beams that are NaN
+  /// The sweep ends within the field of view, so that the times of the beams do not ascend: they
+  /// are taken as simultaneous.
   bool sweep_ends_inside = false;
 };
 
-/// A cloud of a 3D lidar -> the planar scan of what stands in a band of heights above the ground:
-/// the nearest point of each beam. It is an emulation: the lidar looks down, and so sees over low
-/// obstacles where a scanner at the bumper would not see any.
+/// Converts a cloud of a 3D lidar to the planar scan of obstacles in a height band above the
+/// ground: the nearest point of each beam. This is an emulation: the lidar looks down, and so sees
+/// over low obstacles that would block a scanner at the bumper.
 ///
 /// The same cloud gives the same scan.
 class CloudToScan {
@@ -57,10 +57,10 @@ class CloudToScan {
   /// Throws OptionError.
   explicit CloudToScan(const Checked<CloudToScanOptions>& options);
 
-  /// An empty cloud gives a scan of blind beams.
+  /// Returns the scan; an empty cloud gives a scan of blind beams.
   PlanarScan scan(const LidarCloud& cloud) const;
 
-  /// Of the emulated scanner above the ground, m: the middle of the band.
+  /// Returns the height of the emulated scanner above the ground, m: the middle of the band.
   double height() const { return 0.5 * (options_.min_height + options_.max_height); }
 
  private:

@@ -8,26 +8,26 @@
 
 namespace datmo {
 
-/// Depth ahead of a camera cut into bins as fine as its resolution: half a standard deviation of
-/// the depth (for a stereo camera, uniform in disparity: Badino et al. 2007), but no finer than the
-/// cells need.
+/// Divides the depth ahead of a camera into bins as fine as its resolution: half a standard
+/// deviation of the depth (for a stereo camera, uniform in disparity: Badino et al. 2007), but no
+/// finer than the cells need.
 class DepthBins {
  public:
   DepthBins() = default;
-  /// From the camera to `farthest`; bins of `finest` at least. m, both above 0.
+  /// Bins from the camera to `farthest`, each at least `finest` long. m, both above 0.
   DepthBins(const StereoCamera& camera, double farthest, double finest);
 
   int size() const { return static_cast<int>(middles_.size()); }
 
-  /// Middle of a bin, m.
+  /// Returns the middle of a bin, m.
   float middle(int bin) const { return middles_[static_cast<std::size_t>(bin)]; }
 
   bool contains(float depth) const { return depth >= 0.0F && depth < farthest_; }
 
-  /// The bin that holds a depth which contains() says is inside.
+  /// Returns the bin of a depth, for which contains() must be true.
   int at(float depth) const { return bin_at_[indexOf(depth)]; }
 
-  /// How many bins have their middle nearer than this depth (0 or more, or not a number: all).
+  /// Returns the number of bins whose middle is nearer than this depth (0 or more; NaN: all).
   int before(float depth) const { return depth < farthest_ ? before_[indexOf(depth)] : size(); }
 
  private:

@@ -7,20 +7,20 @@
 
 namespace datmo {
 
-/// How the noise of a camera's depth grows with the depth: the standard deviation is
+/// Noise of a camera's depth as a function of depth: the standard deviation is
 ///
 ///   constant + linear * depth + depth^2 * disparity_sigma / disparity_at_meter,
 ///
-/// which holds cameras that triangulate (the last term: a point `depth` m away has a disparity of
+/// which covers cameras that triangulate (the last term: a point at `depth` m has a disparity of
 /// disparity_at_meter / depth) as well as those that measure a time of flight (the first two).
-/// Stages take the noise from here alone, and none of its terms.
+/// Stages use only this model, not its terms.
 struct DepthNoise {
   double constant = 0.0;            ///< m
   double linear = 0.0;              ///< m / m; sigma() must be more than 0 at all depths
   double disparity_sigma = 0.0;     ///< px, 0 or more
   double disparity_at_meter = 1.0;  ///< px m, more than 0: focal length times baseline
 
-  /// Of cameras that match disparities: a pair, or a camera and a projector.
+  /// Noise of cameras that match disparities: a pair, or a camera and a projector.
   static DepthNoise ofDisparity(double focal_length, double baseline, double disparity_sigma) {
     return {0.0, 0.0, disparity_sigma, focal_length * baseline};
   }
@@ -33,19 +33,19 @@ struct DepthNoise {
   /// 1/m
   double quadratic() const { return disparity_sigma / disparity_at_meter; }
 
-  /// Standard deviation of a depth, m. `depth`: m, 0 or more.
+  /// Returns the standard deviation of a depth, m. `depth`: m, 0 or more.
   double sigma(double depth) const {
     return constant + linear * depth + depth * depth * disparity_sigma / disparity_at_meter;
   }
 
-  /// Standard deviation of an inverse depth, 1/m, to first order in the noise; the same at all
-  /// depths for cameras that match disparities. `inverse`: 1/m, 0 or more.
+  /// Returns the standard deviation of an inverse depth, 1/m, to first order in the noise; for
+  /// cameras that match disparities it is the same at all depths. `inverse`: 1/m, 0 or more.
   double inverseSigma(double inverse) const {
     return quadratic() + inverse * (linear + inverse * constant);
   }
 };
 
-/// A DepthNoise in the numbers that points have, times a factor: for loops over points.
+/// A DepthNoise in single precision, times a factor: for loops over points.
 class InverseDepthMargin {
  public:
   InverseDepthMargin() = default;
@@ -54,7 +54,7 @@ class InverseDepthMargin {
         linear_(static_cast<float>(sigmas * noise.linear)),
         constant_(static_cast<float>(sigmas * noise.constant)) {}
 
-  /// So many standard deviations of an inverse depth, 1/m. `inverse`: 1/m.
+  /// Returns this many standard deviations of an inverse depth, 1/m. `inverse`: 1/m.
   float at(float inverse) const { return quadratic_ + inverse * (linear_ + inverse * constant_); }
 
  private:
@@ -63,12 +63,12 @@ class InverseDepthMargin {
   float constant_ = 0.0F;
 };
 
-/// What a camera measures depth by.
+/// The measuring principle of a depth camera.
 enum class DepthPrinciple {
-  kStereo,           ///< a pair of cameras; the right one's info has the baseline
-  kActiveStereo,     ///< a pair inside of a depth camera, whose info has no baseline
+  kStereo,           ///< a pair of cameras; the right one's camera info has the baseline
+  kActiveStereo,     ///< a pair inside a depth camera, whose camera info has no baseline
   kStructuredLight,  ///< a camera and a projector of a known pattern
-  kTimeOfFlight,     ///< how long light travels
+  kTimeOfFlight,     ///< travel time of light
 };
 
 /// The noise of structured light: constant + quadratic * (depth - nearest)^2. The defaults are
@@ -93,21 +93,22 @@ struct TimeOfFlightNoiseOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a camera measures depth by, and how well.
+/// The measuring principle of a depth camera, and its noise.
 struct DepthNoiseOptions {
   DepthPrinciple principle = DepthPrinciple::kStereo;  ///< key `depth_noise`
-  double disparity_sigma = 0.25;                       ///< px, of both forms of stereo
+  double disparity_sigma = 0.25;                       ///< px, for both stereo principles
   StructuredLightNoiseOptions structured_light;
   TimeOfFlightNoiseOptions time_of_flight;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Throws OptionError for a name that is none; the message has it and those that are.
+/// Throws OptionError for an unknown name; the message lists the known ones.
 DepthPrinciple depthPrinciple(const std::string& name);
 
-/// Of a camera of this focal length (px) and baseline (m), both more than 0 for both forms of
-/// stereo, and of no effect otherwise. Throws OptionError as depthPrinciple does.
+/// Returns the noise of a camera of this focal length (px) and baseline (m), which must be more
+/// than 0 for both stereo principles and are unused otherwise. Throws OptionError as depthPrinciple
+/// does.
 DepthNoise depthNoise(const DepthNoiseOptions& options, double focal_length, double baseline);
 
 }  // namespace datmo

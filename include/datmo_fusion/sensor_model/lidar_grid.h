@@ -21,14 +21,14 @@ struct LidarGridOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One scan -> its evidence on each cell around the vehicle: the inverse sensor model of a laser
-/// scanner (thesis 3.2.1, eq. 3.2.1). Free along each beam, as wide as the beam opens; occupied
-/// where it ends, across its width; unknown behind, nearer to the end than its range is uncertain,
-/// and where no beam looks.
+/// Inverse sensor model of a laser scanner: the evidence of one scan on each cell around the
+/// vehicle (thesis 3.2.1, eq. 3.2.1). Free along each beam, over its opening angle; occupied where
+/// it ends, across its width; unknown behind, within the range uncertainty before the end, and
+/// where there are no beams.
 ///
-/// In: a Scan that is compensated for the vehicle's motion (slam/motion_compensation). Out: to
-/// grid fusion. Beyond the thesis: a beam is as wide as it opens, not as its neighbors are apart;
-/// a beam without return is free as far as it is known to see.
+/// Input: a motion-compensated Scan (slam/motion_compensation). Output: for grid fusion. Beyond the
+/// thesis: a beam is as wide as its opening angle, not as the beam spacing; a beam without return
+/// is free as far as it is known to see.
 class LidarGridModel {
  public:
   /// Throws OptionError.

@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// The box around the vehicle in which points are its own (hood, mirrors, roof rack), in base_link.
+/// The box, in base_link, whose points belong to the vehicle itself (hood, mirrors, roof rack).
 struct OwnVehicleOptions {
   double rear = -1.0;       ///< m
   double front = 1.0;       ///< m

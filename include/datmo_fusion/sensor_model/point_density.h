@@ -8,11 +8,12 @@
 
 namespace datmo {
 
-/// Pixels of an image for each point of a cloud where it has no holes: how far it was thinned.
+/// Returns the number of image pixels per point of a cloud without holes: how much it was thinned.
 ///
 /// @param counts points in each of equal tiles of the image
 /// @param tile_area px
-/// @return of the tiles with points, nearly the fullest: most may have holes; 1 if there is none
+/// @return for nearly the fullest of the tiles with points: most may have holes; 1 if there are
+/// none
 inline double pixelsPerPoint(const std::vector<int>& counts, double tile_area) {
   constexpr double kHolesShare = 0.8;
   std::vector<int> filled;

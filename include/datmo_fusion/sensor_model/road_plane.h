@@ -10,13 +10,13 @@
 
 namespace datmo {
 
-/// The road around the vehicle as a plane in its frame: z = height + slope_x x + slope_y y, m.
+/// The road around the vehicle, as a plane in its frame: z = height + slope_x x + slope_y y, m.
 struct RoadPlane {
   double height = 0.0;   ///< m, at the frame's origin
   double slope_x = 0.0;  ///< m / m
   double slope_y = 0.0;
 
-  /// m above the road; negative below it. `point`: base frame, m.
+  /// Returns the height above the road, m; negative below it. `point`: base frame, m.
   double heightOf(const Eigen::Vector3d& point) const {
     return point.z() - (height + slope_x * point.x() + slope_y * point.y());
   }
@@ -34,24 +34,24 @@ struct RoadPlaneOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Finds the road's plane in the points of a stereo camera, so that the layer of obstacles follows
-/// slopes and pitching; the thesis takes the road as flat (3.2.2).
+/// Finds the road plane in the points of a stereo camera, so that the layer of obstacles follows
+/// slopes and pitching; the thesis assumes a flat road (3.2.2).
 ///
-/// Trimmed least squares from the last plane on, one vote for each square meter of road, first near
-/// the vehicle, then farther out: no random samples, so the same clouds give the same planes. Keeps
-/// the last plane from cloud to cloud.
+/// Trimmed least squares starting from the last plane, with one vote per square meter of road,
+/// first near the vehicle, then farther out. There is no random sampling, so the same clouds give
+/// the same planes. Keeps the last plane from cloud to cloud.
 class RoadPlaneEstimator {
  public:
   /// Throws OptionError.
   explicit RoadPlaneEstimator(const Checked<RoadPlaneOptions>& options);
 
-  /// The plane through the cloud's road; nothing where none is credible, or `estimate` is off.
+  /// Returns the plane of the cloud's road; none if it is not credible, or `estimate` is off.
   std::optional<RoadPlane> update(const StereoCloud& cloud);
 
-  /// The last credible plane; at first the flat road z = 0.
+  /// Returns the last credible plane; at first the flat road z = 0.
   const RoadPlane& last() const { return last_; }
 
-  /// Forgets the last plane, as after construction.
+  /// Resets to the state after construction.
   void reset() { last_ = {}; }
 
  private:

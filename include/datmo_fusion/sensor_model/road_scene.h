@@ -7,16 +7,15 @@
 
 namespace datmo {
 
-/// What all that looks at a stereo camera's clouds takes of them: up to where, and above which
-/// road.
+/// What all users of a stereo camera's clouds have in common: their effective range and the road.
 struct RoadSceneOptions {
   double effective_range = 36.0;  ///< m
   RoadPlaneOptions road;
 
   void visit(OptionVisitor& visitor);
 
-  /// Depth up to which points belong to the effective range, m: some beyond it, as depths are
-  /// noisy.
+  /// Returns the depth up to which points are used, m: somewhat beyond the effective range, because
+  /// depths are noisy.
   double maxDepth(const StereoCamera& camera) const;
 };
 

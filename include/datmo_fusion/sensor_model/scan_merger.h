@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// The scanner that several are merged into.
+/// The scanner into which several are merged.
 struct ScanMergerOptions {
   double beam_spacing = 0.0087266;  ///< rad
   double max_range = 80.0;          ///< m
@@ -18,24 +18,24 @@ struct ScanMergerOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The scan without the beams that look into sectors (rad about the scanner, from its x axis to the
-/// left): pairs of where one begins and where it ends, to the left. They are blind then.
+/// Returns the scan without the beams in these sectors (rad about the scanner, from its x axis to
+/// the left): pairs of begin and end, counterclockwise. These beams become blind.
 Scan withoutSectors(Scan scan, const std::vector<double>& sectors);
 
-/// Scans of one time -> the ranges that one scanner at the vehicle's origin would have measured,
-/// all around. Of several end points in one beam the nearest counts. Two neighboring beams of a
-/// scanner that hit one surface, or that both hit nothing, hold for all beams between their end
-/// points; what lies between a near and a far end point was seen by nobody.
+/// Merges scans of one time into the ranges that one scanner at the vehicle's origin would have
+/// measured, all around. Of several end points in one beam the nearest counts. If two neighboring
+/// beams of a scanner hit one surface, or both hit nothing, this applies to all beams between their
+/// end points; what lies between a near and a far end point was not seen.
 class ScanMerger {
  public:
   /// Throws OptionError.
   explicit ScanMerger(const Checked<ScanMergerOptions>& options);
 
-  /// m, by rising bearing from -pi; +inf: free as far as a beam without return is known to be; NaN:
-  /// no scanner has measured there. `scans`: in the vehicle's frame at one time.
+  /// Returns ranges, m, by ascending bearing from -pi; +inf: free as far as a beam without return
+  /// is known to be; NaN: no scanner measured there. `scans`: in the vehicle's frame at one time.
   std::vector<float> ranges(const std::vector<Scan>& scans) const;
 
-  /// rad, from a beam to the next one: a whole turn has a whole number of them.
+  /// Returns the beam spacing, rad: a full turn has an integer number of beams.
   double beamSpacing() const;
 
  private:

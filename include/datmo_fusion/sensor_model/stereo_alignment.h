@@ -13,24 +13,24 @@
 
 namespace datmo {
 
-/// What makes a stereo camera's points lie elsewhere than the scanner's of the same surfaces.
+/// Why a stereo camera's points may deviate from the scanner's points on the same surfaces.
 enum class AlignmentTerm {
-  kDisparity,  ///< px: the camera's disparities are too large by this
+  kDisparity,  ///< px: by how much the camera's disparities are too large
   kSurface,    ///< m: its surfaces lie behind the scanner's, along their normal: no body is upright
-  kForward,    ///< m: it is mounted farther back than tf says, along its horizontal heading
-  kHeading,    ///< rad: it is turned farther to the left than tf says
-  kTime,       ///< s: it saw its cloud so much before the stamp
+  kForward,    ///< m: its mount is this much farther back than in tf, along its horizontal heading
+  kHeading,    ///< rad: by how much it is turned farther to the left than tf says
+  kTime,       ///< s: by how much it captured its cloud before the stamp
 };
 inline constexpr std::size_t kAlignmentTerms = 5;
 
 using AlignmentVector = Eigen::Matrix<double, kAlignmentTerms, 1>;
 using AlignmentMatrix = Eigen::Matrix<double, kAlignmentTerms, kAlignmentTerms>;
 
-/// Prior and drift of one term, in its unit, and from where on it is a fault.
+/// Prior and drift of one term, in its unit, and its fault threshold.
 struct AlignmentTermOptions {
-  double sigma = 0.0;       ///< before anything was measured
+  double sigma = 0.0;       ///< standard deviation before any measurement
   double drift = 0.0;       ///< standard deviation of its change in one second
-  double max_normal = 0.0;  ///< beyond it something is wrong with calibration, mount or clock
+  double max_normal = 0.0;  ///< beyond this, calibration, mount or clock are wrong
 };
 
 struct StereoAlignmentOptions {
@@ -51,32 +51,32 @@ struct StereoAlignmentOptions {
   std::array<const AlignmentTermOptions*, kAlignmentTerms> terms() const;
 };
 
-/// One plane upright surface that both see: the scanner's inverse depth on it is
+/// One planar upright surface that both sensors see: the scanner's inverse depth on it is
 /// `intercept + slope * tangent` in the camera's level view (StereoView).
 struct SurfacePair {
   double tangent = 0.0;     ///< of its middle, to the right of the camera's heading
   double intercept = 0.0;   ///< 1/m
   double slope = 0.0;       ///< 1/m
-  double difference = 0.0;  ///< px, the camera's disparity less the scanner's
-  double variance = 0.0;    ///< px^2, of what is independent from surface to surface
+  double difference = 0.0;  ///< px, the camera's disparity minus the scanner's
+  double variance = 0.0;    ///< px^2, of the part that is independent from surface to surface
 
   double inverseDepth() const { return intercept + slope * tangent; }
 };
 
-/// By how much the difference of a pair grows with each term. `disparity_at_meter`: px m, focal
-/// length times baseline. `twist`: of the vehicle.
+/// Returns the derivative of a pair's difference with respect to each term. `disparity_at_meter`:
+/// px m, focal length times baseline. `twist`: of the vehicle.
 AlignmentVector alignmentRates(const SurfacePair& pair, double disparity_at_meter,
                                const Twist2& twist);
 
-/// How a stereo camera's points lie against the scanner's.
+/// The estimated deviation of a stereo camera's points from the scanner's.
 struct StereoAlignment {
   Stamp stamp;
   AlignmentVector mean = AlignmentVector::Zero();
   AlignmentMatrix covariance = AlignmentMatrix::Identity();
   std::size_t surfaces = 0;  ///< that agreed, so far
   std::size_t refused = 0;   ///< that did not
-  double agreement = 1.0;    ///< share of those of the last time that agreed; 1 without any
-  /// False: the clouds are not of what the scanner sees, or not where it sees it.
+  double agreement = 1.0;    ///< share of the most recent ones that agreed; 1 without any
+  /// False: the clouds do not show what the scanner sees, or not where it sees it.
   bool usable = true;
 
   double operator[](AlignmentTerm term) const { return mean[static_cast<int>(term)]; }
@@ -87,52 +87,53 @@ struct StereoAlignment {
 };
 
 /// Estimates the alignment from pairs of surfaces: an information filter over slow random walks.
-/// What a surface differs by it has in common with itself in the next images: until the vehicle has
-/// moved by `surface_distance`, or after `surface_time`, it counts as seen once. Differences that
-/// the state does not explain (gate) are left out, since they are of two surfaces.
+/// The deviation of one surface is the same in consecutive images: until the vehicle has moved by
+/// `surface_distance`, or after `surface_time`, the surface counts as one measurement. Differences
+/// that the state does not explain (gate) are rejected, because they are from two surfaces.
 ///
-/// Errors of different kinds have different patterns: one of disparity is the same on all surfaces,
-/// one of the mount's position goes with the inverse depth squared, one of heading with the slant
-/// of what is seen, and one of time with the vehicle's motion. So a wrong mount is not taken for a
-/// wrong disparity.
+/// Different errors have different patterns: that of the disparity is the same on all surfaces,
+/// that of the mounting position grows with the square of the inverse depth, that of the heading
+/// depends on the slant of the surfaces, and that of the time on the vehicle's motion. So a wrong
+/// mount is not mistaken for a wrong disparity.
 class StereoAlignmentFilter {
  public:
   /// Throws OptionError.
   explicit StereoAlignmentFilter(const Checked<StereoAlignmentOptions>& options);
 
-  /// As far as it is known; before the first update as the options say.
+  /// Returns the current estimate; before the first update that of the options.
   const StereoAlignment& alignment() const { return alignment_; }
 
-  /// `pairs`: of one image, at this stamp, each later than the last. `twist`: of the vehicle.
+  /// Updates with the pairs of one image, at this stamp, each later than the last. `twist`: of the
+  /// vehicle.
   void update(Stamp stamp, const std::vector<SurfacePair>& pairs, double disparity_at_meter,
               const Twist2& twist);
 
-  /// The image has not changed while the vehicle moved: nothing is learned, and it is not usable.
+  /// The image has not changed while the vehicle moved: it is not used, and marked as not usable.
   void takeFrozen(Stamp stamp);
 
-  /// Whether a term is surely (two standard deviations) beyond what is normal.
+  /// Returns whether a term is outside its normal range with certainty (two standard deviations).
   bool isFault(AlignmentTerm term) const;
 
-  /// In the term's unit.
+  /// Returns the fault threshold, in the term's unit.
   double maxNormal(AlignmentTerm term) const {
     return options_.terms()[static_cast<std::size_t>(term)]->max_normal;
   }
 
-  /// The clock was set: what is known stays, the time since the last update is not known.
+  /// The clock was set: the estimate is kept, but the time since the last update is unknown.
   void forgetTime() { started_ = false; }
 
  private:
   void drift(double seconds);
-  /// 0 to 1, of what is compared that was not compared before.
+  /// 0 to 1, share of the compared surfaces that is new.
   double newShare(double seconds, const Twist2& twist) const;
   void judge(double seconds, std::size_t agreed, std::size_t compared);
-  /// False if it is refused.
+  /// False if it was rejected.
   bool add(const SurfacePair& pair, const AlignmentVector& rates, double weight);
 
   StereoAlignmentOptions options_;
   StereoAlignment alignment_;
   bool started_ = false;
-  double agreed_ = 0.0;    ///< of the last time
+  double agreed_ = 0.0;    ///< recently
   double compared_ = 0.0;  ///< the same
 };
 

@@ -14,14 +14,14 @@
 
 namespace datmo {
 
-/// Points of a stereo or depth camera as they lie in memory (a PointCloud2's data): three floats
+/// Points of a stereo or depth camera in their memory layout (a PointCloud2's data): three floats
 /// each, in the camera's optical frame: x to the right, y down, z forward, m. Points that are not
 /// finite are holes. Does not own the memory.
 struct PointsView {
   const std::uint8_t* data = nullptr;
   std::size_t count = 0;
-  std::size_t step = 0;      ///< bytes from a point to the next one
-  std::size_t x_offset = 0;  ///< bytes from a point's begin
+  std::size_t step = 0;      ///< bytes from one point to the next
+  std::size_t x_offset = 0;  ///< bytes from a point's start
   std::size_t y_offset = 4;
   std::size_t z_offset = 8;
 
@@ -35,24 +35,24 @@ struct PointsView {
   }
 };
 
-/// A camera whose points have depths: a pair of cameras, or a depth camera (structured light, time
-/// of flight).
+/// A camera that measures depth: a pair of cameras, or a depth camera (structured light, time of
+/// flight).
 struct StereoCamera {
   double focal_length = 0.0;  ///< px, more than 0
-  /// m, to the right, of what sees or lights the scene as well: the right camera, the projector.
-  /// What is hidden from it has no depth. 0: there is none (time of flight).
+  /// m, to the right: position of the other device that sees or lights the scene, the right camera
+  /// or the projector. Points hidden from it have no depth. 0: there is none (time of flight).
   double baseline = 0.0;
   DepthNoise noise;  ///< more than 0 at all depths
-  /// Borders of the image as tangents x / z of the optical frame: left one, right one.
+  /// Left and right borders of the image as tangents x / z of the optical frame.
   double left_tangent = 0.0;
   double right_tangent = 0.0;
-  /// px^2; what is not known of a bias that all disparities have in common.
+  /// px^2; variance of a bias that all disparities have in common.
   double disparity_offset_variance = 0.0;
 
-  /// Standard deviation of a depth, m.
+  /// Returns the standard deviation of a depth, m.
   double depthSigma(double depth) const { return noise.sigma(depth); }
 
-  /// The same of the error that all depths have in common, m.
+  /// Returns the standard deviation of the error that all depths have in common, m.
   double commonDepthSigma(double depth) const {
     return depth * depth * std::sqrt(disparity_offset_variance) / noise.disparity_at_meter;
   }
@@ -64,7 +64,8 @@ struct StereoCloud {
   PointsView points;
   StereoCamera camera;
   Eigen::Isometry3d camera_in_base = Eigen::Isometry3d::Identity();  ///< the optical frame
-  /// Height of the planar scanner above base_link's origin, m: where the layer that it sees begins.
+  /// Height of the planar scanner above base_link's origin, m: the bottom of the layer that it
+  /// sees.
   double scanner_height = 0.0;
 
   EIGEN_MAKE_ALIGNED_OPERATOR_NEW

@@ -14,14 +14,14 @@
 
 namespace datmo {
 
-/// When the thesis's plain form calls a cell occupied.
+/// When the thesis's method marks a cell as occupied.
 struct StereoConesOptions {
   int threshold = 20;  ///< points
 
   void visit(OptionVisitor& visitor);
 };
 
-/// When what is seen in the columns of the image makes a cell occupied or free.
+/// When the contents of image columns make a cell occupied or free.
 struct StereoColumnsOptions {
   double min_surface = 0.01;  ///< m^2
   int min_points = 3;
@@ -31,7 +31,7 @@ struct StereoColumnsOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How a cloud becomes a grid (StereoGridModel).
+/// How a cloud is converted to a grid (StereoGridModel).
 enum class StereoGridMethod { kColumns, kCones };
 
 struct StereoGridOptions : RoadSceneOptions {
@@ -48,38 +48,38 @@ struct StereoGridOptions : RoadSceneOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one cloud led to.
+/// The result for one cloud.
 struct StereoGridResult {
   SensorGrid grid;
-  RoadPlane road;            ///< that heights were counted from
+  RoadPlane road;            ///< reference of heights
   bool road_seen = false;    ///< false: the last known one, or the flat one of the thesis
-  std::size_t points = 0;    ///< those that are finite and in front of the camera
+  std::size_t points = 0;    ///< finite and in front of the camera
   std::size_t in_layer = 0;  ///< of these, in the layer of obstacles and within range
 };
 
 class StereoEvidence;
 
-/// One cloud of a stereo or depth camera -> its evidence on each cell around the vehicle
-/// (thesis 3.2.2).
+/// Inverse sensor model of a stereo or depth camera: the evidence of one cloud on each cell around
+/// the vehicle (thesis 3.2.2).
 ///
-/// Method `cones`, the thesis's plain form on a flat road (eq. 3.2.2 to 3.2.4): points in the layer
-/// above the scanner's plane counted in cells, free before each object, undecided behind it, free
-/// elsewhere in view.
+/// Method `cones`, as in the thesis, on a flat road (eq. 3.2.2 to 3.2.4): points in the layer above
+/// the scanner's plane are counted in cells; free in front of each object, undecided behind it,
+/// free elsewhere in view.
 ///
-/// Method `columns`, beyond the thesis: surface found in columns of the image over inverse depth,
-/// where the noise of a stereo camera is uniform (Badino et al., Free space computation using
-/// stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated from
-/// the points; free is only what enough lines of sight cross near the ground.
+/// Method `columns`, beyond the thesis: surfaces are found in columns of the image over inverse
+/// depth, where the noise of a stereo camera is uniform (Badino et al., Free space computation
+/// using stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated
+/// from the points; a cell is only free if enough lines of sight cross it near the ground.
 ///
-/// A cloud may be dense or thinned, organized or not: its density is estimated from it. Not thread
-/// safe. Keeps the last road plane from cloud to cloud.
+/// A cloud may be dense or thinned, organized or not: its density is estimated. Not thread-safe.
+/// Keeps the last road plane from cloud to cloud.
 class StereoGridModel {
  public:
   /// Throws OptionError.
   explicit StereoGridModel(const Checked<StereoGridOptions>& options);
   ~StereoGridModel();
 
-  /// Throws std::invalid_argument for a camera as StereoView does.
+  /// Throws std::invalid_argument for invalid cameras, see StereoView.
   StereoGridResult grid(const StereoCloud& cloud);
 
   /// Forgets the last road plane, as after construction.
@@ -89,7 +89,7 @@ class StereoGridModel {
   StereoGridOptions options_;
   GridWindow window_;
   RoadPlaneEstimator road_;
-  std::unique_ptr<StereoEvidence> evidence_;  ///< memory that is used again
+  std::unique_ptr<StereoEvidence> evidence_;  ///< reused memory
 };
 
 }  // namespace datmo

@@ -12,8 +12,8 @@
 
 namespace datmo {
 
-/// A point as the camera sees it from above: m from the camera along its horizontal heading, and to
-/// the right of it.
+/// A point in the camera's top view: m from the camera along its horizontal heading, and to the
+/// right of it.
 struct PointInView {
   double forward = 0.0;
   double right = 0.0;
@@ -21,15 +21,14 @@ struct PointInView {
   double tangent() const { return right / forward; }
 };
 
-/// A point as the camera sees it from above, with its height above the road; m.
+/// A point in the camera's top view, with its height above the road; m.
 struct ViewedPoint {
   float forward = 0.0F;
   float right = 0.0F;
   float height = 0.0F;
 };
 
-/// Some ViewedPoint, each number of all of them together, for loops that compilers turn into
-/// vectors.
+/// Several ViewedPoints as a structure of arrays, for vectorizable loops.
 struct ViewedPoints {
   static constexpr std::size_t kMax = 64;
   std::array<float, kMax> forward;
@@ -42,39 +41,39 @@ struct ViewedPoints {
   }
 };
 
-/// The camera brought level: however it is pitched, points are given by how far ahead and aside
-/// they are, and points by their height above the road. In this view a column of a level image is a
+/// The leveled view of a camera: whatever its pitch, points are given by their distances ahead and
+/// to the right, and their height above the road. In this view a column of a level image is a
 /// sector of constant right / forward, and a line of sight stays in its column.
 class StereoView {
  public:
-  /// Throws std::invalid_argument for a camera that has no focal length, noise of the depth or
-  /// width, or a negative baseline, looks straight up or down, or is not above the road.
+  /// Throws std::invalid_argument for a camera without focal length, depth noise or width, or with
+  /// a negative baseline, that looks straight up or down, or is not above the road.
   StereoView(const StereoCloud& cloud, const RoadPlane& road);
 
-  /// `optical`: in the camera's optical frame, m. Not finite in, not finite `forward` out.
+  /// `optical`: in the camera's optical frame, m. If it is not finite, neither is `forward`.
   ViewedPoint operator()(const Eigen::Vector3f& optical) const {
     const Eigen::Vector3f turned = from_optical_ * optical;
     return {turned[0], turned[1], turned[2] + camera_height_};
   }
 
-  /// Of `count` points from `begin` on, kMax at the most: to the bit as one by one.
+  /// Converts `count` points from `begin` on, at most kMax: bit-identical to one by one.
   void view(const PointsView& points, std::size_t begin, std::size_t count,
             ViewedPoints& viewed) const;
 
-  /// `position`: base frame, m.
+  /// Returns a position (base frame, m) in the view.
   PointInView viewedPoint(const Point2& position) const {
     const Point2 offset = position - position_;
     return {offset.dot(heading_), heading_.y() * offset.x() - heading_.x() * offset.y()};
   }
 
-  /// Base frame, m.
+  /// Returns the position of a point of the view in the base frame, m.
   Point2 positionOf(const PointInView& point) const {
     return position_ + point.forward * heading_ + point.right * Point2(heading_.y(), -heading_.x());
   }
 
-  /// Of the camera, in the base frame, m.
+  /// Returns the camera's position in the base frame, m.
   const Point2& position() const { return position_; }
-  /// Above the road, m.
+  /// Returns the camera's height above the road, m.
   float cameraHeight() const { return camera_height_; }
 
  private:

@@ -33,47 +33,47 @@ struct SurfacePairOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Finds what a scanner and a stereo camera both see squarely: straight pieces of the scan, and
-/// for each the disparities that the cloud has in its columns, between two heights. Where most of
-/// them do not agree with each other there are two surfaces, and no pair.
+/// Finds surfaces that both a scanner and a stereo camera see frontally: straight pieces of the
+/// scan, and for each the disparities of the cloud in its columns, between two heights. If most of
+/// these do not agree with each other, there are two surfaces, and no pair.
 class SurfacePairFinder {
  public:
   /// Throws OptionError.
   explicit SurfacePairFinder(const Checked<SurfacePairOptions>& options);
 
-  /// `rays`: by rising beam index, in the vehicle's frame at the cloud's stamp. `expected`: how the
-  /// cloud lies against the scan, as far as that is known: where the disparities are looked for.
-  /// Throws std::invalid_argument for a camera as StereoView does.
+  /// Returns the pairs. `rays`: by ascending beam index, in the vehicle's frame at the cloud's
+  /// stamp. `expected`: current alignment of cloud and scan, which determines where disparities are
+  /// searched. Throws std::invalid_argument for invalid cameras, see StereoView.
   std::vector<SurfacePair> find(const StereoCloud& cloud, const std::vector<Ray>& rays,
                                 const StereoAlignment& expected, const Twist2& twist);
 
  private:
-  /// A point of the cloud, or of the scan, as the camera sees it from above.
+  /// A point of the cloud or of the scan in the camera's top view.
   struct InView {
     double tangent = 0.0;  ///< to the right of the camera's heading
     double inverse = 0.0;  ///< 1/m
   };
-  /// Of the scan, that hang together.
+  /// Connected points of the scan.
   using Piece = std::vector<InView>;
 
   void takePoints(const StereoCloud& cloud, const StereoView& view);
-  /// Whether a beam's end is the next point of a piece that began at `begin`.
+  /// Whether a beam's end continues a piece that began at `begin`.
   bool goesOn(const Ray& last, const Ray& ray, const Point2& begin) const;
   std::vector<Piece> piecesOf(const std::vector<Ray>& rays, const StereoView& view) const;
-  /// Adds the pair of a piece if it has one.
+  /// Adds the pair of a piece, if there is one.
   void add(const Piece& piece, const StereoCamera& camera, const StereoAlignment& expected,
            const Twist2& twist, std::vector<SurfacePair>& pairs);
-  /// The plane through a piece; false if it is none that is seen squarely. `variance`: px^2.
+  /// Fits the plane of a piece; false if it is not planar or not frontal. `variance`: px^2.
   bool fit(const Piece& piece, double disparity_at_meter, SurfacePair& pair) const;
-  /// False if the cloud's points from one tangent to another are not of one surface.
+  /// False if the cloud's points between two tangents are not on one surface.
   bool compare(double left, double right, double disparity_at_meter, double predicted,
                SurfacePair& pair);
 
   SurfacePairOptions options_;
   double left_ = 0.0;                         ///< tangent of the image's border
   double per_tangent_ = 0.0;                  ///< columns
-  std::vector<std::vector<InView>> columns_;  ///< of the cloud; memory that is used again
-  std::vector<double> differences_;           ///< px; the same
+  std::vector<std::vector<InView>> columns_;  ///< of the cloud; reused memory
+  std::vector<double> differences_;           ///< px; reused memory
 };
 
 }  // namespace datmo

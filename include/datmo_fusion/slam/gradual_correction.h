@@ -16,19 +16,19 @@ struct GradualCorrectionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Moves one frame in another one to where it was found to be, so gradually that nothing jumps at
-/// the vehicle: a turn about a distant origin alone would throw it sideways.
+/// Moves one frame within another toward its estimated pose, gradually, so that nothing jumps as
+/// seen from the vehicle: a turn about a distant origin alone would throw it sideways.
 class GradualCorrection {
  public:
   /// Throws OptionError.
   explicit GradualCorrection(const Checked<GradualCorrectionOptions>& options);
 
-  /// The pose of the inner frame in the outer one at this stamp, one step nearer to `target`: of
-  /// the time since the last one, but no more than a second.
-  /// `vehicle`: in the inner frame. At first they are the same.
+  /// Returns the pose of the inner frame in the outer one at this stamp, one step closer to
+  /// `target`. The step is that of the time since the last call, at most one second. `vehicle`:
+  /// pose in the inner frame. Initially both frames coincide.
   Pose2 advance(Stamp stamp, const Pose2& vehicle, const Pose2& target);
 
-  /// As at first.
+  /// Resets to the state after construction.
   void reset();
 
  private:

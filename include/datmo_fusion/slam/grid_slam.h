@@ -33,121 +33,121 @@ struct GridSlamOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one scan led to.
+/// The result of processing one scan.
 struct SlamResult {
-  /// The scan's end points, judged against the map, and the pose. Its covariance is that in the map
-  /// as it is now, in which things seen at about the same time are compared, and of what gaps left
-  /// open since the first map.
+  /// The scan's end points, classified against the map, and the pose. Its covariance is relative to
+  /// the current map, which is what matters for comparing things seen at about the same time, plus
+  /// the uncertainty that gaps since the first map have left.
   LabeledScan labeled_scan;
-  /// How far that map has drifted since the start, about the pose (MapDrift): with this in addition
-  /// the covariance is that since the start.
+  /// How far that map has drifted since the start, about the pose (MapDrift). The sum of both is
+  /// the covariance relative to the start.
   Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
   bool odometry_used = false;      ///< false: predicted with the last estimated velocity
   MatchQuality match;              ///< how well the scan fits the map
-  OdometryErrors odometry_errors;  ///< as estimated so far
+  OdometryErrors odometry_errors;  ///< current estimate
   Localization localization = Localization::kLocated;
-  int maps_begun = 0;               ///< since the vehicle was not found again in the map before
-  bool searches_prior_map = false;  ///< not located, and looked for in all or a part of that
-  bool kidnapped = false;           ///< not located, since it was carried elsewhere
-  bool may_be_kidnapped = false;    ///< located, but this scan may have been made elsewhere
+  int maps_begun = 0;               ///< because the vehicle was not found again in the previous map
+  bool searches_prior_map = false;  ///< not located, and searched for in all or part of it
+  bool kidnapped = false;           ///< not located, after being carried elsewhere
+  bool may_be_kidnapped = false;    ///< located, but this scan may have been taken elsewhere
 };
 
-/// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
-/// vehicle's own motion, match the scan to the map, label the points of the scan as static or
-/// moving, and update the map with what stands still.
+/// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predicts with the
+/// vehicle's own motion, matches the scan to the map, labels the points of the scan as static or
+/// moving, and updates the map with the static ones.
 ///
-/// With low-level fusion the measurement is a grid fused from several sensors (thesis 3.2.5) beside
+/// With low-level fusion the measurement is a grid fused from several sensors (thesis 3.2.5) plus
 /// the scan of the same stamp: beams end only where the grid is occupied, and the map takes its
-/// occupied and free cells. Where the pose comes from, what moves and where exactly a surface lies
-/// is still decided by the scanner's own beams as far as the grid confirms them: the cells of
-/// others are coarse, and off by their depth's error, which would look like motion.
+/// occupied and free cells. The pose, the moving points and the exact position of surfaces still
+/// come from the scanner's own beams, as far as the grid confirms them: the cells of other sensors
+/// are coarse and off by their depth error, which would look like motion.
 ///
-/// After a gap in which the vehicle may have gone far the map is left alone and a new one begun,
-/// until the vehicle is found in the old one or it is given up (MapRecovery). The pose's covariance
-/// is always that in the first map's frame: what a gap left open stays in it until it is found.
-/// While the vehicle is not located, nothing is said to move.
+/// After a gap in which the vehicle may have gone far, the map is left alone and a new one started,
+/// until the vehicle is found in the old one or the search is given up (MapRecovery). The pose's
+/// covariance is always relative to the first map's frame: the uncertainty of a gap stays in it
+/// until the vehicle is found. While the vehicle is not located, nothing is labeled as moving.
 ///
-/// The same after it was carried elsewhere (KidnappingDetector); of a scan that may have been made
-/// there nothing is said to move, nothing is written, and the pose follows the odometry alone.
+/// The same happens after it was carried elsewhere (KidnappingDetector). While that is suspected,
+/// nothing is labeled as moving, the map is not updated, and the pose follows odometry alone.
 ///
-/// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in
-/// that map. If it gets lost later, all of the prior map is searched, and no new map takes its
-/// place.
+/// With a prior map, the vehicle is first searched for in that map, in the same way, and then
+/// continues in it. If it gets lost later, all of the prior map is searched, and no new map
+/// replaces it.
 ///
-/// What each part does: PoseTracker follows the pose from scan to scan, MapKeeper knows which map
-/// is written to and which is searched, SlamMeasurement what a fused grid changes of a scan; this
-/// class puts them together.
+/// PoseTracker tracks the pose from scan to scan, MapKeeper decides which map is updated and which
+/// is searched, SlamMeasurement defines how a fused grid changes a scan; this class combines them.
 ///
-/// Map frame: the prior map's; without one the vehicle's first pose is its origin. Not thread safe;
-/// scans in rising stamp order, which the caller ensures (StampGate).
+/// Map frame: that of the prior map; without one, its origin is the vehicle's first pose. Not
+/// thread-safe; the caller ensures that stamps of scans ascend (StampGate).
 class GridSlam {
  public:
   /// Throws OptionError.
   explicit GridSlam(const Checked<GridSlamOptions>& options);
 
-  /// To be called before the first scan; reset() goes back to here. Throws std::invalid_argument
-  /// for a map that reaches over more cells than can be searched.
+  /// Sets a prior map, before the first scan; reset() returns to this state. Throws
+  /// std::invalid_argument for a map with more cells than can be searched.
   void startIn(PriorMap prior_map) { maps_.setPriorMap(std::move(prior_map)); }
 
-  /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
-  /// bounded time of it is kept: while scans fail for longer, the pose goes on with it.
+  /// Adds odometry in ascending stamp order, before or after the scans that it is used for. Only a
+  /// limited time of it is kept: if scans fail for longer, the pose is predicted with it.
   void addOdometry(const OdometrySample& sample);
 
-  /// Takes the next scan, and labels it as compensated for the vehicle's motion. A scan without
-  /// rays moves the pose by odometry alone.
+  /// Processes the next scan, and labels its points after motion compensation. A scan without rays
+  /// only moves the pose, by odometry.
   SlamResult process(const Scan& scan);
 
-  /// Takes the next fused grid, in the vehicle's frame at the scan's stamp. `scan` without rays:
-  /// the scanner is silent, and pose and movers come from the grid alone.
+  /// Processes the next fused grid, in the vehicle's frame at the scan's stamp. If `scan` has no
+  /// rays, the scanner is silent, and pose and moving points come from the grid alone.
   SlamResult process(const SensorGrid& grid, const Scan& scan);
 
   const OdometryBuffer& odometry() const { return tracker_.odometry(); }
 
   const OccupancyMap& map() const { return maps_.map(); }
 
-  /// The map to keep: while the vehicle is not located, the one in which it was.
+  /// Returns the map to keep: while the vehicle is not located, the one in which it last was.
   const OccupancyMap& lastingMap() const { return maps_.lastingMap(); }
 
-  /// Forgets everything, as after construction.
+  /// Resets to the state after construction.
   void reset();
 
  private:
   SlamResult process(const SlamMeasurement& measurement);
 
-  /// To the stamp of the next scan, into the map that it will be matched with. Returns whether
-  /// odometry measured most of the motion.
+  /// Predicts the pose at the next scan's stamp, in the map that it will be matched with. Returns
+  /// whether odometry measured most of the motion.
   bool predict(Stamp stamp);
-  /// To the map that a prediction has led back to, if it has. Returns the same.
+  /// Switches to the map that a prediction has returned to, if it has. Returns the same as
+  /// predict().
   bool follow(const PoseTracker::Prediction& prediction);
-  /// After a gap: begins a new map.
+  /// Starts a new map after a gap.
   void leaveMap(Stamp stamp);
   /// Compares a scan with the map that it was matched with. Returns whether the vehicle may be
   /// elsewhere.
   bool mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states);
-  /// Back to the pose that was predicted for a scan that may have been made elsewhere.
+  /// Returns to the predicted pose if the scan may have been taken elsewhere.
   void discardMatch(const PoseFilter& predicted, SlamResult& result);
-  /// Begins a new map, if the vehicle was carried elsewhere.
+  /// Starts a new map if the vehicle was carried elsewhere.
   void leaveIfKidnapped(Stamp stamp);
 
-  /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
+  /// The scan as seen at its stamp, by the latest odometry, or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
 
-  /// Corrects the predicted pose by the scan; returns the scan as compensated for its motion.
+  /// Corrects the predicted pose by the scan; returns the motion-compensated scan.
   ///
-  /// Without odometry the velocity comes from the matches. A scan that was compensated for a wrong
-  /// turn is matched at a wrong heading, which makes the next turn wrong in the other direction: of
-  /// beams that go all round, such errors never fade. So the scan is compensated again for the
-  /// motion that its own match gives.
+  /// Without odometry the velocity comes from the matches. A scan compensated for a wrong yaw rate
+  /// is matched at a wrong heading, which makes the next yaw rate wrong in the opposite direction;
+  /// with a 360-degree field of view such errors never decay. So the scan is compensated again for
+  /// the motion given by its own match.
   Scan locate(const SlamMeasurement& measurement, SlamResult& result);
 
-  /// To where the vehicle is now; the scan is about to be written to the map from there.
+  /// Updates the drift for the current pose, from which the scan is about to be added to the map.
   void followDrift(const PoseWithCovariance& base_in_map, const Scan& scan, SlamResult& result);
 
-  /// Labels the compensated scan by the map, and then writes it to the map.
+  /// Labels the compensated scan by the map, and then adds it to the map.
   void write(const SlamMeasurement& measurement, const Scan& scan,
              const PoseWithCovariance& base_in_map, SlamResult& result);
 
-  /// One step back into the map that was left, if one was.
+  /// One step of the search in the map that was left, if any.
   void search(Stamp stamp);
 
   GridSlamOptions options_;

@@ -10,10 +10,10 @@
 
 namespace datmo {
 
-/// What stood still in a scan and what was free, for the time after it has left the live map: four
-/// bytes for each end point, to within 5 mm, and two for each beam without return.
+/// The static points and free beams of a scan, kept after it has left the live map: four bytes per
+/// end point, with a resolution of 5 mm, and two per beam without return.
 ///
-/// Beams that end on something moving are left out, and end points farther than 160 m in x or y.
+/// Beams that end on moving objects are left out, as are end points beyond 160 m in x or y.
 class KeptScan {
  public:
   /// Without beams.
@@ -22,16 +22,16 @@ class KeptScan {
 
   bool empty() const { return ends_.empty() && free_beams_.empty(); }
 
-  /// That the beams take.
+  /// Memory used by the beams.
   std::size_t bytes() const {
     return ends_.size() * sizeof(End) + free_beams_.size() * sizeof(std::uint16_t);
   }
 
-  /// The scan of these beams, in the vehicle's frame.
+  /// Returns the scan of these beams, in the vehicle's frame.
   Scan scan(Stamp stamp) const;
 
  private:
-  /// In steps from the vehicle.
+  /// In steps of the resolution, from the vehicle.
   struct End {
     std::int16_t x;
     std::int16_t y;
@@ -39,17 +39,17 @@ class KeptScan {
 
   Pose2 scanner_in_base_;
   ScanField field_;
-  std::vector<End> ends_;  ///< by rising beam index
+  std::vector<End> ends_;  ///< by ascending beam index
   std::vector<std::uint16_t> free_beams_;
 };
 
-/// A pose of the vehicle at a time.
+/// A pose of the vehicle and its stamp.
 struct StampedPose {
   Stamp stamp;
   Pose2 pose;
 };
 
-/// A scan of a drive from which submaps are made, and the pose that the live SLAM gave it.
+/// A scan from which submaps are made, and its pose in the live SLAM.
 struct Keyframe {
   Stamp stamp;
   PoseWithCovariance base_in_map;

@@ -19,42 +19,42 @@ struct KeyframeOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Which scans of a drive are kept, by the poses that the live SLAM gives them.
+/// Selects the scans of a drive to keep, by the poses that the live SLAM gives them.
 ///
-/// Behind a gap the SLAM may be lost: then its pose is much less certain than at the keyframe
-/// before, and nothing is kept. When it is as certain again, the vehicle was found in
-/// the map, and the drive goes on. When it stays uncertain, the SLAM has begun a new map, whose
-/// frame nobody knows in that of the old one: the drive starts over. So it does when a pose that
-/// was uncertain from the start becomes certain: the vehicle was found in a prior map. And so it
-/// does when the pose leaps farther than any vehicle drives: the SLAM itself has started over.
+/// After a gap the SLAM may be lost: then its pose is much less certain than at the last keyframe,
+/// and nothing is kept. If it becomes as certain again, the vehicle was found in the map, and the
+/// drive continues. If it stays uncertain, the SLAM has started a new map, whose frame is unknown
+/// in the old one: the drive starts over. It also starts over if a pose that was uncertain from the
+/// start becomes certain (the vehicle was found in a prior map), and if the pose jumps farther than
+/// any vehicle drives (the SLAM itself has started over).
 class KeyframeSelector {
  public:
   enum class Use {
-    kNothing,   ///< the pose is not known well enough
-    kPose,      ///< one more of the drive
-    kKeyframe,  ///< and far enough from the keyframe before
-    kFirst,     ///< the first keyframe of a drive: what was before belongs to another frame
+    kNothing,   ///< the pose is too uncertain
+    kPose,      ///< a pose of the drive
+    kKeyframe,  ///< a pose far enough from the previous keyframe
+    kFirst,     ///< the first keyframe of a drive; earlier ones are in another frame
   };
 
   /// Throws OptionError.
   explicit KeyframeSelector(const Checked<KeyframeOptions>& options);
 
-  /// By rising stamps.
+  /// Decides on the next scan, in ascending stamp order.
   Use take(Stamp stamp, const PoseWithCovariance& base_in_map);
 
   /// Forgets the drive.
   void reset();
 
  private:
-  /// Whether a pose of covariance `known` says much more than one of covariance `other`.
+  /// Whether a pose of covariance `known` is much more certain than one of covariance `other`.
   bool isFarBelow(const Eigen::Matrix3d& known, const Eigen::Matrix3d& other) const;
-  /// Whether no vehicle drives so far since the last pose that was known.
+  /// Whether the pose is farther from the last known one than any vehicle drives.
   bool isLeap(Stamp stamp, const Pose2& pose) const;
   Use startAt(Stamp stamp, const PoseWithCovariance& base_in_map);
 
   KeyframeOptions options_;
   std::optional<PoseWithCovariance> last_;  ///< keyframe
-  StampedPose known_;                       ///< the last pose that was, if there is a keyframe
+  StampedPose known_;                       ///< the last known pose, if there is a keyframe
   std::optional<Stamp> uncertain_since_;
 };
 

@@ -28,69 +28,69 @@ struct LoopCloserOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A loop in terms of the drive.
+/// A closed loop between two times of the drive.
 struct ClosedLoop {
   Stamp from;
   Stamp to;
   Pose2 motion;  ///< the vehicle's pose at `to` in its frame at `from`
 };
 
-/// What became of the searches so far.
+/// Results of the searches so far.
 struct LoopCounts {
   std::size_t closed = 0;
-  std::size_t unconfirmed = 0;  ///< of what was found and refused
+  std::size_t unconfirmed = 0;  ///< found, but not confirmed by another
   std::size_t ambiguous = 0;
-  std::size_t unlike = 0;   ///< the submaps do not show the same
-  std::size_t refuted = 0;  ///< taken out later, since the others contradict them
+  std::size_t unlike = 0;   ///< the submaps do not match
+  std::size_t refuted = 0;  ///< removed later, because the other loops contradict them
 };
 
-/// Loop closure behind the live SLAM (Hess et al. 2016): keeps scans of the drive, looks in those
-/// of long ago for what the vehicle has just seen, and optimizes the whole drive.
+/// Loop closure behind the live SLAM (Hess et al. 2016): keeps scans of the drive, searches earlier
+/// ones for what the vehicle has just seen, and optimizes the whole trajectory.
 ///
-/// Frames: `map` is that of the live SLAM, which drifts; `global` is where the optimized poses are.
-/// Both are the same at the first keyframe.
+/// Frames: `map` is that of the live SLAM, which drifts; `global` is that of the optimized poses.
+/// Both coincide at the first keyframe.
 ///
-/// Every `search_distance` the last `submap_length` of the drive is looked for in the part of it,
-/// driven `min_loop` before, that is nearest by the optimized poses: SubmapMatcher, within what may
-/// have drifted between the two by all loops so far. Where that is much, a loop counts only when a
-/// second one, found from other scans, agrees with it: a wrong loop is worse than none. Not thread
-/// safe.
+/// Every `search_distance`, the last `submap_length` of the drive is matched (SubmapMatcher) with
+/// the part of the drive that is nearest by the optimized poses, at least `min_loop` earlier,
+/// within the drift between the two that all loops so far allow. If that is large, a loop only
+/// counts if a second one, found from other scans, agrees with it: a wrong loop is worse than none.
+/// Not thread-safe.
 class LoopCloser {
  public:
   /// Throws OptionError, also for a `min_loop` shorter than `submap_length`: a submap would be
   /// compared with itself.
   explicit LoopCloser(const Checked<LoopCloserOptions>& options);
 
-  /// The next keyframe of the drive; the first one if there is none yet. Returns whether a loop was
-  /// closed, so that all poses have changed.
+  /// Adds the next keyframe of the drive, or the first one. Returns whether a loop was closed,
+  /// which changes all poses.
   bool add(Keyframe keyframe);
 
-  /// A pose of the live SLAM since the last keyframe, for trajectory(), by rising stamps. Where the
-  /// vehicle stands, two a second are kept.
+  /// Adds a pose of the live SLAM since the last keyframe, for trajectory(), in ascending stamp
+  /// order. At rest, two per second are kept.
   void addPose(const StampedPose& base_in_map);
 
-  /// The optimized poses of all keyframes and those added in between, in `global`.
+  /// Returns the optimized poses of all keyframes and of those added in between, in `global`.
   std::vector<StampedPose> trajectory() const;
 
-  /// The frame `map` in `global` as it is at the last keyframe.
+  /// Returns the pose of the frame `map` in `global`, as of the last keyframe.
   Pose2 mapInGlobal() const;
 
-  /// The map of all kept scans, in `global`. Its cells have the size that the options say, or that
-  /// doubled as often as it takes to hold all in four million of them. Throws OptionError where
-  /// that makes cells larger than there are.
+  /// Returns the map of all kept scans, in `global`. Its cells have the size given in the options,
+  /// doubled as often as needed to keep it within four million cells. Throws OptionError if that
+  /// exceeds the largest cell size.
   OccupancyMap map() const;
 
   const LoopCounts& counts() const { return counts_; }
 
-  /// All that are in the graph.
+  /// Returns all loops in the graph.
   std::vector<ClosedLoop> loops() const;
 
   const PoseGraph& graph() const { return graph_; }
 
-  /// Root mean square of the loops' errors, in their standard deviations; 0 without any.
+  /// Returns the RMS of the loops' errors, in standard deviations; 0 without loops.
   double residual() const;
 
-  /// Kept scans and poses take so much memory.
+  /// Returns the memory used by kept scans and poses.
   std::size_t bytes() const;
   std::size_t scans() const { return scans_; }
   double length() const { return nodes_.empty() ? 0.0 : nodes_.back().distance; }
@@ -100,11 +100,11 @@ class LoopCloser {
  private:
   struct Node {
     Keyframe keyframe;
-    double distance = 0.0;               ///< m, driven up to here
-    std::vector<StampedPose> followers;  ///< relative to it
+    double distance = 0.0;               ///< m, driven so far
+    std::vector<StampedPose> followers;  ///< relative to the keyframe
   };
 
-  /// What a search has found, and no other one has confirmed yet.
+  /// The result of a search, not confirmed by another one yet.
   using Candidate = PoseConstraint;
 
   void append(Keyframe keyframe);
@@ -115,13 +115,13 @@ class LoopCloser {
   bool agree(const Candidate& a, const Candidate& b) const;
   bool optimize();
 
-  /// Index of the keyframe in the middle of the last submap_length; none if that is not driven yet.
+  /// Index of the keyframe in the middle of the last submap_length; none if the drive is shorter.
   std::optional<std::size_t> middleOfLast() const;
-  /// The keyframe of long ago to be compared with this one, whose covariance with each of the
-  /// others as the origin this is.
+  /// The earlier keyframe to be compared with this one; `drift` is the latter's covariance relative
+  /// to each of the others.
   std::optional<std::size_t> oldNear(std::size_t node,
                                      const std::vector<Eigen::Matrix3d>& drift) const;
-  /// Those from `from` to `to` (m of the drive) that have scans, in the frame of one of them.
+  /// Keyframes from `from` to `to` (m of the drive) that have scans, in the frame of one of them.
   Submap submap(double from, double to, std::size_t frame) const;
 
   LoopCloserOptions options_;
@@ -132,7 +132,7 @@ class LoopCloser {
   LoopCounts counts_;
   double searched_ = 0.0;  ///< m of the drive
   std::size_t scans_ = 0;
-  std::size_t stride_ = 1;  ///< one keyframe of so many keeps its scan
+  std::size_t stride_ = 1;  ///< one in this many keyframes keeps its scan
 };
 
 }  // namespace datmo

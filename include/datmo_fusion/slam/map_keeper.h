@@ -14,18 +14,18 @@
 
 namespace datmo {
 
-/// A map that was made before, and where in it the vehicle may be when the first scan comes.
+/// A map made before, and where in it the vehicle may be at the first scan.
 struct PriorMap {
   OccupancyMap map;
   SearchRegion start;
 };
 
-/// The map that scans are written to and, while the vehicle is searched for in an older one
-/// (MapRecovery) or in a prior one, that one too; how far each has drifted, and where the frame of
-/// the map lies in that of the first one.
+/// The map that is updated with scans and, while the vehicle is searched for in an older map
+/// (MapRecovery) or a prior one, that map, too; how far each has drifted, and the pose of the map's
+/// frame in the first one.
 ///
-/// Of the pose it knows what it is told: in the frame of the map that scans are written to. Where a
-/// function begins or returns to another map, it returns the pose from which to go on in that.
+/// It is given poses in the frame of the map that is updated. Functions that start a map or return
+/// to one return the pose at which to continue in it.
 class MapKeeper {
  public:
   /// `scale`: of the odometry, whose error the maps inherit. Throws OptionError.
@@ -35,54 +35,54 @@ class MapKeeper {
   OccupancyMap& map() { return map_; }
   const OccupancyMap& map() const { return map_; }
 
-  /// The map to keep: while the vehicle is not located, the one in which it was.
+  /// Returns the map to keep: while the vehicle is not located, the one in which it last was.
   const OccupancyMap& lastingMap() const { return recovery_ ? recovery_->older() : map_; }
 
-  /// Throws std::invalid_argument for a map that reaches over more cells than can be searched.
+  /// Throws std::invalid_argument for a map with more cells than can be searched.
   void setPriorMap(PriorMap prior_map);
-  /// The same one as another keeper's, or none.
+  /// Uses the same prior map as another keeper, or none.
   void sharePriorMap(const MapKeeper& other) { prior_map_ = other.prior_map_; }
   bool hasPriorMap() const { return prior_map_ != nullptr; }
 
-  /// Begins a map by which the vehicle is searched for in the prior one, from the first scan on.
+  /// Starts a map by which the vehicle is searched for in the prior one, from the first scan on.
   PoseWithCovariance startInPriorMap(Stamp stamp);
 
   /// Whether the vehicle is searched for in an older map.
   bool isSearching() const { return recovery_.has_value(); }
   bool isSearchingPriorMap() const { return recovery_ && recovery_->isInPriorMap(); }
-  /// Since it was carried elsewhere.
+  /// Returns whether this is because it was carried elsewhere.
   bool isSearchingKidnapped() const { return recovery_ && recovery_->isAfterKidnapping(); }
   Localization localization() const {
     return recovery_ ? recovery_->state() : Localization::kLocated;
   }
 
-  /// Leaves the map as it is, and begins a new one at this pose, whose covariance says where in the
-  /// map that was left the vehicle may be. Where it was not located yet, the map that it was
-  /// searched for by is given up.
+  /// Leaves the current map unchanged and starts a new one at this pose, whose covariance describes
+  /// where in the old map the vehicle may be. If it was not located yet, the map used to search for
+  /// it is discarded.
   PoseWithCovariance leave(const PoseWithCovariance& pose, Stamp stamp);
 
-  /// The same of a vehicle that was carried elsewhere, if it is not at this pose after all. It must
-  /// be located.
+  /// The same for a vehicle that was carried elsewhere, and may not be at this pose. It must be
+  /// located.
   PoseWithCovariance leaveKidnapped(const PoseWithCovariance& pose, Stamp stamp);
 
-  /// To the map that was left: where the vehicle is in it is known again.
+  /// Returns to the map that was left, since the vehicle's pose in it is known again.
   void returnToLeftMap();
 
-  /// What a step of the search has led to.
+  /// The result of a search step.
   struct SearchStep {
-    std::optional<PoseWithCovariance> found;  ///< in the older map, which is the map again
-    bool gave_up = false;                     ///< the newer map is the map from now on
+    std::optional<PoseWithCovariance> found;  ///< in the older map, which becomes the map again
+    bool gave_up = false;                     ///< the newer map becomes the map
   };
-  /// One step of the search for the vehicle, which is at `pose` in the map; it holds from the next
-  /// scan on.
+  /// Performs one step of the search for the vehicle, which is at `pose` in the map; the result
+  /// applies from the next scan on.
   SearchStep search(const PoseWithCovariance& pose, Stamp stamp);
 
-  /// A pose in the map, in the frame of the first one, with all that gaps left open.
+  /// Transforms a pose in the map to the frame of the first map, with the uncertainty of all gaps.
   PoseWithCovariance inFirstMap(PoseWithCovariance pose) const;
 
   MapDrift& drift() { return drift_; }
 
-  /// Maps that were given up, since the vehicle was not found again in them.
+  /// Returns the number of maps given up because the vehicle was not found again in them.
   int mapsBegun() const { return maps_begun_; }
 
  private:
@@ -96,7 +96,7 @@ class MapKeeper {
   std::optional<MapRecovery> recovery_;
   MapDrift drift_;
   MapDrift drift_of_left_map_;                 ///< while recovery_ searches it
-  std::shared_ptr<const PriorMap> prior_map_;  ///< its window holds all that is known
+  std::shared_ptr<const PriorMap> prior_map_;  ///< its window covers all known cells
   /// Of the map's frame in that of the first map, about the origin.
   Eigen::Matrix3d frame_covariance_ = Eigen::Matrix3d::Zero();
   int maps_begun_ = 0;

@@ -15,11 +15,11 @@
 
 namespace datmo {
 
-/// How well the vehicle knows where it is in the map.
+/// How well the vehicle's pose in the map is known.
 enum class Localization : std::uint8_t {
-  kLocated,    ///< by scans matched to the map
+  kLocated,    ///< scans are matched to the map
   kUncertain,  ///< after a gap: somewhere within the pose's covariance
-  kLost,  ///< the same, and the map fits nowhere there, or there is too much of it; or kidnapped
+  kLost,       ///< as before, but no pose there fits, or the area is too large; or it was kidnapped
 };
 
 struct MapRecoveryOptions {
@@ -41,68 +41,69 @@ struct MapRecoveryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The pose of a vehicle that may have been carried elsewhere, anywhere about it.
+/// Widens the covariance of a pose so that the vehicle may have been carried anywhere around it.
 PoseWithCovariance anywhereAbout(PoseWithCovariance pose);
 
-/// Whether a pose has become so much more uncertain from one covariance to the other, as in a gap,
-/// that it has to be searched for.
+/// Returns whether the uncertainty of a pose has grown from one covariance to the other so much, as
+/// in a gap, that the vehicle must be searched for.
 bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
                const MapRecoveryOptions& limits);
 
 /// Relocalization in a map after a gap in which the vehicle may have gone anywhere within a wide
-/// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
-/// as it was; it is searched for the newer one, again and again as that grows, until there is one
-/// answer, or it is time to go on with the newer map alone.
+/// prior. Scans then build a newer map, starting at the prior's mean, and the older one is left
+/// unchanged. The older map is searched for the newer one repeatedly as that grows, until there is
+/// a unique answer, or the search is given up in favor of the newer map.
 ///
 /// After the vehicle was carried elsewhere it may be anywhere, and all of the older map's window is
-/// searched, as a prior map is.
+/// searched, as in a prior map.
 ///
-/// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There
-/// the newer map is never taken for it, and what was found is confirmed: rooms that look alike from
-/// one place differ some way on. Only when a second search, by what was seen up to
-/// `confirmed_after` or `confirmed_after_turn` later, finds the same place is it the place, and if
-/// no search in between thought another one likelier.
+/// The same localizes the vehicle in a prior map at the start, from an initial guess or globally.
+/// Then the newer map never replaces it, and results must be confirmed: rooms that look the same
+/// from one position differ further on. A position is accepted only if a second search, using what
+/// was seen up to `confirmed_after` or `confirmed_after_turn` later, finds the same one, and no
+/// search in between found another one more likely.
 class MapRecovery {
  public:
-  /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
+  /// `start`: the prior in the older map's frame, where the newer one starts at this stamp. Throws
   /// OptionError.
   MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
               const PoseWithCovariance& start, Stamp stamp);
 
-  /// In a prior map: the vehicle may be in this region of it, and the newer map begins at the
+  /// In a prior map: the vehicle may be in this region of it, and the newer map starts at the
   /// region's mean.
   MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap prior_map,
               const SearchRegion& region, Stamp stamp);
 
-  /// Of a vehicle that was carried elsewhere from about this pose in the older map, where the newer
-  /// one begins at this stamp.
+  /// For a vehicle that was carried elsewhere from about this pose in the older map, where the
+  /// newer one starts at this stamp.
   static MapRecovery afterKidnapping(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
                                      const PoseWithCovariance& pose, Stamp stamp);
 
-  /// The mean of where the newer map begins, in the older one.
+  /// Returns the pose at which the newer map starts, in the older one.
   const PoseWithCovariance& start() const { return start_; }
 
-  /// Whether the older map is a prior one.
+  /// Returns whether the older map is a prior one.
   bool isInPriorMap() const { return region_.has_value(); }
 
-  /// Whether the vehicle was carried elsewhere.
+  /// Returns whether the vehicle was carried elsewhere.
   bool isAfterKidnapping() const { return is_kidnapped_; }
 
   const OccupancyMap& older() const { return older_; }
 
-  /// A pose of the newer map with what is not known of that map itself.
+  /// Returns a pose of the newer map in the older one, including the uncertainty of where the newer
+  /// one lies in it.
   PoseWithCovariance inOlder(const PoseWithCovariance& in_newer) const;
 
-  /// Where that is searched for in the older map.
+  /// Returns the region of the older map to be searched for this pose.
   SearchRegion regionOf(const PoseWithCovariance& in_newer) const;
 
-  /// After each scan: goes on with the search. Returns the vehicle's pose in the older map once it
-  /// is found.
+  /// Continues the search; called after each scan. Returns the vehicle's pose in the older map once
+  /// it is found.
   std::optional<PoseWithCovariance> advance(const OccupancyMap& newer,
                                             const PoseWithCovariance& in_newer, Stamp stamp);
 
-  /// Whether it was searched for in vain long enough: the newer map is to be the map from now on,
-  /// or all of a prior map is to be searched. A search of all of it goes on.
+  /// Returns whether the search has failed for long enough: either the newer map becomes the map,
+  /// or all of a prior map is searched. A search of all of a prior map never ends.
   bool isOver(Stamp stamp) const {
     return !(region_ && region_->anywhere) &&
            secondsBetween(begun_, stamp) > options_.give_up_after;
@@ -110,20 +111,20 @@ class MapRecovery {
 
   Localization state() const { return state_; }
 
-  /// The older map; this object is of no use afterwards.
+  /// Returns the older map; this object must not be used afterwards.
   OccupancyMap takeOlder() { return std::move(older_); }
 
  private:
   /// Whether all of the older map's window is searched.
   bool searchesAnywhere() const { return isInPriorMap() ? region_->anywhere : is_kidnapped_; }
-  /// Whether what is seen and lacks in the older map counts against a place in it.
+  /// Whether surfaces seen now that the older map lacks count against a pose in it.
   bool searchesCompleteMap() const { return isInPriorMap() || searchesAnywhere(); }
   void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
-  /// How many boxes the search may look at since the last scan.
+  /// How many boxes the search may evaluate for the time since the last scan.
   int boxesUntil(Stamp stamp);
-  /// Whether an earlier search has found the same place from another one.
+  /// Whether an earlier search, from another position, has found the same pose.
   bool confirms(const Pose2& found);
-  /// Whether this pose is where the vehicle is now if an earlier search was right.
+  /// Whether this pose is the one that the candidate predicts for now.
   bool agreesWithCandidate(const Pose2& in_older) const;
 
   MapRecoveryOptions options_;
@@ -132,15 +133,15 @@ class MapRecovery {
   PoseWithCovariance start_;
   Stamp begun_;
   Stamp next_search_;
-  Stamp advanced_;             ///< up to the last scan
+  Stamp advanced_;             ///< stamp of the last scan
   bool is_searchable_ = true;  ///< the prior is not too wide
   Localization state_ = Localization::kUncertain;
   std::optional<MapSearch> search_;
-  Pose2 searched_from_;                 ///< where in the newer map the search is about
+  Pose2 searched_from_;                 ///< pose in the newer map for which the search was started
   std::optional<SearchRegion> region_;  ///< of a prior map
   bool is_kidnapped_ = false;
 
-  /// What a search has found that none has confirmed yet.
+  /// A search result that is not confirmed yet.
   struct Candidate {
     Pose2 in_older;
     Pose2 in_newer;

@@ -20,42 +20,44 @@ namespace datmo {
 
 struct MapSearchOptions {
   double changed_share = 0.03;      ///< of the surfaces
-  double missing_share = 0.0;       ///< of the surfaces; 0: what is missing counts nothing
-  double max_log_ratio = 6.0;       ///< of two hypotheses that both live
+  double missing_share = 0.0;       ///< of the surfaces; 0: missing surfaces do not count
+  double max_log_ratio = 6.0;       ///< between two hypotheses that are both kept
   double max_changed_share = 0.15;  ///< of the surfaces
   double min_shared = 0.4;          ///< of the surfaces
   int min_surfaces = 60;            ///< cells
   double reach = 35.0;              ///< m
   int max_boxes = 60000;
 
-  /// For a search in a map of all of an area (a prior map), which lacks only what has changed.
+  /// Returns options for a complete map of an area (a prior map), which lacks only what has
+  /// changed.
   static MapSearchOptions inCompleteMap();
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Where a map that was begun a short time ago lies in an older one.
+/// Finds where a recently started map lies in an older one.
 ///
-/// Two maps of one area agree but for what has changed: surfaces of one lie in space that the
-/// other has seen free for a small share of them only. Any number of agreeing surfaces proves less,
-/// since parked cars repeat. So a hypothesis (a pose in the older map) has as negative
-/// log-likelihood its share of contradicted surfaces, exponentially distributed, and its distance
-/// from the prior; what either map does not know counts nothing. In a map of all of an area, too,
-/// what of the newer one's surfaces is missing does, with a share of its own (the score of Hess et
-/// al. 2016): else nothing would speak against the space outside of it. Hardly anything contradicts
-/// the true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best;
-/// it is found when all of them lie together, and else the result is ambiguous.
+/// Two maps of one area agree except for what has changed: only a small share of the surfaces of
+/// one lie in space that the other has seen free. Agreeing surfaces, however many, prove less,
+/// because parked cars repeat. So the negative log-likelihood of a hypothesis (a pose in the older
+/// map) is that of its share of contradicted surfaces, which is exponentially distributed, plus its
+/// distance from the prior; what is unknown in either map does not count. In a complete map of an
+/// area, surfaces of the newer map that are missing count as well, with a share of their own (the
+/// score of Hess et al. 2016): otherwise nothing would speak against the space outside of it.
+/// Hardly anything contradicts the true pose, so it is among the hypotheses within `max_log_ratio`
+/// of the best. The pose is found if all of them lie close together; otherwise the result is
+/// ambiguous.
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
-/// contradicted by the surfaces that lie deeper in free space than the box can move them. The work
-/// may be spread over several calls. The newer map is not kept.
+/// contradicted by surfaces that lie deeper in free space than the box can move them. The work can
+/// be spread over several calls. The newer map is not kept.
 class MapSearch {
  public:
   enum class Outcome {
-    kUnfinished,  ///< go on
-    kFound,       ///< one pose alone is not contradicted
-    kAmbiguous,   ///< several are not, or there is too little to compare
-    kNone,        ///< none within the prior is
+    kUnfinished,  ///< call advance() again
+    kFound,       ///< a unique pose is not contradicted
+    kAmbiguous,   ///< several poses are not contradicted, or there is too little to compare
+    kNone,        ///< all poses within the prior are contradicted
   };
 
   /// The vehicle is at `in_newer` in the newer map, and within `region` in the older one. Throws
@@ -63,13 +65,14 @@ class MapSearch {
   MapSearch(const Checked<MapSearchOptions>& options, std::shared_ptr<const SearchedMap> older,
             const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer);
 
-  /// Looks at this many further boxes of poses at the most.
+  /// Evaluates at most this many further boxes of poses.
   Outcome advance(int boxes);
 
-  /// The likeliest pose in the older map, whether it is found or others live; none without one.
+  /// Returns the most likely pose in the older map, unique or not; none if there is none.
   std::optional<Pose2> likeliest() const;
 
-  /// With kFound: in the older map, with the spread of the poses that are not contradicted.
+  /// With kFound: returns the pose in the older map; its covariance includes the spread of the
+  /// poses that are not contradicted.
   PoseWithCovariance found() const;
 
  private:
@@ -77,19 +80,19 @@ class MapSearch {
   struct Box {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the center from the prior
     Eigen::Vector3d half = Eigen::Vector3d::Zero();
-    double contradicted = 0.0;  ///< share of surfaces, at the least
-    double cost = 0.0;          ///< negative log-likelihood, at the least
+    double contradicted = 0.0;  ///< share of surfaces, lower bound
+    double cost = 0.0;          ///< negative log-likelihood, lower bound
   };
   struct Costlier {
     bool operator()(const Box& a, const Box& b) const { return a.cost > b.cost; }
   };
-  /// A cell with a surface.
+  /// A cell that contains a surface.
   struct Surface {
-    Point2 position;        ///< m, of the newer map about the vehicle, of the older one in the map
-    double distance = 0.0;  ///< m, from the vehicle, or its prior position
+    Point2 position;  ///< m, in the newer map about the vehicle, in the older one in the map frame
+    double distance = 0.0;  ///< m, from the vehicle, or from its prior position
   };
 
-  /// Surfaces within reach of the vehicle, thinned out, and how many cells each stands for.
+  /// Surfaces within reach of the vehicle, subsampled, and how many cells each represents.
   struct Surfaces {
     std::vector<Surface> all;
     double weight = 1.0;
@@ -106,7 +109,7 @@ class MapSearch {
     double radius;  ///< m
   };
 
-  /// At most so many of the positions within a circle.
+  /// At most `max` of the positions within a circle.
   static Surfaces thinnedOut(const std::vector<Point2>& positions, const Circle& within,
                              std::size_t max);
   Box withinPrior();
@@ -123,40 +126,40 @@ class MapSearch {
     double missing = 0.0;
   };
   Contradictions contradictionsOf(const Box& box) const;
-  /// Surfaces of the older map that all poses of the box see through, at the least.
+  /// Minimum number of surfaces of the older map that all poses of the box see through.
   int seenThrough(const Box& box) const;
   void evaluate(Box& box) const;
-  /// Distances (in cells, at the most the tolerance) of the newer map's surfaces to those of the
-  /// older one, at this pose.
+  /// Distances (in cells, at most the tolerance) of the newer map's surfaces to those of the older
+  /// one, at this pose.
   std::vector<float> distancesAt(const Pose2& pose) const;
   double sharedAt(const Pose2& pose) const;
   Eigen::Isometry2f patternAt(const Pose2& pose) const;
-  /// Whether a leaf is the same hypothesis as the best one.
+  /// Whether a leaf belongs to the same hypothesis as the best one.
   bool isTogether(const Box& leaf) const;
-  /// Of that hypothesis the leaf whose surfaces are nearest to those of the older map: what counts
-  /// as the same surface is wider than what a match finds.
+  /// The leaf of that hypothesis whose surfaces are nearest to those of the older map: the
+  /// tolerance for equal surfaces is wider than the accuracy of a match.
   const Box& nearestLeaf() const;
   /// Sum of distancesAt().
   double distanceAt(const Pose2& pose) const;
-  /// The pose near this one at which those surfaces are nearest.
+  /// The pose near this one that minimizes distanceAt().
   Pose2 refined(Pose2 pose) const;
   Outcome takeLeaf(const Box& leaf);
   Outcome conclude() const;
 
   MapSearchOptions options_;
   std::shared_ptr<const SearchedMap> older_map_;
-  DistanceField newer_free_;  ///< to what is not free
+  DistanceField newer_free_;  ///< to the nearest cell that is not free
   PoseWithCovariance prior_;
   bool anywhere_;
   Pose2 in_newer_;
   Eigen::Matrix3d whitening_ = Eigen::Matrix3d::Zero();  ///< of differences from the prior
-  Eigen::Vector3d leaf_;  ///< half of a box that is not split any more
+  Eigen::Vector3d leaf_;  ///< half size of a box that is not split further
   double tolerance_;      ///< m, by which surfaces may be off
   std::vector<Pattern> newer_;
   double newer_weight_ = 0.0;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;
-  std::vector<Box> leaves_;  ///< that live, the best first
+  std::vector<Box> leaves_;  ///< that are kept, best first
   int looked_at_ = 0;
   Outcome outcome_ = Outcome::kUnfinished;
 };

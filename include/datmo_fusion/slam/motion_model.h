@@ -6,7 +6,7 @@
 
 namespace datmo {
 
-/// How far odometry's speed and yaw rate are off.
+/// Noise of odometry's speed and yaw rate.
 struct OdometryNoiseOptions {
   double speed_noise = 0.1;         ///< m/s
   double speed_noise_ratio = 0.05;  ///< of the speed
@@ -15,7 +15,7 @@ struct OdometryNoiseOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Covariance of speed (m/s) and yaw rate (rad/s) that were measured as this.
+  /// Returns the covariance of a measured speed (m/s) and yaw rate (rad/s).
   Eigen::Matrix2d covariance(const Twist2& twist) const;
 };
 
@@ -29,30 +29,29 @@ struct MotionModelOptions : OdometryNoiseOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How a vehicle may have moved, given what its odometry says: p(x_t | u_t, x_t-1) of thesis 3.1.1,
-/// figure 3.1; the velocity motion model of Probabilistic Robotics (Thrun et al. 2005, 5.3) with
-/// noise of its own for side slip.
+/// Velocity motion model given odometry: p(x_t | u_t, x_t-1) of thesis 3.1.1, figure 3.1; that of
+/// Probabilistic Robotics (Thrun et al. 2005, 5.3) with separate noise for side slip.
 class VelocityMotionModel {
  public:
   /// Throws OptionError.
   explicit VelocityMotionModel(const Checked<MotionModelOptions>& options);
 
-  /// Covariance of x, y (m), heading (rad) of the motion after `seconds` of this twist, in the
-  /// frame of the pose that it leads to.
+  /// Returns the covariance of x, y (m), heading (rad) after `seconds` at this twist, in the frame
+  /// of the resulting pose.
   Eigen::Matrix3d covariance(const Twist2& twist, double seconds) const;
 
-  /// The part of it that neither speed nor yaw rate makes.
+  /// Returns the part of it that is caused by neither speed nor yaw rate.
   Eigen::Matrix3d sideSlip(double seconds) const;
 
-  /// Covariance of speed (m/s) and yaw rate (rad/s) that odometry measured as this.
+  /// Returns the covariance of speed (m/s) and yaw rate (rad/s) as measured by odometry.
   Eigen::Matrix2d velocityCovariance(const Twist2& twist) const {
     return options_.OdometryNoiseOptions::covariance(twist);
   }
 
-  /// How much they may have changed in this time, where there is no odometry.
+  /// Returns the covariance of their change in this time, without odometry.
   Eigen::Matrix2d velocityChange(double seconds) const;
 
-  /// Before anything is known of them.
+  /// Returns their covariance at the start, when nothing is known.
   Eigen::Matrix2d initialVelocityCovariance() const;
 
  private:

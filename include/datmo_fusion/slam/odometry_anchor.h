@@ -8,25 +8,25 @@
 
 namespace datmo {
 
-/// The pose at the scan nearest to the last pose of the odometry, for when its messages stop.
+/// Keeps the pose at the scan nearest to the last odometry pose, in case its messages stop.
 ///
-/// An encoder goes on counting while its messages are lost. When they come again, the difference of
-/// its poses shows where the vehicle is, whatever the scans in between were taken for: if those
+/// An encoder keeps counting while its messages are lost. When they resume, the difference of its
+/// poses shows where the vehicle is, whatever the scans in between were matched to: if those
 /// contradict it, they were matched wrongly.
 class OdometryAnchor {
  public:
-  /// `pose`: the filter after a scan of this stamp; by rising stamp.
+  /// `pose`: the filter after a scan of this stamp; in ascending stamp order.
   void keep(Stamp stamp, const PoseFilter& pose, const OdometryBuffer& odometry);
 
-  /// The kept pose moved to the stamp of a scan by the poses of odometry that was silent until now,
-  /// if it contradicts `predicted`, the same scan's prediction after the matches in between.
+  /// Returns the kept pose, moved to the stamp of a scan by odometry poses that have just resumed,
+  /// if it contradicts `predicted`, the prediction for the same scan after the matches in between.
   std::optional<PoseFilter> correction(Stamp stamp, const PoseFilter& predicted,
                                        const OdometryBuffer& odometry) const;
 
  private:
   struct Anchor {
     Stamp stamp;      ///< of the scan
-    Stamp last_pose;  ///< of the odometry, then
+    Stamp last_pose;  ///< the newest odometry pose at that time
     PoseFilter pose;
   };
 

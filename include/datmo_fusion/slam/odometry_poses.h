@@ -10,17 +10,17 @@
 
 namespace datmo {
 
-/// Where the vehicle was in its odometry's frame over the last kOdometryMemory seconds.
+/// The vehicle's poses in its odometry frame over the last kOdometryMemory seconds.
 class OdometryPoses {
  public:
-  /// `hold`: how long (s) before and after its stamp a pose serves, moved by its twist.
+  /// `hold`: how long (s) before and after its stamp a pose is used, moved by its twist.
   explicit OdometryPoses(double hold) : hold_(hold) {}
 
-  /// By rising stamp.
+  /// Adds a pose, in ascending stamp order.
   void add(Stamp stamp, const Twist2& twist, const Pose2& base_in_odom);
 
-  /// From the last pose up to the stamp, or else the first one after it; none if that is too far
-  /// away in time.
+  /// Returns the pose at a stamp, from the last one up to it, or else the first one after it; none
+  /// if that is too far away in time.
   std::optional<Pose2> at(Stamp stamp) const;
 
   void clear() { poses_.clear(); }

@@ -7,14 +7,15 @@
 
 namespace datmo {
 
-/// Covariance (x, y, heading) of a pose that is `arm` (m) away from one of this covariance, and
-/// rigidly connected with it.
+/// Returns the covariance (x, y, heading) of a pose that is rigidly connected to one of this
+/// covariance, at the offset `arm` (m).
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 
-/// A covariance (x, y, heading) in axes from which its own are turned by this angle (rad).
+/// Rotates a covariance (x, y, heading): its axes are turned by `angle` (rad) from the result's.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle);
 
-/// Variance of a position (x, y, in a pose's covariance) in its least certain direction, m^2.
+/// Returns the variance of a position (x, y of a pose's covariance) in its least certain
+/// direction, m^2.
 double maxPositionVariance(const Eigen::Matrix3d& covariance);
 
 }  // namespace datmo

@@ -18,7 +18,7 @@ struct PoseFilterOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What odometry gets wrong all the time.
+/// Systematic errors of odometry.
 struct OdometryErrors {
   double speed_scale = 0.0;    ///< measured speed = (1 + speed_scale) * true speed
   double yaw_rate_bias = 0.0;  ///< rad/s; measured yaw rate = true yaw rate + yaw_rate_bias
@@ -29,50 +29,50 @@ struct OdometryErrors {
 };
 
 /// Extended Kalman filter over the vehicle's pose in the map, its velocity, and the systematic
-/// errors of its odometry (wheel radius, bias of the yaw-rate sensor), which the scan matches make
-/// observable. The thesis takes odometry as unbiased; a bias that each match has to take out again
-/// leaves a part of itself in the map at every scan. Without odometry the velocity is a state that
-/// the matches give, and that changes by a random walk.
+/// errors of its odometry (wheel radius, bias of the yaw-rate sensor), which scan matching makes
+/// observable. The thesis assumes unbiased odometry; but if each match has to correct a bias, part
+/// of it remains in the map at every scan. Without odometry, the velocity is a state that is
+/// observed by the matches and changes by a random walk.
 ///
 /// Called by GridSlam: predict, match, correct.
 class PoseFilter {
  public:
-  /// At the origin, with a velocity of which little is known. Throws OptionError.
+  /// Starts at the origin, with a nearly unknown velocity. Throws OptionError.
   PoseFilter(const Checked<PoseFilterOptions>& options, const MotionModelOptions& motion);
 
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
 
-  /// Of odometry's scale error before any match.
+  /// Returns the prior of odometry's scale error, before any match.
   ScalePrior scalePrior() const;
 
-  /// As odometry measured it last, or else from the matches.
+  /// Returns the velocity from the latest odometry, or else from the matches.
   const Twist2& velocity() const { return velocity_; }
 
-  /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().
+  /// Predicts over `seconds` (more than 0) with `motion` from odometry, corrected by errors().
   void predictMeasured(const Pose2& motion, double seconds);
 
-  /// The same for a motion whose turn alone was measured, and whose length is that of velocity().
+  /// The same for a motion of which only the turn was measured; its length follows velocity().
   void predictTurn(const Pose2& motion, double seconds);
 
-  /// After `seconds` (more than 0) without odometry.
+  /// Predicts over `seconds` (more than 0) without odometry.
   void predictUnmeasured(double seconds);
 
-  /// Takes a velocity that odometry measured `age` (s, 0 or more) ago, corrected by errors(): what
-  /// it was then, and a random walk since.
+  /// Updates with a velocity that odometry measured `age` (s, 0 or more) ago, corrected by
+  /// errors(); a random walk since then adds to its noise.
   void observeVelocity(const Twist2& measured, double age);
 
-  /// After a gap of `seconds` (more than 0) in which nothing was measured: any path whose speed and
-  /// yaw rate are random walks by the accelerations of the motion model. `velocity_after`: as
-  /// odometry measures it at the gap's end; such a path is known at both ends (a Brownian bridge),
-  /// and its position about four times as well.
+  /// Predicts over a gap of `seconds` (more than 0) without any measurement: along any path whose
+  /// speed and yaw rate are random walks given by the accelerations of the motion model.
+  /// `velocity_after`: from odometry at the end of the gap; a path known at both ends is a Brownian
+  /// bridge, and its position is known about four times as well.
   void predictGap(double seconds, const std::optional<Twist2>& velocity_after);
 
-  /// The pose in a map that begins at it, or that it was found again in, with this covariance;
-  /// what is known of velocity and odometry stays.
+  /// Restarts at this pose and covariance, in a map that starts there or in which the vehicle was
+  /// found again; the estimates of velocity and odometry errors are kept.
   void restartAt(const PoseWithCovariance& pose);
 
-  /// Takes the pose that a match found from pose() as its prior.
+  /// Updates with the pose of a match for which pose() was the prior.
   void correct(const PoseWithCovariance& matched);
 
  private:
@@ -80,16 +80,16 @@ class PoseFilter {
   enum State { kX, kY, kHeading, kSpeed, kYawRate, kSpeedScale, kYawRateBias, kStates };
   using Covariance = Eigen::Matrix<double, kStates, kStates>;
 
-  /// Moves the pose; `speed` and `yaw_rate` are the states that, by these factors, make the motion
-  /// longer and turn it more.
+  /// Moves the pose; `speed` and `yaw_rate` are the states that, by these factors, lengthen the
+  /// motion and turn it further.
   void move(const Pose2& motion, double seconds, State speed, double speed_factor, State yaw_rate,
             double yaw_rate_factor);
   void addPoseNoise(const Eigen::Matrix3d& motion_noise);
-  /// What random walks of speed and yaw rate do to pose and velocity in a gap.
+  /// Adds the effect of random walks of speed and yaw rate on pose and velocity in a gap.
   void addWalkNoise(const Twist2& twist, double seconds);
   /// Adds a correction to all states.
   void apply(const Eigen::Matrix<double, kStates, 1>& step);
-  /// How much the errors of the odometry may have changed.
+  /// Adds the random walk of the odometry errors.
   void addErrorDrift(double seconds);
 
   PoseFilterOptions options_;

@@ -9,22 +9,22 @@
 
 namespace datmo {
 
-/// What one pose says of the motion since the last one.
+/// The motion since the previous pose.
 struct PoseStep {
-  Twist2 twist;         ///< its speed is that of the position, sideways too
-  bool jumped = false;  ///< no vehicle moves like that: the pose was corrected
-  Pose2 traveled;       ///< motion since the first pose, without the jumps
+  Twist2 twist;         ///< its speed is that of the position, including sideways
+  bool jumped = false;  ///< implausible for a vehicle: the pose was corrected
+  Pose2 traveled;       ///< motion since the first pose, without jumps
 };
 
-/// The motion of a vehicle from its poses in a map, where nothing else measures it. A pose that is
-/// found again after a gap, or corrected, jumps; a vehicle does not: what its last motion and what
-/// it can do to it (TwistGate) do not explain is no motion.
+/// Derives a vehicle's motion from its poses in a map, if nothing else measures it. A pose that is
+/// recovered after a gap, or corrected, jumps; a vehicle does not: a change that its last motion
+/// and its limits (TwistGate) do not explain is not treated as motion.
 class PoseMotion {
  public:
   /// Throws OptionError.
   PoseMotion(const TwistGateOptions& change, const OdometryNoiseOptions& noise);
 
-  /// By rising stamp; none for the first pose.
+  /// Adds a pose, in ascending stamp order; returns none for the first one.
   std::optional<PoseStep> add(Stamp stamp, const PoseWithCovariance& pose);
 
   void reset();
@@ -37,7 +37,7 @@ class PoseMotion {
 
   TwistGate gate_;
   std::optional<Last> last_;
-  Twist2 twist_;    ///< the last one that a vehicle can have
+  Twist2 twist_;    ///< the last plausible one
   Pose2 traveled_;  ///< since the first pose
 };
 

@@ -11,29 +11,29 @@
 
 namespace datmo {
 
-/// Scores poses by the map's mean occupancy where the beams of a scan end (thesis eq. 3.1.17).
+/// Scores poses by the mean occupancy of the map at the ends of a scan's beams (thesis eq. 3.1.17).
 ///
-/// Of many poses the best one is found without looking up all ends of all of them: those of a pose
-/// are added up in an order that is spread over the scan, and as soon as those that are left cannot
-/// make it the best any more, be they in the most occupied cells within the reach of all poses, it
-/// is left (branch and bound). What is found is the same, for sums of occupancies are exact: of a
-/// double's 53 bits a float takes 24.
+/// The best of many poses is found without looking up all ends of all of them (branch and bound):
+/// the ends of a pose are summed in an order that is spread over the scan, and a pose is dropped as
+/// soon as the remaining ends could not make it the best, even if they were in the most occupied
+/// cells within reach of all poses. The result is identical, because sums of occupancies are exact:
+/// a float takes 24 of a double's 53 bits.
 class PoseScorer {
  public:
-  /// `map` must outlive this.
+  /// `map` must outlive this object.
   PoseScorer(const OccupancyMap& map, const std::vector<EndPoint>& points);
 
-  /// 0 to 1; 0 without points.
+  /// Returns the score of a pose, 0 to 1; 0 without points.
   double score(const Pose2& pose) const;
 
-  /// The first one of those with the highest score; of at least one.
+  /// Returns the first one with the highest score; `poses` must not be empty.
   Pose2 bestOf(const std::vector<Pose2>& poses) const;
 
  private:
-  /// Points whose cells are found together.
+  /// Points whose cells are computed together.
   static constexpr std::size_t kBlock = 16;
 
-  /// How far the ends lie from where they are seen from the first pose, at the most.
+  /// How far at most the ends move relative to the first pose.
   struct Reach {
     double x = 0.0;     ///< m
     double y = 0.0;     ///< m
@@ -41,7 +41,7 @@ class PoseScorer {
   };
   static Reach reachOf(const std::vector<Pose2>& poses);
 
-  /// For each block of points, how much those from it on add to a score at the most.
+  /// For each block of points, an upper bound of what it and the following ones add to a score.
   std::vector<double> boundsFrom(const Pose2& first, const Reach& reach, std::size_t poses) const;
   double maxAround(const Point2& end, double x_reach, double y_reach) const;
 
@@ -52,17 +52,17 @@ class PoseScorer {
     std::array<int, kBlock> columns;
     std::array<int, kBlock> rows;
   };
-  /// Of the points from `begin` on; all of them nearer than max_distance_.
+  /// Cells of the points from `begin` on; all of them must be nearer than max_distance_.
   Cells cellsOfBlock(std::size_t begin, const Pose2& pose, const Eigen::Matrix2d& rotation) const;
 
-  /// Sum of the occupancies of the points from `begin` on, kBlock of them at the most.
+  /// Sum of the occupancies of at most kBlock points from `begin` on.
   double sumOfBlock(std::size_t begin, const Pose2& pose, const Eigen::Matrix2d& rotation) const;
 
   const OccupancyMap& map_;
   std::size_t count_;
-  double max_distance_;     ///< m, from the map's origin, of points that a cell's index can hold
+  double max_distance_;  ///< m, from the map's origin, of points within the range of a cell index
   double max_range_ = 0.0;  ///< m
-  std::vector<double> x_;   ///< of the points, in cells; up to full blocks
+  std::vector<double> x_;   ///< of the points, in cells; padded to full blocks
   std::vector<double> y_;
 };
 

@@ -13,62 +13,63 @@
 
 namespace datmo {
 
-/// Where the vehicle is from one scan to the next: PoseFilter, predicted by odometry as far as it
-/// has come, by the last velocity where it is overdue or there is none, and over gaps in which no
-/// scan came. GridSlam corrects the pose by its matches in between.
+/// Tracks the vehicle's pose from one scan to the next by a PoseFilter: predicted by odometry as
+/// far as it has arrived, by the last velocity if odometry is overdue or missing, and over gaps
+/// without scans. GridSlam corrects the pose by its matches in between.
 ///
-/// Of the maps it knows nothing but that one may be left: the pose is in the frame of that to which
-/// scans are written. Not thread safe.
+/// It does not know the maps, only that one may be left: the pose is in the frame of the map that
+/// is updated. Not thread-safe.
 class PoseTracker {
  public:
-  /// What a prediction rests on.
+  /// What a prediction is based on.
   struct Prediction {
-    bool by_odometry = false;  ///< it measured most of the motion
-    /// The poses of odometry that was silent until now contradict the matches since: the pose is
-    /// again that in the last map in which the vehicle was located (OdometryAnchor).
+    bool by_odometry = false;  ///< odometry measured most of the motion
+    /// Odometry poses that have just resumed contradict the matches since: the pose is again in the
+    /// last map in which the vehicle was located (OdometryAnchor).
     bool anchored = false;
   };
 
-  /// `odometry_hold`: s; how long a sample serves after its stamp. Throws OptionError.
+  /// `odometry_hold`: s; how long a sample is used after its stamp. Throws OptionError.
   PoseTracker(const Checked<PoseFilterOptions>& pose, const MotionModelOptions& motion,
               double odometry_hold);
 
-  /// Odometry in rising stamp order. Without scans the pose goes on with it before it is forgotten.
+  /// Adds odometry in ascending stamp order. Without scans, the pose follows it before it is
+  /// discarded.
   Prediction addOdometry(const OdometrySample& sample);
 
-  /// To the stamp of a scan, where that is later than the pose's. To be called after keepScan().
+  /// Predicts the pose at a scan's stamp, if that is later than the pose's. Call keepScan() before.
   Prediction predictTo(Stamp stamp);
 
-  /// Takes the pose that a match found from one that was predicted.
+  /// Updates with the pose of a match for which `predicted` was the prior.
   void correct(const PoseFilter& predicted, const PoseWithCovariance& matched);
-  /// Takes it back.
+  /// Undoes that update.
   void discardMatch(const PoseFilter& predicted) { filter_ = predicted; }
 
-  /// The scan of this stamp was taken, and the pose is where it was taken. `saw_anything`: it has
+  /// Records that the scan of this stamp was taken at the current pose. `saw_anything`: it has
   /// rays; `is_located`: in the map that will stay.
   void keepScan(Stamp stamp, bool saw_anything, bool is_located);
 
-  /// Whether the last scan is long ago, and the pose much less certain than then.
+  /// Returns whether the last scan is long ago, and the pose has become much less certain since.
   bool isLostInGap(Stamp stamp, const MapRecoveryOptions& limits) const;
 
-  /// Remembers where the vehicle was before the gap that ends at this stamp, if no odometry has
-  /// come for its end yet.
+  /// Remembers the pose before the gap that ends at this stamp, if odometry has not arrived for its
+  /// end yet.
   void awaitOdometryOfGap(Stamp stamp);
 
-  /// Where that odometry has come, a little later than the scan: back to before the gap, over which
-  /// it now predicts. Returns whether it did. `may_undo`: the map that was left is still there.
+  /// If that odometry has arrived, a little later than the scan, returns to the state before the
+  /// gap, from which it now predicts. Returns whether it did. `may_undo`: the old map still exists.
   bool undoGap(Stamp stamp, bool may_undo);
 
-  /// The pose in a map that begins at it.
+  /// Restarts at this pose, in a map that starts there.
   void restartAt(const PoseWithCovariance& pose) { filter_.restartAt(pose); }
-  /// What odometry could lead back to lies in a map that is none any more.
+  /// Drops the anchor, which lies in a map that no longer exists.
   void forgetAnchor() { anchor_ = {}; }
 
-  /// Of the vehicle during `seconds` (more than 0) from this stamp on: by odometry, else as last
-  /// estimated.
+  /// Returns the vehicle's twist during `seconds` (more than 0) from this stamp on: by odometry, or
+  /// else the last estimate.
   Twist2 twistDuring(Stamp stamp, double seconds) const;
 
-  /// Whether there was a scan.
+  /// Returns whether there was a scan.
   bool hasBegun() const { return stamp_.has_value(); }
   const PoseFilter& filter() const { return filter_; }
   PoseWithCovariance pose() const { return filter_.pose(); }
@@ -76,31 +77,30 @@ class PoseTracker {
 
  private:
   Prediction predict(Stamp stamp);
-  /// The same where odometry is overdue since `seconds` before `stamp`, or the last one: measured
-  /// as far as it goes, and on from there by the velocity, of which late odometry tells what it
-  /// was.
+  /// The same if odometry is overdue for the last `seconds` before `stamp`: measured as far as it
+  /// goes, then predicted by the velocity, updated by odometry that arrived late.
   void extrapolate(Stamp stamp, double seconds);
   bool isGap(double seconds) const;
   void rememberScan(Stamp stamp);
 
-  /// m/s; for odometry that measures none.
+  /// m/s; used for odometry that does not measure speed.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
   OdometryBuffer odometry_;
   OdometryAnchor anchor_;
   PoseFilter filter_;
-  Stamp late_odometry_;         ///< of the newest sample, when it was last overdue
+  Stamp late_odometry_;         ///< stamp of the newest sample when it was last overdue
   std::optional<Stamp> stamp_;  ///< of the pose: the last scan, or odometry since
 
-  /// The last scan that saw anything, and the pose then.
+  /// The last scan with rays, and the pose at that time.
   struct LastScan {
     Stamp stamp;
     PoseFilter filter;
-    double interval = 0.0;  ///< s, mean of those before
+    double interval = 0.0;  ///< s, mean between earlier scans
   };
   std::optional<LastScan> last_scan_;
-  std::optional<LastScan> before_gap_;  ///< while odometry may still come for it
-  Stamp gap_end_;                       ///< of the first scan behind that gap
+  std::optional<LastScan> before_gap_;  ///< while odometry for the gap may still arrive
+  Stamp gap_end_;                       ///< of the first scan after that gap
 };
 
 }  // namespace datmo

@@ -9,15 +9,15 @@
 
 namespace datmo {
 
-/// State of each ray by the map in which it ends, in order; kUnknown for beams without a hit.
+/// Returns the state of each ray's end in the map, in order; kUnknown for beams without a hit.
 std::vector<PointState> judgeRays(const Scan& scan, const OccupancyMap& map,
                                   const Pose2& base_in_map);
 
-/// How many of a scan's beams, whose ends have these states, the map contradicts.
+/// Counts the beams of a scan, whose ends have these states, that the map contradicts.
 MapAgreement agreementOf(const Scan& scan, const std::vector<PointState>& states,
                          const OccupancyMap& map, const Pose2& base_in_map);
 
-/// The scan's hits with these states of its rays, and which of its beams saw nothing at all.
+/// Returns the scan's hits with the states of its rays, and which of its beams are blind.
 LabeledScan labelScan(const Scan& scan, const std::vector<PointState>& states,
                       const PoseWithCovariance& base_in_map);
 

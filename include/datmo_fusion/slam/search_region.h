@@ -8,11 +8,12 @@ namespace datmo {
 
 /// Where a vehicle may be in a map.
 struct SearchRegion {
-  PoseWithCovariance prior;  ///< its covariance positive definite; not read with `anywhere`
-  bool anywhere = false;     ///< in all of the map's window, at any heading
+  PoseWithCovariance prior;  ///< covariance positive definite; unused with `anywhere`
+  bool anywhere = false;     ///< in the map's whole window, at any heading
 };
 
-/// The region's prior; of all of a window, mean and covariance of a pose that may be any in it.
+/// Returns the region's prior; with `anywhere`, mean and covariance of a uniform pose in the
+/// window.
 PoseWithCovariance priorOf(const SearchRegion& region, const GridWindow& window);
 
 }  // namespace datmo

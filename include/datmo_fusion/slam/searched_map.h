@@ -9,12 +9,13 @@
 
 namespace datmo {
 
-/// Distances from the cells of a map to what is not free. Unknown cells between free ones are free:
-/// beams far away are further apart than cells. Nothing outside of what the map knows is free.
+/// Returns the distances from the cells of a map to what is not free. Unknown cells between free
+/// ones count as free, because distant beams are further apart than cells. Nothing beyond the known
+/// part of the map is free.
 DistanceField freeSpaceOf(const OccupancyMap& map);
 
-/// A map as searches see it (MapSearch), made once for all of them while it does not change. The
-/// map is not kept.
+/// A map prepared for searches (MapSearch), made once for all of them while it does not change. The
+/// map itself is not kept.
 class SearchedMap {
  public:
   explicit SearchedMap(const OccupancyMap& map);
@@ -24,10 +25,10 @@ class SearchedMap {
   /// OccupancyMap::staticSurfaces().
   const std::vector<Point2>& surfaces() const { return surfaces_; }
 
-  /// Of a point, in cells, and no more than 2^16 / kSteps.
+  /// Distances of a point, in cells, at most 2^16 / kSteps.
   struct Distances {
-    float depth;       ///< to what is not free; 0 outside of the window
-    float to_surface;  ///< to what is static; outside of the window no more than that
+    float depth;       ///< to what is not free; 0 outside the window
+    float to_surface;  ///< to what is static; outside the window a lower bound
   };
 
   /// `point`: in cells from the window's lower left corner.
@@ -40,16 +41,16 @@ class SearchedMap {
     return {static_cast<float>(cell.depth) / kSteps, static_cast<float>(cell.to_surface) / kSteps};
   }
 
-  /// Whether a point (as above) is in the window.
+  /// Returns whether a point (as above) is in the window.
   bool contains(const Eigen::Vector2f& point) const {
     return point.x() >= 0.0F && point.y() >= 0.0F && point.x() < columns_ && point.y() < rows_;
   }
 
  private:
-  /// Distances are kept in so many parts of a cell.
+  /// Distances are stored in fractions of a cell: 1 / kSteps.
   static constexpr float kSteps = 64.0F;
 
-  /// In such steps.
+  /// In units of 1 / kSteps.
   struct Cell {
     std::uint16_t depth;
     std::uint16_t to_surface;

@@ -10,33 +10,32 @@
 
 namespace datmo {
 
-/// What SLAM takes at one time: a scan, and with low-level fusion the fused grid of its stamp,
-/// which decides how far the scan stands and what others have seen beside it (GridMaskedScan).
-/// Functions below are called by GridSlam, in this order.
+/// The input of SLAM at one time: a scan, and with low-level fusion the fused grid of its stamp,
+/// which decides how much of the scan is accepted and what others have seen besides
+/// (GridMaskedScan). The functions below are called by GridSlam, in this order.
 struct SlamMeasurement {
   const Scan& scan;
   const SensorGrid* grid = nullptr;  ///< null: the scan alone
 };
 
-/// A scan of the measurement, compensated for the vehicle's motion, as the grid, if there is one,
-/// lets it stand.
+/// Returns the motion-compensated scan, corrected by the grid, if there is one.
 GridMaskedScan maskedScan(const SlamMeasurement& measurement, const Scan& compensated,
                           GridEnds ends);
 
-/// The scan with the scanner's own end points alone, where there are any: what others see is off by
-/// their depth's error, no point to match the pose with, and nothing that hides what is behind.
+/// Returns the scan with only the scanner's own end points, if there are any: those of other
+/// sensors are off by their depth error, so the pose must not be matched with them, and they hide
+/// nothing.
 Scan measuredScan(const GridMaskedScan& view);
 
-/// What the map takes of a grid: where beams end on what does not move, and occupied cells. What
-/// others alone have seen is no point to match scans with, and is excluded where it belongs to a
-/// mover, whose depth they blur, or lies in space that the map knows to be free. `states`: of the
-/// view's rays.
+/// Returns the map's input from a grid: beam ends on what does not move, and occupied cells. What
+/// only other sensors have seen is not used for matching scans, and is excluded if it belongs to a
+/// moving object, whose depth they blur, or lies in space that the map knows to be free. `states`:
+/// of the view's rays.
 GridUpdate gridUpdateOf(const GridMaskedScan& view, const std::vector<PointState>& states,
                         const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map);
 
-/// Removes the beams of `measured` whose ends the grid does not confirm from `scan` and `states`,
-/// if there are others: sensors that contradict each other give no evidence, neither of occupied
-/// nor of free space.
+/// Removes beams of `measured` whose ends the grid does not confirm from `scan` and `states`, if
+/// there are others: contradictory sensors are no evidence of either occupied or free space.
 void removeConflictingBeams(const Scan& measured, const GridMaskedScan& view, Scan& scan,
                             std::vector<PointState>& states);
 

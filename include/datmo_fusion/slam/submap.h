@@ -11,26 +11,26 @@
 
 namespace datmo {
 
-/// Takes a scan in which nothing moves into a map.
+/// Adds a scan without moving objects to a map.
 void addStatic(OccupancyMap& map, const Scan& scan, const Pose2& base_in_map);
 
-/// Part of a drive: a few of its scans, in the frame of one of them. A map is made of it when one
-/// is needed: the scans take a hundredth of its memory.
+/// Part of a drive: some of its scans, in the frame of one of them. A map is made from it on
+/// demand: the scans take a hundredth of its memory.
 class Submap {
  public:
-  /// By rising stamps. `pose`: of the vehicle in the submap's frame.
+  /// Adds a scan, in ascending stamp order. `pose`: of the vehicle in the submap's frame.
   void add(Scan scan, const Pose2& pose) { scans_.push_back({std::move(scan), pose}); }
 
   bool empty() const { return scans_.empty(); }
 
-  /// m; the farthest that the vehicle was from the frame's origin.
+  /// Returns the maximum distance of the vehicle from the frame's origin, m.
   double radius() const;
 
-  /// The map of it up to `reach` (m) from where the vehicle was; the window that the options say is
-  /// not read. Throws OptionError.
+  /// Returns its map up to `reach` (m) from the vehicle's positions; the window given in the
+  /// options is ignored. Throws OptionError.
   OccupancyMap map(OccupancyMapOptions options, double reach) const;
 
-  /// The ends of all beams, as samples of surfaces (endPoints), in the submap's frame.
+  /// Returns the ends of all beams, as samples of surfaces (endPoints), in the submap's frame.
   std::vector<EndPoint> ends(double max_step) const;
 
  private:

@@ -23,19 +23,19 @@ struct SubmapMatcherOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where one submap lies in another one, wherever a wide prior allows it.
+/// Finds where one submap lies in another one, within a wide prior.
 ///
-/// Found by MapSearch, whose answer is one pose or none: where others live, too, as along a street
-/// of equal houses, there is no loop. From there all ends of the newer submap's beams are matched
+/// MapSearch gives a unique pose or none: if others are possible, too, as along a street of
+/// identical houses, there is no loop. From there, all beam ends of the newer submap are matched
 /// with the surfaces of the older one (ScanMatcher), to well below the size of a cell. A match that
-/// leaves a direction open, or leads away from what the search found, is refused.
+/// leaves a direction unobserved, or moves away from the search result, is rejected.
 class SubmapMatcher {
  public:
   enum class Outcome {
     kFound,
-    kAmbiguous,  ///< there are several such poses, or too little to compare
-    kNone,       ///< the submaps do not show the same
-    kNoMatch,    ///< what the search found is not confirmed by the match
+    kAmbiguous,  ///< several such poses, or too little to compare
+    kNone,       ///< the submaps do not match
+    kNoMatch,    ///< the match does not confirm the search result
   };
   struct Result {
     Outcome outcome = Outcome::kNone;
@@ -45,7 +45,7 @@ class SubmapMatcher {
   /// Throws OptionError.
   explicit SubmapMatcher(const Checked<SubmapMatcherOptions>& options);
 
-  /// `prior`: of the newer submap's frame in that of the older one.
+  /// Matches two submaps; `prior`: of the newer one's frame in that of the older one.
   Result match(const Submap& older, const Submap& newer, const PoseWithCovariance& prior) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// What a vehicle can do to its velocity.
+/// Limits of a vehicle's dynamics.
 struct TwistGateOptions {
   double max_acceleration = 12.0;     ///< m/s^2
   double max_yaw_acceleration = 9.0;  ///< rad/s^2
@@ -19,21 +19,21 @@ struct TwistGateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Separates twists that a vehicle can have had from those of a broken message, by the twist
-/// before and the time since then: what changed by more than its tires can do, and by more than
-/// the noise of the measurements explains, is not followed. If the next twist goes on from there,
-/// the vehicle did change, and is followed again: a wrong one costs itself.
+/// Separates plausible twists of a vehicle from those of broken messages, by the previous twist and
+/// the time since: a change that exceeds both what the tires allow and the measurement noise is
+/// rejected. If the next twist is consistent with the rejected one, the vehicle did change, and is
+/// followed again: a wrong twist costs only itself.
 ///
-/// A yaw rate that fits the wheels' turn and the tires' grip sideways passes however fast it came:
-/// a steering wheel turned between two messages, a path of arcs. It is no more wrong than a vehicle
-/// can be.
+/// A yaw rate that steering and lateral grip allow is always accepted, however quickly it changed
+/// (a steering wheel turned between two messages, a path of arcs): it is within what a vehicle can
+/// do.
 class TwistGate {
  public:
   /// Throws OptionError.
   TwistGate(const TwistGateOptions& options, const OdometryNoiseOptions& noise);
 
-  /// Whether this twist may be used. Finite; stamps rise. `sigma`: standard deviations of speed
-  /// (m/s) and yaw rate (rad/s) besides the noise.
+  /// Returns whether this twist may be used; it must be finite, with ascending stamps. `sigma`:
+  /// standard deviations of speed (m/s) and yaw rate (rad/s) in addition to the noise.
   bool passes(Stamp stamp, const Twist2& twist,
               const Eigen::Vector2d& sigma = Eigen::Vector2d::Zero());
 
@@ -47,16 +47,16 @@ class TwistGate {
 
   bool canFollow(const std::optional<Measured>& from, const Measured& to,
                  const Eigen::Vector2d& sigma) const;
-  /// Whether wheels and tires allow this yaw rate at this speed.
+  /// Whether steering and tires allow this yaw rate at this speed.
   bool canSteer(const Twist2& twist) const;
 
-  /// Standard deviations of speed (m/s) and yaw rate (rad/s), as of the greater of both.
+  /// Standard deviations of speed (m/s) and yaw rate (rad/s), at the greater of both twists.
   Eigen::Vector2d measurementNoise(const Twist2& one, const Twist2& other) const;
 
   TwistGateOptions options_;
   OdometryNoiseOptions noise_;
-  std::optional<Measured> last_;     ///< that passed
-  std::optional<Measured> refused_;  ///< since then
+  std::optional<Measured> last_;     ///< last accepted twist
+  std::optional<Measured> refused_;  ///< last rejected twist since then
 };
 
 }  // namespace datmo

@@ -20,31 +20,31 @@ struct AssociationOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// An observation that may be of a target.
+/// An observation that may belong to a target.
 struct Candidate {
   std::size_t observation;
-  double score;  ///< log-likelihood ratio of "seen, and this is it" against "missed, and this is
-                 ///< of no target"
+  double score;  ///< log-likelihood ratio of "detected, as this observation" versus "missed, and
+                 ///< this observation is of no target"
 };
 
 /// How well the observations of a scan fit a target.
 struct TargetScores {
-  double detection_probability = 0.0;  ///< if it exists
-  double missed = 0.0;                 ///< logarithm of the probability that it is not seen
-  double seen = 0.0;                   ///< logarithm of the odds that it is seen
-  std::vector<Candidate> candidates;   ///< the nearest ones, by rising observation
+  double detection_probability = 0.0;  ///< given that it exists
+  double missed = 0.0;                 ///< log probability that it is not detected
+  double seen = 0.0;                   ///< log odds that it is detected
+  std::vector<Candidate> candidates;   ///< the nearest ones, by ascending observation
 };
 
-/// Scores of a target that was predicted to the scan's time and exists with this probability
-/// (Blackman, Multiple Hypothesis Tracking for Multiple Target Tracking, 2004; existence:
-/// Garcia-Fernandez et al., Poisson multi-Bernoulli mixture filter, 2018). Only objects by
-/// themselves are candidates.
+/// Returns the scores of a target that was predicted to the scan's time and exists with this
+/// probability (Blackman, Multiple Hypothesis Tracking for Multiple Target Tracking, 2004;
+/// existence: Garcia-Fernandez et al., Poisson multi-Bernoulli mixture filter, 2018). Only single
+/// objects are candidates.
 ///
-/// Thesis 3.3.4 ignores all pairs of different classes. Here those that are surely different are no
-/// candidates, and of others the probability that they differ counts against them: so a class that
-/// the sensor mistakes for another now and then does not break a track.
+/// Thesis 3.3.4 ignores all pairs of different classes. Here, pairs whose classes surely differ are
+/// not candidates, and otherwise the probability that they differ counts against them, so that an
+/// occasional misclassification does not break a track.
 ///
-/// `memory`: scores that are of no use any more, to go without new memory.
+/// `memory`: scores that are no longer needed, whose memory is reused.
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
                       const AssociationOptions& options, TargetScores memory = {});
 

@@ -14,36 +14,36 @@
 
 namespace datmo {
 
-/// What one target may have been seen as in one scan: an object of the scan; several of them, which
-/// are parts of one object; or a part of one, which is several objects.
+/// A possible measurement of one target in one scan: an object of the scan; several of them that
+/// are parts of one object; or a part of an object that consists of several.
 struct Observation {
   Object object;                     ///< fixed frame
-  std::vector<std::size_t> sources;  ///< the scan's objects that it was made of, rising
-  double log_density = 0.0;          ///< of such objects that are of no target, 1/m^2
-  bool starts_target = true;         ///< if it is of none
-  bool needs_target = false;         ///< it makes no sense without one
+  std::vector<std::size_t> sources;  ///< the scan's objects that it was made from, ascending
+  double log_density = 0.0;          ///< log of the density of such objects of no target, 1/m^2
+  bool starts_target = true;         ///< if it belongs to none
+  bool needs_target = false;         ///< must belong to a target
 };
 
-/// One scan as the association sees it, in the fixed frame.
+/// One scan as used for association, in the fixed frame.
 struct AssociationScan {
-  /// First the objects by themselves, by rising x of their centers; then what else they may be.
+  /// First the single objects, by ascending x of their centers; then combinations and parts.
   std::vector<Observation> observations;
-  std::vector<Point2> centers;      ///< of the objects by themselves: to look through many of them
+  std::vector<Point2> centers;      ///< of the single objects, for fast loops over many
   std::vector<CenterBound> bounds;  ///< of the same
   CenterBound bound;                ///< of all of them
-  std::size_t objects = 0;          ///< how many are objects by themselves
-  std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
+  std::size_t objects = 0;          ///< number of single objects
+  std::vector<std::size_t> listed;  ///< index of each object in the sensor's list
   double noise = 0.0;               ///< m, largest standard deviation of position and sides
   double extent = 0.0;              ///< m, largest diagonal of an object
 
   const Visibility* visibility = nullptr;  ///< vehicle's frame
   Pose2 fixed_in_base;
-  const TransitionPriors* transition_priors = nullptr;  ///< null: nothing is learned of jumps
+  const TransitionPriors* transition_priors = nullptr;  ///< null: jumps are not learned
 
-  /// How a new target of this class changes between motion modes; none: by the options alone.
+  /// Returns the transition model of a new target of this class; none: that of the options.
   std::optional<TransitionModel> transitionsOf(ObjectClass object_class) const;
 
-  /// Where the sources of an observation stood in the sensor's list, rising.
+  /// Returns the indices of an observation's sources in the sensor's list, ascending.
   std::vector<std::size_t> listedSources(std::size_t observation) const;
 };
 
@@ -54,15 +54,15 @@ struct ScanIntakeOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What became of the objects of all lists.
+/// Counts over the objects of all lists.
 struct ScanIntakeCounts {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;  ///< see isValid()
-  std::uint64_t refused = 0;   ///< beyond the most of one list: the farthest
+  std::uint64_t refused = 0;   ///< beyond the maximum of a list: the farthest
 };
 
-/// Takes in the objects of one time, in the vehicle's frame. `visibility` must outlive the scan.
-/// The order of the objects does not matter.
+/// Prepares the objects of one time, in the vehicle's frame, for association. `visibility` must
+/// outlive the scan. The order of the objects does not matter.
 AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_fixed,
                        const Visibility& visibility, const ClutterMap& clutter,
                        const ScanIntakeOptions& options, ScanIntakeCounts& counts);

@@ -10,26 +10,26 @@
 
 namespace datmo {
 
-/// Of where a target was seen the points at which beams of the very scan ended: beams can be asked
-/// of these alone. A camera's points are less exact than the tolerance of a beam.
+/// Positions of a target at which beams of the same scan ended: only for these can beams be
+/// evaluated. Points from a camera are less exact than the tolerance of a beam.
 class BeamPositions {
  public:
   struct OfScan {
-    std::size_t back = 0;  ///< which scan, in the history
-    SeenPoints points;     ///< one at least
+    std::size_t back = 0;  ///< index of the scan in the history
+    SeenPoints points;     ///< at least one
   };
 
-  /// `seen` on a clock (s) that shows `clock` at the stamp `now`.
+  /// `seen`: with times on a clock (s) that shows `clock` at the stamp `now`.
   BeamPositions(const ScanHistory& history, const SeenPointHistory& seen, Stamp now, double clock);
 
-  /// Oldest first.
+  /// Returns the scans, oldest first.
   const std::vector<OfScan>& scans() const { return scans_; }
 
-  /// Whether no beam ended on the target, by all that is known: there are no scans, its objects
-  /// have no points, or they are none of its scans'. False where its scans are forgotten.
+  /// Returns whether, as far as is known, no beam ended on the target: there are no scans, its
+  /// objects have no points, or these are not from its scans. False if its scans were dropped.
   bool areOfOthers() const { return scans_.empty() && known_; }
 
-  /// Whether it was seen by a single beam, and always by the same one.
+  /// Returns whether it was seen only by one beam, the same in all scans.
   bool keepsItsBeam() const { return keeps_beam_; }
 
  private:

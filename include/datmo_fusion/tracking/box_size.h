@@ -13,15 +13,15 @@
 
 namespace datmo {
 
-/// The size of objects of one kind, before one of them was measured.
+/// Prior of the size of objects of one kind.
 struct SizePrior {
-  double share;       ///< 1, of the objects whose class is not known; relative to the others
+  double share;       ///< 1, of the objects of unknown class, relative to the others
   double length;      ///< m, mean
   double length_std;  ///< m
   double width;       ///< m, mean
   double width_std;   ///< m
 
-  /// Under the name of the kind; `source` says where the numbers come from.
+  /// Visits the options under the name of the kind; `source` tells where the numbers come from.
   void visit(OptionVisitor& visitor, const std::string& kind, const std::string& source);
 };
 
@@ -39,28 +39,27 @@ struct BoxSizeOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How far an object was seen to reach along one axis.
+/// The visible extent of an object along one axis.
 struct VisibleExtent {
   double length = 0.0;      ///< m, at least 0
-  double variance = 0.0;    ///< m^2, at least 0; of the ends that were seen
-  bool whole = false;       ///< both ends were seen; otherwise it may be longer
-  double hidden_std = 0.0;  ///< m, at least 0; of how far it was seen to reach to a hidden end
+  double variance = 0.0;    ///< m^2, at least 0; of the visible ends
+  bool whole = false;       ///< both ends were visible; otherwise the object may be longer
+  double hidden_std = 0.0;  ///< m, at least 0; of the visible limit toward a hidden end
 };
 
-/// What is known of the size of one tracked object along the two axes of its box: one estimate
-/// (mean and variance, by a Kalman filter) for each kind of object and each axis that its length
-/// may lie along, weighed by how well the kind had predicted what was seen (a static multiple
-/// model: Bar-Shalom, Li, Kirubarajan 2001, 11.6.2). So the rear of a car, 1.8 m wide, is taken for
-/// that of something 4 m long, and a leg for part of something small, before anything has indicated
-/// their class (thesis 4.2.4 needs the class for that).
+/// The size of one tracked object along the two axes of its box: one estimate (mean and variance,
+/// by a Kalman filter) for each kind of object and each axis along which its length may lie,
+/// weighted by how well the kind predicted the measurements (a static multiple model: Bar-Shalom,
+/// Li, Kirubarajan 2001, 11.6.2). So a car's rear, 1.8 m wide, is taken as part of something 4 m
+/// long, and a leg as part of something small, before their class is known (thesis 4.2.4 needs the
+/// class for that).
 ///
-/// What is seen of a body errs alike from scan to scan: the same mirror, the same neighbor that is
-/// taken for a part. So scans within `correlation_time` count together as one: the variance of each
-/// is larger in proportion.
+/// Measurement errors of an extent are correlated in time: the same mirror, the same neighbor that
+/// is taken as a part. So scans within `correlation_time` count together as one: the variance of
+/// each is increased in proportion.
 ///
-/// Where an end is hidden, the visible extent less what may be noise is a lower bound: the size
-/// grows to it where it is longer than the estimate, and never shrinks by it. No heap: cheap to
-/// copy.
+/// If an end is hidden, the visible extent minus its possible noise is a lower bound: it increases
+/// a smaller estimate, and never decreases one. No heap memory: cheap to copy.
 class BoxSize {
  public:
   explicit BoxSize(const BoxSizeOptions& options);
@@ -68,25 +67,25 @@ class BoxSize {
   /// Updates with a class and its probability, 0 to 1; kUnknown has no effect.
   void classify(ObjectClass object_class, double probability);
 
-  /// Takes in what was seen along the first and the second axis, `seconds` >= 0 after the last
-  /// time; after none it says nothing new.
+  /// Updates with the visible extents along the first and the second axis, `seconds` >= 0 after the
+  /// last update; with 0 seconds they carry no new information.
   void update(const std::array<VisibleExtent, 2>& seen, double seconds,
               const BoxSizeOptions& options);
 
-  /// Takes in the logarithm of the odds that the length lies along the first axis, known otherwise.
+  /// Adds log odds, from another source, that the length lies along the first axis.
   void addOddsAlongFirst(double log_odds);
 
   /// Renames the axes: the first becomes the second.
   void swapAxes();
 
-  /// How likely what was seen is of each road user, by size alone: not by what classify() said.
+  /// Returns the likelihood of the measured sizes for each kind of road user, without classify().
   RoadUserLikelihoods likelihoods(const BoxSizeOptions& options) const;
 
-  /// m, along both axes.
+  /// Returns the mean along both axes, m.
   const Eigen::Vector2d& mean() const { return mean_; }
-  /// m^2, along both axes.
+  /// Returns the variance along both axes, m^2.
   const Eigen::Vector2d& variance() const { return variance_; }
-  /// That the length lies along the first axis.
+  /// Returns the probability that the length lies along the first axis.
   double probabilityAlongFirst() const { return along_first_; }
 
  private:
@@ -95,7 +94,7 @@ class BoxSize {
 
   struct Hypothesis {
     double log_weight;
-    double log_size;                     ///< the part of it that sizes and their axes have
+    double log_size;                     ///< the part of it that comes from sizes and their axes
     std::array<double, kAxes> mean;      ///< m, by axis
     std::array<double, kAxes> variance;  ///< m^2
 

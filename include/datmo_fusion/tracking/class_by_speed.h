@@ -7,13 +7,13 @@
 
 namespace datmo {
 
-/// The speeds of road users of one class, while they move: normally distributed.
+/// Normal distribution of the speed of moving road users of one class.
 struct ClassSpeed {
   double mean;  ///< m/s
   double std;   ///< m/s
 
-  /// m/s, standard deviation of each component of a velocity of unknown direction: few are faster
-  /// than two of it.
+  /// Returns the standard deviation of each component of a velocity of unknown direction, m/s: few
+  /// are faster than twice this.
   double componentStd() const { return 0.5 * mean + std; }
 };
 
@@ -25,24 +25,23 @@ struct ClassBySpeedOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How fast an object is.
+/// The speed of an object.
 struct MeasuredSpeed {
   double value = 0.0;  ///< m/s, at least 0
   double std = 0.0;    ///< m/s, at least 0
 };
 
-/// Of a filter's estimate.
+/// Returns the speed of a filter's estimate.
 MeasuredSpeed speedOf(const StateEstimate& estimate);
 
-/// What a moving object is, by the sensors' classes and by its speed (Bayes): seen from behind, a
-/// cyclist is as wide and as high as somebody who walks, and of a car far away two beams tell
-/// nothing. The speed of anything else is as likely as it is on average of the three.
-///
-/// The result sums to 1.
+/// Returns the class probabilities of a moving object given the sensors' classes and its speed
+/// (Bayes); they sum to 1. From behind, a cyclist is as wide and high as a pedestrian, and two
+/// beams on a distant car carry no class information. For all other classes, the speed has the mean
+/// likelihood of the three.
 ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed& speed,
                              const ClassBySpeedOptions& options);
 
-/// What was said before its speed was taken in: the inverse of withSpeed.
+/// Returns the probabilities before the speed was included: the inverse of withSpeed.
 ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
                                 const ClassBySpeedOptions& options);
 

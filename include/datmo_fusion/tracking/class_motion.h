@@ -7,9 +7,9 @@
 
 namespace datmo {
 
-/// How tracked objects move, by class.
+/// Motion of tracked objects, by class.
 struct ClassMotionOptions {
-  TargetMotionOptions motion;  ///< of vehicles, and of all whose class is not known
+  TargetMotionOptions motion;  ///< of vehicles, and of objects of unknown class
   TargetMotionOptions pedestrian = pedestrianMotion();
   TargetMotionOptions cyclist = cyclistMotion();
 

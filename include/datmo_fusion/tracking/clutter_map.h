@@ -16,22 +16,22 @@ struct ClutterMapOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How many objects that belong to no confirmed target there are around each position relative to
-/// the vehicle: false alarms, and objects that come into view. Learned from the scans before
-/// (Musicki, Suvorova, Morelande, Moran, Clutter map and target tracking, 2005).
+/// Density of objects that belong to no confirmed target, around each position relative to the
+/// vehicle: false alarms, and objects that come into view. Learned from previous scans (Musicki,
+/// Suvorova, Morelande, Moran, Clutter map and target tracking, 2005).
 class ClutterMap {
  public:
   explicit ClutterMap(const ClutterMapOptions& options);
 
-  /// Objects of no target in one scan, 1/m^2, at a position in the vehicle's frame; 0 where nothing
-  /// was learned.
+  /// Returns the density of such objects per scan, 1/m^2, at a position in the vehicle's frame; 0
+  /// if nothing was learned there.
   double density(const Point2& position) const { return densities_.atOrEmpty(cellAt(position)); }
 
-  /// Takes in where such objects were in one scan (m, vehicle's frame), `seconds` >= 0 after the
-  /// last one.
+  /// Learns from the positions of such objects in one scan (m, vehicle's frame), `seconds` >= 0
+  /// after the last one.
   void learn(const std::vector<Point2>& unexplained, double seconds);
 
-  /// Nothing is known again.
+  /// Resets to the state after construction.
   void clear();
 
  private:

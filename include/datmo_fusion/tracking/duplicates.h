@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// Whether a box of `scale` times its size holds the other's center.
+/// Returns whether a box, scaled by `scale`, contains the other's center.
 bool reaches(Box2 box, const Box2& other, double scale);
 
 struct DuplicateOptions {
@@ -20,9 +20,10 @@ struct DuplicateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Numbers, rising, of the targets that follow another part of an object that a confirmed one
-/// follows already: those at the same position, within the size of their boxes, whose velocity does
-/// not differ significantly. Of two confirmed ones the older id stays.
+/// Returns the numbers, ascending, of the targets that follow another part of an object that a
+/// confirmed target already follows: those at the same position, within the size of their boxes,
+/// whose velocity does not differ significantly. Of two confirmed ones, the one confirmed first
+/// stays.
 ///
 /// Split hypotheses explain most parts of a confirmed target; this is for parts that were followed
 /// before it was confirmed.

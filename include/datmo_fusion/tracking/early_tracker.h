@@ -14,32 +14,33 @@
 
 namespace datmo {
 
-/// What a tracker takes of one time (Tracker::process).
+/// The input of a tracker at one time (Tracker::process).
 struct TrackerInput {
   ObjectList objects;
   Pose2 base_in_fixed;
   Visibility visibility;
 };
 
-/// A tracker that does not wait for the slower one of its sensors. Objects of one time may come
-/// twice: early, with what is known at once, and later complete, with what came late.
+/// A tracker that does not wait for its slower sensors. Objects of one time may come twice: early,
+/// with what is available at once, and later complete, with what arrived late.
 ///
-/// What is late is no measurement out of sequence to be fitted into a later state (Bar-Shalom,
+/// Late objects are not fused into a later state as out-of-sequence measurements (Bar-Shalom,
 /// Update with out-of-sequence measurements in tracking, 2002), which with several hypotheses would
-/// be an approximation: its time is done again. There are a tracker that gets the complete lists
-/// alone, and is at each of them as if there had been no early ones, bit for bit but for ids; and a
-/// copy of it that has gone on with the early lists that are newer. When a complete list comes they
-/// are run again from there, so that the next early one finds it considered.
+/// be an approximation; their time is processed again. There are two trackers: one gets only the
+/// complete lists, and its state is the same as if there had been no early ones, bit for bit except
+/// for ids; the other is a copy of it that has continued with the newer early lists. When a
+/// complete list arrives, these are run again from there, so that the next early list builds on it.
 ///
-/// What early lists confirm is published; whether it stays, complete lists say. Its id is the
-/// target's from then on, of complete lists too, and of no other: so those alone differ from what
-/// they would be without early lists. What early lists start is confirmed no sooner than a complete
-/// one has it: until then nothing tells that it is the same target after they were run again.
+/// Tracks that early lists confirm are published; whether they stay is decided by complete lists.
+/// From then on, the target keeps that id, also in complete lists, and no other target gets it:
+/// only the ids differ from a tracker without early lists. Targets that early lists start are not
+/// confirmed before a complete list contains them: until then, nothing shows that they are the same
+/// targets after the lists were run again.
 ///
-/// Not thread safe; early and complete lists each by rising stamps.
+/// Not thread-safe; early and complete lists each in ascending stamp order.
 class EarlyTracker {
  public:
-  /// Throws OptionError. As Tracker.
+  /// As Tracker. Throws OptionError.
   explicit EarlyTracker(const Checked<TrackerOptions>& options, StepClock clock = {})
       : complete_(options, std::move(clock)) {}
 
@@ -47,17 +48,19 @@ class EarlyTracker {
   void setOptions(const Checked<TrackerOptions>& options);
   void addScan(const LabeledScan& scan);
 
-  /// The tracks by a complete list and those before; by early ones, their ids.
+  /// Processes a complete list and returns the tracks by all complete lists; early lists only
+  /// affect their ids.
   TrackList process(const TrackerInput& complete);
 
-  /// The tracks by an early list, newer than all complete ones, and all before.
+  /// Processes an early list, newer than all complete ones; returns the tracks by all lists.
   TrackList processEarly(TrackerInput early);
 
-  /// What was confirmed, merged and evicted by the complete lists, and what was left out or cut
-  /// short of all, of the early ones each time that they were run.
+  /// Returns counts: confirmed, merged and evicted are those of the complete lists; left out or cut
+  /// short are those of all lists, counting early ones each time that they were run.
   TrackerCounts counts() const;
 
-  /// Early lists that wait for the complete ones of their time; bounded, the oldest gives way.
+  /// Returns the number of early lists that wait for their complete ones; if too many, the oldest
+  /// is dropped.
   std::size_t waiting() const { return waiting_.size(); }
 
   /// As Tracker's.
@@ -68,9 +71,9 @@ class EarlyTracker {
   void runAgain();
 
   Tracker complete_;
-  std::optional<Tracker> ahead_;      ///< none: as complete_
-  std::deque<TrackerInput> waiting_;  ///< what it went on with, newer than the last complete list
-  TrackerCounts early_effort_;        ///< of early lists, what was left out or cut short
+  std::optional<Tracker> ahead_;      ///< none: the same as complete_
+  std::deque<TrackerInput> waiting_;  ///< what it has processed, newer than the last complete list
+  TrackerCounts early_effort_;        ///< of early lists: left out or cut short
 };
 
 }  // namespace datmo

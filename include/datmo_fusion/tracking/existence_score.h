@@ -15,32 +15,31 @@ struct ExistenceOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How much likelier the objects of a target are for one road user than for clutter: the track
+/// Log-likelihood ratio of a target's objects being from one road user versus clutter: the track
 /// score (Sittler 1964; Blackman, Multiple hypothesis tracking for multiple target tracking, 2004),
-/// a sum of log-likelihood ratios over scans, limited on both sides so that a track that lost its
-/// object ends (CUSUM: Page, Continuous inspection schemes, 1954).
+/// a sum over scans, limited on both sides so that a track that has lost its object ends (CUSUM:
+/// Page, Continuous inspection schemes, 1954).
 class ExistenceScore {
  public:
-  /// Of a new target. `log_odds`: that its first object is one at all, by its detector.
+  /// Score of a new target. `log_odds`: of its first object being real, by its detector.
   ExistenceScore(double log_odds, const ExistenceOptions& options) { add(log_odds, options); }
 
-  /// The present scan shows an object of this target. `log_likelihood`: of its position by the
-  /// target's filter, logarithm of a density of 1/m^2; `detection_probability`: that it would be
-  /// seen there, more than 0; `log_density`: of the density of objects that are of no target,
-  /// 1/m^2; `log_odds`: that the object is one at all, by its detector.
+  /// Updates with a detection. `log_likelihood`: of its position given the target's filter, log of
+  /// a density in 1/m^2; `detection_probability`: of the target there, more than 0; `log_density`:
+  /// log density of objects of no target, 1/m^2; `log_odds`: of the object being real, by its
+  /// detector.
   void detect(double log_likelihood, double detection_probability, double log_density,
               double log_odds, const ExistenceOptions& options);
 
-  /// The present scan shows no object of this target, and would have with this probability, less
-  /// than 1.
+  /// Updates with a missed detection; `detection_probability` is less than 1.
   void miss(double detection_probability, const ExistenceOptions& options);
 
   double score() const { return score_; }
 
-  /// Logarithm of the odds that it exists.
+  /// Returns the log odds of existence.
   double logOdds(const ExistenceOptions& options) const;
 
-  /// That it exists, 0 to 1.
+  /// Returns the existence probability, 0 to 1.
   double probability(const ExistenceOptions& options) const;
 
  private:

@@ -20,28 +20,28 @@ struct HypothesisOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One interpretation of the objects of a cluster: which observations there are. Each object of the
+/// One interpretation of a cluster's objects: the observations that exist. Each object of the
 /// cluster is a source of exactly one of them.
 using Interpretation = std::vector<std::size_t>;
 
-/// What growing needs to know beside the cluster.
+/// Input of the expansion in addition to the cluster.
 struct ExpansionContext {
   const AssociationScan& scan;
   const TargetOptions& target;
   const HypothesisOptions& options;
   std::uint64_t scan_number;   ///< counted from the first one
   std::uint64_t first_number;  ///< of the target that the scan's first object may start
-  bool best_only;              ///< only the most likely hypothesis
-  std::int64_t max_work;       ///< for each hypothesis, see RankedAssignments
+  bool best_only;              ///< keep only the most likely hypothesis
+  std::int64_t max_work;       ///< per hypothesis, see RankedAssignments
 };
 
-/// The cluster after one more scan: of all continuations of its hypotheses, by each
-/// interpretation, the likeliest `max_hypotheses` (Murty's ranking of each hypothesis's
-/// assignments, taken from all of them best first: Cox and Hingorani 1996), pruned by
-/// `scan_history` (pruneHistory). Interpretations: at least one, the first with the objects by
-/// themselves. Leaves must have their scores.
+/// Returns the cluster after one more scan: of all continuations of its hypotheses, by each
+/// interpretation, the `max_hypotheses` most likely ones (Murty's ranking of each hypothesis's
+/// assignments, taken best first from all of them: Cox and Hingorani 1996), pruned by
+/// `scan_history` (pruneHistory). There must be at least one interpretation, the first with the
+/// single objects. The leaves must have their scores.
 ///
-/// `room`: new targets that may be started. Both it and the counts are brought up to date.
+/// `room`: number of new targets that may be started. It and the counts are updated.
 HypothesisCluster expand(HypothesisCluster cluster,
                          const std::vector<Interpretation>& interpretations,
                          const ExpansionContext& context, std::uint64_t& next_node,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which hypotheses and leaves of a cluster are kept. The same for trees whose leaves hold their
-// targets and for those whose leaves are only planned: a Tree has `leaves`, a leaf has `nodes` (see
-// Leaf).
+// Which hypotheses and leaves of a cluster are kept; for trees whose leaves hold their targets and
+// for those whose leaves are only planned: a Tree has `leaves`, a leaf has `nodes` (see Leaf).
 #pragma once
 
 #include <algorithm>
@@ -14,18 +13,18 @@
 
 namespace datmo {
 
-/// The best first, with weights relative to the best; at least one.
+/// Sorts by descending weight, and makes weights relative to the best; at least one.
 void sortByWeight(std::vector<GlobalHypothesis>& hypotheses);
 
-/// Hypotheses that say the same become one.
+/// Merges hypotheses that are identical.
 void mergeEqual(std::vector<GlobalHypothesis>& hypotheses);
 
-/// Removes the leaves of a tree, the `index`-th, that are in no hypothesis. False, and the tree is
-/// of no use any more: none is left. `index_of`: memory for this.
+/// Removes the leaves of the `index`-th tree that are in no hypothesis. Returns false if none is
+/// left, so that the tree must be removed. `index_of`: memory to be reused.
 template <typename Tree>
 bool removeUnusedLeaves(Tree& tree, std::size_t index, std::vector<GlobalHypothesis>& hypotheses,
                         std::vector<int>& index_of) {
-  if (tree.leaves.size() == 1) {  // as of most
+  if (tree.leaves.size() == 1) {  // the common case
     return std::any_of(hypotheses.begin(), hypotheses.end(), [index](const auto& hypothesis) {
       return hypothesis.leaf_of_tree[index] != kAbsent;
     });
@@ -86,7 +85,7 @@ void canonicalize(std::vector<Tree>& trees, std::vector<GlobalHypothesis>& hypot
   sortByWeight(hypotheses);
 }
 
-/// What a hypothesis assigned to a target `history` scans ago.
+/// Returns what a hypothesis assigned to a target `history` scans ago.
 template <typename Tree>
 std::uint64_t nodeAt(const std::vector<Tree>& trees, const GlobalHypothesis& hypothesis,
                      std::size_t tree, std::size_t history) {
@@ -94,9 +93,9 @@ std::uint64_t nodeAt(const std::vector<Tree>& trees, const GlobalHypothesis& hyp
   return leaf == kAbsent ? 0 : trees[tree].leaves[static_cast<std::size_t>(leaf)].nodes[history];
 }
 
-/// Removes all hypotheses that differ from the first one, the best, in how they explain the scan
-/// `history` scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMaxScanHistory;
-/// 0 leaves the best one alone.
+/// Removes all hypotheses that differ from the first, the best one, in how they explain the scan
+/// `history` scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history`: at most
+/// kMaxScanHistory; 0 keeps only the best one.
 template <typename Tree>
 void pruneHistory(std::vector<Tree>& trees, std::vector<GlobalHypothesis>& hypotheses,
                   std::size_t history) {

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// The steps of the last time, for sensors that keep their period.
+/// The most recent steps, to be reused for sensors with a constant period.
 class ImmStepCache {
  public:
   explicit ImmStepCache(const ImmOptions& options) : options_(options) {}

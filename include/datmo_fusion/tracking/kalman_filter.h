@@ -11,21 +11,21 @@
 
 namespace datmo {
 
-/// A normal distribution over the state of a track.
+/// Gaussian estimate of a track's state.
 struct StateEstimate {
   TrackState mean = TrackState::Zero();
   TrackCovariance covariance = TrackCovariance::Identity();
 };
 
-/// Where an object was seen: m, fixed frame; covariance m^2, positive definite.
+/// A measured position: m, fixed frame; covariance m^2, positive definite.
 struct PositionMeasurement {
   Point2 position = Point2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  double delay = 0.0;  ///< s after the time of the state: where the object is then at its velocity
+  double delay = 0.0;  ///< s after the time of the state; the object has moved on until then
 };
 
-/// The state with the position to which its velocity takes it in so many seconds, which may be less
-/// than 0: other coordinates of the same state.
+/// Returns the state with its position extrapolated by its velocity over this many seconds, which
+/// may be negative: a change of coordinates of the same state.
 StateEstimate carriedOn(const StateEstimate& estimate, double seconds);
 
 /// Innovation: measurement minus prediction, of a position (m) or of a velocity (m/s).
@@ -33,14 +33,15 @@ struct Innovation {
   Eigen::Vector2d residual;    ///< measured minus predicted
   Eigen::Matrix2d covariance;  ///< of the residual
 
-  /// Mahalanobis distance squared; chi-square with two degrees of freedom where the models hold.
+  /// Returns the squared Mahalanobis distance; chi-square with two degrees of freedom if the models
+  /// hold.
   double squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
 
-  /// Logarithm of the normal density of the residual, of 1/m^2 or 1/(m/s)^2.
+  /// Returns the log of the normal density of the residual, in 1/m^2 or 1/(m/s)^2.
   double logLikelihood() const;
 };
 
-// In line, as an association asks for many of them.
+// Inline, because association calls it often.
 inline Innovation innovationOf(const StateEstimate& predicted,
                                const PositionMeasurement& measured) {
   if (measured.delay != 0.0) {
@@ -58,16 +59,15 @@ inline Innovation innovationOf(const StateEstimate& predicted, const MeasuredVel
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
 
-/// The same, into `result`, which is not `estimate`.
+/// The same, into `result`, which must not be `estimate`.
 void predict(const StateEstimate& estimate, const LinearMotion& motion, StateEstimate& result);
 
-/// The update of the Kalman filter. What it leaves of the covariance of the position is
-/// P - P (P + R)^-1 P, computed as R (P + R)^-1 P: no difference of nearly equal numbers is taken,
-/// and the result stays positive without the cost of Joseph's form (Bar-Shalom, Li, Kirubarajan
-/// 2001, 5.2.3).
+/// Kalman filter update. The updated position covariance P - P (P + R)^-1 P is computed as
+/// R (P + R)^-1 P: this avoids differences of nearly equal numbers, and stays positive definite
+/// without the cost of Joseph's form (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3).
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured);
 
-/// The same with a velocity, in the fixed frame's axes.
+/// The same with a velocity, along the fixed frame's axes.
 StateEstimate update(const StateEstimate& predicted, const MeasuredVelocity& measured);
 
 }  // namespace datmo

@@ -6,7 +6,7 @@
 
 namespace datmo {
 
-/// Of what its detector calls so, the share that moves, were half of all that is detected moving.
+/// Share of moving objects per reported class, if half of all detections were moving.
 struct MotionByClassOptions {
   double other = 0.2;        ///< 1
   double pedestrian = 0.86;  ///< 1
@@ -17,9 +17,8 @@ struct MotionByClassOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Logarithm of how much likelier what is believed of its class is of something that moves than of
-/// something that stands: who looks like a person mostly walks, a car is as often parked, a pole
-/// stands. 0 while nothing is known.
+/// Returns the log-likelihood ratio of the believed class for a moving versus a standing object:
+/// people mostly walk, a car is as often parked, a pole stands. 0 if nothing is known.
 double classLogRatio(const ClassProbabilities& belief, const MotionByClassOptions& options);
 
 }  // namespace datmo

@@ -14,10 +14,10 @@
 namespace datmo {
 
 /// Multiple hypothesis tracking (Reid 1979; Cox and Hingorani 1996; Blackman 2004; thesis 3.3.4):
-/// the tree of observations that may belong to each target, the global hypotheses of each cluster
-/// of targets that compete for objects, and pruning of decisions a few scans old.
+/// a track tree of possible observations for each target, global hypotheses for each cluster of
+/// targets that compete for objects, and pruning of decisions that are a few scans old.
 ///
-/// With one hypothesis, no scan history, and neither split nor merged objects it does the same as
+/// With one hypothesis, no scan history, and neither split nor merged objects it is equivalent to
 /// NearestNeighborTargets.
 class MultipleHypotheses : public TargetSet {
  public:
@@ -47,8 +47,8 @@ class MultipleHypotheses : public TargetSet {
   void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
                     std::vector<HypothesisCluster>& next);
   std::size_t targets() const;
-  /// The targets of each cluster's best hypothesis, by number. Leaves that are in no hypothesis are
-  /// gone (canonicalize): where there is but one hypothesis, each tree has one leaf.
+  /// Finds the targets of each cluster's best hypothesis, by number. Unused leaves have been
+  /// removed (canonicalize), so with only one hypothesis each tree has one leaf.
   void findBest() const;
 
   TargetOptions target_options_;
@@ -58,11 +58,11 @@ class MultipleHypotheses : public TargetSet {
   SplitMergeOptions split_merge_;
   std::vector<HypothesisCluster> clusters_;
   mutable std::vector<BestTarget> best_;
-  mutable bool best_known_ = false;  ///< false: something has changed
+  mutable bool best_known_ = false;  ///< false: targets have changed
   std::uint64_t scan_number_ = 0;
   std::uint64_t next_number_ = 1;
   std::uint64_t next_node_ = 1;
-  std::size_t room_ = 0;  ///< in the present scan, for targets to start
+  std::size_t room_ = 0;  ///< in the current scan, for new targets
   AssociationCounts counts_;
 };
 

@@ -11,8 +11,8 @@
 
 namespace datmo {
 
-/// Global nearest neighbor: the one most likely association of each scan by itself, the sum of
-/// scores over all pairs being optimal. What multiple hypotheses are with a single one, and no scan
+/// Global nearest neighbor: the most likely association of each scan by itself, with the maximum
+/// sum of scores over all pairs. The same as multiple hypotheses with a single one and no scan
 /// history.
 class NearestNeighborTargets : public TargetSet {
  public:
@@ -42,21 +42,21 @@ class NearestNeighborTargets : public TargetSet {
     ScoredTarget& operator=(ScoredTarget&&) noexcept = default;
     ~ScoredTarget() = default;
 
-    std::unique_ptr<Target> target;  ///< too large to be moved
-    TargetScores scores;             ///< against the present scan
+    std::unique_ptr<Target> target;  ///< too large to move
+    TargetScores scores;             ///< for the current scan
   };
 
-  /// The object of each target, or kUnassigned. Targets that share no object, be it over others,
-  /// are assigned by themselves: the cost of an assignment grows with more than its square.
+  /// The object of each target, or kUnassigned. Groups of targets that share no object, not even
+  /// through others, are solved separately, because the cost grows faster than quadratically.
   std::vector<int> assign(std::size_t objects);
 
-  /// Of the objects that belong to no target.
+  /// Starts targets from the objects that belong to no target.
   void startTargets(const AssociationScan& scan, const std::vector<bool>& explained);
 
   TargetOptions target_options_;
   ImmStepCache steps_;
   AssociationOptions options_;
-  std::vector<ScoredTarget> targets_;  ///< by rising number
+  std::vector<ScoredTarget> targets_;  ///< by ascending number
   mutable std::vector<BestTarget> best_;
   std::uint64_t next_number_ = 1;
   AssociationCounts counts_;

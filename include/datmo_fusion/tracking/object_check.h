@@ -6,12 +6,13 @@
 
 namespace datmo {
 
-/// Whether an object can be tracked: all its numbers are finite (of a side also kHiddenSide), those
-/// of its points too, positions and sizes to 1e9 m, sizes and variances at least 0, shares from 0
-/// to 1, its delay up to 10 s, the covariance of its position symmetric and positive definite.
+/// Returns whether an object can be tracked: all its numbers are finite (side variances may be
+/// kHiddenSide), including those of its points, positions and sizes up to 1e9 m, sizes and
+/// variances at least 0, shares from 0 to 1, its delay up to 10 s, and the covariance of its
+/// position symmetric and positive definite.
 bool isValid(const Object& object);
 
-/// The object seen from the parent frame of `frame_in_parent`.
+/// Returns the object in the parent frame of `frame_in_parent`.
 Object transformed(const Pose2& frame_in_parent, const Object& object);
 
 }  // namespace datmo

@@ -18,20 +18,20 @@ struct SplitMergeOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The objects by themselves, rising, that may be parts of a confirmed target or cover it, within
-/// its gate or not. The target must have been predicted to the scan's time. `memory`: a list that
-/// is of no use any more, to go without new memory.
+/// Returns the single objects, ascending, that may be parts of a confirmed target or cover it,
+/// within its gate or not. The target must have been predicted to the scan's time. `memory`: a list
+/// that is no longer needed, whose memory is reused.
 std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
                                         const SplitMergeOptions& options,
                                         std::vector<std::size_t> memory = {});
 
-/// Other readings of a cluster's objects than each by itself (thesis figure 4.11 d, e): several
-/// objects inside of the box of a confirmed target may be parts of it, and an object that covers
-/// two confirmed targets may be both of them.
+/// Finds interpretations of a cluster's objects other than each by itself (thesis figure 4.11 d,
+/// e): several objects inside the box of a confirmed target may be parts of it, and an object that
+/// covers two confirmed targets may be both of them.
 ///
-/// Adds such observations to the scan, and to the candidates of the targets whose they would be,
-/// and the readings with them to `interpretations`, of which the first, with the objects by
-/// themselves, must be there. A probability of 0 leaves that kind out.
+/// Adds such observations to the scan and to the candidates of the targets that they may belong to,
+/// and the interpretations with them to `interpretations`, whose first, with the single objects,
+/// must exist. A probability of 0 disables that kind.
 void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
                        const AssociationOptions& association, const SplitMergeOptions& options,
                        std::vector<Interpretation>& interpretations);

@@ -6,11 +6,11 @@
 
 namespace datmo {
 
-/// s, of a clock that never jumps back.
+/// Returns the time of a monotonic clock, s.
 using StepClock = std::function<double()>;
 
 /// The time that one step may take. Without a clock it is unlimited, and the same input gives the
-/// same output; with one, a step on a busy machine may follow fewer hypotheses.
+/// same output; with one, a step on a busy machine may keep fewer hypotheses.
 class StepBudget {
  public:
   StepBudget() = default;

@@ -26,7 +26,7 @@ namespace datmo {
 
 struct Observation;
 
-/// What the classes are made from that come with the objects of one sensor.
+/// How the classes of one sensor's objects are derived.
 struct SensorClassOptions {
   bool class_by_size = true;
 
@@ -42,102 +42,101 @@ struct TargetOptions {
   MotionByClassOptions motion_by_class;
   double birth_speed_std = 8.0;  ///< m/s
   double stop_speed = 0.4;       ///< m/s
-  /// By Object::sensors. The scanner's objects have classes by what an image shows
-  /// (MonoClassifier).
+  /// By Object::sensors. The classes of the scanner's objects come from the image (MonoClassifier).
   std::map<std::string, SensorClassOptions> sensors = {
       {"lidar", {false}}, {"mono", {false}}, {"radar", {false}}};
 
   void visit(OptionVisitor& visitor);
 
-  /// Whether the class of an object has its size in it already: one of its sensors tells classes by
-  /// it, or is not known.
+  /// Returns whether the class of an object already includes its size: one of its sensors
+  /// classifies by size, or is unknown.
   bool hasClassBySize(const Object& object) const;
 };
 
-/// That two objects of which nothing is known are of the same class.
+/// Probability that two objects of unknown class are of the same class.
 inline constexpr double kChanceOfClass = 1.0 / static_cast<double>(kObjectClasses);
 
 /// No observation of a scan.
 inline constexpr std::size_t kUnseen = std::numeric_limits<std::size_t>::max();
 
-/// Something that is followed, whether it moves or not: filter, box, existence and observed points
-/// of one track. Confirmed targets have an id. Cheap to copy: each leaf of a track tree is one.
+/// A followed object, moving or not: filter, box, existence and observed points of one track.
+/// Confirmed targets have an id. Cheap to copy: each leaf of a track tree is one.
 class Target {
  public:
-  /// From the first object, in the fixed frame, and its index in the scan. `number`: the same for
-  /// all hypotheses of a target, rising from target to target.
-  /// `transitions`: what it learns of its jumps between motion modes; none: nothing.
+  /// Starts from the first object, in the fixed frame, and its index in the scan. `number`: the
+  /// same in all hypotheses of a target, ascending from target to target. `transitions`: model from
+  /// which jumps between motion modes are learned; none: they are not.
   Target(const Object& object, std::size_t index, std::uint64_t number,
          const TargetOptions& options,
          const std::optional<TransitionModel>& transitions = std::nullopt);
 
-  /// To the time of the next scan, `seconds` >= 0 ahead; `steps` are of the same time. It moves as
-  /// those of its most likely class do.
+  /// Predicts to the time of the next scan, `seconds` >= 0 ahead; `steps` are for the same time.
+  /// The motion is that of its most likely class.
   void predict(double seconds, const ImmSteps& steps, const TargetOptions& options);
 
-  /// Takes in what it was seen as in the present scan, and the index of that. Probability of
-  /// detection: as for miss().
+  /// Updates with its observation in the current scan, and the index of that. Detection
+  /// probability: as for miss().
   void update(const Observation& observation, std::size_t index, double detection_probability,
               const TargetOptions& options);
 
-  /// The present scan shows no object of this target, and would have with this probability if it
-  /// were there.
+  /// Updates with a missed detection in the current scan; `detection_probability`: given that it
+  /// exists.
   void miss(double detection_probability, const TargetOptions& options);
 
-  /// The object as a measurement of this target's position.
+  /// Returns the object as a measurement of this target's position.
   PositionMeasurement measurementOf(const Object& object) const {
     return box_.measurementOf(object);
   }
 
-  /// Which objects may be measurements within this Mahalanobis distance squared.
+  /// Returns the gate of objects within this squared Mahalanobis distance.
   CenterGate gateOf(double gate) const { return box_.gateOf(filter_.estimate(), gate); }
 
-  /// That an object is of this target's class, by the classes reported for both; of one whose class
-  /// is not known it is chance: one in kObjectClasses.
+  /// Returns the probability that an object is of this target's class, by the classes reported for
+  /// both; if a class is unknown, it is chance: one in kObjectClasses.
   double sameClassProbability(const Object& object) const;
 
-  /// That it moves and exists, by where it lies, by its velocity, and by what all beams of the last
-  /// scans observed at its positions; `now`: the time of its state. Without beams, as of a camera,
-  /// by the others alone. Not to be asked of confirmed targets: their observed points are
-  /// forgotten.
+  /// Returns the probability that it moves and exists, given its position, its velocity, and the
+  /// beams of recent scans at its positions; `now`: the time of its state. Without beams, as for a
+  /// camera, only by the others. Must not be called for confirmed targets: their observed points
+  /// are dropped.
   double motionProbability(const ScanHistory& history, Stamp now,
                            const TargetOptions& options) const;
 
-  /// That it is something at all and not a chain of false alarms, from the track score (Blackman
-  /// 2004).
+  /// Returns the probability that it exists and is not a chain of false alarms, from the track
+  /// score (Blackman 2004).
   double existenceProbability(const TargetOptions& options) const {
     return existence_.probability(options.existence);
   }
 
-  /// Before it is confirmed: the id that it is published under, from 1.
+  /// Sets the id for publishing, from 1; before it is confirmed.
   void setId(std::uint32_t id) { id_ = id; }
-  /// It becomes a track, the `order`th of all, from 1; `moves`: as far as is known now.
+  /// Makes it a track, the `order`th of all, from 1; `moves`: as far as is known now.
   void confirm(std::uint64_t order, bool moves);
 
-  /// As its class becomes known; without effect where nothing is learned.
+  /// Sets the prior once its class is known; no effect if nothing is learned.
   void setTransitionPrior(const JumpCounts& prior) { filter_.setTransitionPrior(prior); }
   bool confirmed() const { return confirmed_as_ != 0; }
-  /// As which of all it was confirmed; 0: not.
+  /// Returns its position in the order of confirmations, from 1; 0: not confirmed.
   std::uint64_t confirmedAs() const { return confirmed_as_; }
   std::uint32_t id() const { return id_; }  ///< 0: none
   std::uint64_t number() const { return number_; }
 
   const ImmFilter& filter() const { return filter_; }
   Box2 box() const { return box_.at(filter_.estimate().mean.head<2>()); }
-  /// m^2, of the box's center: by the filter, and by the size that is not known.
+  /// Returns the covariance of the box's center, m^2: from the filter, and from the uncertain size.
   Eigen::Matrix2d positionCovariance() const {
     return filter_.estimate().covariance.topLeftCorner<2, 2>() + box_.centerCovariance();
   }
   ObjectClass objectClass() const { return class_.mostLikely(); }
   const std::vector<std::string>& sensors() const { return *sensors_; }
-  /// Index of its object in the present scan; kUnseen: missed.
+  /// Returns the index of its object in the current scan; kUnseen: missed.
   std::size_t measurementIndex() const { return measurement_index_; }
   std::uint32_t hits() const { return hits_; }
   double sinceUpdate() const { return since_update_; }  ///< s
-  /// s, from the first to the last object.
+  /// Returns the time from the first to the last object, s.
   double followed() const { return age_ - since_update_; }
 
-  /// What is published of it, but what only the tracker knows.
+  /// Returns the published track, except for what only the tracker knows.
   Track track(const TargetOptions& options) const;
 
  private:
@@ -147,8 +146,8 @@ class Target {
   double falseMotion(const TargetOptions& options) const;
   double trackedVelocityEvidence(double false_motion, const TargetOptions& options) const;
 
-  // What is asked of all targets several times in a step comes first, side by side: many targets
-  // are more than the cache holds.
+  // Data that is read for all targets several times per step comes first, side by side: many
+  // targets do not fit in the cache.
   std::uint64_t number_;
   std::uint64_t confirmed_as_ = 0;
   std::uint32_t id_ = 0;
@@ -161,11 +160,11 @@ class Target {
   bool moving_ = false;
   TrackedBox box_;
   ImmFilter filter_;
-  /// 0 to 1, how likely the velocity that tells most is if it stands, over how likely if it moves.
+  /// 0 to 1, smallest likelihood ratio so far of its velocity, standing versus moving.
   double standing_velocity_ratio_ = 1.0;
   double height_;
   double motion_log_odds_;
-  ClassBelief class_by_size_;     ///< of `class_`, by the reports that have a size in them
+  ClassBelief class_by_size_;     ///< of `class_`, from the reports that include size
   SeenPointHistory seen_points_;  ///< until it is confirmed
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// How tracked objects of one class move.
+/// Motion parameters of tracked objects of one class.
 struct TargetMotionOptions {
   double turn_rate = 0.4;             ///< rad/s
   double acceleration_density = 0.2;  ///< m^2/s^3
@@ -26,39 +26,41 @@ struct TargetMotionOptions {
 TargetMotionOptions pedestrianMotion();
 TargetMotionOptions cyclistMotion();
 
-/// One linear motion over one time step: x' = transition x + w, w ~ N(0, noise). No motion depends
-/// on the position: the first two columns of the transition are those of the identity.
+/// A linear motion over one time step: x' = transition x + w, w ~ N(0, noise). No motion depends on
+/// the position: the first two columns of the transition are those of the identity.
 struct LinearMotion {
   TrackCovariance transition;
   TrackCovariance noise;
 };
 
-/// Turn at a known rate (rad/s, positive to the left; 0: constant velocity) over `seconds` >= 0,
-/// with white noise on the acceleration (Bar-Shalom, Li, Kirubarajan, Estimation with Applications
-/// to Tracking and Navigation, 2001, 11.7.1).
+/// Returns the motion of a turn at a known rate (rad/s, positive to the left; 0: constant velocity)
+/// over `seconds` >= 0, with white noise on the acceleration (Bar-Shalom, Li, Kirubarajan,
+/// Estimation with Applications to Tracking and Navigation, 2001, 11.7.1).
 ///
-/// The velocity turns; the state's acceleration does not drive it. That acceleration is the
-/// centripetal one and a rest that the model does not explain, which fades exponentially to
+/// The velocity turns; the acceleration in the state does not drive it. That acceleration is the
+/// centripetal one plus an unmodeled remainder, which decays exponentially to
 /// N(0, acceleration_std^2). So all models share one state, no covariance becomes singular, and the
 /// discretization is exact: two steps equal one of their sum, and a step of 0 s changes nothing.
 LinearMotion coordinatedTurn(double turn_rate, const TargetMotionOptions& options, double seconds);
 
-/// Constant acceleration over `seconds` >= 0 with white noise on the jerk (ibid., 6.2.3).
+/// Returns the motion at constant acceleration over `seconds` >= 0 with white noise on the jerk
+/// (ibid., 6.2.3).
 LinearMotion constantAcceleration(const TargetMotionOptions& options, double seconds);
 
-/// Standing still over `seconds` >= 0: the position stays, but for a slow random walk of density
-/// `standing_density`, and velocity and acceleration go to zero exponentially, within
-/// `standing_fading`, up to a rest of `standing_speed_std` (m/s, and as much in m/s^2) that keeps
-/// the covariance regular. What velocity is left during the step does not move the position: this
-/// is the model of an object that has come to rest, not of how it brakes. Discretized exactly, as
-/// above.
+/// Returns the motion of a standing object over `seconds` >= 0: the position stays, except for a
+/// slow random walk of density `standing_density`, and velocity and acceleration decay
+/// exponentially with `standing_fading` to a remainder of `standing_speed_std` (m/s, and the same
+/// number in m/s^2) that keeps the covariance regular. Velocity left during the step does not move
+/// the position: this models an object that has come to rest, not its braking. Discretized exactly,
+/// as above.
 LinearMotion standingStill(const TargetMotionOptions& options, double seconds);
 
-/// What is added to the variance of each component when an object ceases to stand: it may have any
-/// velocity of `start_speed_std` and any acceleration of `acceleration_std` by the end of the step.
+/// Returns what is added to the variance of each component when an object starts moving: by the
+/// end of the step it may have any velocity of `start_speed_std` and any acceleration of
+/// `acceleration_std`.
 TrackState startVariance(const TargetMotionOptions& options);
 
-/// All models in the order of MotionMode.
+/// Returns all models in the order of MotionMode.
 std::array<LinearMotion, kMotionModes> targetMotions(const TargetMotionOptions& options,
                                                      double seconds);
 

@@ -30,13 +30,13 @@ inline constexpr int kTrackState = 6;
 using TrackState = Eigen::Matrix<double, kTrackState, 1>;
 using TrackCovariance = Eigen::Matrix<double, kTrackState, kTrackState>;
 
-/// Where a track was at one time, as it was published then.
+/// The pose of a track at one time, as published then.
 struct PathPoint {
   Stamp stamp;
   Pose2 pose;  ///< of the box, fixed frame
 };
 
-/// A track of one source, which a fused track was made of.
+/// A track of one source that was fused into a track.
 struct SourceTrack {
   std::string source;
   std::uint32_t id = 0;
@@ -51,24 +51,24 @@ struct Track {
   Box2 box;               ///< center is the state's position
   double height = 0.0;    ///< m, 0: not measured
   double yaw_rate = 0.0;  ///< rad/s
-  /// rad^2, of the box's heading; modulo pi until motion has fixed its sign.
+  /// rad^2, of the box's heading; modulo pi until motion has resolved front and rear.
   double heading_variance = kUnknownHeadingVariance;
-  bool moving = false;  ///< false: it has moved, and stands now
+  bool moving = false;  ///< false: it has moved, but is standing now
   ClassProbabilities class_probabilities{};
   double existence_probability = 0.0;  ///< over all hypotheses
   double age = 0.0;                    ///< s, since the first object
   double since_update = 0.0;           ///< s, since the last object; more than 0: coasting
   std::uint32_t hits = 0;
   std::vector<std::string> sensors;
-  std::vector<std::size_t> objects;  ///< of the present list, that it was made of; coasting: none
-  std::vector<PathPoint> history;    ///< oldest first, the present last
-  std::vector<SourceTrack> sources;  ///< that it was fused of, by source; else none
+  std::vector<std::size_t> objects;  ///< indices in the current list; empty while coasting
+  std::vector<PathPoint> history;    ///< oldest first, current pose last
+  std::vector<SourceTrack> sources;  ///< if it was fused from several sources
 };
 
 struct TrackList {
   Stamp stamp;
-  std::vector<Track> tracks;   ///< by rising id
-  std::vector<ViewFan> views;  ///< of its sensors, fixed frame, one each; none: not known
+  std::vector<Track> tracks;   ///< by ascending id
+  std::vector<ViewFan> views;  ///< of its sensors, fixed frame, one each; empty: unknown
 };
 
 }  // namespace datmo

@@ -6,15 +6,15 @@
 
 namespace datmo {
 
-/// Whether a track can be fused: all its numbers are finite, those that have a unit to 1e9 of it
-/// (variances: its square), sizes, times and the heading's variance at least 0, probabilities from
-/// 0 to 1, those of modes and of classes not more than 1 together, its covariance symmetric and
-/// positive definite.
+/// Returns whether a track can be fused: all its numbers are finite, those with a unit up to 1e9 of
+/// it (variances: its square), sizes, times and the heading's variance at least 0, probabilities
+/// from 0 to 1, those of modes and of classes summing to at most 1, and its covariance symmetric
+/// and positive definite.
 bool isValid(const Track& track);
 
-/// Whether a fan can be looked up: its numbers are finite, its position up to 1e9 m, its
-/// spacing is not 0, no beam reaches less than 0, and there are kMaxBeams of them at most. One
-/// without beams is valid: nothing is known of the view.
+/// Returns whether a fan is usable: its numbers are finite, its position is up to 1e9 m, its
+/// spacing is not 0, no reach is negative, and there are at most kMaxBeams beams. A fan without
+/// beams is valid: the view is unknown.
 bool isValid(const ViewFan& fan);
 
 }  // namespace datmo

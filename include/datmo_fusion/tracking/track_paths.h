@@ -9,11 +9,11 @@
 
 namespace datmo {
 
-/// Where the tracks were published of late.
+/// The recently published poses of the tracks.
 class TrackPaths {
  public:
-  /// Adds where the tracks are now, forgets what is older than `seconds` and tracks that are not
-  /// published any more, and gives each track its history.
+  /// Adds the current poses, drops those older than `seconds` and tracks that are no longer
+  /// published, and sets each track's history.
   void extend(TrackList& list, double seconds);
 
   void clear() { paths_.clear(); }

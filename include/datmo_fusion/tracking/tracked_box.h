@@ -23,61 +23,61 @@ struct TrackedBoxOptions {
 
 /// Heading and size of a tracked object; its position is the filter's.
 ///
-/// The filter follows the center, but what is seen of an object are its near sides. The center is
-/// measured from them: with both opposite sides seen it lies between them, with one it lies half
-/// the present size behind it (the anchor point of Petrovskaya & Thrun, Model based vehicle
+/// The filter follows the center, but the visible parts of an object are its near sides. The center
+/// is measured from them: with two opposite sides visible it is midway between them, with one it is
+/// half the current size behind it (the anchor point of Petrovskaya & Thrun, Model based vehicle
 /// detection and tracking for autonomous urban driving, 2009, section 3.1). So neither a side that
-/// comes into view nor a size that becomes better known is motion. The error of the size is the
-/// same in every scan, hence no measurement noise: it is a considered parameter of the filter
-/// (Schmidt 1966), whose part in the center is `centerCovariance`.
+/// comes into view nor a better estimate of the size appears as motion. The error of the size is
+/// the same in every scan and hence not measurement noise: it is a considered parameter of the
+/// filter (Schmidt 1966), whose contribution to the center is `centerCovariance`.
 ///
-/// The sides do not distinguish front from rear, nor surely length from width: motion does. Cheap
-/// to copy.
+/// The sides do not tell front from rear, nor reliably length from width: motion does. Cheap to
+/// copy.
 class TrackedBox {
  public:
-  /// From the first object, in the fixed frame.
+  /// Starts from the first object, in the fixed frame.
   TrackedBox(const Object& object, const TrackedBoxOptions& options);
 
-  /// To `seconds` >= 0 ahead.
+  /// Predicts `seconds` >= 0 ahead.
   void predict(double seconds, const TrackedBoxOptions& options);
 
-  /// The center of this box (m, fixed frame), from the visible sides of the object. Its covariance
-  /// has what differs from scan to scan; where the sides seen are not those of the last time, also
-  /// what the unknown size makes of that.
+  /// Returns the center of this box (m, fixed frame), measured from the visible sides of the
+  /// object. Its covariance contains what varies from scan to scan, and, if other sides are visible
+  /// than last time, the effect of the uncertain size on that change.
   PositionMeasurement measurementOf(const Object& object) const;
 
-  /// Of a center that is estimated so, as far as `gate` (Mahalanobis distance squared).
+  /// Returns the gate for a center with this estimate; `gate`: squared Mahalanobis distance.
   CenterGate gateOf(const StateEstimate& estimate, double gate) const;
 
-  /// Takes in the size, class and heading of an object, `seconds` >= 0 after the last one. Returns
-  /// by how much the center moves (m, fixed frame), because size or heading are known better now
-  /// while the sides that were seen stay where they are.
+  /// Updates with the size, class and heading of an object, `seconds` >= 0 after the last one.
+  /// Returns the shift of the center (m, fixed frame) that results because size or heading are
+  /// better known while the visible sides stay where they are.
   Point2 update(const Object& object, double seconds, const TrackedBoxOptions& options);
 
   /// Updates with a significant velocity (m/s, fixed frame) and its covariance, which decides which
-  /// side is the front, and the heading if it is surer than the sides. Returns by how much the
-  /// center moves, as `update` does.
+  /// side is the front, and the heading if it is more certain than the sides. Returns the shift of
+  /// the center, as `update` does.
   Point2 followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         const TrackedBoxOptions& options);
 
-  /// What the unknown size and heading add to the covariance of the filter's position, m^2, fixed
-  /// frame; the filter does not know of it.
+  /// Returns the contribution of uncertain size and heading to the covariance of the center, m^2,
+  /// fixed frame; it is not part of the filter's covariance.
   Eigen::Matrix2d centerCovariance() const;
 
   Box2 at(const Point2& center) const;
 
-  /// rad^2, of the heading; where the sign is not known, modulo pi.
+  /// Returns the variance of the heading, rad^2; modulo pi while its sign is unknown.
   double headingVariance() const;
 
-  /// Motion has decided which of the two ends is the front.
+  /// Returns whether motion has decided which of the two ends is the front.
   bool signKnown() const { return sign_known_; }
 
-  /// How likely its size is of each road user.
+  /// Returns the likelihood of its size for each kind of road user.
   RoadUserLikelihoods sizeLikelihoods(const TrackedBoxOptions& options) const {
     return size_.likelihoods(options.size);
   }
 
-  /// m^2, of length and width.
+  /// Returns the variance of length and width, m^2.
   const Eigen::Vector2d& sizeVariance() const { return size_.variance(); }
 
  private:
@@ -88,15 +88,15 @@ class TrackedBox {
   void setHeading(double heading);
 
   double heading_;
-  Eigen::Matrix2d axes_;  ///< as columns: asked for with each object that may be of the target
+  Eigen::Matrix2d axes_;  ///< as columns; used for each object that may belong to the target
   double heading_variance_;
   double since_velocity_ = 0.0;  ///< s
-  /// s, how much longer it moved ahead than backward; below 0 it turns round.
+  /// s, how much longer it moved forward than backward; below 0 it is turned around.
   double ahead_ = 0.0;
   bool sign_known_ = false;
   BoxSize size_;
-  /// The center that was measured last is `anchor + share * size`, along each axis: -0.5 behind the
-  /// front (left) side, 0 midway between two sides, 0.5 ahead of the rear (right) side.
+  /// The last measured center is `anchor + share * size`, along each axis: -0.5 behind the front
+  /// (left) side, 0 midway between two sides, 0.5 ahead of the rear (right) side.
   Eigen::Vector2d anchor_share_ = Eigen::Vector2d::Zero();
 };
 

@@ -27,66 +27,66 @@ struct TrackerCounts {
   ScanIntakeCounts intake;
   AssociationCounts association;
   std::uint64_t confirmed_tracks = 0;
-  std::uint64_t merged_tracks = 0;    ///< removed as another view of a confirmed track
-  std::uint64_t evicted_targets = 0;  ///< unconfirmed ones that made room for new objects
+  std::uint64_t merged_tracks = 0;    ///< removed as duplicates of a confirmed track
+  std::uint64_t evicted_targets = 0;  ///< unconfirmed, removed to make room for new objects
 };
 
-/// Follows moving objects over time (thesis 3.3.4).
+/// Tracks moving objects over time (thesis 3.3.4).
 ///
-/// Every object that is not known as static starts a target, which is followed inside, in several
-/// hypotheses; what is published are confirmed targets of the most likely one. They have been seen
-/// several times, surely move or have moved (motionProbability), and are likely enough to exist. A
-/// track lives without objects for as long as it was followed with them, up to a limit, and as long
-/// as it is not missed where it should be seen.
+/// Every object that is not known to be static starts a target, which is followed internally, in
+/// several hypotheses; confirmed targets of the most likely one are published. They have been
+/// detected several times, surely move or have moved (motionProbability), and are likely enough to
+/// exist. Without detections, a track lives as long as it was followed with them, up to a limit,
+/// and as long as it is not missed where it should be detected.
 ///
-/// Not thread safe; lists in rising stamp order, which the caller ensures (StampGate). The order of
-/// the objects in a list does not matter.
+/// Not thread-safe; lists in ascending stamp order, which the caller ensures (StampGate). The order
+/// of the objects in a list does not matter.
 class Tracker {
  public:
-  /// Throws OptionError. With a clock, a step keeps to its time budget by following fewer
-  /// hypotheses; without one, the same input gives the same output on every machine.
+  /// Throws OptionError. With a clock, a step keeps its time budget by following fewer hypotheses;
+  /// without one, the same input gives the same output on every machine.
   explicit Tracker(const Checked<TrackerOptions>& options, StepClock clock = {});
 
-  /// Goes on with other live options (Tier::kLive); all others must be as they were.
+  /// Changes live options (Tier::kLive); all others must stay as they were.
   void setOptions(const Checked<TrackerOptions>& options);
 
-  /// Takes the beams of a scan, by rising stamps: evidence of what moves (MotionLikelihoodOptions).
-  /// Without them the velocities of its objects alone are.
+  /// Adds the beams of a scan, in ascending stamp order: evidence of motion
+  /// (MotionLikelihoodOptions). Without scans, only the objects' velocities are.
   void addScan(const LabeledScan& scan);
 
-  /// Takes the objects of one time, in the vehicle's frame, the vehicle's pose in the fixed frame
-  /// at that time, and what the sensors could have seen then (base frame). Returns the confirmed
-  /// tracks and the sensors' views in the fixed frame at that time.
+  /// Processes the objects of one time, in the vehicle's frame; takes the vehicle's pose in the
+  /// fixed frame and what the sensors could have seen (base frame) at that time. Returns the
+  /// confirmed tracks and the sensors' views in the fixed frame at that time.
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed,
                     const Visibility& visibility);
 
-  /// The same when nothing is known of what the sensors could have seen.
+  /// The same if nothing is known about what the sensors could have seen.
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed);
 
   const TrackerCounts& counts() const { return counts_; }
 
-  /// A copy, to go on by itself from the same state with what this one will get completed
-  /// (EarlyTracker). Of those that it follows it confirms only targets of this one: what it starts
-  /// itself is not certain to be the same one here.
+  /// Returns a copy that continues from the same state with incomplete lists (EarlyTracker). It
+  /// only confirms targets that it has in common with this tracker: those that it starts itself are
+  /// not certain to be the same ones here.
   Tracker ahead() const;
 
-  /// Targets have the ids that such a copy, made since the last step, has confirmed them under,
-  /// whether they are confirmed here or not; no other gets them.
+  /// Reserves for targets, confirmed here or not, the ids under which such a copy, made since the
+  /// last step, has confirmed them; no other target gets these ids.
   void keepIds(const Tracker& ahead);
 
-  /// Forgets all tracks; ids go on, so that none is reused.
+  /// Removes all tracks; ids continue, so that none is reused.
   void reset();
 
  private:
   void removeDuplicates();
-  /// `numbers`: rising.
+  /// `numbers`: ascending.
   void remove(const std::vector<std::uint64_t>& numbers);
 
-  /// So that new objects are never refused for the sake of old false alarms.
+  /// Evicts old false alarms, so that new objects are never refused because of them.
   void makeRoom(std::size_t objects, double seconds);
   void removeLost();
 
-  /// How long a track that was followed for this time may go unseen.
+  /// How long a track that was followed for this time may go undetected.
   double silenceAfter(double followed, double max) const;
   bool isLost(const Target& target) const;
   double existence(const Target& target) const;
@@ -97,7 +97,7 @@ class Tracker {
   bool isLikelyMoving(const Target& target) const;
   bool isConfirmable(const Target& target) const;
 
-  /// What belongs to a confirmed target is no clutter.
+  /// Objects of confirmed targets are not clutter.
   void learnClutter(const AssociationScan& scan, double seconds);
   TrackList published(Stamp stamp, const AssociationScan& scan);
   Track trackOf(const BestTarget& best, const AssociationScan& scan) const;
@@ -112,7 +112,8 @@ class Tracker {
   TrackPaths paths_;
   std::optional<Stamp> stamp_;
   std::uint32_t next_id_ = 1;
-  std::uint64_t confirmable_ = std::numeric_limits<std::uint64_t>::max();  ///< lower numbers are
+  std::uint64_t confirmable_ =
+      std::numeric_limits<std::uint64_t>::max();  ///< numbers below this may be confirmed
   TrackerCounts counts_;
 };
 

@@ -16,7 +16,7 @@
 
 namespace datmo {
 
-/// Which object is of which target: over several scans, or of each scan by itself.
+/// How objects are associated with targets: over several scans, or in each scan by itself.
 enum class TrackerAssociation { kMultipleHypotheses, kGlobalNearestNeighbor };
 
 struct TrackerOptions {

@@ -15,7 +15,7 @@ namespace datmo {
 using ModeVector = Eigen::Matrix<double, kMotionModes, 1>;
 using ModeMatrix = Eigen::Matrix<double, kMotionModes, kMotionModes>;
 
-/// How the learning of jumps is held in check.
+/// Limits of the learning of jumps between modes.
 struct TransitionLearningOptions {
   double prior_exposure = 20.0;   ///< s
   double class_exposure = 300.0;  ///< s
@@ -27,7 +27,7 @@ struct TransitionLearningOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How objects change between the motion modes.
+/// Transitions of objects between motion modes.
 struct TransitionOptions {
   double straight_sojourn = 10.0;     ///< s
   double accelerating_sojourn = 3.0;  ///< s
@@ -40,28 +40,29 @@ struct TransitionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What is known of the jumps between modes, as if it had been counted. Counts of independent
-/// observations add up. The rate of jumps from mode i to mode j is jumps(i, j) / exposure[i].
+/// Knowledge about jumps between modes, as equivalent counts. Counts of independent observations
+/// add up. The rate of jumps from mode i to mode j is jumps(i, j) / exposure[i].
 struct JumpCounts {
   ModeMatrix jumps = ModeMatrix::Zero();     ///< 1; row: from, column: to; diagonal 0
-  ModeVector exposure = ModeVector::Zero();  ///< s, in each mode; more than 0 to be of use
+  ModeVector exposure = ModeVector::Zero();  ///< s, in each mode; must be more than 0 for a rate
 };
 
-/// What the sojourn times say, with the weight of learning/prior_exposure: a mode is left to the
-/// others in equal shares. A mode that is not in use is neither entered nor left.
+/// Returns the counts that correspond to the sojourn times, with the weight of
+/// learning/prior_exposure: a mode is left for the others in equal shares. A disabled mode is
+/// neither entered nor left.
 JumpCounts countsOfSojourns(const TransitionOptions& options);
 
-/// Probabilities of the modes of an object of which nothing is known: each by its share of time.
+/// Returns the prior mode probabilities: the share of time in each.
 ModeVector priorModeProbabilities(const TransitionOptions& options);
 
-/// Probabilities of the mode (column) that follows each mode (row) after `seconds` >= 0: mode i is
-/// kept with exp(-seconds / sojourn_i), and left in the shares of its jumps. Rows sum to 1,
-/// whatever the step; more than one jump within a step is not thought of.
+/// Returns the probabilities of the mode (column) that follows each mode (row) after `seconds` >=
+/// 0: mode i is kept with exp(-seconds / sojourn_i), and left in the shares of its jumps. Rows sum
+/// to 1 for any step; multiple jumps within a step are neglected.
 ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 
-/// The transition probabilities of one target, learned while it is followed: the quasi-Bayesian
-/// estimator of Jilkov and Li, Online Bayesian Estimation of Transition Probabilities for Markovian
-/// Jump Systems, IEEE Trans. Signal Processing 52(6), 2004, for time steps that vary.
+/// The transition probabilities of one target, learned online: the quasi-Bayesian estimator of
+/// Jilkov and Li, Online Bayesian Estimation of Transition Probabilities for Markovian Jump
+/// Systems, IEEE Trans. Signal Processing 52(6), 2004, for varying time steps.
 ///
 /// Row i of the matrix P has a Dirichlet distribution of strength A = exposure_i / seconds and mean
 /// p_i. With mode probabilities m before the step and mode likelihoods L after it, the data have
@@ -69,30 +70,29 @@ ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 /// "it jumped to j", one more count of j, with the weights x_ij = m_i p_ij L_j / (m' P L), and of
 /// "it was not in mode i", nothing counted, with 1 - sum_j x_ij. The mean of the mixture is p_ij +
 /// (x_ij - p_ij sum_l x_il) / (A + 1), which is the estimator of the paper. The paper counts one
-/// more observation of every row in every step; here the Dirichlet distribution that stands for the
-/// mixture has its total variance too, so that uninformative data change nothing.
+/// more observation of every row in every step; here the Dirichlet distribution that approximates
+/// the mixture also matches its total variance, so that uninformative data change nothing.
 ///
-/// Beyond the paper: rows are kept as rates (JumpCounts), so that steps of all lengths teach the
-/// same; what was learned fades toward the prior; no rate leaves its bounds.
+/// Beyond the paper: rows are kept as rates (JumpCounts), so that steps of all lengths have the
+/// same effect; what was learned decays toward the prior; rates are bounded.
 class TransitionModel {
  public:
   TransitionModel(const JumpCounts& prior, const TransitionLearningOptions& options);
 
-  /// Forgets over a step of `seconds` >= 0, and returns the matrix of that step.
+  /// Decays over a step of `seconds` >= 0, and returns the transition matrix of that step.
   const ModeMatrix& predict(double seconds);
 
-  /// Learns from what was seen at the end of the step that was predicted last. `before`: mode
+  /// Learns from the measurement at the end of the last predicted step. `before`: mode
   /// probabilities at its start; `likelihoods`: of the measurement given each mode, 0 or more and
-  /// not all 0, in any unit. `stop_shares`, 0 to 1, by the mode before, 1 for standing: of the
-  /// jumps into the standing mode, those possible by the object's speed; in the others it kept its
-  /// mode.
+  /// not all 0, in any unit. `stop_shares`, 0 to 1, by the previous mode, 1 for standing: the share
+  /// of jumps into the standing mode that the object's speed allows; for the rest it kept its mode.
   void update(const ModeVector& before, const ModeVector& likelihoods,
               const ModeVector& stop_shares = ModeVector::Ones());
 
-  /// Exchanges the prior, as when the class becomes known; what was learned stays.
+  /// Replaces the prior, as when the class becomes known; what was learned is kept.
   void setPrior(const JumpCounts& prior);
 
-  /// What this target has shown by itself, beyond its prior; may be negative.
+  /// Returns what this target has shown beyond its prior; may be negative.
   const JumpCounts& learned() const { return learned_; }
   JumpCounts counts() const;
 
@@ -102,26 +102,26 @@ class TransitionModel {
   TransitionLearningOptions options_;
   JumpCounts prior_;
   JumpCounts learned_;
-  bool learns_ = false;  ///< false: nothing was learned as yet
+  bool learns_ = false;  ///< false: nothing was learned yet
   ModeMatrix matrix_ = ModeMatrix::Identity();
   double seconds_ = 0.0;
 };
 
-/// What the targets of each class have shown of their jumps: the prior of the next ones. Starts
-/// from the sojourn times.
+/// The jumps that the targets of each class have shown, as the prior of new targets. Starts from
+/// the sojourn times.
 class TransitionPriors {
  public:
   explicit TransitionPriors(const TransitionOptions& options);
 
-  /// For a new target, or one whose class has become known; none where nothing is to be adapted.
+  /// Returns the model of a new target, or one whose class has become known; none if not adaptive.
   std::optional<TransitionModel> modelOf(ObjectClass object_class) const;
 
-  /// The counts of a class with no more than the weight of learning/prior_exposure, so that a
+  /// Returns the counts of a class, with at most the weight of learning/prior_exposure, so that a
   /// target can deviate.
   JumpCounts of(ObjectClass object_class) const;
 
-  /// Takes in what a target has shown; once, at its end. What any class shows is also the prior of
-  /// the unknown class.
+  /// Learns from a target, once, at its end. The jumps of all classes are also the prior of the
+  /// unknown class.
   void learn(ObjectClass object_class, const TransitionModel& target);
 
  private:

@@ -5,14 +5,14 @@
 
 namespace datmo {
 
-/// Where a straight line enters and leaves a box, m from its start.
+/// Distances at which a straight line enters and leaves a box, m from its start.
 struct LineCrossing {
   double entry;
   double exit;
 };
 
-/// A box as seen from a sensor. All in the frame of the box, whose sides are taken for at least
-/// 0.1 m: nothing that a sensor detects is narrower.
+/// A box as seen from a sensor, in the frame of the box. Sides are taken to be at least 0.1 m:
+/// sensors detect nothing narrower.
 class BoxSilhouette {
  public:
   /// `sensor`: in the frame in which the box is given, m.
@@ -28,7 +28,7 @@ class BoxSilhouette {
 
   bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
 
-  /// Of the line that leaves the sensor in this direction, a unit vector.
+  /// Returns the crossing of the line from the sensor in this direction, a unit vector.
   LineCrossing crossing(const Point2& direction) const;
 
  private:

@@ -6,9 +6,9 @@
 
 namespace datmo {
 
-/// What all sensors together could have seen at the time of a list, in its frame: the scan of that
-/// time (null: none is known), and each sensor whose view the list contains, to which the objects
-/// that it saw hide what is behind them. Where nothing is known of any sensor, the view is unknown.
+/// Returns what all sensors together could have seen at the time of a list, in its frame: by the
+/// scan of that time (null if none is known), and by each sensor whose view the list contains, with
+/// the objects that it saw as occluders. If nothing is known of any sensor, the view is unknown.
 Visibility jointVisibility(const Visibility* scan, const ObjectList& list,
                            const VisibilityOptions& options);
 

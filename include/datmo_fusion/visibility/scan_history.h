@@ -21,63 +21,63 @@ struct ScanHistoryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A point in the map, and the direction of the surface there: a curb reflects a beam where the
-/// beam crosses it, which for a grazing beam may be some distance along from the point.
+/// A point in the map, and the direction of the surface there: a beam hits a curb where it crosses
+/// it, which for a grazing beam may be some distance from the point along the curb.
 struct ReflectionPoint {
   Point2 position = Point2::Zero();    ///< m, map frame
-  Point2 direction = Point2::UnitX();  ///< of length 1; zero: not known, it faces the beam
+  Point2 direction = Point2::UnitX();  ///< unit length; zero: unknown, the surface faces the beam
 };
 
 /// What one scan observed at a point.
 enum class BeamOutcome {
   kNothing,  ///< not in view, or occluded
-  kFree,     ///< a beam crossed the line of the surface
+  kFree,     ///< a beam crossed the surface's line
   kHit,      ///< a beam ended on it
 };
 
-/// A beam at the line of a surface. The outcome is kHit if it ended within +-`tolerance` of where
-/// it meets the line, kFree if it went farther.
+/// A beam at the line of a surface. The outcome is kHit if it ended within +-`tolerance` of the
+/// intersection, kFree if it went farther.
 struct BeamCrossing {
   BeamOutcome outcome = BeamOutcome::kNothing;
-  Point2 position = Point2::Zero();    ///< m, map frame: where it meets the line
-  Point2 along_beam = Point2::Zero();  ///< of length 1, map frame
-  double tolerance = 0.0;  ///< m, along the beam: larger where they meet at a flat angle
+  Point2 position = Point2::Zero();    ///< m, map frame: the intersection
+  Point2 along_beam = Point2::Zero();  ///< unit length, map frame
+  double tolerance = 0.0;              ///< m, along the beam: larger at grazing incidence
 };
 
-/// The beams of the last scans in the map frame, to look up what each of them observed at a point.
+/// The beams of recent scans in the map frame, to look up what each observed at a point.
 class ScanHistory {
  public:
   explicit ScanHistory(const Checked<ScanHistoryOptions>& options);
 
-  /// By rising stamps.
+  /// Adds a scan, in ascending stamp order.
   void add(const LabeledScan& scan);
   void clear() { scans_.clear(); }
 
   std::size_t size() const { return scans_.size(); }
 
-  /// How long before the newest scan one was taken, s; 0: the newest. `back` below size().
+  /// Returns the age of a scan relative to the newest, s. `back`: 0 is the newest; below size().
   double age(std::size_t back) const;
   Stamp stamp(std::size_t back) const { return scans_[back].stamp; }
 
-  /// Where it was taken from, m, map frame.
+  /// Returns the scanner's position at that scan, m, map frame.
   const Point2& scanner(std::size_t back) const { return scans_[back].scanner; }
 
-  /// m, along a beam: an end nearer to a surface than this is on it.
+  /// Returns the distance along a beam, m, within which an end lies on a surface.
   double tolerance() const { return options_.tolerance; }
 
-  /// Index of the beam of that scan toward a point (m, map frame); none: not in view.
+  /// Returns the beam of that scan toward a point (m, map frame); none if it is not in view.
   std::optional<std::size_t> beamIndex(std::size_t back, const Point2& position) const;
 
-  /// Whether a beam of that scan ended within tolerance() of a point (m, map frame).
+  /// Returns whether a beam of that scan ended within tolerance() of a point (m, map frame).
   bool endsAt(std::size_t back, const Point2& position) const;
 
-  /// What that scan observed at a point, by the beam toward it.
+  /// Returns what that scan observed at a point, by the beam toward it.
   BeamCrossing look(std::size_t back, const ReflectionPoint& location) const;
 
  private:
-  /// A beam, from the scanner on.
+  /// A beam from the scanner.
   struct Beam {
-    float reach = -1.0F;  ///< m, as far as it saw; negative: nothing is known of it
+    float reach = -1.0F;  ///< m, known range; negative: unknown
     bool hit = false;     ///< it ended there
   };
   struct Scan {

@@ -25,52 +25,52 @@ struct VisibilityOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a sensor could have seen at one time: how likely an object would have been detected, by
-/// field of view, range and occlusion by what is nearer. In the vehicle's frame (base_link), or in
-/// that of the fans that it is made of.
+/// What a sensor could have seen at one time: the detection probability of an object, given field
+/// of view, range and occlusion. In the vehicle's frame (base_link), or in that of the fans that it
+/// is made from.
 ///
-/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. In a scan
-/// an object is taken to be detected by one beam that meets it and returns, in a field of view by
-/// the share of it that is not hidden.
+/// The view is a fan of beams, each as long as the sensor could see along it. A scanner is assumed
+/// to detect an object if at least one beam hits it and returns; other sensors detect it in
+/// proportion to its share that is not occluded.
 class Visibility {
  public:
-  /// Nothing is known of the view: every object is seen with `unknown_probability`.
+  /// Unknown view: every object is detected with `unknown_probability`.
   explicit Visibility(const Checked<VisibilityOptions>& options);
 
-  /// By the beams of this scan, whatever they hit; those without return reach as far as the scanner
-  /// sees, blind ones nowhere. A scan whose field is not known gives an unknown view. The beams
-  /// start at the scanner's pose at the scan's stamp.
+  /// View by the beams of this scan, whatever they hit; those without return reach the maximum
+  /// range, blind ones nowhere. Unknown if the scan's field is unknown. The beams start at the
+  /// scanner's pose at the scan's stamp.
   Visibility(const LabeledScan& scan, const VisibilityOptions& options);
 
-  /// By a field of view and the boxes (base frame) of what was seen in it, behind which nothing is.
+  /// View by a field of view, with the boxes (base frame) of what was seen in it as occluders.
   Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
              const VisibilityOptions& options);
 
-  /// By all of these fans, each a sensor's (see join()), which are valid (isValid); of none nothing
-  /// is known, and one without beams carries no information.
+  /// View by all of these valid (isValid) fans, one per sensor (see join()). Unknown if there are
+  /// none; fans without beams carry no information.
   Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions& options);
 
-  /// Another sensor looked as well: from now on an object is detected if either sees it,
+  /// Adds another sensor: from now on an object is detected if either sensor detects it,
   /// independently.
   void join(const Visibility& other) { others_.push_back(other); }
 
-  /// That an object of this box is detected, averaged over the positions where it may be: `sigma`
-  /// is the standard deviation of its center along each axis (m, at least 0). Between
-  /// `min_probability` and `max_probability`.
+  /// Returns the detection probability of an object of this box, averaged over its possible
+  /// positions: `sigma` is the standard deviation of its center along each axis (m, at least 0).
+  /// The result is between `min_probability` and `max_probability`.
   double detectionProbability(const Box2& box, double sigma) const;
 
-  /// Of this sensor and of all that joined it, as far as their views are known.
+  /// Returns the fans of this sensor and of all that joined it, as far as their views are known.
   std::vector<ViewFan> fans() const;
 
  private:
-  /// Where a box may be, seen from the sensor, beside where it is assumed to be.
+  /// Offset of a possible position of a box from the assumed one, as seen from the sensor.
   struct Shift {
     double bearing = 0.0;  ///< rad
     double range = 0.0;    ///< m
   };
   class Outline;
 
-  /// One of the directions in which an object is looked at.
+  /// One line of sight to an object.
   struct Look {
     double bearing;  ///< rad, about the sensor
     double range;    ///< m, to the object's near side
@@ -78,21 +78,21 @@ class Visibility {
   static constexpr std::size_t kLooks = 8;
   using Looks = std::array<Look, kLooks>;
 
-  /// By this sensor alone.
+  /// For this sensor alone.
   double ownDetectionProbability(const Box2& box, double sigma) const;
 
   void setFan(ViewFan fan);
 
-  /// Evenly spread over an object's width.
+  /// Lines of sight, evenly spread over an object's width.
   static Looks looksAt(const Outline& outline);
 
-  /// Share of them in which the sensor saw as far as the object.
+  /// Share of them along which the sensor saw at least as far as the object.
   double clearShare(const Looks& looks, const Shift& shift) const;
 
-  /// What is left at this range of the chance to see an object: 1 in the free range.
+  /// Factor on the detection probability at this range: 1 up to sure_range.
   double strengthAt(double range) const;
 
-  /// That at least one of this many beams returns, each by this chance.
+  /// Probability that at least one of this many beams returns, each with the probability `chance`.
   static double anyReturns(double beams, double chance);
 
   VisibilityOptions options_;
