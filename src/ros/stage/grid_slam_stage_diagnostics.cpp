@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GridSlamStage says of its input, the match and whether it is located, in /diagnostics.
+// GridSlamStage's reports in /diagnostics on its input, the match and whether it is located.
 #include <string>
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
