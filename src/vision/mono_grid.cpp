@@ -103,7 +103,7 @@ MonoGridResult MonoGridModel::grid(const cv::Mat& image, const MountedCamera& ca
   if (!view.seesRoad()) {
     return result;
   }
-  // This image is classified by earlier ones: what the scanner looks over is not road to them.
+  // Learns after classification: what is too low for the scanner must not become road at once.
   const bool known = color_.isKnown(image.channels());
   if (!known) {
     result.learned = learn(image, camera, scanned);

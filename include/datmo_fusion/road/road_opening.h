@@ -23,9 +23,9 @@ struct RoadOpening {
   double length = 0.0;  ///< m, along the road
 };
 
-/// Returns the openings around a vehicle: runs of stations that probably have no border, behind one
-/// that has (a road whose border was never observed has none). The road is assumed straight from
-/// the vehicle on; `borders` (map frame) give the openings' lateral distance.
+/// Returns the openings around a vehicle: runs of stations that probably have no border, ahead of
+/// some station that has one (a road whose border was never observed has none). The road is assumed
+/// straight from the vehicle on; `borders` (map frame) give the openings' lateral distance.
 std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
                                     const std::vector<RoadBorder>& borders,
                                     const Pose2& base_in_map, const RoadOpeningOptions& options);

@@ -40,8 +40,8 @@ std::optional<double> secondsTo(const std::optional<std::int64_t>& mark, Stamp r
                                 Stamp from, double max_past = kLatePast);
 
 /// Returns when an event ends; a missing bound is infinite. A mark does not tell its hour: the
-/// first end takes the earlier possible time, the last end the later one. If the ends are in the
-/// wrong order, there is no upper bound.
+/// first end takes the earlier possible time, the last end the later one. If they are in the wrong
+/// order, the earlier of both is the first end and there is no last one.
 TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from);
 
 /// When an event begins, given that the event before it ends within `before`, and until when before

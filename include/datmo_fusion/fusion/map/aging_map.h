@@ -35,12 +35,11 @@ class AgingMap {
   void centerOn(const Point2& position) { cells_.centerOn(position); }
 
   /// Integrates a grid of the vehicle's frame, observed from `base_in_map`; stamps must rise. Each
-  /// cell is updated once, with the log odds that grid_slam's map uses for hits and passing beams;
-  /// occupied cells are never lost by rounding (as in movedGrid).
+  /// cell is updated once, with the log odds of the options, whose defaults are those of
+  /// OccupancyMap; occupied cells are never lost by rounding (as in movedGrid).
   void update(const SensorGrid& grid, const Pose2& base_in_map);
 
-  /// Returns the aged log odds of a cell at `now`, which must not be before its last observation; 0
-  /// if unknown.
+  /// Returns the log odds of a cell, aged to `now` (unaged if observed later); 0 if unknown.
   double logOdds(CellIndex cell, Stamp now) const;
 
   /// Returns the window at `now`, in the map's frame; cells within a percent of 1/2 are unknown.
