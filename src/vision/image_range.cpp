@@ -114,8 +114,7 @@ std::optional<RangeByEdge> rangeByGround(const MountedCamera& camera,
   return RangeByEdge{{range, sigma}, per_pixel};
 }
 
-/// Least squares with the common error from the lower edge. Weights are at least 0, so neither
-/// range is extrapolated from.
+/// Least squares with the common error from the lower edge, with weights limited to 0 and above.
 ImageRange fused(const RangeByEdge& a, const RangeByEdge& b, double edge_sigma) {
   const double variance_a = square(a.range.sigma);
   const double variance_b = square(b.range.sigma);
