@@ -200,8 +200,7 @@ MonoClassifierStage::Result MonoClassifierStage::work(MonoClassifier& classifier
   try {
     const auto pixels = grayOrColor(job.image);
     result.classification = classifier.classify(pixels->image, job.camera, job.objects);
-  } catch (
-      const std::exception& error) {  // from OpenCV, in a thread that must not end because of it
+  } catch (const std::exception& error) {  // of OpenCV: must not end the thread
     result.error = error.what();
   }
   result.seconds = watch.seconds();
