@@ -88,9 +88,8 @@ class StackNodelet : public nodelet::Nodelet {
     }
   }
 
-  static constexpr double kPeriod = 1.0;  ///< s, like all diagnostics
-  static constexpr int kPatience =
-      6;  ///< periods in which missing input at the start is not reported
+  static constexpr double kPeriod = 1.0;       ///< s, like all diagnostics
+  static constexpr int kPatience = 6;          ///< periods before missing input is reported
   static constexpr std::uint32_t kQueue = 50;  ///< several stages for about a second
 
   std::string result_;

@@ -38,8 +38,7 @@ struct DroppedObject {
   Object object;
   DropReason reason = DropReason::kOnBorder;
   RoadSide side = RoadSide::kLeft;
-  double beyond =
-      0.0;  ///< m from the border, away from the road; negative: it reaches onto the road
+  double beyond = 0.0;  ///< m from the border, away from the road; negative: onto the road
 };
 
 /// Separates objects on the road from those on or beyond its borders, where more is static: curbs,

@@ -45,9 +45,8 @@ class TransformBuffer {
   void set(const geometry_msgs::TransformStamped& transform, bool is_static);
 
   double restart_after_;
-  StageMonitor* monitor_ = nullptr;  ///< null without mounts
-  std::map<std::string, geometry_msgs::TransformStamped>
-      mounts_;  ///< by frame; those not received from tf yet
+  StageMonitor* monitor_ = nullptr;                                ///< null without mounts
+  std::map<std::string, geometry_msgs::TransformStamped> mounts_;  ///< by frame; not from tf yet
   tf2::BufferCore core_;
   std::map<std::string, StampGate> gates_;  ///< by child frame
 };

@@ -71,10 +71,9 @@ struct OwnVehicle {
 
 /// Tracks rejected since construction.
 struct StationTrackCounts {
-  std::uint64_t fast = 0;    ///< faster than max_speed
-  std::uint64_t jumped = 0;  ///< outside the gate of the prediction from the last message
-  std::uint64_t sudden =
-      0;  ///< new ids far from any previous track, of a station whose ids seldom repeat
+  std::uint64_t fast = 0;     ///< faster than max_speed
+  std::uint64_t jumped = 0;   ///< outside the gate of the prediction from the last message
+  std::uint64_t sudden = 0;   ///< new ids out of nowhere, of a station whose ids seldom repeat
   std::uint64_t invalid = 0;  ///< non-finite values, or an invalid covariance
   std::uint64_t own = 0;      ///< our own vehicle, as perceived by others
   std::uint64_t many = 0;     ///< beyond max_tracks

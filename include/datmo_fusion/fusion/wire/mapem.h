@@ -64,8 +64,7 @@ struct MapIntersection {
 struct Mapem {
   ItsHeader header{ItsHeader::kVersion, ItsHeader::kMapem, 0};
   std::int64_t revision = 0;
-  std::vector<MapIntersection>
-      intersections;  ///< up to 32; none: the map covers roads between them
+  std::vector<MapIntersection> intersections;  ///< up to 32; none: of roads between them
 };
 
 std::string encode(Mapem message);

@@ -53,8 +53,7 @@ struct SpatMovement {
 /// DF IntersectionState without enabled lanes and queues.
 struct SpatIntersection {
   static constexpr std::int64_t kNoMinute = 527040;
-  static constexpr std::int64_t kLastMillisecond =
-      60999;  ///< within a minute, including a leap second
+  static constexpr std::int64_t kLastMillisecond = 60999;  ///< of a minute with a leap second
 
   IntersectionId id;
   std::int64_t revision = 0;

@@ -9,9 +9,8 @@ namespace datmo {
 
 /// How risks are drawn.
 struct RiskStyle {
-  double min_probability =
-      0.1;                   ///< 0 to 1, of contact within 4 s; less likely contacts are not drawn
-  double text_height = 1.1;  ///< m
+  double min_probability = 0.1;  ///< 0 to 1, of contact within 4 s; others are not drawn
+  double text_height = 1.1;      ///< m
 };
 
 /// The host's predicted tube ("host tube"): the ground swept by its outline, from red (now) to
