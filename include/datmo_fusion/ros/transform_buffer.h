@@ -38,7 +38,7 @@ class TransformBuffer {
   /// Whether it is a rigid motion at a valid time; warns the monitor if not.
   bool isGood(const geometry_msgs::TransformStamped& transform);
 
-  /// Whether it differs from the last one; forgets the old run if the clock has jumped back.
+  /// Whether it is neither repeated nor stray; forgets the old run if the clock has jumped back.
   bool isNew(const geometry_msgs::TransformStamped& transform);
 
   /// Adds it to tf2, replacing the mount of that frame if there is one.
