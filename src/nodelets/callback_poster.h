@@ -12,8 +12,8 @@
 
 namespace datmo {
 
-/// Posts calls of a function to the callback queue of a nodelet, from any thread. Once it is
-/// destroyed the function is not called any more; the threads that post must have stopped before.
+/// Posts calls of a function to the callback queue of a nodelet, from any thread. After its
+/// destruction the function is no longer called; the posting threads must have stopped before.
 class CallbackPoster {
  public:
   CallbackPoster(const ros::NodeHandle& node, std::function<void()> serve)

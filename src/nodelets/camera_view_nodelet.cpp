@@ -16,7 +16,7 @@
 namespace datmo {
 
 /// ROS interface of CameraView. In: image, camera_info, tracks, tf. Out: camera_view. It subscribes
-/// to the images only while it has subscribers, so that none are rectified in vain.
+/// to the images only while it has subscribers, so that none are rectified unnecessarily.
 class CameraViewNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -26,13 +26,14 @@ class CameraViewNodelet : public nodelet::Nodelet {
         options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     view_ = std::make_unique<CameraView>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
-    // No input is missed while there are no subscribers.
+    // Without subscribers no input counts as missing.
     reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
                                                 std::vector<WatchedInput>{}, StageTopics{},
                                                 options.input.silence_after);
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
                                                                       [this] { publish(); });
-    // The first subscriber to a topic decides for all of its process (risk takes tracks, too).
+    // The first subscriber to a topic determines the transport for its whole process (risk
+    // subscribes to tracks, too).
     const auto hints = ros::TransportHints().tcpNoDelay();
     camera_info_ =
         node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this, hints);
@@ -78,7 +79,7 @@ class CameraViewNodelet : public nodelet::Nodelet {
     }
   }
 
-  /// A few images, of several MB each: enough for a hiccup, and bounded.
+  /// A few images of several MB each: bounded, but enough for short delays.
   static constexpr std::uint32_t kQueue = 5;
 
   std::unique_ptr<StageMonitor> monitor_;

@@ -23,15 +23,15 @@ namespace datmo {
 
 namespace {
 
-/// Measurements that wait at most: a tenth of a second or more of scanners (10 Hz to 100 Hz) and
-/// receivers, a second of a bus at 100 Hz.
+/// Maximum number of waiting measurements: at least a tenth of a second for scanners (10 Hz to 100
+/// Hz) and receivers, up to a second for a bus at 100 Hz.
 constexpr std::uint32_t kQueue = 10;
 constexpr std::uint32_t kCanQueue = 100;
 
 }  // namespace
 
-/// A device on the network as messages. What the device's own thread says is handed to the
-/// nodelet's callback queue, where the diagnostics live, too.
+/// Publishes a network device's data as messages. Output of the device's own thread is passed to
+/// the nodelet's callback queue, which also handles the diagnostics.
 class DeviceNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -131,10 +131,10 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
   ros::Publisher output_;
-  ros::Publisher velocities_;  ///< of a satellite receiver alone
+  ros::Publisher velocities_;  ///< only of a satellite receiver
   std::unique_ptr<DeviceEventQueue> events_;
   std::unique_ptr<CallbackPoster> callbacks_;
-  std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before what it calls
+  std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before the objects it calls
 };
 
 }  // namespace datmo

@@ -13,7 +13,7 @@
 namespace datmo {
 
 /// ROS interface of GridViews. In: grids/<panel> of each panel, map, pose. Out: grid_views. It
-/// draws only for subscribers, and only when something new has come.
+/// draws only for subscribers, and only when there is new input.
 class GridViewsNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -52,7 +52,7 @@ class GridViewsNodelet : public nodelet::Nodelet {
 
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<GridViews> views_;
-  bool news_ = false;  ///< a grid has come since the last picture
+  bool news_ = false;  ///< a grid was received since the last picture
   ros::Publisher picture_;
   std::vector<ros::Subscriber> grids_;
   ros::Subscriber pose_;

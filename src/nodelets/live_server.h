@@ -13,12 +13,13 @@
 
 namespace datmo {
 
-/// The live options of a nodelet for clients of dynamic_reconfigure (rqt_reconfigure, dynparam).
-/// It speaks their protocol from the declared options themselves: there is no cfg file to hold
-/// against them. Parameters are called by their full keys.
+/// Offers the live options of a nodelet to clients of dynamic_reconfigure (rqt_reconfigure,
+/// dynparam). It implements their protocol directly from the declared options: there is no cfg file
+/// to keep in sync. Parameters are named by their full keys.
 class LiveServer {
  public:
-  /// The live options now, and the change of some: that throws OptionError if it is refused.
+  /// Returns the current live options, and changes some of them; the change throws OptionError if
+  /// it is rejected.
   using Present = std::function<std::vector<LiveOption>()>;
   using Change = std::function<void(const OptionValues&)>;
 
@@ -26,11 +27,11 @@ class LiveServer {
   LiveServer(ros::NodeHandle node, Present present, Change change);
 
  private:
-  /// What is refused is said on the console; the response has what holds.
+  /// Errors are printed on the console; the response has the values in effect.
   bool take(dynamic_reconfigure::Reconfigure::Request& request,
             dynamic_reconfigure::Reconfigure::Response& response);
 
-  /// To clients and the parameter server.
+  /// Publishes to clients and the parameter server.
   void publish(const std::vector<LiveOption>& options);
 
   ros::NodeHandle node_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads a nodelet into its manager, and again into the next one when that has died:
+// Loads a nodelet into its manager, and again into the next manager when that one has died:
 //   load_nodelet load TYPE MANAGER [argument of the nodelet...]
-// called by roslaunch as `nodelet load` is, which ends with its manager. Name, parameters and
-// remappings are the node's.
+// Used by roslaunch in place of `nodelet load`, which ends with its manager. Name, parameters and
+// remappings are those of the node.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -16,7 +16,7 @@
 
 namespace {
 
-constexpr double kPeriod = 0.5;  // s, between two looks at the manager: a tenth of what is noticed
+constexpr double kPeriod = 0.5;  // s, polling period of the manager
 
 volatile std::sig_atomic_t stop_requested = 0;
 
@@ -24,7 +24,7 @@ void requestStop(int /*signal*/) { stop_requested = 1; }
 
 bool runs() { return ros::ok() && stop_requested == 0; }
 
-/// What is asked of one manager about one nodelet, the node's own name.
+/// Requests to one manager about one nodelet, which has the node's own name.
 class ManagedNodelet {
  public:
   ManagedNodelet(const std::string& manager, const std::string& type,
@@ -41,15 +41,15 @@ class ManagedNodelet {
 
   const std::string& manager() const { return manager_; }
 
-  /// Whether the manager answers.
+  /// Whether the manager responds.
   bool isThere() { return ask(); }
 
-  /// Whether it answers that it has the nodelet.
+  /// Whether the manager responds that it has the nodelet.
   bool isLoaded() {
     return ask() && std::count(known_.begin(), known_.end(), load_.request.name) > 0;
   }
 
-  /// False if the manager refuses it: its output says why.
+  /// False if the manager refuses to load it: its output says why.
   bool load() { return ros::service::call(manager_ + "/load_nodelet", load_); }
 
   void unload() {
@@ -59,7 +59,7 @@ class ManagedNodelet {
   }
 
  private:
-  /// Over one connection for as long as the manager lives: the master is not asked each time.
+  /// Uses one connection as long as the manager lives, instead of asking the master each time.
   bool ask() {
     if (!list_.isValid()) {
       list_ = ros::NodeHandle().serviceClient<nodelet::NodeletList>(manager_ + "/list", true);
@@ -79,7 +79,7 @@ class ManagedNodelet {
   std::vector<std::string> known_;
 };
 
-/// Until the manager answers; false when this program is to end.
+/// Waits until the manager responds; returns false on shutdown.
 bool waitForManager(ManagedNodelet& nodelet) {
   while (runs()) {
     if (nodelet.isThere()) {
@@ -90,7 +90,7 @@ bool waitForManager(ManagedNodelet& nodelet) {
   return false;
 }
 
-/// Returns when it cannot be loaded (1), or when this program is to end (0).
+/// Returns if loading is refused (1), or on shutdown (0).
 int keepLoaded(ManagedNodelet& nodelet) {
   bool was_loaded = false;
   while (waitForManager(nodelet)) {
@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "load_nodelet", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
-  const std::vector<std::string> words(argv + 1, argv + argc);  // without what ROS takes
+  const std::vector<std::string> words(argv + 1, argv + argc);  // without ROS arguments
   if (words == std::vector<std::string>{"--help"}) {
     std::puts(kUsage);
     return 0;
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   ros::NodeHandle node;
-  ros::AsyncSpinner spinner(1);  // a node that roslaunch and rosnode can ask
+  ros::AsyncSpinner spinner(1);  // answers requests of roslaunch and rosnode to this node
   spinner.start();
   ManagedNodelet nodelet(words[2], words[1], {words.begin() + 3, words.end()});
   return keepLoaded(nodelet);

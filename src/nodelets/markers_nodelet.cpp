@@ -16,8 +16,8 @@
 
 namespace datmo {
 
-/// Draws for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks, risks,
-/// ground_truth/objects. Out: markers, while there are subscribers; legend, once.
+/// Publishes markers for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks,
+/// risks, ground_truth/objects. Out: markers, while there are subscribers; legend, once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -30,7 +30,8 @@ class MarkersNodelet : public nodelet::Nodelet {
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
-    // The first subscriber to a topic decides for all of its process (risk takes tracks, too).
+    // The first subscriber to a topic determines the transport for its whole process (risk
+    // subscribes to tracks, too).
     const auto hints = ros::TransportHints().tcpNoDelay();
     labeled_scan_ =
         node.subscribe("labeled_scan", kQueue, &MarkersNodelet::takeLabeledScan, this, hints);
@@ -68,7 +69,7 @@ class MarkersNodelet : public nodelet::Nodelet {
     });
   }
 
-  /// `make`: the markers of a source, made only for subscribers.
+  /// `make`: creates the markers of a source; called only if there are subscribers.
   template <typename Make>
   void publishGuarded(const std::string& source, const Make& make) {
     if (markers_.getNumSubscribers() > 0) {
@@ -80,7 +81,7 @@ class MarkersNodelet : public nodelet::Nodelet {
     }
   }
 
-  /// Objects of the last scan go where the scan was seen from: tf may not know yet.
+  /// Objects of the last scan are transformed by the scan's pose, which tf may not have yet.
   void transformToFrame(const std_msgs::Header& header,
                         visualization_msgs::MarkerArray& markers) const {
     if (last_scan_ && last_scan_->header.stamp == header.stamp) {
@@ -98,19 +99,19 @@ class MarkersNodelet : public nodelet::Nodelet {
     transformToFrame(dropped.header, markers);
   }
 
-  /// An intersection is where the vehicle is.
+  /// An intersection is drawn at the vehicle's position.
   void transformToFrame(const RoadBorders& road, visualization_msgs::MarkerArray& markers) const {
     if (last_scan_) {
       addIntersection(road, *last_scan_, options_, markers);
     }
   }
 
-  /// All else is where it says.
+  /// All others keep their frame.
   template <typename Message>
   void transformToFrame(const Message& /*message*/,
                         visualization_msgs::MarkerArray& /*markers*/) const {}
 
-  /// A second of messages: enough for a hiccup, and bounded.
+  /// A second of messages: bounded, but enough for short delays.
   static constexpr std::uint32_t kQueue = 20;
 
   std::unique_ptr<StageMonitor> monitor_;

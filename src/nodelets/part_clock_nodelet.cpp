@@ -10,8 +10,8 @@
 
 namespace datmo {
 
-/// Answers what the clock of its machine shows. In: clock_question. Out: clock_answer, in the name
-/// of the process that it is in.
+/// Answers with the clock reading of its machine. In: clock_question. Out: clock_answer, under the
+/// name of its process.
 class PartClockNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -29,7 +29,7 @@ class PartClockNodelet : public nodelet::Nodelet {
     answers_.publish(answer);
   }
 
-  /// An answer to the last question is worth more than those to all before it.
+  /// Only the latest question matters.
   static constexpr std::uint32_t kQueue = 1;
 
   ros::Publisher answers_;

@@ -17,12 +17,11 @@
 
 namespace datmo {
 
-/// Says in one sentence how the stack does, and if nothing comes out of it, why: the first cause in
-/// the chain. In: /diagnostics of the stages, and the topic `tracks` for its name. Out: a status of
-/// its own in /diagnostics, and a line on the console when it changes.
+/// Reports the health of the stack in one sentence and, if there is no output, the first cause in
+/// the chain. In: /diagnostics of the stages, and the topic `tracks` for its name. Out: its own
+/// status in /diagnostics, and a line on the console when it changes.
 ///
-/// Asks the parts that run on other machines what their clocks show: out clock_question, in
-/// clock_answer.
+/// Queries the clocks of the parts that run on other machines: out clock_question, in clock_answer.
 class StackNodelet : public nodelet::Nodelet {
  private:
   using DiagnosticStatus = diagnostic_msgs::DiagnosticStatus;
@@ -47,7 +46,7 @@ class StackNodelet : public nodelet::Nodelet {
                                                });
   }
 
-  /// The machine's own time: that of messages may be a bag's.
+  /// The machine's wall clock: message time may be that of a bag.
   static ros::Time machineTime() {
     const ros::WallTime now = ros::WallTime::now();
     return {now.sec, now.nsec};
@@ -89,9 +88,9 @@ class StackNodelet : public nodelet::Nodelet {
     }
   }
 
-  static constexpr double kPeriod = 1.0;       ///< s, as of all diagnostics
-  static constexpr int kPatience = 6;          ///< beats: what is missing at the start is no news
-  static constexpr std::uint32_t kQueue = 50;  ///< several stages for a second or so
+  static constexpr double kPeriod = 1.0;       ///< s, like all diagnostics
+  static constexpr int kPatience = 6;          ///< periods before missing input is reported
+  static constexpr std::uint32_t kQueue = 50;  ///< several stages for about a second
 
   std::string result_;
   ReportingStages stages_;

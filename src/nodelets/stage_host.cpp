@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// s; how late it may be found out that a message is not waited for any more.
+/// s; maximum delay in noticing that a message need not be waited for any longer.
 constexpr double kPollPeriod = 0.02;
 
 }  // namespace
@@ -49,8 +49,8 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
 void StageHost::addInput(StageInput input) { inputs_.push_back(std::move(input)); }
 
 StageOutput::Publish StageHost::addOutput(StageOutput output) {
-  // A result is on its way with its first message: what the stage writes after it (the map) is not
-  // waited for.
+  // A result counts as published with its first message: time for further output (the map) is not
+  // included.
   outputs_.push_back(output.topic);
   return
       [this, publish = output.advertise(node_), content = output.content,

@@ -16,13 +16,12 @@
 
 namespace datmo {
 
-/// Hosts a stage live: what it declares becomes subscribers and publishers, what it says goes to
-/// diagnostics and the console, what it makes is timed, and its live options may be changed
-/// (LiveServer). All of it lives in the callback queue
-/// of `node`, which serves one message after the other.
+/// Hosts a stage live: creates its subscribers and publishers, forwards its reports to diagnostics
+/// and the console, times its results, and offers its live options (LiveServer). Everything runs in
+/// the callback queue of `node`, which handles one message at a time.
 class StageHost : private StagePorts {
  public:
-  /// `transforms` null: the stage does not ask tf. `silence_after`: s. All must outlive the host.
+  /// `transforms` null: the stage does not use tf. `silence_after`: s. All must outlive the host.
   StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& stage, StageMonitor& monitor,
             TransformBuffer* transforms, double silence_after);
 
@@ -33,7 +32,7 @@ class StageHost : private StagePorts {
 
   void subscribe(const StageInput& input);
   void publishReady();
-  /// What was made since the last call goes to the topic of times.
+  /// Publishes the timing of results since the last call.
   void publishTiming();
 
   ros::NodeHandle node_;
@@ -41,8 +40,8 @@ class StageHost : private StagePorts {
   Stage& stage_;
   StageMonitor& monitor_;
   std::vector<StageInput> inputs_;
-  std::vector<std::string> outputs_;  ///< topics, as the stage calls them
-  std::uint64_t timed_ = 0;           ///< results
+  std::vector<std::string> outputs_;  ///< topics, as named by the stage
+  std::uint64_t timed_ = 0;           ///< results already reported
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;

@@ -12,7 +12,7 @@
 
 namespace datmo {
 
-/// Any stage as a nodelet: its options from the private namespace, its messages by StageHost.
+/// Runs any stage as a nodelet: options from the private namespace, messages via StageHost.
 template <typename HostedStage>
 class StageNodelet : public nodelet::Nodelet {
  private:

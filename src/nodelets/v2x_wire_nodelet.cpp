@@ -18,19 +18,20 @@
 
 namespace datmo {
 
-/// CAM and CPM of other stations by UDP to `stations`, and `stations/own` to CAM and CPM; SPATEM
-/// and MAPEM with our own position in `stations/own` to `signal_advice` (V2xWire). What the
-/// socket's own thread has is handed to the nodelet's callback queue, where the diagnostics live.
+/// Converts CAM and CPM of other stations received by UDP to `stations`, `stations/own` to CAM and
+/// CPM, and SPATEM and MAPEM with our own position in `stations/own` to `signal_advice` (V2xWire).
+/// Data from the socket's own thread is passed to the nodelet's callback queue, which also handles
+/// the diagnostics.
 class V2xWireNodelet : public nodelet::Nodelet {
  private:
-  static constexpr std::uint32_t kQueue = 20;  ///< lists, of ours and of others
+  static constexpr std::uint32_t kQueue = 20;  ///< lists, ours and others'
 
-  /// Datagrams that wait for the nodelet's thread at most: those of a second among 100 stations.
+  /// Maximum number of datagrams that wait for the nodelet's thread: one second with 100 stations.
   static constexpr std::size_t kWaiting = 1000;
 
   struct Datagram {
     std::string bytes;
-    Stamp stamp;  ///< when it came
+    Stamp stamp;  ///< time of arrival
   };
   struct Listening {};
   using News = std::variant<Datagram, Listening, DeviceError>;
@@ -98,7 +99,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
   ros::Subscriber own_;
   EventQueue<News, Datagram, DeviceError> news_{kWaiting};
   std::unique_ptr<CallbackPoster> callbacks_;
-  std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before what it calls
+  std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before the objects it calls
 };
 
 }  // namespace datmo

@@ -8,19 +8,19 @@ namespace datmo {
 
 namespace {
 
-/// m, in which the heading of a road changes little: chords of an arc of 50 m radius are short by
+/// m, over which a road's heading changes little: chords of an arc of 50 m radius are too short by
 /// 2e-5 of their length.
 constexpr double kStep = 1.0;
 
-/// Steps in which the foot of a point comes to rest, on lines that turn by much less than a radian
-/// within its distance.
+/// Number of steps after which the foot of a point has converged, on curves that turn by much less
+/// than a radian within its distance.
 constexpr int kFootSteps = 3;
 
 double headingChange(const BorderCurve& curve, double along) {
   return along * (curve.curvature + 0.5 * along * curve.curvature_rate);
 }
 
-/// The point a short distance on, by the chord.
+/// The next pose after a short distance, along the chord.
 Pose2 stepFrom(const Pose2& from, const BorderCurve& curve, double along, double step) {
   const double middle = curve.anchor.heading() + headingChange(curve, along + 0.5 * step);
   const double end = curve.anchor.heading() + headingChange(curve, along + step);

@@ -21,7 +21,7 @@ std::vector<Point2> inMap(const Pose2& base_in_map, const Object& object) {
   return positions;
 }
 
-/// The corner that lies farthest beyond a border; none if no corner lies beside it.
+/// The corner farthest beyond a border; none if no corner lies beside it.
 std::optional<BorderOffset> outermostCorner(const Object& object, const Pose2& base_in_map,
                                             const RoadBorder& border) {
   std::optional<BorderOffset> outermost;
@@ -34,7 +34,7 @@ std::optional<BorderOffset> outermostCorner(const Object& object, const Pose2& b
   return outermost;
 }
 
-/// The point that lies farthest on the road; none if a point lies beside no part of the border.
+/// The point farthest toward the road; none if some point lies beside no part of the border.
 std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& positions,
                                            const RoadBorder& border) {
   std::optional<BorderOffset> innermost;
@@ -124,7 +124,7 @@ std::optional<DroppedObject> BorderFilter::outsideKnown(const Object& object,
     const auto offset = options_.method == BorderFilterMethod::kThesis
                             ? outermostCorner(object, base_in_map, border)
                             : innermostPoint(positions, border);
-    // In this form a standard deviation that is not a number is too high.
+    // Written so that NaN counts as too large.
     if (!offset || !(offset->sigma <= options_.max_sigma)) {
       continue;
     }

@@ -7,13 +7,13 @@ namespace datmo {
 
 namespace {
 
-/// Where a point lies beside one leg; none before its begin or behind its end.
+/// Offset of a point from one segment; none before its start or behind its end.
 std::optional<BorderOffset> offsetFromLeg(const BorderPoint& from, const BorderPoint& to,
                                           RoadSide side, const Point2& point) {
   const Point2 leg = to.position - from.position;
   const Point2 to_point = point - from.position;
   const double along = to_point.dot(leg) / leg.squaredNorm();
-  // In this form a leg without length, whose `along` is not a number, is left out.
+  // Written so that a segment of length 0, whose `along` is NaN, is skipped.
   if (!(along >= 0.0 && along <= 1.0)) {
     return std::nullopt;
   }

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// A point of a border beside the vehicle's heading.
+/// A point of a border at a station of the vehicle's heading.
 struct StationPoint {
   const FollowedBorder* border = nullptr;
   double outward = 0.0;  ///< m, from the vehicle
@@ -21,7 +21,7 @@ struct StationPoint {
 
 using Stations = std::vector<StationPoint>;
 
-/// Brings the pieces of one line to the stations that it is innermost at.
+/// Enters the sections of one line at the stations where it is innermost.
 void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
            const BorderPublishingOptions& options, Stations& stations) {
   const CurveTable& table = border.table();

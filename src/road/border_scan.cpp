@@ -37,7 +37,7 @@ BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double secon
       result.beams.push_back({result.scanner * end, false, 0, false});
     }
   }
-  // Of a scan whose field is not known, all.
+  // If the scan's field of view is unknown, all of them.
   std::for_each(point, scan.points.end(), addHit);
   return result;
 }

@@ -13,8 +13,8 @@ namespace datmo {
 
 namespace {
 
-/// A cell that passes the cut, seen from where the search begins: m along the heading there and
-/// outward.
+/// A cell above the hit threshold, relative to the start of the search: m along the heading there
+/// and outward.
 struct HitCell {
   Point2 mean;    ///< of its hits
   Point2 center;  ///< of the cell
@@ -22,10 +22,10 @@ struct HitCell {
   int smoothed;
 };
 
-/// What lies under a window.
+/// Content of a window.
 struct Window {
   double hits = 0.0;
-  std::uint64_t sections = 0;  ///< one bit each, set if it is hit
+  std::uint64_t sections = 0;  ///< one bit per section, set if it is hit
 };
 
 int countOf(std::uint64_t bits) {
@@ -36,14 +36,14 @@ int countOf(std::uint64_t bits) {
   return count;
 }
 
-/// A position and direction to search for a border.
+/// A candidate position and direction of a border.
 struct Candidate {
   double distance = 0.0;  ///< m, outward
   double heading = 0.0;   ///< rad, outward
   double score = -1.0;
 };
 
-/// One search: all windows on one side, in a frame that is mirrored for the right side, so that
+/// One search over all windows on one side, in a frame that is mirrored for the right side, so that
 /// outward is always to the left.
 class SideSearch {
  public:
@@ -74,7 +74,7 @@ class SideSearch {
   std::vector<HitCell> cells_;
 };
 
-/// All cells that any window holds: the windows overlap, and each cell is read once.
+/// Collects all cells within any window: the windows overlap, and each cell is read once.
 void SideSearch::gather(const HitGrid& hits) {
   const double turned = std::sin(options_.heading_range);
   const double margin = 0.5 * options_.width + options_.length * turned;
@@ -96,7 +96,7 @@ void SideSearch::gather(const HitGrid& hits) {
   });
 }
 
-/// Scores the windows of one heading, and keeps for each distance the best of all headings.
+/// Scores the windows of one heading, and keeps for each distance the best over all headings.
 void SideSearch::score(double heading, std::vector<Candidate>& best,
                        std::vector<Window>& windows) const {
   std::fill(windows.begin(), windows.end(), Window{});
@@ -140,7 +140,7 @@ void SideSearch::score(double heading, std::vector<Candidate>& best,
 std::vector<Candidate> SideSearch::bestOfEachDistance() const {
   std::vector<Candidate> best(static_cast<std::size_t>(windows_));
   std::vector<Window> windows(best.size());
-  // Straight on first, so that it is taken of equals.
+  // Straight ahead first, so that it wins ties.
   score(0.0, best, windows);
   const int steps = static_cast<int>(options_.heading_range / options_.heading_step + 1.0e-9);
   for (int i = 1; i <= steps; ++i) {
@@ -168,8 +168,8 @@ std::optional<FoundBorder> SideSearch::find() const {
   return found == nullptr ? std::nullopt : std::make_optional(refined(*found));
 }
 
-/// The line through the hits under and beside the window, by least squares with Cauchy's weights:
-/// what stands out of a row (a car's rear, a post) pulls it little.
+/// Fits a line to the hits under and beside the window by least squares with Cauchy weights:
+/// outliers of a row (a car's rear, a post) have little influence.
 FoundBorder SideSearch::refined(const Candidate& candidate) const {
   constexpr int kIterations = 5;
   Pose2 line(0.0, candidate.distance, candidate.heading);
@@ -179,7 +179,7 @@ FoundBorder SideSearch::refined(const Candidate& candidate) const {
   const double shape = options_.shape_sigma * options_.shape_sigma;
   const double noise = options_.hit_sigma * options_.hit_sigma;
   for (int i = 0; i < kIterations; ++i) {
-    // The position of an empty window is known to within its width, its heading to a step.
+    // The position of an empty window is known to within its width, its heading to within a step.
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     information(0, 0) = 1.0 / (options_.width * options_.width);
     information(1, 1) = 1.0 / (options_.heading_step * options_.heading_step);

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// How the offset of the line depends on the state at the anchor.
+/// Derivative of the line's offset with respect to the state at the anchor.
 Eigen::Vector4d offsetRow(double along) {
   return {1.0, along, along * along / 2.0, along * along * along / 6.0};
 }

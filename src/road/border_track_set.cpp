@@ -11,20 +11,20 @@ namespace datmo {
 
 namespace {
 
-/// Lines nearer to each other are one border, m.
+/// Lines closer to each other are the same border, m.
 constexpr double kSameBorderDistance = 0.7;
 
-/// Lines that are followed at a time.
+/// Maximum number of followed lines.
 constexpr int kMaxBorders = 16;
 
-/// Windows that are tried one beyond the other in one search: beyond lines that were refuted.
+/// Maximum number of windows tried outward in one search: beyond refuted lines.
 constexpr int kMaxWindows = 3;
 
 double outwardOf(RoadSide side, double to_left) {
   return side == RoadSide::kLeft ? to_left : -to_left;
 }
 
-/// Whether two followed lines are one: they run side by side where either is seen.
+/// Whether two followed lines are the same: they run side by side where either was observed.
 bool sameLine(const FollowedBorder& one, const FollowedBorder& other, double distance) {
   const std::vector<ArcLengthInterval> pieces = one.evidence().pieces();
   if (one.side() != other.side() || pieces.empty()) {

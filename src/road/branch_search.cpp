@@ -9,27 +9,26 @@ namespace datmo {
 
 namespace {
 
-/// m, between the samples of a corridor, along and across.
+/// m, spacing of the samples of a corridor, along and across.
 constexpr double kSampleStep = 0.5;
 
-/// m, from the vehicle's middle to where a corridor begins.
+/// m, from the vehicle's center to the start of a corridor.
 constexpr double kBranchBegin = 1.0;
 
-/// m, from the vehicle to where the sides of a street begin: nearer ones may be those of the
-/// vehicle's own road, four lanes and a footpath wide.
+/// m, from the vehicle to where the sides of a street begin: closer ones may belong to the
+/// vehicle's own road, four lanes and a sidewalk wide.
 constexpr double kSidesBegin = 14.0;
 
-/// m, from the edge of a corridor to where its sides may stand: on a strip of parking and a
-/// footpath.
+/// m, maximum distance of a corridor's sides from its edge: beyond a parking strip and a sidewalk.
 constexpr double kSideReach = 5.0;
 
-/// m, not seen before a side: beams end before what they hit.
+/// m, unseen distance allowed in front of a side: beams end before what they hit.
 constexpr double kUnseenBeforeSide = 1.0;
 
 int stepsIn(double length) { return static_cast<int>(std::lround(length / kSampleStep)); }
 
-/// Headings in a row that are free, of a full turn in equal steps; `sides` of each heading: none if
-/// it is not free.
+/// Runs of free headings, in equal steps over a full turn; `sides` of each heading: none if it is
+/// not free.
 std::vector<RoadBranch> runsOf(const std::vector<std::optional<double>>& sides, double step) {
   const std::size_t count = sides.size();
   const auto closed = std::find(sides.begin(), sides.end(), std::nullopt);
@@ -54,8 +53,8 @@ std::vector<RoadBranch> runsOf(const std::vector<std::optional<double>>& sides, 
   return runs;
 }
 
-/// Whether something stands beside a corridor, from its edge on (m, along and to the left of its
-/// axis): what is unseen just before it is at most kUnseenBeforeSide long.
+/// Whether there is an obstacle beside a corridor, outward from its edge (m, along and to the left
+/// of its axis); at most kUnseenBeforeSide before it may be unseen.
 bool hasSide(const PassageGrid& grid, const Pose2& axis, const Point2& edge) {
   const double outward = edge.y() < 0.0 ? -kSampleStep : kSampleStep;
   int unseen = 0;
@@ -119,7 +118,7 @@ std::optional<double> BranchSearch::freeShift(const PassageGrid& grid, const Pos
   const double rightmost = -options_.max_shift - 0.5 * options_.width;
   std::vector<int> passed(static_cast<std::size_t>(shifts), 0);
   std::vector<int> blocked(static_cast<std::size_t>(shifts), 0);
-  // Of the points of a slice before each, so that the sums of all corridors are differences.
+  // Prefix sums over the points of a slice, so that each corridor's sum is a difference.
   std::vector<int> free_before(static_cast<std::size_t>(shifts + across), 0);
   std::vector<int> occupied_before(free_before.size(), 0);
   for (int slice = 0; slice < slices; ++slice) {

@@ -11,42 +11,42 @@ namespace datmo {
 
 namespace {
 
-/// Smoothed hits of a cell (thesis eq. 3.5.1) that a hit needs to correct a border: what passes by
-/// has fewer.
+/// Minimum smoothed hits of a cell (thesis eq. 3.5.1) for a hit to correct a border: passing movers
+/// leave fewer.
 constexpr int kVouchingHits = 3;
 
-/// Seen stations that make a line a border, m.
+/// Length of observed stations that confirms a line as a border, m.
 constexpr double kConfirmedLength = 6.0;
 
-/// How far beyond what was seen of it a line is corrected; at most `growth`, m.
+/// A line is corrected up to this far beyond its observed part; at most `growth`, m.
 constexpr double kFittedGrowth = 3.0;
 
-/// A beam that ends so far beyond the line looks into a street: house fronts stand nearer, m.
+/// A beam that ends this far beyond the line looks into a street: house fronts are closer, m.
 constexpr double kStreetDepth = 8.0;
 
-/// A beam that crosses a line nearer to the scanner may go over what is low: a curb, m.
+/// A beam that crosses a line closer to the scanner may pass over something low: a curb, m.
 constexpr double kPassageFrom = 8.0;
 
-/// Time in which a line has to become a border, s.
+/// Time in which a candidate line must be confirmed, s.
 constexpr double kTrialTime = 1.0;
 
-/// Time for which a line that became none is not tried again, s.
+/// Time for which a refuted line is not tried again, s.
 constexpr double kRefutedTime = 2.0;
 
-/// Standard deviation by which objects along a border stand out of its line, m.
+/// Standard deviation of objects along a border from its line, m.
 constexpr double kRoughness = 0.15;
 
-/// rad; a line that runs so far across the vehicle's heading is no border of its road.
+/// rad; a line at a larger angle to the vehicle's heading is not a border of its road.
 constexpr double kAcross = degrees(60.0);
 
-/// m ahead or behind; so near to the vehicle no bend takes a border over to the other side.
+/// m ahead or behind; this close to the vehicle no bend moves a border to the other side.
 constexpr double kBeside = 10.0;
 
 double clampTo(const ArcLengthInterval& interval, double arc_length) {
   return std::clamp(arc_length, interval.first, interval.last);
 }
 
-/// The nearest arc length of an interval.
+/// The arc length in the sections that is nearest to this one.
 double nearestOf(const std::vector<ArcLengthInterval>& pieces, double arc_length) {
   double nearest = arc_length;
   double min = std::numeric_limits<double>::infinity();
@@ -154,7 +154,7 @@ void FollowedBorder::update(const BorderScan& scan, const std::vector<bool>& is_
 
 void FollowedBorder::moveAnchor(const BorderScan& scan) {
   const double foot = track_.arcLength() + table_->locate(scan.scanner.position()).along;
-  // Where nothing has been seen the line is only an extrapolation.
+  // Where nothing was observed the line is only an extrapolation.
   const double arc_length = std::max(nearestOf(evidence_.pieces(), foot), foot - options_.behind);
   const double step = std::clamp(arc_length - track_.arcLength(), table_->first(), table_->last());
   track_.advance(step, scan.seconds);
@@ -205,7 +205,8 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
           evidence_.addPassage(track_.arcLength() + along);
         }
         const bool deep = end_outward > kStreetDepth;
-        // What a slanting beam hits far along the line does not bound it where it went through.
+        // Where a beam passed through, what it hits far along the line at a shallow angle is not
+        // its border.
         if (deep || std::abs(end.along - along) < options_.growth) {
           evidence_.addDepth(track_.arcLength() + along, deep);
         }

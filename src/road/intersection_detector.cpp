@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// Distance after which the borders that a road had count for 37 % of their length, m.
+/// Distance constant with which a road's earlier borders are forgotten, m.
 constexpr double kRoadMemory = 60.0;
 
 /// Mean distance between two intersections in a town, m.
@@ -17,7 +17,7 @@ constexpr double kRoadLength = 150.0;
 /// Mean distance through an intersection, m.
 constexpr double kCrossingLength = 20.0;
 
-/// Of an intersection, the road that the vehicle came by and goes on by among them.
+/// Branches of an intersection, including the vehicle's own road in both directions.
 constexpr int kMinBranches = 3;
 
 }  // namespace
@@ -79,7 +79,7 @@ void IntersectionDetector::update(const IntersectionObservation& observation) {
   const double rate = enter_rate + 1.0 / kCrossingLength;
   const double usual = enter_rate / rate;
   const double before = usual + (probability_ - usual) * std::exp(-rate * step);
-  // One observation, however far the step; of a part of it where it is shorter.
+  // A step counts at most as one observation, a shorter one as a fraction of it.
   const double counted = std::pow(ratio, std::min(1.0, step / options_.evidence_length));
   probability_ = before * counted / (before * counted + 1.0 - before);
   at_intersection_ =

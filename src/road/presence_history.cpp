@@ -11,19 +11,19 @@ namespace datmo {
 
 namespace {
 
-/// Time constant with which what lies ahead and is seen no more is forgotten, s.
+/// Time constant for forgetting stations ahead that are no longer observed, s.
 constexpr double kForgetTime = 5.0;
 
-/// What lies farther behind the vehicle stays as it was, m.
+/// Stations farther behind the vehicle are frozen, m.
 constexpr double kUpdatedTo = 2.0;
 
 constexpr double kStationLength = 1.0;  ///< m
-constexpr double kMinStep = 0.2;        ///< m, that counts as driven
+constexpr double kMinStep = 0.2;        ///< m, minimum driven distance
 
-/// Without any knowledge.
+/// Probability without any information.
 constexpr double kUnknown = 0.5;
 
-/// Evidence of a line at a station; a gap that its piece bridges is a border as the piece is.
+/// Evidence of a line at a station; gaps bridged by a section count like the section.
 double logOddsOf(const FollowedBorder& border, const std::vector<ArcLengthInterval>& pieces,
                  double arc_length) {
   for (const ArcLengthInterval& piece : pieces) {
@@ -70,7 +70,7 @@ void PresenceHistory::moveTo(const Pose2& base_in_map) {
   if (!counted_) {
     counted_ = base_in_map;
   }
-  // Neither the jitter of a standing vehicle's pose nor driving backward is distance driven.
+  // Neither pose jitter of a standing vehicle nor driving backward counts as distance driven.
   const Point2 step = counted_->inverse() * base_in_map.position();
   if (step.norm() >= kMinStep) {
     presence_.arc_length += step.x() > 0.0 ? step.norm() : 0.0;

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// The middle line of a window as a border, known to the width of the window.
+/// The center line of a window as a border, with the window's width as uncertainty.
 RoadBorder borderOf(const FoundBorder& found, double spacing) {
   RoadBorder border;
   border.side = found.side;
@@ -31,7 +31,7 @@ bool hasBorderBeside(const std::vector<RoadBorder>& borders, const Pose2& vehicl
 }  // namespace
 
 RoadBorderDetectorOptions::RoadBorderDetectorOptions() {
-  // Less than the thesis: false borders are refuted by the beams that go through them.
+  // Less than in the thesis: false borders are refuted by the beams that pass through them.
   hit_grid.cut_share = 0.05;
 }
 
@@ -150,7 +150,7 @@ void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
 void RoadBorderDetector::lookForIntersection() {
   const double arc_length = presence_.presence().arc_length;
   if (intersection_.isDue(arc_length)) {
-    // Independent of what users publish of them.
+    // Independent of the users' settings for publishing them.
     const auto borders = publishedBorders(tracks_.borders(), *vehicle_, BorderPublishingOptions());
     const auto branches = branch_search_.search(passages_, vehicle_->position());
     intersection_.update(

@@ -11,15 +11,15 @@ namespace datmo {
 
 namespace {
 
-/// Turn of the vehicle from its last border after which it is in another road, rad.
+/// Turn of the vehicle since its last border after which it is on another road, rad.
 constexpr double kMaxTurn = 0.8;
 
-/// Distance driven for which a side without any border is taken to be bounded as it was, m.
+/// Distance driven for which a side without any border is assumed to keep its last one, m.
 constexpr double kMemoryDistance = 50.0;
 
 std::size_t indexOf(RoadSide side) { return side == RoadSide::kLeft ? 0 : 1; }
 
-/// At one point, heading away from another one.
+/// Pose at one point, heading away from another one.
 Pose2 away(const Point2& point, const Point2& from) {
   const Point2 direction = point - from;
   return {point, std::atan2(direction.y(), direction.x())};
@@ -79,7 +79,7 @@ std::optional<BorderOffset> RoadExtension::offset(RoadSide which, const Point2& 
   const double outward_is_left = which == RoadSide::kLeft ? 1.0 : -1.0;
   std::optional<BorderOffset> result;
   double min = options_.length;
-  // Each border has two ends: the first leads back, the second ahead.
+  // Each border has two ends: the first points back, the second ahead.
   for (std::size_t i = 0; i < side.ends.size(); ++i) {
     const Point2 seen = side.ends[i].inverse() * position;
     const double ahead = i % 2 == 1 ? 1.0 : -1.0;

@@ -10,17 +10,17 @@ namespace datmo {
 
 namespace {
 
-/// Probability of a border that an opening must lie behind.
+/// Minimum border probability before an opening.
 constexpr double kBorderAbove = 0.6;
 
-/// Probability of a border below which the road is open.
+/// Maximum border probability of an opening.
 constexpr double kOpenBelow = 0.4;
 
-/// From the vehicle to an opening on a side without any known border, m.
+/// Lateral distance of an opening on a side without any known border, m.
 constexpr double kUsualDistance = 5.0;
 
-/// m to the side from the vehicle's axis to that border of its own road that is nearest to a
-/// station ahead; `otherwise` where there is none.
+/// Lateral distance, m, from the vehicle's axis to the border of its own road nearest to a station
+/// ahead; `otherwise` if there is none.
 double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const Pose2& map_in_base,
                   double ahead, double otherwise) {
   double nearest = std::numeric_limits<double>::infinity();

@@ -7,13 +7,13 @@ namespace datmo {
 
 namespace {
 
-/// m, of two lanes: left borders that begin nearer to each other are taken for those of one street,
-/// and so are right ones.
+/// m, of two lanes: left borders whose starts are closer belong to the same street, and so do right
+/// ones.
 constexpr double kStreetWidth = 5.5;
 
-/// m, from a point of a published border to the next.
+/// m, spacing of the points of a published border.
 constexpr double kPointStep = 1.0;
-/// At a time: four streets have half as many.
+/// Maximum number at a time: four streets have half as many.
 constexpr std::size_t kMaxStreets = 16;
 
 bool cross(const FoundBorder& one, const FoundBorder& other) {
@@ -27,8 +27,8 @@ bool cross(const FoundBorder& one, const FoundBorder& other) {
   return x >= 0.0 && x <= one.length;
 }
 
-/// Whether at most one of two is a border of a street: each has one on either side, and they do not
-/// cross.
+/// Whether at most one of two borders can be right: each street has one on either side, and they do
+/// not cross.
 bool exclude(const FoundBorder& one, const FoundBorder& other) {
   const double apart = (one.line.position() - other.line.position()).norm();
   return (one.side == other.side && apart < kStreetWidth) || cross(one, other);
@@ -80,7 +80,7 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
     if (!found) {
       continue;
     }
-    // The newest look has the most hits.
+    // The latest search has the most hits.
     known_.erase(std::remove_if(known_.begin(), known_.end(),
                                 [&](const Known& known) { return exclude(known.border, *found); }),
                  known_.end());

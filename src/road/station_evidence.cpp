@@ -9,13 +9,13 @@ namespace datmo {
 
 namespace {
 
-/// That a beam through the mouth of a street sees deep into it, and that one beside a street does
-/// not.
+/// Probability that a beam through the mouth of a street sees deep into it, and that one beside a
+/// street does not.
 constexpr double kDepthProbability = 0.6;
 
 constexpr double kStation = 1.0;  ///< m
 
-/// Farther stations, and what is no number, are at this limit.
+/// Stations beyond, and NaN, are set to this limit.
 constexpr double kFarthest = 1 << 28;
 
 int indexOf(double along) {

@@ -13,14 +13,14 @@ namespace datmo {
 
 namespace {
 
-// As tools/datmo_tools/yaml_files.py has them; the largest file of the package is a hundredth.
+// Same limits as in tools/datmo_tools/yaml_files.py; the package's largest file has a hundredth.
 constexpr std::size_t kMaxBytes = 1U << 20U;
 constexpr std::size_t kMaxDepth = 100;
-constexpr std::size_t kMaxNodes = 100'000;  // aliases count as what they stand for
+constexpr std::size_t kMaxNodes = 100'000;  // aliases count with their expansion
 
 const char* const kNoFile = ": expected a yaml file that can be read";
 
-/// Hears what a parser finds, and throws YAML::ParserException where it is too much.
+/// Receives the parser's events, and throws YAML::ParserException if a limit is exceeded.
 class SizeCheck : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
@@ -84,7 +84,7 @@ class SizeCheck : public YAML::EventHandler {
 
   std::size_t nodes_ = 0;
   std::vector<Open> open_;
-  std::map<YAML::anchor_t, std::size_t> nodes_of_;  ///< of what is complete
+  std::map<YAML::anchor_t, std::size_t> nodes_of_;  ///< number of nodes of each completed anchor
 };
 
 }  // namespace
@@ -102,11 +102,11 @@ YAML::Node parseYaml(const std::string& name, const std::string& text) {
 }
 
 YAML::Node loadYamlFile(const std::string& file) {
-  // A pipe has no size, and a device no end.
+  // A pipe has no size, and a device has no end.
   std::ifstream stream(file, std::ios::binary);
   std::string text(kMaxBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.eof() && !stream.good()) {  // none, or a folder
+  if (!stream.eof() && !stream.good()) {  // missing, or a directory
     throw YamlError(file + kNoFile);
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));

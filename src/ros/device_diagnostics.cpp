@@ -10,12 +10,12 @@ namespace datmo {
 
 namespace {
 
-/// Velocities come beside positions: they have a rate of their own.
+/// Velocities accompany positions, but have their own rate.
 const char* inputOf(const DeviceData& data) {
   return std::holds_alternative<GroundVelocity>(data) ? "velocities" : "measurements";
 }
 
-/// What a device sends, of which some may be missing; empty where that is not known.
+/// The unit a device sends, of which some may be missing; empty if unknown.
 std::string partOf(const DeviceData& data) {
   return std::holds_alternative<DeviceScan>(data)     ? "scans"
          : std::holds_alternative<DeviceCloud>(data)  ? "packets"
@@ -99,7 +99,7 @@ void DeviceDiagnostics::noteClock(const ClockState& clock) {
                                "the device's clock or the computer's was set: stamps begin anew"));
   }
   clock_steps_ = clock.steps;
-  // The device's clock begins anywhere: what it gains or loses is what tells something.
+  // The device's clock has an arbitrary origin: only its drift is informative.
   first_offset_ = first_offset_.value_or(clock.offset);
   monitor_.figure("clock offset since connected [ms]",
                   kMilliseconds * (clock.offset - *first_offset_));

@@ -18,14 +18,14 @@ geometry_msgs::Transform lookUp(const tf2::BufferCore& transforms, const std::st
                                 const std::string& child_frame, const ros::Time& time) {
   try {
     return transforms.lookupTransform(parent_frame, child_frame, time).transform;
-  } catch (const std::runtime_error& error) {  // tf2's, and that of ros::Time near its end
+  } catch (const std::runtime_error& error) {  // from tf2, and from ros::Time near its end
     throw InputError("missing_transform", "transform " + parent_frame + " -> " + child_frame +
                                               ": expected on tf (" + error.what() + ")");
   }
 }
 
-/// Throws InputError for a sensor that is on no vehicle: beams from there are of no use, and those
-/// from infinity never end.
+/// Throws InputError if the sensor is not on the vehicle: beams from far away are useless, and
+/// those from infinity never end.
 void checkDistance(const geometry_msgs::Transform& mount, const std::string& name) {
   const auto& t = mount.translation;
   const double distance = std::hypot(t.x, t.y, t.z);
@@ -37,7 +37,7 @@ void checkDistance(const geometry_msgs::Transform& mount, const std::string& nam
   }
 }
 
-/// The newest mount of a sensor. What is missing is said with what to do about it.
+/// The newest mount of a sensor. If it is missing, the error says what to do.
 geometry_msgs::Transform lookUpMount(const tf2::BufferCore& transforms,
                                      const std::string& base_frame,
                                      const std::string& sensor_frame) {
@@ -68,7 +68,7 @@ tf2::Matrix3x3 axes(const geometry_msgs::Transform& transform) {
   return tf2::Matrix3x3(tf2::Quaternion(q.x, q.y, q.z, q.w));
 }
 
-/// Position and direction of the x axis, seen from above.
+/// Planar position and direction of the x axis.
 Pose2 fromAbove(const geometry_msgs::Transform& transform) {
   const tf2::Vector3 forward = axes(transform).getColumn(0);
   return {transform.translation.x, transform.translation.y, std::atan2(forward.y(), forward.x())};

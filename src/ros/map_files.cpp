@@ -19,16 +19,17 @@ namespace {
 
 constexpr char kMapFormat[] = "datmo_fusion map 1";
 
-/// m; cells whose sizes differ by less are of one size.
+/// m; cell sizes that differ by less are equal.
 constexpr double kSameCellSize = 1e-9;
 
-/// Of the file: log odds, age and hits as floats, indices and counters as integers; little endian.
+/// File content per cell: log odds, age and hits as floats, indices and counters as integers;
+/// little endian.
 constexpr std::size_t kWordsPerCell = 12;
 constexpr std::size_t kBytesPerWord = 4;
 constexpr std::size_t kBitsPerByte = 8;
 constexpr std::uint32_t kByteMask = 0xFF;
 
-/// Of scans that a cell counts: years of them.
+/// Maximum number of scans that a cell counts: years.
 constexpr int kMaxCount = 1'000'000'000;
 
 void append(std::string& bytes, std::uint32_t word) {
@@ -47,7 +48,7 @@ void append(std::string& bytes, float value) {
   append(bytes, word);
 }
 
-/// Takes the words of a file one after the other.
+/// Reads the words of a file sequentially.
 class WordReader {
  public:
   explicit WordReader(const std::string& bytes) : bytes_(bytes) {}
@@ -141,7 +142,7 @@ std::string textOf(const MapEvidence& evidence) {
   return text.str();
 }
 
-/// What stands before the cells.
+/// The file's header before the cells.
 struct MapHeader {
   double cell_size = 0.0;
   std::size_t cells = 0;
@@ -204,7 +205,7 @@ bool isMapServers(const std::filesystem::path& file) {
   return file.extension() == ".yaml" || file.extension() == ".yml";
 }
 
-/// Whether nothing is lost where a yaml file of map_server is written.
+/// Whether writing a yaml file of map_server there would overwrite nothing else.
 bool isAbsentOrMapServers(const std::string& yaml) {
   std::error_code unusable;
   if (!std::filesystem::exists(yaml, unusable)) {

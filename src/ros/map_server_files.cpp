@@ -18,33 +18,33 @@ namespace datmo {
 
 namespace {
 
-// As map_saver has them.
+// Same values as in map_saver.
 constexpr char kOccupiedPixel = 0;
 constexpr char kFreePixel = static_cast<char>(254);
 constexpr char kUnknownPixel = static_cast<char>(205);
 constexpr double kOccupiedThreshold = 0.65;
 constexpr double kFreeThreshold = 0.196;
 
-/// Pixels at most this much larger than cells are as large.
+/// Relative tolerance within which pixels have the size of cells.
 constexpr double kResolutionTolerance = 1e-6;
 
 constexpr int kMaxPixelValue = 255;
 
-/// Pixels of an image, at the most: of more it is no map that anything here can hold.
+/// Maximum number of pixels: a larger map would not fit anything here.
 constexpr std::size_t kMaxPixels = 16'000'000;
 
-/// m; no map lies farther from its frame's origin: cells are counted by integers.
+/// m; maximum distance of a map from its frame's origin: cells have integer indices.
 constexpr double kMaxOrigin = 1e6;
 
-/// A pixel of a map stands for as many hits: a surface that is as sure as one that was seen often.
+/// A pixel counts as this many hits: as certain as a surface that was seen often.
 constexpr float kHitsOfPixel = 10.0F;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// m^2, of hits that lie anywhere in a pixel of 1 m.
+/// m^2, of hits uniformly distributed in a pixel of 1 m.
 constexpr double kVarianceOfPixel = 1.0 / 12.0;
 
-/// What the yaml file says.
+/// Content of the yaml file.
 struct MapDescription {
   std::string image;
   double resolution = 0.0;  ///< m
@@ -70,7 +70,7 @@ void takeIfThere(const YAML::Node& node, Value& value) {
 
 void check(const MapDescription& description, const std::string& file) {
   const Pose2& origin = description.origin;
-  // In this form NaN is refused, too.
+  // Written so that NaN is rejected, too.
   if (!(std::abs(origin.x()) <= kMaxOrigin && std::abs(origin.y()) <= kMaxOrigin &&
         std::isfinite(origin.heading()))) {
     throw MapFileError(file + ": origin out of range, expected at most 1e6 m and a finite angle");
@@ -104,7 +104,7 @@ MapDescription readDescription(const std::string& file) {
   return description;
 }
 
-/// The next number of a PGM file's header, behind comments.
+/// Reads the next number of a PGM file's header, skipping comments.
 int readNumber(std::istream& in) {
   while ((in >> std::ws).peek() == '#') {
     in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
@@ -144,7 +144,7 @@ PixelImage readImage(const std::string& file) {
   return image;
 }
 
-/// Adds a pixel to the evidence of the cell in which it lies.
+/// Adds a pixel to the evidence of the cell that contains it.
 void add(double occupancy, const Point2& center, const MapDescription& description,
          const OccupancyMapOptions& options, CellEvidence& known) {
   const auto sure =
@@ -167,8 +167,8 @@ void add(double occupancy, const Point2& center, const MapDescription& descripti
   }
 }
 
-/// The window of pixels that holds all cells, of the least side (in cells) of which there are not
-/// too many.
+/// The window of pixels that contains all cells, with the smallest pixel side (in cells) for which
+/// there are not too many.
 GridWindow pixelsFor(const GridWindow& cells, int& side) {
   const CellIndex last{cells.corner.column + cells.columns - 1, cells.corner.row + cells.rows - 1};
   for (side = 1;; side *= 2) {

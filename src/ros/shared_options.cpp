@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// Keys of single stages in older sensor sets, and what says it for all stages now.
+/// Keys of single stages in older sensor sets, and the shared keys that replace them.
 const std::map<std::string, std::string> kMovedKeys = {
     {"map_frame", "frames: {map: ...}"},
     {"fixed_frame", "frames: {map: ...}"},
@@ -57,17 +57,17 @@ Mounts withPrefix(const Mounts& mounts, const std::string& prefix) {
   return prefixed;
 }
 
-/// Of these 0 says that nobody knows, and each stage has its own default.
+/// For these 0 means unknown, and each stage has its own default.
 const std::set<std::string> kUnknownIfZero = {"scanner/range_sigma", "stereo_camera/min_depth"};
 
-/// What stereo_image_proc and point_velocity agree on.
+/// Settings shared by stereo_image_proc and point_velocity.
 const std::vector<std::string> kPairing = {"approximate_sync", "pair_tolerance"};
 
 bool isZero(const OptionValue& value) {
   return value == OptionValue(0) || value == OptionValue(0.0);
 }
 
-/// Adds what a section says, checked.
+/// Adds the values of a section, checked.
 template <typename Options>
 void addSection(const std::string& name, const SectionReader& section, OptionValues& sensors) {
   const OptionValues values = section(name);

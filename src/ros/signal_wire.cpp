@@ -20,10 +20,10 @@ namespace datmo {
 
 namespace {
 
-/// Intersections that are kept at most: those within reach of a modem, and more.
+/// Maximum number of stored intersections: more than are within radio range.
 constexpr std::size_t kMaxIntersections = 100;
 
-/// s by which a clock that is corrected steps back at most; by more, it is another time.
+/// s; maximum backward step of a clock correction; a larger one is another time.
 constexpr double kClockStep = 1.0;
 
 double orNan(const std::optional<double>& value) {
@@ -194,7 +194,7 @@ std::optional<SignalAdvice> SignalWire::adviseAt(const MapIntersection& intersec
     const auto signals = found == signals_.end() ? std::nullopt : std::make_optional(found->second);
     const ApproachLanes approach = approachLanes(intersection, plane);
     advice = adviseSignals(host, approach.lanes, signals, options_.advice);
-    if (advice && approach.left_out > 0) {  // it may be on one of those
+    if (advice && approach.left_out > 0) {  // the vehicle may be on one of these
       advice->verdict = SignalVerdict::kUnknown;
       advice->reason = "lanes_left_out";
       monitor_.warned(InputError("lanes_left_out",

@@ -15,18 +15,18 @@ namespace datmo {
 
 namespace {
 
-/// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
+/// Period of the low-frequency container (EN 302 637-2, 6.1.3), s.
 constexpr double kLowFrequencyPeriod = 0.5;
 
-/// Of `interval`: a list that comes this much early is sent all the same, so that lists of just
-/// that rate, with jitter, lose none.
+/// Share of `interval`: a list that is early by this much is still sent, so that lists at exactly
+/// that rate, with jitter, are not dropped.
 constexpr double kJitterShare = 0.2;
 
-/// Later than this many intervals the next list is never due: the clock was set back.
+/// If the next list is due later than this many intervals, the clock was set back.
 constexpr double kMaxIntervalsAhead = 2.0;
 
-/// Datagrams whose echo is recognized: those of a second at least, ten lists of a CAM and at most
-/// eight CPMs.
+/// Number of datagrams whose echo is recognized: at least one second, ten lists of a CAM and at
+/// most eight CPMs each.
 constexpr std::size_t kMaxRecent = 90;
 
 }  // namespace
@@ -89,7 +89,7 @@ bool StationWire::isDue(Stamp stamp) {
   if (!is_restart && early > kJitterShare * options_.interval) {
     return false;
   }
-  // After an early one the next is due no sooner: on average none is sent too often.
+  // After an early list the next one is not due earlier: on average the interval is kept.
   due_ = (due_ && !is_restart ? std::max(*due_, stamp) : stamp) + options_.interval;
   return true;
 }

@@ -12,21 +12,21 @@ namespace datmo {
 
 namespace {
 
-/// Who sent a transform does not matter to us, but tf2 wants a name.
+/// We ignore the sender of a transform, but tf2 requires a name.
 const std::string kAuthority = "tf";
 const std::string kMounts = "mounts";
 
-/// A mount that differs from tf's by more (m, and of the quaternion's elements) is another one:
-/// what rounding to three digits does not make.
+/// A mount that differs from tf's by more (m, and in the quaternion's elements) is another one:
+/// more than rounding to three digits.
 constexpr double kMountTolerance = 2e-3;
 
-/// m, of each coordinate: half of the earth's circumference, which no map's coordinates exceed.
+/// m, per coordinate: half of the earth's circumference, which no map's coordinates exceed.
 constexpr double kMaxCoordinate = 2.0e7;
 
-/// By which the squared length of a quaternion may differ from 1, as in tf2.
+/// Tolerance of the squared length of a quaternion, as in tf2.
 constexpr double kQuaternionTolerance = 1e-2;
 
-/// Throws InputError for what is no rigid motion, or at no point of time.
+/// Throws InputError for a transform that is not a rigid motion, or has an invalid stamp.
 void check(const geometry_msgs::TransformStamped& stamped) {
   checkStampRange(stamped.header.stamp);
   const auto& t = stamped.transform.translation;

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// As in tf2_ros: a second of many fast publishers.
+/// As in tf2_ros: one second of many fast publishers.
 constexpr std::uint32_t kQueue = 100;
 
 constexpr char kTransforms[] = "/tf";

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// From one look-up of the destination's name to the next, s: it may take some.
+/// Period of looking up the destination's name, s: it may take some time.
 constexpr double kLookUpPause = 10.0;
 
 }  // namespace

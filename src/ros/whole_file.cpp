@@ -13,7 +13,7 @@ void checkWritable(const std::string& file) {
   if (std::filesystem::is_directory(file)) {
     throw std::runtime_error(file + ": is a folder, expected the name of a file");
   }
-  std::error_code ignored;  // what cannot be asked is not there
+  std::error_code ignored;  // an inaccessible file counts as missing
   const std::filesystem::file_status status = std::filesystem::status(file, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw std::runtime_error(file + ": is a pipe or a device, expected the name of a file");

@@ -14,7 +14,7 @@ std::string otherType(const std::string& topic, const std::string& expected) {
   request[1] = "";
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue topics;
-  constexpr bool kWaitForMaster = false;  // no retries: the window waits for the answer
+  constexpr bool kWaitForMaster = false;  // no retries: the window waits for the response
   if (!ros::master::execute("getPublishedTopics", request, response, topics, kWaitForMaster)) {
     return "";
   }
@@ -29,7 +29,7 @@ std::string otherType(const std::string& topic, const std::string& expected) {
 }
 
 StatusLine TopicStatus::line() const {
-  // rviz counts what its filter of transforms lets pass.
+  // rviz counts what its transform filter lets pass.
   const std::string count = received > 0 ? std::to_string(received) + " messages received"
                                          : "no message with a transform received";
   if (publishers > 0) {

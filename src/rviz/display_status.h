@@ -9,43 +9,44 @@
 
 namespace datmo {
 
-/// A line of a display's status.
+/// A line in a display's status.
 struct StatusLine {
   rviz::StatusProperty::Level level = rviz::StatusProperty::Ok;
   std::string text;
 };
 
-/// What the master says is published on a topic, if it is not `expected`; else, and without a
-/// master, empty. Waits for one answer of the master, and tries no second time.
+/// Returns the type that the master reports for a topic, if it is not `expected`; otherwise, and
+/// without a master, empty. Waits for one response of the master and does not retry.
 std::string otherType(const std::string& topic, const std::string& expected);
 
-/// Whether somebody publishes what a display draws, and how much has come.
+/// Whether what a display draws is published, and how many messages were received.
 struct TopicStatus {
   std::string topic;
   std::string expected_type;
-  std::uint32_t publishers = 0;  ///< that are connected
+  std::uint32_t publishers = 0;  ///< connected
   std::uint32_t received = 0;    ///< messages
 
-  /// Asks the master where nobody is connected.
+  /// Queries the master if no publisher is connected.
   StatusLine line() const;
 };
 
-/// What became of a display's messages since the last reset.
+/// Status of a display's messages since the last reset.
 class MessageStatus {
  public:
-  /// A new one, which is not drawn yet.
+  /// Reports a new message, which is not drawn yet.
   void addReceived();
 
-  /// The newest one is drawn, but for `left_out` shapes with a number that is not finite.
+  /// Reports that the newest message was drawn, except for `left_out` shapes with non-finite
+  /// numbers.
   void setDrawn(std::size_t left_out);
 
-  /// The newest one cannot be drawn; counted once, however often it is tried.
+  /// Reports that the newest message cannot be drawn; counted once, however often it is tried.
   void setRefused(const std::string& reason);
 
-  /// Of the newest one.
+  /// Status of the newest message.
   StatusLine newest() const { return newest_; }
 
-  /// Of all: how many were refused, and why the last one.
+  /// Status of all messages: number of rejected ones, and the reason for the last.
   StatusLine refused() const;
 
  private:

@@ -18,14 +18,14 @@
 
 namespace datmo {
 
-/// A display that draws the newest message of a topic, by the markers that it makes of it, and
-/// draws it again when a property changes.
+/// A display that draws the newest message of a topic as markers, and redraws it when a property
+/// changes.
 ///
 /// Its status has rviz's lines "Topic" (publisher, type, messages) and "Transform", and "Message"
-/// (the newest one: drawn, or why not) and "Refused" (how many, and why the last one).
+/// (the newest one: drawn, or why not) and "Refused" (number, and reason for the last one).
 ///
-/// Properties belong to the display (Qt) and report by lambdas: no class needs Qt's compiler.
-/// Messages come in the window's thread alone.
+/// Properties belong to the display (Qt) and report by lambdas, so no class needs Qt's moc.
+/// Messages are received only in the window's thread.
 template <typename Message>
 class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
  public:
@@ -50,7 +50,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   }
 
  protected:
-  /// In one frame: the message's. May throw.
+  /// Returns markers in the message's frame only. May throw.
   virtual visualization_msgs::MarkerArray draw(const Message& message) const = 0;
 
   void onInitialize() override {
@@ -77,7 +77,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
     this->context_->queueRender();
   }
 
-  /// Properties of this display; a change draws again.
+  /// Creates a property of this display; a change redraws.
   rviz::BoolProperty* toggle(const char* name, bool value, const char* description) {
     return watched(new rviz::BoolProperty(name, value, description, this));
   }
@@ -102,7 +102,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   }
 
  private:
-  /// s, between looks at who publishes; connecting takes less.
+  /// s, between checks for publishers; connecting takes less.
   static constexpr float kStatusPeriod = 1.0F;
 
   void set(const char* name, const StatusLine& line) {
@@ -110,7 +110,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   }
 
   void showStatus() {
-    // Without a subscriber rviz's line says why: the topic's name is invalid.
+    // Without a subscriber rviz's own line says why: the topic's name is invalid.
     if (const ros::Subscriber& subscriber = this->sub_.getSubscriber()) {
       set("Topic", TopicStatus{this->topic_property_->getTopicStd(),
                                ros::message_traits::datatype<Message>(),
@@ -120,7 +120,8 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
     set("Message", messages_.newest());
   }
 
-  /// Where the last message's frame is at its time; false: not known, which the status says.
+  /// Moves the scene to the last message's frame at its time; false: unknown, which the status
+  /// shows.
   bool placeScene() {
     rviz::FrameManager& frames = *this->context_->getFrameManager();
     const std_msgs::Header& header = last_->header;
@@ -157,7 +158,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
   std::unique_ptr<SceneDrawing> scene_;
 };
 
-/// Leaves out the markers of some namespaces.
+/// Removes the markers of some namespaces.
 template <typename IsShown>
 visualization_msgs::MarkerArray onlyShown(visualization_msgs::MarkerArray markers,
                                           const IsShown& is_shown) {

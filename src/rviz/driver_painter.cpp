@@ -12,18 +12,18 @@ namespace datmo {
 
 namespace {
 
-/// m, that the picture shows ahead of the host and behind it.
+/// m, range of the picture ahead of and behind the host.
 constexpr double kAhead = 42.0;
 constexpr double kBehind = 10.0;
 
-/// m, between the arcs of equal distance, and the farthest.
+/// m, spacing of the range arcs, and the farthest one.
 constexpr int kArcSpacing = 10;
 constexpr int kFarthestArc = 40;
 
-/// s, a full bar.
+/// s at a full bar.
 constexpr double kFullBar = 4.0;
 
-/// m; an icon is no smaller: a pedestrian must be seen.
+/// m; minimum icon size: a pedestrian must be visible.
 constexpr double kMinIcon = 1.2;
 
 /// Pixels.
@@ -53,7 +53,7 @@ QString nameOfLevel(std::uint8_t level) {
   }
 }
 
-/// From the host's frame (x ahead, y left, m) to pixels.
+/// Converts the host's frame (x forward, y left, m) to pixels.
 class Ground {
  public:
   explicit Ground(const QRect& area)
@@ -91,7 +91,7 @@ void paintArcs(QPainter& painter, const Ground& ground) {
   }
 }
 
-/// The ground that the host is expected to cover.
+/// The ground that the host is predicted to cover.
 void paintTube(QPainter& painter, const Ground& ground, const DriverView& view) {
   QColor fill = toQt(colorOfLevel(view.level));
   fill.setAlpha(90);
@@ -124,7 +124,7 @@ void paintCyclist(QPainter& painter, const Ground& ground, const DriverIcon& ico
   painter.drawEllipse(ground.at(icon.pose * Point2(-0.4 * length, 0.0)), wheel, wheel);
 }
 
-/// With a windscreen, which shows where it is headed.
+/// With a windshield, which shows its heading.
 void paintVehicle(QPainter& painter, const Ground& ground, const DriverIcon& icon) {
   const double length = std::max(kMinIcon, icon.length);
   const double width = std::max(kMinIcon, icon.width);

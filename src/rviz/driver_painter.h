@@ -8,10 +8,10 @@
 
 namespace datmo {
 
-/// Draws the driver's picture over the whole of a widget: the host from above, driving up; road
-/// users as icons by class, in red what the level is for; the level and its reason in words at the
-/// top; at the side the time that is left to brake, and to contact. `view`: null where nothing is
-/// known (no message, or too old a one), which is said.
+/// Draws the driver's picture on a whole widget: the host from above, driving up; road users as
+/// icons by class, red for the one that causes the level; at the top the level and its reason in
+/// words; at the side the remaining time to brake, and to contact. `view`: null if nothing is known
+/// (no message, or too old), which is displayed.
 void paintDriverView(QPainter& painter, const QSize& size, const DriverView* view);
 
 }  // namespace datmo

@@ -34,7 +34,7 @@ class ObjectsDisplay : public DrawingDisplay<ObjectArray> {
   rviz::FloatProperty* line_width_;
 };
 
-/// The road's borders, with the band that holds them with 95 %.
+/// The road's borders, with their 95 % bands.
 class RoadBordersDisplay : public DrawingDisplay<RoadBorders> {
  public:
   RoadBordersDisplay() {
@@ -57,7 +57,7 @@ class RoadBordersDisplay : public DrawingDisplay<RoadBorders> {
   rviz::FloatProperty* line_width_;
 };
 
-/// Where the host goes, and what it may touch when.
+/// The host's predicted path, and its possible contacts with their times.
 class RiskDisplay : public DrawingDisplay<RiskArray> {
  public:
   RiskDisplay() {

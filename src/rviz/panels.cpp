@@ -27,7 +27,7 @@ constexpr std::uint32_t kPanelQueue = 10;
 /// s; older risks are not shown: a driver must not trust them.
 constexpr double kFresh = 1.0;
 
-/// ms, between looks at the clock.
+/// ms, period of the age check.
 constexpr int kAgeCheck = 250;
 constexpr int kTableUpdate = 1000;
 
@@ -35,7 +35,7 @@ double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Callbacks come in the window's thread.
+/// Callbacks run in the window's thread.
 ros::NodeHandle windowNode(rviz::VisualizationManager& manager) {
   ros::NodeHandle node;
   node.setCallbackQueue(manager.getUpdateQueue());
@@ -44,8 +44,8 @@ ros::NodeHandle windowNode(rviz::VisualizationManager& manager) {
 
 }  // namespace
 
-/// The host from above, what is near it, and the level of risk with its reason. In: the topics of
-/// the keys "Risks Topic" and "Tracks Topic" of the configuration.
+/// The host from above, nearby road users, and the level of risk with its reason. In: the topics
+/// with the keys "Risks Topic" and "Tracks Topic" in the configuration.
 class DriverPanel : public rviz::Panel {
  public:
   explicit DriverPanel(QWidget* parent = nullptr) : Panel(parent) {
@@ -100,12 +100,13 @@ class DriverPanel : public rviz::Panel {
   QString tracks_topic_ = "/tracks";
   TrackArrayConstPtr last_tracks_;
   std::optional<DriverView> view_;
-  double received_at_ = 0.0;  ///< s, when the risks came
+  double received_at_ = 0.0;  ///< s, when the risks were received
   ros::Subscriber risks_;
   ros::Subscriber tracks_;
 };
 
-/// Each input of each stage: rate, age, latency, and what was dropped and why, from /diagnostics.
+/// Each input of each stage: rate, age, latency, number of dropped messages and reasons, from
+/// /diagnostics.
 class SourcesPanel : public rviz::Panel {
  public:
   explicit SourcesPanel(QWidget* parent = nullptr) : Panel(parent), table_(new QTreeWidget(this)) {

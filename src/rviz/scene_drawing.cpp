@@ -23,7 +23,7 @@ Ogre::ColourValue toOgre(const std_msgs::ColorRGBA& color) {
   return Ogre::ColourValue(color.r, color.g, color.b, color.a);
 }
 
-/// Colors are those of the vertices, which are lit already.
+/// Uses the vertex colors, which include lighting.
 Ogre::MaterialPtr makeMaterial(const std::string& name, bool translucent) {
   Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
       name, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
@@ -93,7 +93,7 @@ void SceneDrawing::showLabels(const std::vector<DrawnLabel>& labels) {
   while (labels_.size() < labels.size()) {
     Label label;
     label.node = node_->createChildSceneNode();
-    // A blank would have no box, and be taken for out of view for good.
+    // A blank text would have no bounding box, and be culled forever.
     label.text = std::make_unique<rviz::MovableText>("-");
     label.text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
     label.node->attachObject(label.text.get());

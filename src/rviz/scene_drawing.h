@@ -21,7 +21,7 @@ class MovableText;
 
 namespace datmo {
 
-/// Puts a Drawing into rviz's scene, below a node: all triangles as one object of two batches.
+/// Shows a Drawing in rviz's scene, below a node: all triangles as one object with two batches.
 class SceneDrawing {
  public:
   /// Both must outlive this.
@@ -30,7 +30,7 @@ class SceneDrawing {
   SceneDrawing(const SceneDrawing&) = delete;
   SceneDrawing& operator=(const SceneDrawing&) = delete;
 
-  /// Instead of what was shown before.
+  /// Replaces what was shown before.
   void show(const Drawing& drawing);
 
   void clear() { show(Drawing()); }

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// Tracks as boxes or bodies by class, with ids, velocities, covariances, paths behind and ahead.
+/// Tracks as boxes or bodies by class, with ids, velocities, covariances, past and predicted paths.
 class TracksDisplay : public DrawingDisplay<TrackArray> {
  public:
   TracksDisplay() {
@@ -41,7 +41,7 @@ class TracksDisplay : public DrawingDisplay<TrackArray> {
   }
 
  private:
-  /// Parts of the picture, by the namespaces of the markers that they are of.
+  /// Adds properties for the parts of the picture, by marker namespace.
   void addParts() {
     rviz::Property* bodies = toggle("Bodies", true, "Boxes, and shapes of people, by class.");
     parts_["track bodies"] = bodies;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kCorners = 8;
 using Corners = std::array<Eigen::Vector3d, kCorners>;
 
-/// The edges by the numbers of their corners.
+/// The edges by their corner indices.
 constexpr std::array<std::pair<std::size_t, std::size_t>, 12> kEdges = {{
     {0, 1},
     {1, 2},
@@ -29,7 +29,7 @@ constexpr std::array<std::pair<std::size_t, std::size_t>, 12> kEdges = {{
     {3, 7},  // upright
 }};
 
-/// In the camera's frame, m: round the bottom, then round the top.
+/// In the camera's frame, m: around the bottom, then around the top.
 Corners cornersOf(const Box3& box) {
   const double x = 0.5 * box.size.x();
   const double y = 0.5 * box.size.y();
@@ -49,7 +49,7 @@ Corners cornersOf(const Box3& box) {
   return corners;
 }
 
-/// The part of a line that is at least `near` ahead of the camera.
+/// Clips a segment to the part at least `near` ahead of the camera.
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> cutNear(Eigen::Vector3d from,
                                                                    Eigen::Vector3d to,
                                                                    double near) {

@@ -18,10 +18,10 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Jacobian = Eigen::Matrix<double, 3, 6>;
 
-/// Multiples of the noise that features may deviate, one step after the other.
+/// Tolerances of the iterations, in multiples of the features' noise.
 constexpr std::array<double, 10> kScales = {16.0, 8.0, 4.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// m; nearer to the camera's plane nothing is projected.
+/// m; points closer to the camera's plane are not projected.
 constexpr double kMinDepth = 0.1;
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
@@ -30,7 +30,7 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return matrix;
 }
 
-/// How a point moves with a small rotation and a translation of its frame's content.
+/// Jacobian of a point's motion for a small rotation and translation of its frame's content.
 Jacobian shiftOf(const Eigen::Vector3d& point) {
   Jacobian jacobian;
   jacobian << -crossMatrix(point), Eigen::Matrix3d::Identity();
@@ -54,7 +54,7 @@ Vector6d smallOf(const Eigen::Isometry3d& motion) {
   return result;
 }
 
-/// Column, row and disparity of a point, and how they change with it.
+/// Column, row and disparity of a point, and their derivatives.
 struct Projection {
   Eigen::Vector3d image;
   Eigen::Matrix3d by_point;
@@ -78,8 +78,8 @@ Eigen::Isometry3d inSpace(const Pose2& pose) {
   return result;
 }
 
-/// A feature, ready to be compared: where it was (m, earlier frame), how that changes with the
-/// disparity (m/px), and where it is seen.
+/// A feature prepared for comparison: its earlier position (m, earlier frame), the derivative with
+/// respect to the disparity (m/px), and its observation.
 struct FeatureSample {
   Eigen::Vector3d point;
   Eigen::Vector3d by_disparity;
@@ -115,7 +115,7 @@ class MotionEstimator {
         moving_share_(options.moving_share),
         moving_density_(options.moving_share / std::pow(2.0 * options.max_residual, 3)) {}
 
-  /// `scale`: of the noise.
+  /// `scale`: factor on the noise.
   Equations equations(const std::vector<FeatureSample>& samples, const Eigen::Isometry3d& motion,
                       double scale) const {
     Equations sum;
@@ -156,7 +156,7 @@ class MotionEstimator {
   double moving_density_;  ///< 1/px^3
 };
 
-/// Squared residuals by degree of freedom where these are more than the noise says; at least 1.
+/// Squared residuals per degree of freedom if they exceed the noise; at least 1.
 double excessResidual(const Equations& equations) {
   const double degrees_of_freedom = 3.0 * equations.inliers - 6.0;
   return degrees_of_freedom > 0.0 ? std::max(1.0, equations.squared_residuals / degrees_of_freedom)

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<ObjectClass, 3> kReported = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
                                                   ObjectClass::kVehicle};
 
-/// That a class is right which was drawn by lot.
+/// Probability that a randomly chosen class is right.
 constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
 
 }  // namespace

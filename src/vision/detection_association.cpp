@@ -12,14 +12,14 @@ namespace datmo {
 
 namespace {
 
-/// An object and a detection, taken for one.
+/// Result of comparing an object and a detection.
 struct Pairing {
   double coverage = 0.0;  ///< 0 to 1, of the object's columns
   double score = 0.0;     ///< log-likelihood ratio of "one" against "two"
 };
 
-/// Share of the object's columns that lie in those of the detection, moved within the object's
-/// uncertainty to where it is largest.
+/// Maximum share of the object's columns that lie within the detection's, over shifts within the
+/// object's uncertainty.
 double coverageOf(const ImageRegion& object, const Eigen::AlignedBox2d& detection) {
   const double slack_left = object.box.min().x() - object.search.min().x();
   const double slack_right = object.search.max().x() - object.box.max().x();
@@ -28,7 +28,7 @@ double coverageOf(const ImageRegion& object, const Eigen::AlignedBox2d& detectio
   return std::clamp((to - from) / object.box.sizes().x(), 0.0, 1.0);
 }
 
-/// None where they cannot be one.
+/// None if they cannot be the same.
 std::optional<Pairing> pairingOf(const ProjectedObject& object, const ImageDetection& detection,
                                  const std::optional<ImageRange>& range,
                                  const DetectionAssociationOptions& options) {
@@ -37,7 +37,7 @@ std::optional<Pairing> pairingOf(const ProjectedObject& object, const ImageDetec
   if (pair.coverage < options.min_coverage) {
     return std::nullopt;
   }
-  // Without a range, cut by the image's border, the columns decide.
+  // Without a range, if cut by the image's border, the columns decide.
   if (range) {
     const double sigma = std::hypot(range->sigma / range->range, object.range_sigma / object.range);
     const double squared = square(std::log(range->range / object.range) / sigma);

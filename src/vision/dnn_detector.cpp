@@ -19,10 +19,10 @@ namespace datmo {
 namespace {
 
 constexpr int kInputStep = 32;      ///< px: networks halve their input five times
-constexpr double kPadding = 114.0;  ///< gray level beside the image, as in training
+constexpr double kPadding = 114.0;  ///< gray level of the padding, as in training
 constexpr double kByte = 255.0;
 constexpr std::size_t kDarknetHeader = 16;  ///< bytes before the weights, at least
-constexpr double kSamePerson = 0.3;         ///< intersection over union of both looks at a person
+constexpr double kSamePerson = 0.3;  ///< intersection over union of both detections of a person
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -49,7 +49,7 @@ std::vector<NetworkLabel> cocoLabels() {
   return labels;
 }
 
-/// One name a line. Throws ModelError.
+/// Reads one name per line. Throws ModelError.
 std::vector<NetworkLabel> labelsFrom(const std::string& file) {
   std::ifstream in(file);
   std::vector<NetworkLabel> labels;
@@ -67,7 +67,7 @@ std::vector<NetworkLabel> labelsFrom(const std::string& file) {
   return labels;
 }
 
-/// An image in a network's input, its upper left corner in that of the input.
+/// An image scaled to a network's input, aligned at the upper left corner.
 struct Fitted {
   cv::Mat image;
   double zoom = 1.0;
@@ -137,13 +137,13 @@ class DnnDetector::State {
     outputs_ = network_.getUnconnectedOutLayersNames();
   }
 
-  /// OpenCV reads beyond the end of a cut file of weights without a word.
+  /// OpenCV silently reads beyond the end of a truncated weights file.
   void checkWeights() {
     std::size_t needed = kDarknetHeader;
     for (const std::string& name : network_.getLayerNames()) {
       const cv::Ptr<cv::dnn::Layer> layer = network_.getLayer(network_.getLayerId(name));
       if (layer->type == "Region") {
-        continue;  // its anchors are the .cfg's
+        continue;  // its anchors are in the .cfg
       }
       for (const cv::Mat& blob : layer->blobs) {
         needed += blob.total() * blob.elemSize();
@@ -157,7 +157,7 @@ class DnnDetector::State {
     }
   }
 
-  /// A first look, at nothing.
+  /// A first run, on an empty image.
   void tryOut() {
     try {
       look(cv::Mat(options_.height, options_.width, CV_8UC3, cv::Scalar::all(kPadding)),
@@ -172,7 +172,7 @@ class DnnDetector::State {
   /// Boxes in px of the image.
   std::vector<NetworkDetection> look(const cv::Mat& image, const NetworkSize& input) {
     const Fitted fit = fitted(image, input);
-    // Darknet's networks are trained on shares of RGB, YOLOX on bytes of BGR.
+    // Darknet's networks are trained on RGB scaled to 0 to 1, YOLOX on BGR bytes.
     cv::Mat blob;
     cv::dnn::blobFromImage(fit.image, blob, is_darknet_ ? 1.0 / kByte : 1.0, cv::Size(),
                            cv::Scalar(), is_darknet_);
@@ -191,7 +191,7 @@ class DnnDetector::State {
     return things;
   }
 
-  /// Persons and riders as they look close up, the largest first.
+  /// Persons and riders detected at higher resolution, the largest first.
   std::vector<ImageDetection> lookedAtAgain(const cv::Mat& image,
                                             std::vector<ImageDetection> users) {
     std::stable_sort(users.begin(), users.end(), [](const auto& a, const auto& b) {

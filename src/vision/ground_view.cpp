@@ -15,14 +15,14 @@ namespace datmo {
 
 namespace {
 
-/// A pixel is the road's if it is more probably so than not.
+/// Minimum road probability of a road pixel.
 constexpr double kMinProbability = 0.5;
 
 constexpr int kLevels = 256;   ///< of a channel
-constexpr int kColorStep = 8;  ///< colors within a cube of so many levels are alike
+constexpr int kColorStep = 8;  ///< size of a color cube that shares one probability
 constexpr int kColorBins = kLevels / kColorStep;
 
-/// More upright it sees no horizon to go by: the cosine of the axis's pitch.
+/// Minimum cosine of the axis's pitch: a steeper camera sees no usable horizon.
 constexpr double kMinLevel = 0.2;
 
 std::uint8_t isRoad(const RoadColor& color, const PixelColor& pixel) {

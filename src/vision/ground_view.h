@@ -13,27 +13,27 @@
 
 namespace datmo {
 
-/// The ground as a camera sees it: which pixels show which cell.
+/// A camera's view of the ground: which pixels show which cell.
 class GroundView {
  public:
   explicit GroundView(const MountedCamera& camera);
 
-  /// Over ground, m, base frame.
+  /// Horizontal position, m, base frame.
   const Point2& position() const { return position_; }
-  /// Of the camera above the road, m.
+  /// Height of the camera above the road, m.
   double height() const { return height_; }
   /// Whether it sees the road at all: it is above it and does not look straight up or down.
   bool seesRoad() const;
 
-  /// Directions (unit vectors, base frame) of lines of sight over the image's width, right to left,
-  /// by which two neighbors at `range` (m) are at most `spacing` (m) apart.
+  /// Returns the directions (unit vectors, base frame) of lines of sight across the image, right to
+  /// left, such that neighbors are at most `spacing` (m) apart at `range` (m).
   std::vector<Point2> directions(double range, double spacing) const;
 
-  /// The pixels of a square on the road with sides of `size` (m) along and across its line of
-  /// sight, and of what stands on it up to `height` (m). None where not all of it is in the image.
+  /// Returns the pixels of a square on the road with sides of `size` (m) along and across its line
+  /// of sight, and of objects on it up to `height` (m). None unless it is entirely in the image.
   std::optional<cv::Rect> patch(const Point2& center, double size, double height = 0.0) const;
 
-  /// Of a point in the base frame. None behind the camera and beside the image.
+  /// Returns the pixel of a point in the base frame. None behind the camera and beside the image.
   std::optional<cv::Point> pixel(const Eigen::Vector3d& point) const;
 
  private:
@@ -45,16 +45,16 @@ class GroundView {
   double height_;
 };
 
-/// The color of a pixel of an 8 bit image, gray or BGR, in it.
+/// Returns the color of a pixel of an 8 bit image, gray or BGR.
 PixelColor colorAt(const cv::Mat& image, const cv::Point& pixel);
 
-/// How much of any part of an image is of the road's colors.
+/// Share of road-colored pixels in any part of an image.
 class RoadPixels {
  public:
   /// `image`: 8 bit, gray or BGR; `color` must have learned that many channels.
   RoadPixels(const cv::Mat& image, const RoadColor& color);
 
-  /// 0 to 1. `patch`: in the image, not empty.
+  /// Returns the share, 0 to 1. `patch`: in the image, not empty.
   double share(const cv::Rect& patch) const;
 
  private:

@@ -13,15 +13,15 @@ namespace datmo {
 
 namespace {
 
-// The window of the detector as it was trained: 64 x 128 px, with a person of 96 px in its middle.
+// The detector's window as trained: 64 x 128 px, with a person of 96 px in its center.
 constexpr double kPersonPixels = 96.0;
 constexpr double kPersonWidth = 0.5;    ///< of the window's
 constexpr double kPersonHeight = 0.75;  ///< of the window's
 
 constexpr double kPerson = 1.75;     ///< m
-constexpr double kMargin = 0.75;     ///< m, around a person: the window's, and a step beside it
-constexpr double kScaleStep = 1.06;  ///< from each size of persons that is tried to the next
-constexpr double kSmaller = 1.2;     ///< the smallest that is tried, relative to kPerson
+constexpr double kMargin = 0.75;     ///< m, around a person: of the window, and one step beside it
+constexpr double kScaleStep = 1.06;  ///< ratio of consecutive person sizes that are tried
+constexpr double kSmaller = 1.2;     ///< ratio of kPerson to the smallest size that is tried
 
 cv::Rect toRect(const Eigen::AlignedBox2d& box) {
   const int x = static_cast<int>(std::floor(box.min().x()));
@@ -30,7 +30,7 @@ cv::Rect toRect(const Eigen::AlignedBox2d& box) {
           static_cast<int>(std::ceil(box.max().y())) - y};
 }
 
-/// The part of the image, and beyond its border its outermost pixels.
+/// Crops the image; beyond its border its outermost pixels are repeated.
 cv::Mat cropOf(const cv::Mat& image, const cv::Rect& wanted) {
   const cv::Rect inside = wanted & cv::Rect(0, 0, image.cols, image.rows);
   cv::Mat crop;
@@ -40,8 +40,8 @@ cv::Mat cropOf(const cv::Mat& image, const cv::Rect& wanted) {
   return crop;
 }
 
-/// Where a person that stands in the region's columns and on its lower edge, or is nearer or
-/// farther by its uncertainty, fits with the detector's margins.
+/// The part in which a person fits, with the detector's margins, who stands in the region's columns
+/// and on its lower edge, or is nearer or farther by its uncertainty.
 Eigen::AlignedBox2d searchedPart(const ImageRegion& region) {
   const double margin = kMargin * region.scale;
   const double feet = region.box.max().y();

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// Throws std::invalid_argument for an image that is no detector's: empty, not of 8 bit, neither
+/// Throws std::invalid_argument for an image that no detector accepts: empty, not 8 bit, neither
 /// gray nor BGR.
 inline void checkImage(const cv::Mat& image) {
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
@@ -22,7 +22,7 @@ inline void checkImage(const cv::Mat& image) {
   }
 }
 
-/// Throws std::invalid_argument for an image that is not of the camera's size.
+/// Throws std::invalid_argument for an image that does not have the camera's size.
 inline void checkSize(const cv::Mat& image, const MountedCamera& camera) {
   if (image.cols != std::lround(camera.width) || image.rows != std::lround(camera.height)) {
     throw std::invalid_argument("image of " + std::to_string(image.cols) + " x " +

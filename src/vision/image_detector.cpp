@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// Surest first; equally sure ones from left to right, so that the order is always the same.
+/// Most certain first; ties from left to right, so that the order is deterministic.
 bool comesBefore(const ImageDetection& a, const ImageDetection& b) {
   const auto key = [](const ImageDetection& one) {
     return std::make_tuple(-one.score, one.box.min().x(), one.box.min().y(), one.object_class);

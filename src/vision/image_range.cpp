@@ -14,11 +14,11 @@ namespace datmo {
 
 namespace {
 
-constexpr double kBorder = 2.0;  ///< px: an edge this near to the image's border was cut by it
+constexpr double kBorder = 2.0;  ///< px: an edge this close to the image's border was cut by it
 
-// Of an object's width, standard deviations over all headings (rectangles of these sizes, turned by
-// all angles): how far the middle of its near side is behind its nearest corner, where the
-// rectangle's lower edge is, and how far an end of that side is inside of the rectangle.
+// Standard deviations over all headings (rectangles with these sizes), as shares of an object's
+// width: distance of the middle of its near side behind its nearest corner, which is at the
+// rectangle's lower edge, and distance of an end of that side inside the rectangle.
 constexpr double kNearCorner = 0.25;
 constexpr double kNearEnd = 0.35;
 
@@ -53,17 +53,17 @@ ClassSize sizeOfKind(const KindSize& kind) {
           kind.width_sigma, kind.height,       kind.height_sigma};
 }
 
-/// px, standard deviation of an edge of the rectangle.
+/// px, standard deviation of the rectangle's upper and lower edges.
 double edgeSigma(const Eigen::AlignedBox2d& box, const ImageRangeOptions& options) {
   return std::hypot(options.edge_sigma, options.edge_share * box.sizes().y());
 }
 
-/// px, the same of its left and right edge.
+/// px, the same for its left and right edges.
 double sideEdgeSigma(const Eigen::AlignedBox2d& box, const ImageRangeOptions& options) {
   return std::hypot(options.edge_sigma, options.edge_share * box.sizes().x());
 }
 
-/// Line of sight of a pixel, in the base frame, as long as it is 1 m deep.
+/// Line of sight of a pixel, in the base frame, scaled to a depth of 1 m.
 Eigen::Vector3d rayOf(const MountedCamera& camera, double column, double row) {
   const PinholeCamera& p = camera.pinhole;
   return camera.in_base.linear() *
@@ -75,8 +75,8 @@ Eigen::Vector3d rayToFoot(const MountedCamera& camera, const Eigen::AlignedBox2d
   return rayOf(camera, box.center().x(), box.max().y());
 }
 
-/// A range by one of both ways, and how much nearer it is for each pixel that the rectangle's lower
-/// edge lies lower (m/px): they have that edge in common.
+/// A range by one of the two methods, and how much nearer it becomes per pixel that the rectangle's
+/// lower edge is lower (m/px): both depend on that edge.
 struct RangeByEdge {
   ImageRange range;
   double per_pixel = 0.0;
@@ -114,8 +114,7 @@ std::optional<RangeByEdge> rangeByGround(const MountedCamera& camera,
   return RangeByEdge{{range, sigma}, per_pixel};
 }
 
-/// Least squares with what the lower edge makes them err alike. Neither one is left out for more
-/// than it is worth: no weight is below 0.
+/// Least squares with the common error from the lower edge, with weights limited to 0 and above.
 ImageRange fused(const RangeByEdge& a, const RangeByEdge& b, double edge_sigma) {
   const double variance_a = square(a.range.sigma);
   const double variance_b = square(b.range.sigma);
@@ -129,8 +128,8 @@ ImageRange fused(const RangeByEdge& a, const RangeByEdge& b, double edge_sigma) 
   return {weight_a * a.range.range + weight_b * b.range.range, std::sqrt(contradiction * variance)};
 }
 
-/// Whether something nearer, whose rectangle reaches farther down, is before a pixel of a
-/// rectangle.
+/// Whether a pixel of a rectangle is occluded by something nearer, whose rectangle reaches farther
+/// down.
 bool isCovered(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& pixel,
                const std::vector<ImageDetection>& seen, const ImageRangeOptions& options) {
   return std::any_of(seen.begin(), seen.end(), [&](const ImageDetection& other) {
@@ -202,7 +201,7 @@ std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection
   const Point2 ahead = rayToFoot(camera, box).head<2>().normalized();
   const double per_pixel = near->range / camera.pinhole.focal_x;  // m
   const double across = per_pixel * box.sizes().x();
-  // However it is turned, it reaches as far behind its near side as it is wide.
+  // For any heading, it extends as far behind its near side as it is wide.
   Object object;
   object.box = {
       Pose2(camera.in_base.translation().head<2>() + (near->range + 0.5 * size.width) * ahead,
@@ -210,7 +209,7 @@ std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection
       size.width, across};
   const double edge_sigma = per_pixel * sideEdgeSigma(box, options);
   const Point2 aside = perpendicular(ahead);
-  // Half of what each edge errs by moves the rectangle as a whole.
+  // Half of each edge's error moves the rectangle as a whole.
   object.position_covariance = square(near->sigma) * ahead * ahead.transpose() +
                                0.5 * square(edge_sigma) * aside * aside.transpose();
   const double side = 0.5 * square(edge_sigma) + square(kNearEnd * size.width) +

@@ -18,8 +18,8 @@ namespace datmo {
 
 namespace {
 
-/// By how much less sure a position is reported than the scanner's own, as a variance: what it adds
-/// to the scanner's when they are fused is one hundredth.
+/// Variance factor of a reported position relative to the scanner's own: in fusion it adds only one
+/// hundredth to the scanner's information.
 constexpr double kBorrowed = 100.0;
 
 constexpr char kSensor[] = "mono";
@@ -34,12 +34,12 @@ std::unique_ptr<ImageDetector> makeDetector(const MonoClassifierOptions& options
   return std::make_unique<HogDetector>(options.hog);
 }
 
-/// m, from the camera over ground to the object's nearest point.
+/// m, horizontal, from the camera to the object's nearest point.
 double rangeTo(const MountedCamera& camera, const Box2& box) {
   return std::max(kNearestDepth, box.distanceTo(camera.in_base.translation().head<2>()));
 }
 
-/// "Center of gravity" of an object's points (thesis 4.2.3), m; of one without points its box's.
+/// "Center of gravity" of an object's points (thesis 4.2.3), m; without points, that of its box.
 Point2 centroidOf(const Object& object) {
   if (object.points.empty()) {
     return object.box.center.position();
@@ -49,8 +49,8 @@ Point2 centroidOf(const Object& object) {
   return sum / static_cast<double>(object.points.size());
 }
 
-/// The rectangle of one class around a position, across the line of sight: as wide as the class is
-/// long and wide in the mean. None where nothing of it is in the image.
+/// The rectangle of one class around a position, across the line of sight, with the mean of the
+/// class's length and width. None if nothing of it is in the image.
 std::optional<ImageRegion> rectangleOf(const MountedCamera& camera, const Point2& position,
                                        ObjectClass object_class) {
   const ClassSize size = sizeOf(object_class);
@@ -71,8 +71,8 @@ struct MonoClassifier::InView {
 };
 
 MonoClassifierOptions::MonoClassifierOptions() {
-  // Of 252 reports on objects of KITTI raw drive 0005, on a cyclist mostly, 4 were right
-  // (calibrate_classes): it sees people, but not who walks and who rides.
+  // Of 252 reports on objects of KITTI raw drive 0005, mostly on a cyclist, 4 were right
+  // (calibrate_classes): it detects people, but does not distinguish pedestrians from riders.
   hog_reliability.scores = {0.08, 0.43};
   hog_reliability.right = {0.034, 0.04};
 }
@@ -246,9 +246,9 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
   classified.position_covariance = kBorrowed * object.position_covariance;
   classified.side_variance.fill(kHiddenSide);
   classified.delay = object.delay;
-  // Who saw where it is: a name is no second observation of a motion.
+  // The sensors that located it: a class is not a second observation of motion.
   classified.sensors = object.sensors;
-  // So that it is not taken for another one that moves where the scanner's stands.
+  // So that it is not associated with a moving object where the scanner's is static.
   classified.dynamic_state = object.dynamic_state;
   classify(detection, classified);
   if (classified.object_class != ObjectClass::kUnknown) {

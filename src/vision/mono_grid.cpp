@@ -23,12 +23,12 @@ LidarGridOptions scannerOptions(const MonoGridOptions& options) {
   return scanner;
 }
 
-/// Free with free ones all around: no foot of an obstacle reaches into it.
+/// Whether a cell and all its neighbors are free: no foot of an obstacle reaches into it.
 bool isSurelyFree(const SensorGrid& scanned, CellIndex cell) {
   return !anyNeighbor(cell, 1, [&](CellIndex near) { return !isFree(scanned.atOrUnknown(near)); });
 }
 
-/// Of a patch its middle, and those halfway to its corners.
+/// Adds the colors of a patch's center and of the points halfway to its corners.
 void addColors(const cv::Mat& image, const cv::Rect& patch, PixelColors& colors) {
   const cv::Point middle(patch.x + patch.width / 2, patch.y + patch.height / 2);
   const int x = patch.width / 4;
@@ -103,7 +103,7 @@ MonoGridResult MonoGridModel::grid(const cv::Mat& image, const MountedCamera& ca
   if (!view.seesRoad()) {
     return result;
   }
-  // What this image shows is judged by earlier ones: what the scanner looks over is no road for it.
+  // Learns after classification: what is too low for the scanner must not become road at once.
   const bool known = color_.isKnown(image.channels());
   if (!known) {
     result.learned = learn(image, camera, scanned);

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kBoxColumns = 5;  ///< of an output's row: x, y, width, height, anything
 
-/// A row of an output: its box in px and the surest road user.
+/// A row of an output: its box in px and the most certain road user.
 struct Row {
   const float* values = nullptr;
 
   double operator[](std::size_t column) const { return static_cast<double>(values[column]); }
 
-  /// The scores times `share`.
+  /// The best label, with scores multiplied by `share`.
   std::pair<NetworkLabel, double> best(const std::vector<NetworkLabel>& labels,
                                        double share) const {
     std::pair<NetworkLabel, double> result{NetworkLabel::kOther, 0.0};
@@ -80,7 +80,7 @@ std::vector<NetworkDetection> ofLabel(const std::vector<NetworkDetection>& thing
   return result;
 }
 
-/// The surest cycle that the person rides; null: none.
+/// The most certain cycle that the person rides; null: none.
 const NetworkDetection* cycleOf(const NetworkDetection& person,
                                 const std::vector<NetworkDetection>& cycles) {
   const NetworkDetection* best = nullptr;

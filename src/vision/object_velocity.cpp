@@ -13,14 +13,14 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviation of the middle of a body, along an axis of its box of which an end was not
-/// seen, m: half of what a car that reaches 0 m to 4.5 m farther is longer.
+/// Standard deviation of a body's center, along an axis of its box whose end was not seen, m: half
+/// of the extra length of a car that extends 0 m to 4.5 m farther.
 constexpr double kHiddenMiddle = 1.3;
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// Index of the object that a position on the ground belongs to: of those that it may be on, the
-/// one whose box it is nearest to; within several boxes, the one whose center is nearest.
+/// Index of the object that a ground position belongs to: the one with the nearest box; within
+/// several boxes, the one with the nearest center.
 std::size_t ownerOf(const Point2& position, double margin, const std::vector<Object>& objects) {
   std::size_t owner = kNone;
   auto nearest = std::make_pair(std::numeric_limits<double>::infinity(), 0.0);

@@ -16,14 +16,15 @@ namespace {
 constexpr int kMaxIterations = 20;
 constexpr double kConverged = 1e-6;  // m/s
 
-/// What neighbors' errors have in common, in units of the error of each: residuals of the
-/// rectification, and what the matcher makes of blur. Velocities of what stands, measured at 8 m to
-/// 30 m by a pair of 0.1 px noise, were off by 0.1 px of flow and 0.05 px of the disparity's change
-/// however many features an object had (KITTI raw drive 0005, medians).
+/// Common error of neighbors, in units of each one's own error: rectification residuals, and the
+/// matcher's reaction to blur. Velocities of static objects, measured at 8 m to 30 m by a pair with
+/// 0.1 px noise, were off by 0.1 px of flow and 0.05 px of the disparity's change regardless of the
+/// number of features per object (KITTI raw drive 0005, medians).
 constexpr double kCommonFlow = 1.0;
 constexpr double kCommonDisparity = 0.5;
 
-/// Of a triangulated point, in the optical frame; the depth is f b / d. Standard deviations in px.
+/// Covariance of a triangulated point, in the optical frame; the depth is f b / d. Standard
+/// deviations in px.
 Eigen::Matrix3d pointCovariance(const StereoRig& rig, const Eigen::Vector3d& point,
                                 double disparity, double disparity_sigma, double pixel_sigma) {
   const Eigen::Vector3d by_disparity = -point / disparity * disparity_sigma;
@@ -38,13 +39,13 @@ Eigen::Matrix3d turned(const Eigen::Isometry3d& pose, const Eigen::Matrix3d& cov
   return pose.linear() * covariance * pose.linear().transpose();
 }
 
-/// A point's velocity over the ground, ready to be weighed.
+/// A point's velocity over ground, prepared for weighting.
 struct Sample {
   Eigen::Vector2d position;
   Eigen::Vector2d velocity;
   Eigen::Matrix2d information;
   Eigen::Matrix2d common_covariance;
-  double density;  ///< of the normal distribution at its mean
+  double density;  ///< peak density of its normal distribution
 };
 
 std::vector<Sample> samplesOf(const std::vector<PointVelocity>& points) {
@@ -64,7 +65,7 @@ double squaredDistance(const Sample& sample, const Eigen::Vector2d& velocity) {
   return error.dot(sample.information * error);
 }
 
-/// Of inliers and outliers, each with its share.
+/// Mixture of inliers and outliers, with their shares.
 class VelocityMixture {
  public:
   explicit VelocityMixture(const SharedVelocityOptions& options)
@@ -107,7 +108,8 @@ Eigen::Vector2d mostLikelySample(const std::vector<Sample>& samples,
   return best;
 }
 
-/// One step of expectation maximization: the mean of the samples by their probability at `around`.
+/// One step of expectation maximization: mean of the samples weighted by their inlier probability
+/// at `around`.
 SharedVelocity weightedMean(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                             const Eigen::Vector2d& around) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -124,7 +126,7 @@ SharedVelocity weightedMean(const std::vector<Sample>& samples, const VelocityMi
   return mean;
 }
 
-/// Squared errors of the inliers in units of their noise, by degree of freedom; at least 1.
+/// Squared errors of the inliers in units of their noise, per degree of freedom; at least 1.
 double excessScatter(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                      const SharedVelocity& mean) {
   double sum = 0.0;
@@ -136,7 +138,7 @@ double excessScatter(const std::vector<Sample>& samples, const VelocityMixture& 
   return degrees_of_freedom > 0.0 ? std::max(1.0, sum / degrees_of_freedom) : 1.0;
 }
 
-/// Of the inliers, on average: their number does not lessen it.
+/// Average over the inliers: their number does not reduce it.
 Eigen::Matrix2d commonCovariance(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                                  const SharedVelocity& mean) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
@@ -149,7 +151,7 @@ Eigen::Matrix2d commonCovariance(const std::vector<Sample>& samples, const Veloc
   return sum / weights;
 }
 
-/// m^2, second moment of where the middle of the inliers is, seen from the body's center.
+/// m^2, second moment of the inliers' mean position about the body's center.
 Eigen::Matrix2d leverOf(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                         const SharedVelocity& mean, const BodyCenter& center) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -160,14 +162,14 @@ Eigen::Matrix2d leverOf(const std::vector<Sample>& samples, const VelocityMixtur
   return arm * arm.transpose() + center.covariance;
 }
 
-/// rad/s, standard deviation of the rate at which the body turns. What stands does not turn; of the
-/// squared speed, that of the velocity's noise is no speed.
+/// rad/s, standard deviation of the body's turn rate. A stationary body does not turn; the noise
+/// variance is subtracted from the squared speed.
 double turnRate(const SharedVelocity& mean, const SharedVelocityOptions& options) {
   const double squared_speed = mean.velocity.squaredNorm() - mean.covariance.trace();
   return std::min(options.turn_rate, options.curvature * std::sqrt(std::max(0.0, squared_speed)));
 }
 
-/// m^2/s^2, of the velocity at the end of a lever against that of the center that it turns about.
+/// m^2/s^2, covariance of the velocity at the end of a lever arm relative to that of its center.
 Eigen::Matrix2d turnCovariance(double turn_rate, const Eigen::Matrix2d& lever) {
   Eigen::Matrix2d quarter_turn;
   quarter_turn << 0.0, -1.0, 1.0, 0.0;
@@ -208,7 +210,7 @@ std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFea
   PointVelocity result;
   result.position = later.camera_in_fixed * second;
   result.velocity = (result.position - earlier.camera_in_fixed * first) / seconds;
-  // The first pixel says which point is meant, and has no error: the flow has it.
+  // The first pixel defines which point is meant and has no error: the flow has it.
   result.covariance =
       (turned(earlier.camera_in_fixed,
               pointCovariance(rig, first, from.disparity, rig.disparity_sigma, 0.0)) +

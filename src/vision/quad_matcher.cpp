@@ -16,10 +16,10 @@ namespace {
 using Pyramid = std::vector<cv::Mat>;
 using Pixels = std::vector<cv::Point2f>;
 
-/// px: side of the square in which corners are rated.
+/// px: side of the square in which corners are scored.
 constexpr int kCornerBlock = 5;
 
-/// px; nearer than this in disparity is infinitely far.
+/// px; a smaller disparity counts as infinitely far.
 constexpr float kMinDisparity = 0.5F;
 
 Pyramid pyramidOf(const cv::Mat& image, const QuadMatcherOptions& options) {
@@ -29,13 +29,13 @@ Pyramid pyramidOf(const cv::Mat& image, const QuadMatcherOptions& options) {
   return pyramid;
 }
 
-/// Features that are still followed: where they began, and where they are in each image.
+/// Features that are still tracked: where they started, and where they are in each image.
 class Circle {
  public:
   Circle(Pixels corners, const QuadMatcherOptions& options)
       : begun_(std::move(corners)), found_(begun_.size(), 1), options_(options) {}
 
-  /// Where the features at `pixels` of one image are in another.
+  /// Tracks the features at `pixels` from one image to another.
   Pixels follow(const Pyramid& from, const Pyramid& to, const Pixels& pixels) {
     Pixels result;
     std::vector<unsigned char> status;

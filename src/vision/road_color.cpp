@@ -18,16 +18,16 @@ namespace {
 
 constexpr double kLevels = 256.0;  ///< of a channel
 
-/// Fewer samples say nothing of a mixture.
+/// Minimum number of samples for a mixture.
 constexpr std::size_t kMinSamples = 64;
 
 /// Rounds of EM on the first samples.
 constexpr int kFirstRounds = 10;
 
-/// Standard deviations from a component up to which a color is like it.
+/// Maximum distance of a color from a matching component, in standard deviations.
 constexpr double kLikeness = 3.0;
 
-/// A component of less weight is gone.
+/// Components with less weight are removed.
 constexpr double kMinWeight = 1e-3;
 
 double uniformDensity(Eigen::Index channels) {

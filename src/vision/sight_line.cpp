@@ -10,7 +10,8 @@ namespace datmo {
 
 namespace {
 
-/// What is known of a cell rises: one that a line sees something in is not free for its neighbor.
+/// Raises the value of a cell: where one line sees an obstacle, the cell is not free for its
+/// neighbor.
 void raise(CellIndex cell, Percent percent, SensorGrid& grid) {
   grid.at(cell) = std::max(grid.at(cell), percent);
 }
@@ -31,7 +32,7 @@ SightLine sightLine(const GroundView& view, const Point2& direction, const Senso
     const Point2 center = window.centerOf(cell);
     const auto patch = view.patch(center, window.cell_size, is_hit ? obstacle_height : 0.0);
     if (is_hit && !patch) {
-      ended = true;  // seen by the scanner alone, and whatever is behind it
+      ended = true;  // seen only by the scanner, and whatever is behind it
     } else if (!ended && patch) {
       (is_hit ? line.hits : line.open).push_back({cell, (center - view.position()).norm(), *patch});
     }
@@ -55,7 +56,7 @@ void SightLines::write(const SightLine& line, SensorGrid& grid) const {
       raise(line.open[i].cell, percent, grid);
     }
   };
-  std::optional<std::size_t> other;  // the first cell of other colors since the last of the road's
+  std::optional<std::size_t> other;  // the first cell of other color since the last road cell
   for (std::size_t i = 0; i < line.open.size(); ++i) {
     if (!isRoad(line.open[i])) {
       other = other.value_or(i);

@@ -12,24 +12,24 @@
 
 namespace datmo {
 
-/// The cells along one line of sight over the road, from the camera on, as far as they are seen.
+/// The visible cells along one line of sight over the road, starting at the camera.
 struct SightLine {
   struct Step {
     CellIndex cell;
-    double distance = 0.0;  ///< m, from the camera over ground
+    double distance = 0.0;  ///< m, horizontal, from the camera
     cv::Rect patch;         ///< px, of the cell in the image
   };
 
-  std::vector<Step> open;  ///< up to where the scanner sees something
-  std::vector<Step> hits;  ///< the cells that it has there, each up to an obstacle's height
+  std::vector<Step> open;  ///< up to the scanner's first echo
+  std::vector<Step> hits;  ///< the cells with echoes, each up to an obstacle's height
 };
 
-/// The line from the camera of a view toward `direction` (unit vector, base frame) within a scan's
-/// grid, up to `range` (m); what is hit is looked at up to `obstacle_height` (m).
+/// Returns the line from the camera of a view toward `direction` (unit vector, base frame) within a
+/// scan's grid, up to `range` (m); echo cells are examined up to `obstacle_height` (m).
 SightLine sightLine(const GroundView& view, const Point2& direction, const SensorGrid& scanned,
                     double range, double obstacle_height);
 
-/// What an image says of the cells of its lines of sight (MonoGridModel, method lines).
+/// What an image says about the cells of its lines of sight (MonoGridModel, method lines).
 class SightLines {
  public:
   /// All must outlive this.
@@ -37,16 +37,16 @@ class SightLines {
              const RoadPixels& pixels)
       : options_(options), view_(view), scanned_(scanned), pixels_(pixels) {}
 
-  /// Of several lines that cross a cell the one that sees more in it counts.
+  /// Fills the grid; if several lines cross a cell, the highest value is used.
   void fill(SensorGrid& grid) const;
 
  private:
   void write(const SightLine& line, SensorGrid& grid) const;
-  /// Whether what is of other colors between two distances (m) may be an obstacle, by the road that
-  /// is seen behind it.
+  /// Whether other colors between two distances (m) may be an obstacle, given the road that is
+  /// visible behind them.
   bool mayHide(double from, double to) const;
   bool isRoad(const SightLine::Step& step) const;
-  /// m, by which the camera's pitch may move what is seen at a distance.
+  /// m, apparent displacement at a distance because of the camera's pitch.
   double rangeSigma(double distance) const;
 
   const MonoGridOptions& options_;

@@ -8,36 +8,36 @@
 
 namespace datmo {
 
-/// A clothoid: a line whose curvature changes at an even rate along it, as roads are built
+/// A clothoid: a curve whose curvature changes linearly with arc length, as roads are built
 /// (Dickmanns and Mysliwetz 1992; Kirchner and Heinrich 1998).
 struct BorderCurve {
-  Pose2 anchor;                 ///< a point of the line and its direction there, map frame
-  double curvature = 0.0;       ///< 1/m at the anchor, positive: it turns to the left
-  double curvature_rate = 0.0;  ///< 1/m^2 along the line
+  Pose2 anchor;                 ///< a point of the curve and its direction there, map frame
+  double curvature = 0.0;       ///< 1/m at the anchor, positive: left turn
+  double curvature_rate = 0.0;  ///< 1/m^2, along the curve
 
-  /// The same line, from an anchor so far along it (m, negative: back).
+  /// Returns the same curve with the anchor moved along it by `distance` (m, negative: backward).
   BorderCurve movedAlong(double distance) const;
 };
 
-/// Where a point lies beside a line.
+/// Position of a point relative to a curve.
 struct CurvePoint {
   double along = 0.0;  ///< m, from the anchor
-  double aside = 0.0;  ///< m, to the left of the line
+  double aside = 0.0;  ///< m, to the left of the curve
 };
 
-/// Poses of a curve at equal steps, so that many points can be brought to it.
+/// Poses of a curve at equal steps, for locating many points efficiently.
 class CurveTable {
  public:
-  /// Of a curve from `first` to `last` (m along from its anchor, first < last).
+  /// Samples a curve from `first` to `last` (m along from its anchor, first < last).
   CurveTable(const BorderCurve& curve, double first, double last);
 
   double first() const { return first_; }
   double last() const;
 
-  /// On the line, `along` (m from the anchor) within first() and last().
+  /// Returns the pose at `along` (m from the anchor), within first() and last().
   Pose2 at(double along) const;
 
-  /// The foot of the perpendicular on the line; beyond its ends on the line straight on.
+  /// Returns the foot of the perpendicular on the curve; beyond its ends on its straight extension.
   CurvePoint locate(const Point2& point) const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace datmo {
 
-/// What becomes of objects on a border or beyond (BorderFilter).
+/// How objects on or beyond a border are treated (BorderFilter).
 enum class BorderFilterMethod { kEvidence, kThesis };
 
 struct BorderFilterOptions {
@@ -33,48 +33,50 @@ struct BorderFilterOptions {
 /// Why an object is a false alarm; values as in DroppedObject.msg.
 enum class DropReason : std::uint8_t { kOnBorder, kBeyondBorder };
 
-/// An object that was left out, and why.
+/// An object that was dropped, and why.
 struct DroppedObject {
   Object object;
   DropReason reason = DropReason::kOnBorder;
   RoadSide side = RoadSide::kLeft;
-  double beyond = 0.0;  ///< m from the border to it, away from the road; negative: it reaches in
+  double beyond = 0.0;  ///< m from the border, away from the road; negative: onto the road
 };
 
-/// Tells apart what lies on the road from what lies on its borders and beyond, where more stands
-/// and less moves: curbs, hedges, parked rows.
+/// Separates objects on the road from those on or beyond its borders, where more is static: curbs,
+/// hedges, parked rows.
 ///
-/// That is evidence and no verdict: such objects are no longer said to move
-/// (DynamicState::kUnknown) and carry the odds that what lies there does (Object::motion_log_odds),
-/// which the tracker weighs against what the beams say (motionProbability), so that a pedestrian on
-/// the footpath or a car out of a driveway is followed nevertheless (thesis 2.4, 6.2). The thesis
-/// takes them for false alarms however they move, and drops them (thesis 3.5.1).
+/// evidence: position is used as evidence rather than a decision. Such objects lose the state
+/// moving (DynamicState::kUnknown) and get the prior log odds that objects there move
+/// (Object::motion_log_odds), which the tracker weighs against the beams (motionProbability), so
+/// that a pedestrian on the sidewalk or a car leaving a driveway is still tracked (thesis 2.4,
+/// 6.2). The thesis considers them false alarms whatever their motion, and drops them (thesis
+/// 3.5.1).
 ///
-/// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
-/// rectangle does. Where no border is known the road is taken to go on as it was (RoadExtension).
-/// What is known to stand is left alone, by the thesis all that is not said to move.
+/// An object is on or beyond a border if all of its points are; in the thesis, if a corner of its
+/// rectangle is. Where no border is known the road is extrapolated (RoadExtension). Static objects
+/// are not affected; in the thesis, nor is any object that is not moving.
 class BorderFilter {
  public:
   /// Throws OptionError.
   explicit BorderFilter(const Checked<BorderFilterOptions>& options);
 
-  /// Of `objects`, seen from `base_in_map` (the vehicle's pose), those that lie outside `road` (map
-  /// frame) get their odds; by the thesis they are removed and returned.
+  /// Assigns the prior log odds to those of `objects`, seen from `base_in_map` (the vehicle's
+  /// pose), that lie outside `road` (map frame); in the thesis's method they are removed and
+  /// returned.
   std::vector<DroppedObject> filter(const Pose2& base_in_map, const RoadModel& road,
                                     ObjectList& objects);
 
-  /// Forgets where the road went on when no border was known.
+  /// Forgets the extrapolation of the road.
   void forgetRoad() { extension_.reset(); }
 
  private:
-  /// How an object lies on a border or beyond; none: on the road, or nothing is known.
+  /// How an object lies on or beyond a border; none: it is on the road, or nothing is known.
   std::optional<DroppedObject> outside(const Object& object, const Pose2& base_in_map,
                                        const RoadModel& road) const;
-  /// By the borders that are known.
+  /// By the known borders.
   std::optional<DroppedObject> outsideKnown(const Object& object,
                                             const std::vector<Point2>& positions,
                                             const Pose2& base_in_map, const RoadModel& road) const;
-  /// Where none is known, by how the road goes on.
+  /// Where none is known, by the extrapolated road.
   std::optional<DroppedObject> outsideExtension(const std::vector<Point2>& positions) const;
 
   BorderFilterOptions options_;

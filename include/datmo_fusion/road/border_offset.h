@@ -7,15 +7,15 @@
 
 namespace datmo {
 
-/// Where a point lies beside a border.
+/// Position of a point relative to a border.
 struct BorderOffset {
-  double outward = 0.0;  ///< m, from the border away from the road; negative: on the road
-  double sigma = 0.0;    ///< m, of the border across itself there
-  Point2 direction = Point2::UnitX();  ///< of the border there, of length 1
+  double outward = 0.0;  ///< m, from the border away from the road; negative: on the road side
+  double sigma = 0.0;    ///< m, of the border's lateral position there
+  Point2 direction = Point2::UnitX();  ///< unit vector along the border there
 };
 
-/// Of a point in the border's frame, from the nearest leg that it lies beside; none if it lies
-/// beside no leg (before the border's begin, behind its end).
+/// Returns the offset of a point in the border's frame from the nearest segment that it lies
+/// beside; none if it lies beside no segment (before the border's start, behind its end).
 std::optional<BorderOffset> offsetFrom(const RoadBorder& border, const Point2& point);
 
 }  // namespace datmo

@@ -19,8 +19,8 @@ struct BorderPublishingOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What bounds the road: at each station along the vehicle's heading the innermost of the confirmed
-/// lines that is a border there.
+/// Returns the borders of the road: at each station along the vehicle's heading the innermost
+/// confirmed line that is a border there.
 std::vector<RoadBorder> publishedBorders(const std::vector<FollowedBorder>& borders,
                                          const Pose2& vehicle,
                                          const BorderPublishingOptions& options);

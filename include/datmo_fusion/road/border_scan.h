@@ -8,23 +8,23 @@
 
 namespace datmo {
 
-/// A scan as borders are looked for in it: in the map frame.
+/// A scan in the map frame, prepared for border detection.
 struct BorderScan {
-  /// One beam of it.
+  /// One beam.
   struct Beam {
-    Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
+    Point2 end = Point2::Zero();  ///< m; for a beam without return, the end of the known free space
     bool hit = false;
-    int hits_there = 0;    ///< smoothed (thesis eq. 3.5.1), of its end point
-    bool lasting = false;  ///< what it ends on has been there for longer than a mover stays
+    int hits_there = 0;    ///< smoothed count (thesis eq. 3.5.1) of its end point
+    bool lasting = false;  ///< its end point has been occupied for longer than a mover stays
   };
 
   Pose2 scanner;
   double seconds = 0.0;  ///< since the last scan
-  double novelty = 1.0;  ///< 0 to 1, of what it sees (ScanNovelty)
+  double novelty = 1.0;  ///< 0 to 1, share of new information (ScanNovelty)
   std::vector<Beam> beams;
 };
 
-/// Of a scan that `hits` has counted: all beams but those that are blind.
+/// Converts a scan that `hits` has counted: all beams except blind ones.
 BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds);
 
 }  // namespace datmo

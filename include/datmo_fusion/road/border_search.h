@@ -14,17 +14,17 @@
 
 namespace datmo {
 
-/// What a window is scored by: the share of its sections that have a hit, or all of its hits.
+/// Score of a window: the share of its sections that have a hit, or the number of its hits.
 enum class BorderScore { kShare, kHits };
 
-/// Which of the windows that are a border's by their score is taken.
+/// Which window is chosen of those that score high enough.
 enum class BorderChoice { kFirst, kHighest };
 
 struct BorderSearchOptions {
   double length = 20.0;         ///< m, of a window
   double width = 1.0;           ///< m
-  double first_distance = 1.0;  ///< m, to the middle line of the first window
-  double step = 0.9;            ///< m, from a window to the next one
+  double first_distance = 1.0;  ///< m, to the center line of the first window
+  double step = 0.9;            ///< m, between consecutive windows
   int left_windows = 25;
   int right_windows = 15;
   double heading_range = 0.15;  ///< rad, to either side
@@ -40,29 +40,29 @@ struct BorderSearchOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A straight piece of border, found where no border was known.
+/// A straight piece of border, found where none was known.
 struct FoundBorder {
   RoadSide side = RoadSide::kLeft;
-  /// Where it begins, m, map frame, beside the pose that the search started from; its heading is
-  /// that of the border, as the vehicle drives.
+  /// Start point, m, map frame, beside the pose that the search started from; its heading is the
+  /// direction of the border in driving direction.
   Pose2 line;
   double length = 0.0;  ///< m
-  /// Over where it begins (m, to the left of the line) and its heading (rad).
+  /// Of the start point's lateral position (m, to the left of the line) and the heading (rad).
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   double score = 0.0;  ///< of the window
 };
 
-/// A found border from its begin to its end, points at most `spacing` (m, more than 0) apart.
+/// Returns a found border from start to end, points at most `spacing` (m, more than 0) apart.
 std::vector<BorderPoint> pointsOf(const FoundBorder& found, double spacing);
 
-/// Looks for a border of the road in windows at rising distances from the vehicle (thesis 3.5).
+/// Searches for a road border in windows at increasing distances from the vehicle (thesis 3.5).
 class BorderSearch {
  public:
   /// Throws OptionError.
   explicit BorderSearch(const Checked<BorderSearchOptions>& options);
 
-  /// The border on one side of `from` (map frame), from beside it on, as far as the windows reach
-  /// in the direction of its heading. Of the thesis: the scanner's pose.
+  /// Returns the border on one side of `from` (map frame), starting beside it, within the length of
+  /// the windows along its heading. In the thesis `from` is the scanner's pose.
   std::optional<FoundBorder> search(const HitGrid& hits, const Pose2& from, RoadSide side) const;
 
  private:

@@ -23,43 +23,44 @@ struct BorderTrackOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A point that was seen on a border.
+/// A point measured on a border.
 struct BorderHit {
-  CurvePoint position;    ///< beside the line
-  double variance = 0.0;  ///< m^2 across the line: of the measurement and of the border's shape
+  CurvePoint position;    ///< relative to the line
+  double variance = 0.0;  ///< m^2 across the line: of the measurement and of the border's roughness
 };
 
-/// The line of one stretch of border in the map, estimated by a Kalman filter: errors of its offset
-/// to the left (m), heading (rad), curvature (1/m) and curvature rate (1/m^2) at its anchor, which
-/// goes along with the vehicle. The line is fixed to the map: the vehicle's motion moves nothing
-/// but the anchor, along the line, and so no error comes from it; what roads and maps do that no
-/// clothoid does is noise for each meter that the anchor goes, and each second.
+/// Kalman filter for one section of border in the map: errors of its offset to the left (m),
+/// heading (rad), curvature (1/m) and curvature rate (1/m^2) at its anchor, which moves along with
+/// the vehicle. The line is fixed in the map: the vehicle's motion only moves the anchor along it,
+/// which adds no error. Deviations of the road and the map from a clothoid are process noise per
+/// meter of anchor travel and per second.
 class BorderTrack {
  public:
-  /// From a straight piece: covariance over its offset and heading at its anchor.
+  /// Starts from a straight piece, with the covariance of its offset and heading at its anchor.
   BorderTrack(const BorderTrackOptions& options, const Pose2& line,
               const Eigen::Matrix2d& covariance);
 
   const BorderCurve& curve() const { return curve_; }
 
-  /// Over offset, heading, curvature and curvature rate at the anchor.
+  /// Of offset, heading, curvature and curvature rate at the anchor.
   const Eigen::Matrix4d& covariance() const { return covariance_; }
 
-  /// Way of the anchor along the line since the track began, m.
+  /// Distance that the anchor has moved along the line since the track began, m.
   double arcLength() const { return arc_length_; }
 
-  /// Variance of the line across itself, m^2, `along` (m) from the anchor.
+  /// Lateral variance of the line, m^2, at `along` (m) from the anchor.
   double varianceAt(double along) const;
 
-  /// Takes the anchor so far along the line (m, negative: back), `seconds` (0 or more) on.
+  /// Moves the anchor along the line by `along` (m, negative: back) and predicts by `seconds` (>=
+  /// 0).
   void advance(double along, double seconds);
 
-  /// Takes points in, those beyond the gate left out; how many were taken. `novelty`: 0 to 1, how
-  /// much of them is new information (ScanNovelty).
+  /// Updates with the points inside the gate and returns their number. `novelty`: 0 to 1, their
+  /// share of new information (ScanNovelty).
   int correct(const std::vector<BorderHit>& hits, double novelty = 1.0);
 
  private:
-  /// Variance by which the road deviates within a distance from the anchor, m^2.
+  /// Variance of the road's deviation from the line at a distance from the anchor, m^2.
   double wander(double along) const;
 
   BorderTrackOptions options_;

@@ -18,15 +18,15 @@ struct BorderTrackSetOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// All lines that are or may be borders, on both sides.
+/// All confirmed and candidate border lines, on both sides.
 class BorderTrackSet {
  public:
   explicit BorderTrackSet(const BorderTrackSetOptions& options) : options_(options) {}
 
   const std::vector<FollowedBorder>& borders() const { return borders_; }
 
-  /// Takes all lines on to the next scan, drops those that are over, and looks for new ones where
-  /// none explains what was hit: on one side and from one station each time, by turns.
+  /// Advances all lines to the next scan, deletes those that have ended, and searches for new ones
+  /// among hits that no line explains: on one side and from one station per scan, in rotation.
   void update(const BorderScan& scan, const HitGrid& hits, const BorderSearch& search);
 
   void clear();
@@ -40,8 +40,8 @@ class BorderTrackSet {
 
   BorderTrackSetOptions options_;
   std::vector<FollowedBorder> borders_;
-  std::vector<double> nearest_;   ///< m, from the end of each beam to any line
-  std::vector<bool> is_nearest_;  ///< of one line
+  std::vector<double> nearest_;   ///< m, distance from each beam's end to the nearest line
+  std::vector<bool> is_nearest_;  ///< for one line: it is the nearest
   std::size_t turn_ = 0;
 };
 

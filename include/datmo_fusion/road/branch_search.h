@@ -27,32 +27,32 @@ struct BranchSearchOptions {
 
 /// A street that leads away from a point.
 struct RoadBranch {
-  double heading = 0.0;  ///< rad, map frame, the middle of those in which it is free
-  double angle = 0.0;    ///< rad, of all headings in which it is
-  /// 0 to 1, share of its length beyond the vehicle's own road beside which something stands, mean
-  /// of both sides; the largest of those headings'.
+  double heading = 0.0;  ///< rad, map frame, middle of the free headings
+  double angle = 0.0;    ///< rad, width of the free headings
+  /// 0 to 1, share of its length beyond the vehicle's own road with an obstacle beside it, mean of
+  /// both sides; maximum over the free headings.
   double sides = 0.0;
 };
 
-/// Finds the streets that lead away from a point: corridors as wide as a street and so long that
-/// neither a yard nor a driveway is, which beams have passed and in which nothing stands, and
-/// beside which something does: what is seen through a gap between parked cars may be open ground,
-/// which has no sides. That holds however the vehicle is turned. On a road there are two of them,
-/// at an intersection three or more; what is free in a wider angle is open space and no street.
+/// Finds the streets that lead away from a point: corridors as wide as a street and longer than a
+/// yard or driveway, that beams have passed and that are free of obstacles, but with obstacles
+/// beside them, since what is seen through a gap between parked cars may be open ground without
+/// sides. This is independent of the vehicle's heading. A road has two of them, an intersection
+/// three or more; a wider free angle is open space rather than a street.
 class BranchSearch {
  public:
   /// Throws OptionError.
   explicit BranchSearch(const Checked<BranchSearchOptions>& options) : options_(*options) {}
 
-  /// Those that lead away from a point (m, map frame); none at all in an open space.
+  /// Returns those that lead away from a point (m, map frame); empty in an open space.
   std::vector<RoadBranch> search(const PassageGrid& grid, const Point2& from) const;
 
  private:
-  /// m to the left of a pose (map frame), the middle of those corridors along it that are free;
-  /// none: none is.
+  /// m to the left of a pose (map frame): middle of the free corridors along it; none if none is
+  /// free.
   std::optional<double> freeShift(const PassageGrid& grid, const Pose2& from) const;
 
-  /// Share (0 to 1) of the length of a corridor beside which something stands; `axis`: map frame.
+  /// Share (0 to 1) of a corridor's length with an obstacle beside it; `axis`: map frame.
   double sidesOf(const PassageGrid& grid, const Pose2& axis) const;
 
   BranchSearchOptions options_;

@@ -26,13 +26,13 @@ struct FollowedBorderOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One line that is or may be a border of the road, with what is known of where it is one.
+/// A line that is or may be a border of the road, with the evidence along it.
 class FollowedBorder {
  public:
   enum class State {
-    kTrial,      ///< it may be one
-    kConfirmed,  ///< it is one, somewhere
-    kRefuted     ///< it was none: kept for a time, so that it is not tried again at once
+    kTrial,      ///< candidate
+    kConfirmed,  ///< it is a border along some of its length
+    kRefuted     ///< rejected: kept for a while so that it is not tried again at once
   };
 
   FollowedBorder(const FollowedBorderOptions& options, const FoundBorder& found);
@@ -42,38 +42,38 @@ class FollowedBorder {
   const BorderTrack& track() const { return track_; }
   const StationEvidence& evidence() const { return evidence_; }
 
-  /// s since a scan last saw some of it.
+  /// s since a scan last observed some of it.
   double unseenFor() const { return unseen_for_; }
 
-  /// Takes the line on to the next scan, and finds where its beams end beside it.
+  /// Advances the line to the next scan, and finds the positions of its beams' ends relative to it.
   void advance(const BorderScan& scan);
 
-  /// How far off (m) this line is from the end of a beam of the scan that it was advanced to;
-  /// infinite where nothing says that it goes on there.
+  /// Distance (m) from this line to the end of a beam of the current scan; infinite where there is
+  /// no evidence that the line continues.
   double distanceOf(std::size_t beam) const;
 
-  /// Whether a point (m, map frame) lies within a distance (m) of the line where something has been
-  /// seen of it, or where it was tried if it is refuted.
+  /// Whether a point (m, map frame) lies within a distance (m) of the line where it has been
+  /// observed, or, if it is refuted, where it was tried.
   bool explains(const Point2& position, double distance) const;
 
-  /// Updates the line with the scan; `is_nearest`, one for each beam: of all lines this
-  /// one is nearest to the beam's end.
+  /// Updates the line with the scan; `is_nearest`, one for each beam: this line is the nearest of
+  /// all to the beam's end.
   void update(const BorderScan& scan, const std::vector<bool>& is_nearest);
 
-  /// Whether it is of no use any more: all of it lies behind or across the path, it is too unsure,
-  /// or it has been refuted for long.
+  /// Whether the line can be deleted: all of it lies behind or across the path, it is too
+  /// uncertain, or it was refuted long ago.
   bool isOver(const Pose2& vehicle) const;
 
-  /// The curve about its anchor, where it may be published or looked at.
+  /// The curve about its anchor, within the range for publishing and association.
   const CurveTable& table() const { return *table_; }
 
-  /// m across; where it is more than max_sigma nothing is published.
+  /// Lateral standard deviation, m; where it exceeds max_sigma nothing is published.
   double sigmaAt(double along) const;
 
  private:
-  /// Whether the line may go on there, `inside` (m) within the ends of where it may at all.
-  /// Whether the end of a beam is evidence of a border: what passes by makes no new one.
+  /// Whether the end of a beam is evidence of a border: a passing mover creates no new one.
   bool informsAbout(const BorderScan::Beam& beam) const;
+  /// Whether the line may continue there, at least `inside` (m) within the ends of its reach.
   bool reaches(double along, double inside = 0.0) const;
   void findReach();
   void moveAnchor(const BorderScan& scan);
@@ -88,10 +88,10 @@ class FollowedBorder {
   StationEvidence evidence_;
   double found_length_;  ///< m
   std::optional<CurveTable> table_;
-  std::vector<ArcLengthInterval> reach_;  ///< m from the anchor, where the line may go on
-  std::vector<CurvePoint> curve_points_;  ///< of the ends of the scan's beams
-  std::vector<BorderHit> taken_;          ///< of one scan; a member to spare memory
-  double age_ = 0.0;                      ///< s in the state
+  std::vector<ArcLengthInterval> reach_;  ///< m from the anchor, where the line may continue
+  std::vector<CurvePoint> curve_points_;  ///< of the beams' ends of the scan
+  std::vector<BorderHit> taken_;          ///< of one scan; a member to avoid reallocation
+  double age_ = 0.0;                      ///< s of prediction included in the state
   double unseen_for_ = 0.0;
 };
 

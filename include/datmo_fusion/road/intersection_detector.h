@@ -19,37 +19,37 @@ struct IntersectionDetectorOptions {
   void check() const;
 };
 
-/// What is seen at one point of the vehicle's path.
+/// Observation at one point of the vehicle's path.
 struct IntersectionObservation {
   double arc_length = 0.0;  ///< m, distance driven
   bool bordered = false;    ///< a border of the road runs beside the vehicle
-  int branches = 0;         ///< streets that lead away from there (BranchSearch)
+  int branches = 0;         ///< number of streets that lead away from there (BranchSearch)
 };
 
-/// Detects whether the vehicle is at an intersection: where three streets or more lead away, on a
-/// road that had borders. The thesis (3.5.2) takes any scan without borders for one.
+/// Detects whether the vehicle is at an intersection: three or more streets lead away, on a road
+/// that had borders. The thesis (3.5.2) considers any scan without borders an intersection.
 ///
 /// A hidden Markov model with two states, on the road and at an intersection, that advances with
-/// the distance driven and not with time: one that stands keeps its state, and a single wrong
-/// observation makes none.
+/// the distance driven rather than time: a stationary vehicle keeps its state, and a single wrong
+/// observation does not change it.
 class IntersectionDetector {
  public:
   /// Throws OptionError.
   explicit IntersectionDetector(const Checked<IntersectionDetectorOptions>& options);
 
-  /// Whether so much has been driven that the next observation says something new.
+  /// Whether the vehicle has driven far enough for the next observation to be informative.
   bool isDue(double arc_length) const;
 
-  /// Takes in an observation; the distance driven rises, or all starts again.
+  /// Processes an observation; resets if the distance driven decreases.
   void update(const IntersectionObservation& observation);
 
-  /// 0 to 1, that the vehicle is at an intersection.
+  /// 0 to 1, probability that the vehicle is at an intersection.
   double probability() const { return probability_; }
 
-  /// The same as yes or no, with hysteresis.
+  /// The decision, with hysteresis.
   bool atIntersection() const { return at_intersection_; }
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:

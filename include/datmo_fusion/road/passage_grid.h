@@ -22,21 +22,21 @@ struct PassageGridOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What beams say of each cell around the vehicle: how many ended in it, and how many passed.
+/// For each cell around the vehicle the numbers of beams that ended in it and that passed it.
 class PassageGrid {
  public:
   enum class State : std::uint8_t { kUnknown, kFree, kOccupied };
 
-  /// Throws OptionError, also for more cells than any memory holds.
+  /// Throws OptionError, also if the grid would not fit in memory.
   explicit PassageGrid(const Checked<PassageGridOptions>& options);
 
   /// Moves the window with the scanner and counts the scan's beams.
   void update(const BorderScan& scan);
 
-  /// Of the cell at a point, m, map frame; unknown outside of the window.
+  /// State of the cell at a point, m, map frame; unknown outside the window.
   State at(const Point2& point) const;
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:

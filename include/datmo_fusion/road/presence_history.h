@@ -18,8 +18,8 @@ struct PresenceHistoryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where along the vehicle's path there are borders, by the evidence of the followed lines. What
-/// lies behind stays as it was when the vehicle passed it: a turn does not change the road before
+/// Border probability along the vehicle's path, from the evidence of the followed lines. Stations
+/// behind keep the values they had when the vehicle passed: a turn does not change the road before
 /// it.
 class PresenceHistory {
  public:
@@ -27,10 +27,10 @@ class PresenceHistory {
 
   const BorderPresence& presence() const { return presence_; }
 
-  /// Takes in the lines as they are now, `seconds` after the last time.
+  /// Updates with the current lines, `seconds` after the last call.
   void update(const std::vector<FollowedBorder>& borders, const Pose2& base_in_map, double seconds);
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:
@@ -41,9 +41,9 @@ class PresenceHistory {
 
   PresenceHistoryOptions options_;
   BorderPresence presence_;
-  std::optional<Pose2> vehicle_;                ///< map frame
-  std::optional<Pose2> counted_;                ///< map frame, up to where the distance is counted
-  std::vector<std::optional<double>> updated_;  ///< log odds of one side's stations, by this scan
+  std::optional<Pose2> vehicle_;  ///< map frame
+  std::optional<Pose2> counted_;  ///< map frame, pose up to which the distance is counted
+  std::vector<std::optional<double>> updated_;  ///< log odds of one side's stations, from this scan
 };
 
 }  // namespace datmo

@@ -21,7 +21,7 @@
 
 namespace datmo {
 
-/// Borders followed over time, or those of each scan by itself (thesis 3.5).
+/// Borders tracked over time, or detected in each scan independently (thesis 3.5).
 enum class RoadBorderMethod { kTracked, kThesis };
 
 struct RoadBorderDetectorOptions {
@@ -46,25 +46,25 @@ struct RoadBorderDetectorOptions {
   void check() const;
 };
 
-/// Finds the borders of the road in what scans of a planar scanner have hit, follows them, and
-/// detects intersections by the streets that lead away (thesis 3.5: where no border is).
+/// Detects and tracks the road's borders in scans of a planar scanner, and detects intersections by
+/// the streets that lead away (in the thesis, 3.5: by the absence of borders).
 class RoadBorderDetector {
  public:
   /// Throws OptionError.
   explicit RoadBorderDetector(const Checked<RoadBorderDetectorOptions>& options);
 
-  /// What is published from the next scan on; nothing is forgotten. Throws OptionError.
+  /// Changes what is published from the next scan on, without a reset. Throws OptionError.
   void setPublished(const Checked<BorderPublishingOptions>& options);
 
-  /// Takes in a scan, by rising stamps; the road about the vehicle as far as it is known then.
-  /// After a gap or a jump of the pose all is forgotten first.
+  /// Processes a scan and returns the road around the vehicle as known then. Stamps must rise.
+  /// After a gap or a jump of the pose the state is reset first.
   const RoadModel& update(const LabeledScan& scan);
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:
-  /// Time since the last scan, s; none if what is known does not belong to this one.
+  /// Time since the last scan, s; none if the state is not valid for this scan.
   std::optional<double> secondsSinceLast(const LabeledScan& scan) const;
   void search(const Pose2& scanner);
   void follow(const LabeledScan& scan, double seconds);

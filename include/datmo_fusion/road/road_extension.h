@@ -17,29 +17,29 @@ struct RoadExtensionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where the road ends beside stretches without a known border: there the nearest known border is
-/// taken to go straight on, over the mouth of a side street, past what hides it, and for a time
-/// after the last of it was seen. A guess: good enough to ask who is out there how he came there.
+/// Extrapolates the edge of the road where no border is known: the nearest known border is extended
+/// straight, across the mouth of a side street, past occlusions, and for a while after the last of
+/// it was seen. This is a guess, good enough as a prior for objects out there.
 class RoadExtension {
  public:
   explicit RoadExtension(const Checked<RoadExtensionOptions>& options);
 
-  /// The road as it is known now, and the vehicle in its frame.
+  /// Sets the road as currently known, and the vehicle in its frame.
   void update(const RoadModel& road, const Pose2& base_in_map);
 
-  /// Where a point (m, map frame) lies beside the border of one side that goes on; none if no
+  /// Returns the offset of a point (m, map frame) from the extended border of one side; none if no
   /// border of that side is known nearby.
   std::optional<BorderOffset> offset(RoadSide side, const Point2& position) const;
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:
   /// One side of the road.
   struct Side {
     std::vector<Pose2> ends;     ///< of borders; heading: away from the border
-    std::optional<Pose2> last;   ///< nearest to the vehicle when one was known beside it
-    Point2 seen_from{0.0, 0.0};  ///< m, the vehicle then
+    std::optional<Pose2> last;   ///< nearest to the vehicle when a border was last known beside it
+    Point2 seen_from{0.0, 0.0};  ///< m, the vehicle's position at that time
   };
 
   static void addEnds(const RoadBorder& border, Side& side);

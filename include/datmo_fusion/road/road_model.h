@@ -12,7 +12,7 @@ namespace datmo {
 /// The side of the vehicle on which a border runs; values as in RoadBorder.msg.
 enum class RoadSide : std::uint8_t { kLeft, kRight };
 
-/// One lower-case word.
+/// Returns one lower-case word.
 const char* nameOf(RoadSide side);
 
 /// A point of a border and how well it is known.
@@ -21,24 +21,24 @@ struct BorderPoint {
   double sigma = 0.0;                ///< m, standard deviation across the border
 };
 
-/// One stretch of a border of the road: a curb, or the road's side of a row of parked cars.
+/// One section of a border of the road: a curb, or the road side of a row of parked cars.
 struct RoadBorder {
   RoadSide side = RoadSide::kLeft;
-  /// It bounds a street that opens into the vehicle's, on `side` of it: what lies beyond it may be
-  /// the vehicle's own road.
+  /// It bounds a street that opens into the vehicle's on `side`: what lies beyond it may be the
+  /// vehicle's own road.
   bool side_street = false;
-  /// As the vehicle drives, two at least. Where nothing bounds the road (a side street) the border
-  /// ends; behind it another stretch may begin.
+  /// In driving direction, at least two. Where nothing bounds the road (a side street) the border
+  /// ends; another section may begin behind it.
   std::vector<BorderPoint> points;
   double probability = 0.0;  ///< 0 to 1, that there is a border
-  double unseen_for = 0.0;   ///< s since a scan last saw some of it
+  double unseen_for = 0.0;   ///< s since a scan last observed some of it
 };
 
-/// The road about the vehicle at one time (thesis 2.4, figure 2.10).
+/// The road around the vehicle at one stamp (thesis 2.4, figure 2.10).
 struct RoadModel {
   Stamp stamp;
-  std::vector<RoadBorder> borders;        ///< any number a side; of its own road none overlapping
-  double intersection_probability = 0.0;  ///< 0 to 1, that the vehicle is at one
+  std::vector<RoadBorder> borders;  ///< any number per side; those of its own road do not overlap
+  double intersection_probability = 0.0;  ///< 0 to 1, that the vehicle is at an intersection
   bool at_intersection = false;
 };
 

@@ -16,16 +16,16 @@ struct RoadOpeningOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A stretch along which nothing bounds the road: where a street may open into it.
+/// A section without a border, where a street may open into the road.
 struct RoadOpening {
   RoadSide side = RoadSide::kLeft;
-  Pose2 middle;         ///< map frame, on the line of the border; its heading is out of the road
+  Pose2 middle;         ///< map frame, on the line of the border; heading away from the road
   double length = 0.0;  ///< m, along the road
 };
 
-/// The openings about a vehicle: runs of stations where rather no border is, behind one where a
-/// border is (a road whose border was never seen has none). The road is taken to be straight from
-/// the vehicle on; `borders` (map frame) give how far from it the openings lie.
+/// Returns the openings around a vehicle: runs of stations that probably have no border, ahead of
+/// some station that has one (a road whose border was never observed has none). The road is assumed
+/// straight from the vehicle on; `borders` (map frame) give the openings' lateral distance.
 std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
                                     const std::vector<RoadBorder>& borders,
                                     const Pose2& base_in_map, const RoadOpeningOptions& options);

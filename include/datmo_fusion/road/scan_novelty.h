@@ -15,17 +15,17 @@ struct ScanNoveltyOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Share of new information in a scan. From one viewpoint the same beams meet the same surfaces, so
-/// that a waiting vehicle learns next to nothing from scan to scan. The errors of two scans
-/// correlate by exp(-distance / length - time / correlation time), a Gauss-Markov process over
-/// both, whose innovation has the share 1 - correlation^2 of the variance (Bar-Shalom, Li,
-/// Kirubarajan 2001, 8.2: autocorrelated noise).
+/// Share of new information in a scan. From one viewpoint the same beams hit the same surfaces, so
+/// a waiting vehicle learns almost nothing from scan to scan. The errors of two scans correlate by
+/// exp(-distance / length - time / correlation time), a Gauss-Markov process in both, whose
+/// innovation has the share 1 - correlation^2 of the variance (Bar-Shalom, Li, Kirubarajan 2001,
+/// 8.2: autocorrelated noise).
 class ScanNovelty {
  public:
   explicit ScanNovelty(const ScanNoveltyOptions& options) : options_(options) {}
 
-  /// Of the next scan, 0 to 1; 1 of the first. `scanner`: where it was taken, map frame; `seconds`
-  /// >= 0 since the last one.
+  /// Returns the share of the next scan, 0 to 1; 1 for the first. `scanner`: its position, map
+  /// frame; `seconds` >= 0 since the last scan.
   double update(const Point2& scanner, double seconds);
 
   /// Forgets the last scan.

@@ -24,21 +24,21 @@ struct SideStreetOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The borders of streets that open into the vehicle's: the search for borders of the thesis (3.5)
-/// from the middle of each opening, as from a vehicle that looks into the street. What it finds
-/// last takes the place of what contradicts it.
+/// Detects the borders of streets that open into the vehicle's: the border search of the thesis
+/// (3.5) from the middle of each opening, as from a vehicle that looks into the street. New results
+/// replace older ones that contradict them.
 class SideStreets {
  public:
   /// Throws OptionError.
   explicit SideStreets(const Checked<SideStreetOptions>& options);
 
-  /// Looks into the openings if it is time to; stamps rise.
+  /// Searches the openings if the period has elapsed; stamps must rise.
   void update(const HitGrid& hits, const std::vector<RoadOpening>& openings, Stamp stamp);
 
-  /// Those found of late, in the map frame, from the vehicle's road outward.
+  /// Returns the borders found recently, in the map frame, from the vehicle's road outward.
   std::vector<RoadBorder> borders(Stamp stamp) const;
 
-  /// Forgets all, as at the start.
+  /// Forgets everything, as after construction.
   void reset();
 
  private:

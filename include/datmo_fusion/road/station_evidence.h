@@ -26,54 +26,53 @@ struct ArcLengthInterval {
   double last = 0.0;
 };
 
-/// How sure it is that a line is a border at each meter of it: logarithm of the odds, raised by
-/// beams that end on it, lowered by those that go on through it. A scan counts once, and the sum is
-/// held within bounds, as what a vehicle sees while it stands is always the same.
+/// Log odds that a line is a border at each meter of it: raised by beams that end on it, lowered by
+/// those that pass through. Each scan counts once, and the sum is bounded, since a stationary
+/// vehicle always observes the same.
 class StationEvidence {
  public:
   explicit StationEvidence(const StationEvidenceOptions& options);
 
-  /// Nothing is known of what lies outside of `interval` any more, and evidence may be added of
-  /// what lies inside.
+  /// Drops the stations outside `interval`; afterwards evidence may be added inside it.
   void keepWithin(const ArcLengthInterval& interval);
 
-  /// One beam of the scan that ended on the line there (m along it), or went through.
+  /// Adds a beam of the scan that ended on the line at `along` (m), or passed through.
   void addHit(double along);
   void addPassage(double along);
 
-  /// How far a beam that went through there saw what is behind: so deep as only a street is, or
-  /// not.
+  /// Adds whether a beam that passed through there saw as deep behind the line as only a street
+  /// allows.
   void addDepth(double along, bool deep);
 
   /// Applies the evidence of one scan's beams since the last call.
   void endScan();
 
-  /// 0 where nothing is known.
+  /// 0 where unknown.
   double logOdds(double along) const;
 
-  /// The same that the road is open there: that beams see deep through the line; 0 where nothing is
-  /// known.
+  /// Log odds that the road is open there, because beams see deep through the line; 0 where
+  /// unknown.
   double openLogOdds(double along) const;
 
-  /// The most that they become.
+  /// Upper bound of the log odds.
   double saturation() const { return options_.saturation; }
 
-  /// Where the line is a border: from the first to the last station seen of each piece; gaps of
-  /// `bridged_gap` between two stations are left out, shorter ones belong to the piece.
+  /// Sections where the line is a border, each from its first to its last observed station; gaps
+  /// between stations longer than `bridged_gap` separate sections, shorter ones are included.
   std::vector<ArcLengthInterval> pieces() const;
 
-  /// Stations by themselves that are seen.
+  /// Number of observed stations.
   int seenStations() const;
 
  private:
   struct Station {
     double log_odds = 0.0;
-    double update = 0.0;  ///< by this scan
+    double update = 0.0;  ///< from this scan
     double open_log_odds = 0.0;
     double open_update = 0.0;
   };
 
-  /// The number of stations where there is none.
+  /// Index of the station at `along`, or the number of stations if there is none.
   std::size_t slotAt(double along) const;
   Station* stationAt(double along);
   const Station* stationAt(double along) const;

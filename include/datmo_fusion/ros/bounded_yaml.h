@@ -8,18 +8,19 @@
 
 namespace datmo {
 
-/// What is no yaml that can be read, in words for its author.
+/// Thrown for yaml that cannot be parsed; the message is for the author of the file.
 class YamlError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Parses yaml of any origin, `name` in messages. What is deeper, or with its aliases larger, than
-/// any description of sensors, scenes or maps is refused before it takes memory, and so is an alias
-/// that stands for what it stands in: who walks through the result ends. Throws YamlError.
+/// Parses yaml from an untrusted source; `name` is used in messages. Input that is nested deeper,
+/// or expands to more through aliases, than any description of sensors, scenes or maps is rejected
+/// before it takes memory. So is a recursive alias: walking the result always terminates. Throws
+/// YamlError.
 YAML::Node parseYaml(const std::string& name, const std::string& text);
 
-/// The same of a file. Throws YamlError that names the file, and the line where there is one.
+/// Parses a file. Throws YamlError that names the file and, if known, the line.
 YAML::Node loadYamlFile(const std::string& file);
 
 }  // namespace datmo

@@ -13,21 +13,21 @@
 
 namespace datmo {
 
-/// What the status of a device says of it: connections, faults by reason, measurements and those
-/// that are missing, and the device's clock. `now`: ROS time.
+/// Diagnostics of a device: connections, faults by reason, measurements and missing ones, and the
+/// device's clock. `now`: ROS time.
 class DeviceDiagnostics {
  public:
   /// `monitor` must outlive it.
   explicit DeviceDiagnostics(StageMonitor& monitor);
 
-  /// `device`: what it is, for people.
+  /// `device`: description for people.
   void connected(const std::string& device, Stamp now);
 
-  /// Something that ended the connection, or did not.
+  /// Reports a fault, whether or not it ended the connection.
   void fault(const DeviceError& error, Stamp now);
   void warning(const DeviceError& error, Stamp now);
 
-  /// `discarded`: measurements so far that waited too long.
+  /// `discarded`: total number of measurements dropped because they waited too long.
   void measured(const DeviceMeasurement& measurement, const ClockState& clock,
                 std::uint64_t discarded, Stamp now);
 
@@ -41,8 +41,8 @@ class DeviceDiagnostics {
   std::uint64_t missed_ = 0;
   std::uint64_t clock_steps_ = 0;
   std::optional<double> first_offset_;  ///< s, of this connection
-  std::optional<Stamp> last_twist_;     ///< the same
-  double longest_gap_ = 0.0;            ///< s, the same, between two twists
+  std::optional<Stamp> last_twist_;     ///< s, of this connection
+  double longest_gap_ = 0.0;            ///< s, of this connection, between two twists
 };
 
 }  // namespace datmo

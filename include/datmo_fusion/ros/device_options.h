@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Of the nodelet `device`.
+/// Options of the nodelet `device`.
 struct DeviceOptions {
   std::string frame = "laser";
   StreamOptions input;

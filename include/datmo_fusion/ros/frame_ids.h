@@ -16,13 +16,13 @@
 
 namespace datmo {
 
-/// A frame's name as tf2 takes it: recordings from before tf2 have a slash at its front.
+/// Returns a frame's name without leading slash, which recordings from before tf2 have.
 std::string withoutSlash(const std::string& frame);
 
 namespace detail {
 
-/// Calls `visit` with each frame id of a message. One for each kind of message: here alone stands
-/// which frames it has.
+/// Calls `visit` with each frame id of a message. This overload set is the only place that knows
+/// which frames each message type has.
 template <typename Message, typename Visit>
 void visitFrames(Message& message, const Visit& visit) {
   visit(message.header.frame_id);
@@ -50,11 +50,11 @@ void visitFrames(tf2_msgs::TFMessage& message, const Visit& visit) {
 
 }  // namespace detail
 
-/// The first frame id of a message with a slash at its front; empty if there is none.
+/// Returns the first frame id of a message with a leading slash; empty if there is none.
 template <typename Message>
 std::string slashedFrame(const Message& message) {
   std::string found;
-  // Visited for reading alone.
+  // Only read, so const_cast is safe.
   detail::visitFrames(const_cast<Message&>(message), [&found](const std::string& frame) {
     if (found.empty() && frame.rfind('/', 0) == 0) {
       found = frame;
@@ -63,18 +63,17 @@ std::string slashedFrame(const Message& message) {
   return found;
 }
 
-/// Strips the slashes at the front of a message's frame ids.
+/// Strips leading slashes from a message's frame ids.
 template <typename Message>
 void stripSlashes(Message& message) {
   detail::visitFrames(message, [](std::string& frame) { frame = withoutSlash(frame); });
 }
 
-/// Counts a message on `input` whose frame `slashed` had a slash at its front, as a figure; warns
-/// of the first one alone.
+/// Counts a message on `input` whose frame `slashed` had a leading slash, as a figure; warns once.
 void noteSlash(const std::string& input, const std::string& slashed, StageMonitor& monitor);
 
-/// A message as the stages take it: itself, or a copy without slashes at the front of its frame
-/// ids, which is reported to the monitor. `input`: its topic.
+/// Returns the message itself, or a copy without leading slashes in its frame ids, which is
+/// reported to the monitor. `input`: its topic.
 template <typename Message>
 boost::shared_ptr<const Message> withPlainFrames(const std::string& input,
                                                  const boost::shared_ptr<const Message>& message,
@@ -89,7 +88,7 @@ boost::shared_ptr<const Message> withPlainFrames(const std::string& input,
   return stripped;
 }
 
-/// Entry point of a nodelet: books a message's arrival, and returns it with plain frames.
+/// Entry point of a nodelet: records a message's arrival, and returns it with plain frames.
 template <typename Message>
 boost::shared_ptr<const Message> receive(const std::string& input,
                                          const boost::shared_ptr<const Message>& message,

@@ -14,14 +14,15 @@ struct FrameOptions {
   std::string base = "base_link";
   std::string scanner = "scanner";
   std::string camera;
-  /// Before all of these, the mounts' and those that the stages name: several vehicles, one tf.
+  /// Prepended to all of these and to the frames of mounts and stages, for several vehicles in one
+  /// tf.
   std::string prefix;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Throws OptionError unless map, odom and base are three different names: tf takes no frame
-/// without a name, and none that is its own parent.
+/// Throws OptionError unless map, odom and base are three different, non-empty names: tf accepts no
+/// empty frame name, and no frame that is its own parent.
 void checkFrames(const FrameOptions& frames);
 
 }  // namespace datmo

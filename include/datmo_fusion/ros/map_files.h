@@ -8,38 +8,38 @@
 
 namespace datmo {
 
-/// A map file that cannot be read or written: the message names it and says what is wrong, and what
-/// was expected.
+/// Thrown for a map file that cannot be read or written; the message names it and says what is
+/// wrong, and what was expected.
 class MapFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What of a file has been written.
+/// Result of writing a map.
 struct SavedMap {
-  std::size_t cells = 0;             ///< of which anything is known
+  std::size_t cells = 0;             ///< known cells
   int cells_of_pixel = 1;            ///< along each side of a pixel of the image
-  std::size_t forgotten_tiles = 0;   ///< that the map had no room for: OccupancyMapOptions
-  std::string tile_file_error = {};  ///< what failed of their file; empty: nothing is missing
+  std::size_t forgotten_tiles = 0;   ///< that did not fit in the map: OccupancyMapOptions
+  std::string tile_file_error = {};  ///< why their file could not be written; empty: no error
 };
 
-/// What is written beside a map.
+/// Names of the files written beside a map.
 struct MapServerNames {
   std::string yaml;
   std::string image;
 };
 MapServerNames mapServerNames(const std::string& file);
 
-/// Writes a map: `file` with all evidence, and beside it a yaml file and an image as map_server has
-/// them (mapServerNames). Each appears when it is complete, and what stood there before stays until
-/// then. Throws MapFileError: a name that ends in .yaml or .pgm, a yaml file beside it that is of
-/// no map, a folder, no rights, a full disk. Where an image with a pixel for each cell would be too
-/// large, its pixels are larger, and `file` has all cells.
+/// Writes a map: `file` with all evidence, and beside it a yaml file and an image for map_server
+/// (mapServerNames). Each file appears only when complete, and an existing one is kept until then.
+/// Throws MapFileError: a name that ends in .yaml or .pgm, an existing yaml file that is not a
+/// map's, a directory, missing permissions, a full disk. If an image with one pixel per cell would
+/// be too large, it has larger pixels; `file` has all cells.
 SavedMap writeMap(const std::string& file, const OccupancyMap& map);
 
-/// The map of a file that writeMap has written, or of a yaml file of map_server (its name ends in
-/// .yaml or .yml), of cells of the size that the options say; all of it, whatever `max_tiles` is.
-/// Throws MapFileError: no such file, a file that is cut or changed, cells of another size.
+/// Reads a file written by writeMap, or a yaml file of map_server (its name ends in .yaml or .yml),
+/// with the cell size in the options; completely, regardless of `max_tiles`. Throws MapFileError:
+/// no such file, a truncated or corrupt file, another cell size.
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options);
 
 }  // namespace datmo

@@ -8,10 +8,10 @@
 
 namespace datmo {
 
-/// What the vehicle's motion is known from.
+/// Source of the vehicle's motion.
 enum class MotionSource { kOdometry, kTwist, kImu, kImuAndTwist, kImuAndWheels, kNone };
 
-/// Source of the vehicle's motion, for all stages: section `motion` of a sensor set.
+/// The vehicle's motion, for all stages: section `motion` of a sensor set.
 struct MotionOptions {
   MotionSource source = MotionSource::kOdometry;
   bool odometry_pose = false;
@@ -22,13 +22,13 @@ struct MotionOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// nav_msgs/Odometry of the vehicle itself, with poses and its own odom -> base on tf.
+  /// nav_msgs/Odometry of the vehicle, with poses and its own odom -> base on tf.
   bool fromOdometry() const { return source == MotionSource::kOdometry; }
-  /// A twist is put together from other sensors (MotionStage).
+  /// The twist is combined from other sensors (MotionStage).
   bool fromSensors() const {
     return source != MotionSource::kOdometry && source != MotionSource::kNone;
   }
-  /// Without it the yaw rate alone is known.
+  /// Otherwise only the yaw rate is known.
   bool hasSpeed() const { return source != MotionSource::kNone && source != MotionSource::kImu; }
 
   bool usesImu() const {
@@ -39,7 +39,7 @@ struct MotionOptions {
   }
   bool usesWheels() const { return source == MotionSource::kImuAndWheels; }
 
-  /// Where the stages read the odometry: the vehicle's own, or what MotionStage makes.
+  /// Topic from which the stages read odometry: the vehicle's own, or that of MotionStage.
   std::string odometryTopic() const { return fromSensors() ? "motion/odometry" : "odometry"; }
 };
 

@@ -10,9 +10,9 @@
 
 namespace datmo {
 
-/// How a sensor is mounted: pose of its frame in the vehicle's.
+/// Pose of a sensor's frame in the vehicle's.
 struct MountOptions {
-  double x = 0.0;      ///< m, ahead
+  double x = 0.0;      ///< m, forward
   double y = 0.0;      ///< m, to the left
   double z = 0.0;      ///< m, up
   double yaw = 0.0;    ///< rad
@@ -22,15 +22,14 @@ struct MountOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Mounts by the sensor's frame: section `mounts` of a sensor set, for recordings and robots
-/// without tf.
+/// Mounts by sensor frame: section `mounts` of a sensor set, for recordings and robots without tf.
 using Mounts = std::map<std::string, MountOptions>;
 
-/// From the section's keys `<frame>/x`, `<frame>/yaw` and so on; a frame may have slashes in its
-/// name, and one at its front is left out. Throws OptionError that names frame and key.
+/// Reads the section's keys `<frame>/x`, `<frame>/yaw` and so on; a frame name may contain slashes,
+/// and a leading one is stripped. Throws OptionError that names frame and key.
 Mounts readMounts(const OptionValues& values);
 
-/// As they would come on /tf_static.
+/// Converts the mounts to a message as on /tf_static.
 tf2_msgs::TFMessage toMessage(const Mounts& mounts, const std::string& base_frame);
 
 }  // namespace datmo

@@ -13,20 +13,20 @@
 
 namespace datmo {
 
-/// All values of a namespace on the parameter server, keys relative to it.
+/// Reads all values of a namespace on the parameter server, keys relative to it.
 ///
-/// Throws OptionError for what no option can hold (lists, dates, binary data).
+/// Throws OptionError for values that no option can hold (lists, dates, binary data).
 OptionValues readParameters(const ros::NodeHandle& node);
 
-/// The same for a tree of values; `name` stands in messages for the tree's own name.
+/// The same for a tree of values; `name` is the tree's name in messages.
 OptionValues flattenParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
-/// What all nodelets of a namespace share: the sections beside a nodelet's private namespace. What
-/// is wrong with them is said on the console before OptionError is thrown.
+/// Loads what all nodelets of a namespace share: the sections beside a nodelet's private namespace.
+/// Errors are printed on the console before OptionError is thrown.
 SharedOptions loadSharedOptions(const ros::NodeHandle& private_node);
 
-/// The options of a nodelet from its private namespace, and what all nodelets share (`frames`,
-/// `motion`). What is wrong with them is said on the console before OptionError is thrown.
+/// Loads the options of a nodelet from its private namespace, and those shared by all nodelets
+/// (`frames`, `motion`). Errors are printed on the console before OptionError is thrown.
 template <typename Options>
 Options loadOptions(const ros::NodeHandle& private_node) {
   const SharedOptions shared = loadSharedOptions(private_node);

@@ -8,9 +8,9 @@
 
 namespace datmo {
 
-/// A map to start in, and where in it.
+/// A prior map, and the start pose in it.
 struct PriorMapOptions {
-  std::string file;  ///< empty: a new map is made
+  std::string file;  ///< empty: build a new map
   bool anywhere = true;
   double x = 0.0;                        ///< m, in the map
   double y = 0.0;                        ///< m

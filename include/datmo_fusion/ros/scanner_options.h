@@ -9,7 +9,7 @@ namespace datmo {
 /// The planar scanner, for all stages: section `scanner` of a sensor set.
 struct ScannerOptions {
   ScanConversionOptions scan;
-  double range_sigma = 0.0;        ///< m; 0: not known
+  double range_sigma = 0.0;        ///< m; 0: unknown
   double end_margin = 3.0;         ///< in range_sigma
   double beam_width = 0.0;         ///< rad
   double max_tilt = degrees(5.0);  ///< rad

@@ -8,13 +8,14 @@
 
 namespace datmo {
 
-/// An option of a stage that a sensor set says once for all stages.
+/// An option of a stage that a sensor set defines once for all stages.
 struct SharedKey {
   std::string own;     ///< key in the stage's options: `matcher/point_sigma`
   std::string shared;  ///< section and key in the sensor set: `scanner/range_sigma`
 };
 
-/// Those of one stage, put together key by key: its options have `static SharedKeys sharedKeys()`.
+/// The shared keys of one stage, built key by key: its options have `static SharedKeys
+/// sharedKeys()`.
 class SharedKeys {
  public:
   SharedKeys key(const std::string& own, const std::string& shared) {
@@ -22,7 +23,7 @@ class SharedKeys {
     return *this;
   }
 
-  /// All of a struct of options that stands in both places; groups with a slash at their end.
+  /// Adds all members of an options struct that exists in both places; groups end in a slash.
   template <typename Options>
   SharedKeys group(const std::string& own, const std::string& shared) {
     for (const std::string& name : optionKeys<Options>()) {

@@ -15,34 +15,34 @@
 
 namespace datmo {
 
-/// What all stages share, and a sensor set says once.
+/// Options that all stages share, defined once in a sensor set.
 struct SharedOptions {
   FrameOptions frames;
   Mounts mounts;
   MotionOptions motion;
-  /// What the sections `scanner`, `stereo_camera`, `vehicle` and `motion` say, by section and key
-  /// (`scanner/free_range`), and of `stereo_image_proc` how it pairs images. Only what is set: each
-  /// stage has the default of its own option for the rest, which is that of the section.
+  /// Values of the sections `scanner`, `stereo_camera`, `vehicle` and `motion`, by section and key
+  /// (`scanner/free_range`), and the pairing of images from `stereo_image_proc`. Only values that
+  /// are set: otherwise each stage uses the default of its own option, which equals the section's.
   OptionValues sensors;
 };
 
-/// The names of those sections.
+/// Names of these sections.
 inline constexpr char kFramesSection[] = "frames";
 inline constexpr char kMountsSection[] = "mounts";
 inline constexpr char kMotionSection[] = "motion";
 inline constexpr char kScannerSection[] = "scanner";
 inline constexpr char kStereoCameraSection[] = "stereo_camera";
 inline constexpr char kVehicleSection[] = "vehicle";
-/// That of the nodelet of this name, too.
+/// Also the name of the nodelet.
 inline constexpr char kStereoImagesSection[] = "stereo_image_proc";
 
-/// All but the last one.
+/// All except the last one.
 std::vector<std::string> sharedSections();
 
-/// The values of a section, keys relative to it; none where nobody has set any.
+/// Returns the values of a section, keys relative to it; empty if none are set.
 using SectionReader = std::function<OptionValues(const std::string& section)>;
 
-/// Slashes at the front of frames are left out. Throws OptionError that names the section.
+/// Leading slashes of frames are stripped. Throws OptionError that names the section.
 SharedOptions readSharedOptions(const SectionReader& section);
 
 namespace detail {
@@ -64,14 +64,14 @@ struct HasSharedKeys : std::false_type {};
 template <typename Options>
 struct HasSharedKeys<Options, std::void_t<decltype(Options::sharedKeys())>> : std::true_type {};
 
-/// The values of a stage's section with those that it shares. Throws OptionError for a key that
-/// sensor sets had in the section of each stage, naming the one that it is now.
+/// Returns the values of a stage's section combined with the shared ones. Throws OptionError for a
+/// key that used to be in each stage's section, naming its replacement.
 OptionValues withShared(const OptionValues& stage_values, const SharedKeys& keys,
                         const OptionValues& shared);
 
 }  // namespace detail
 
-/// Which of a stage's options stand in the shared sections.
+/// Which of a stage's options are in the shared sections.
 template <typename Options>
 SharedKeys sharedKeysOf() {
   if constexpr (detail::HasSharedKeys<Options>::value) {
@@ -81,8 +81,9 @@ SharedKeys sharedKeysOf() {
   }
 }
 
-/// The options of a stage: its own section's values, and what all stages share, where it has
-/// members `frames` and `motion` for it, or names it by `sharedKeys()`. Throws OptionError.
+/// Returns the options of a stage: the values of its own section, and those shared by all stages if
+/// it has members `frames` and `motion` for them, or names them in `sharedKeys()`. Throws
+/// OptionError.
 template <typename Options>
 Options readStageOptions(const OptionValues& values, const SharedOptions& shared) {
   auto options =

@@ -26,22 +26,22 @@ struct SignalWireOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Traffic lights: SPATEM and MAPEM as they come, kept while they hold, to advice for the vehicle.
-/// Counts what cannot be used, by reason.
+/// Traffic lights: stores received SPATEM and MAPEM while they are valid, and computes advice for
+/// the vehicle. Counts unusable messages by reason.
 class SignalWire {
  public:
   /// `monitor` must outlive it. Throws OptionError.
   SignalWire(const Checked<SignalWireOptions>& options, StageMonitor& monitor);
 
-  /// Whether a datagram is a SPATEM or a MAPEM, by its header.
+  /// Whether a datagram is a SPATEM or a MAPEM according to its header.
   static bool takes(std::string_view bytes);
 
-  /// One of these. `now`: ROS time when it came; a second before that of the last one, all is
-  /// forgotten.
+  /// Processes one of these. `now`: ROS time of arrival; if it is more than a second before that of
+  /// the last one, the state is reset.
   void received(std::string_view bytes, Stamp now);
 
-  /// `own`: our tracks on the earth, of which that with id 0 is ourselves. Null if we are not among
-  /// them, or on no lane that leads into an intersection that was received.
+  /// `own`: our tracks on the earth; the one with id 0 is ourselves. Null if we are not in the
+  /// list, or not on a lane that leads into a received intersection.
   SignalAdviceMessagePtr advise(const StationTracksMessage& own);
 
  private:
@@ -55,7 +55,7 @@ class SignalWire {
   /// Throws InputError (`old_signals`, `future_signals`, `repeated_signals`).
   void keep(const Spatem& message, const SpatIntersection& intersection, Stamp now);
   void forgetOld(Stamp now);
-  /// None if the vehicle is on no lane into it.
+  /// Returns none if the vehicle is on no lane that leads into it.
   std::optional<SignalAdvice> adviseAt(const MapIntersection& intersection,
                                        const ApproachingHost& host, const LocalPlane& plane);
 

@@ -16,7 +16,7 @@
 
 namespace datmo {
 
-/// Of the nodelet `v2x_wire`.
+/// Options of the nodelet `v2x_wire`.
 struct StationWireOptions {
   int port = 37001;
   std::string source;
@@ -29,19 +29,19 @@ struct StationWireOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// StationTracks between messages and datagrams: CAM and CPM. Counts what comes and what cannot be
-/// used, by reason. Messages of other kinds and echoes of our own are no fault; a message of
-/// another station with our number is one.
+/// Converts between StationTracks messages and datagrams: CAM and CPM. Counts received and, by
+/// reason, unusable messages. Messages of other kinds and echoes of our own are not faults; a
+/// message of another station with our number is.
 class StationWire {
  public:
   /// `monitor` must outlive it. Throws OptionError.
   StationWire(const Checked<StationWireOptions>& options, StageMonitor& monitor);
 
-  /// What a datagram says; null if nothing. `now`: ROS time when it came.
+  /// Returns the content of a datagram; null if there is none. `now`: ROS time of its arrival.
   StationTracksMessagePtr received(std::string_view bytes, Stamp now);
 
-  /// The datagrams that tell others of ours; none if these would be more often than
-  /// `interval` allows on average.
+  /// Returns the datagrams that send our tracks to others; none if that would on average be more
+  /// often than `interval` allows.
   std::vector<std::string> toSend(const StationTracksMessage& message);
 
  private:
@@ -49,13 +49,13 @@ class StationWire {
 
   StationWireOptions options_;
   StageMonitor& monitor_;
-  std::optional<std::uint32_t> own_station_;  ///< that we sent
+  std::optional<std::uint32_t> own_station_;  ///< our station number, as sent
   std::deque<std::string> recent_;            ///< datagrams sent
-  std::optional<Stamp> due_;                  ///< of the next list
+  std::optional<Stamp> due_;                  ///< time of the next list
   std::optional<Stamp> last_low_frequency_;
   std::uint64_t others_ = 0;    ///< messages of other kinds
-  std::uint64_t own_ = 0;       ///< messages of ours that came back
-  std::uint64_t left_out_ = 0;  ///< objects without number or position
+  std::uint64_t own_ = 0;       ///< echoes of our own messages
+  std::uint64_t left_out_ = 0;  ///< objects without id or position
 };
 
 }  // namespace datmo

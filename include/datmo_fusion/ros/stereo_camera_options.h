@@ -7,10 +7,10 @@
 
 namespace datmo {
 
-/// What serves until a camera info has come, and what no message contains.
+/// Used until a camera info has been received, and for what no message contains.
 struct StereoCameraOptions : DepthNoiseOptions {
-  double focal_length = 0.0;             ///< px; 0: not known
-  double baseline = 0.0;                 ///< m; 0: not known, or none
+  double focal_length = 0.0;             ///< px; 0: unknown
+  double baseline = 0.0;                 ///< m; 0: unknown, or none
   double field_of_view = degrees(60.0);  ///< rad
   double min_depth = 0.0;                ///< m; 0: no bound
   double max_depth = 0.0;                ///< m; 0: no bound
@@ -20,7 +20,7 @@ struct StereoCameraOptions : DepthNoiseOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The stereo or depth camera and the road that it sees, for all stages: section `stereo_camera` of
+/// The stereo or depth camera and the road in its view, for all stages: section `stereo_camera` of
 /// a sensor set.
 struct StereoSceneOptions : StereoCameraOptions, RoadSceneOptions {
   void visit(OptionVisitor& visitor);

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// Whether a name that somebody has set can be the last part of a topic: letters, digits and
-/// underscores, a letter first (ROS graph resource names).
+/// Whether a user-defined name can be the last part of a topic: letters, digits and underscores,
+/// starting with a letter (ROS graph resource names).
 bool canBeTopic(const std::string& name);
 
 }  // namespace datmo

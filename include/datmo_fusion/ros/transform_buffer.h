@@ -14,19 +14,19 @@
 
 namespace datmo {
 
-/// The transforms of tf, fed by its owner, so that a stage sees them in the order of its other
-/// messages: live from the nodelet's callback queue, in batch from the bag.
+/// A tf buffer fed by its owner, so that a stage sees transforms in order with its other messages:
+/// live from the nodelet's callback queue, in batch from the bag.
 ///
-/// When the clock jumps back (a looped bag), which a second transform or ROS time confirms, all but
-/// the static transforms are forgotten, so that no pose is interpolated between two runs. A
-/// transform that is not finite, whose quaternion has not the length 1 or whose stamp cannot be is
-/// ignored, and the monitor is warned. Not thread safe beyond what tf2::BufferCore is.
+/// When the clock jumps back (a looped bag), as confirmed by a second transform or ROS time, all
+/// but the static transforms are forgotten, so that no pose is interpolated between two runs. A
+/// transform that is not finite, has a non-unit quaternion or an impossible stamp is ignored, and
+/// the monitor is warned. Thread safe only as far as tf2::BufferCore is.
 class TransformBuffer {
  public:
   explicit TransformBuffer(double restart_after) : restart_after_(restart_after) {}
 
-  /// With mounts that serve as if they had come on /tf_static, until tf says otherwise: then tf
-  /// holds, and `monitor`, which must outlive this, is warned once of a mount that differs.
+  /// With mounts that are used as if received on /tf_static until tf has the frame: then tf takes
+  /// precedence, and `monitor`, which must outlive this, is warned once of a mount that differs.
   TransformBuffer(double restart_after, const SharedOptions& shared, StageMonitor& monitor);
 
   void add(const tf2_msgs::TFMessage& message);
@@ -35,17 +35,17 @@ class TransformBuffer {
   const tf2::BufferCore& core() const { return core_; }
 
  private:
-  /// Whether it is a rigid motion at a possible time; the monitor is warned if not.
+  /// Whether it is a rigid motion at a valid time; warns the monitor if not.
   bool isGood(const geometry_msgs::TransformStamped& transform);
 
-  /// Not the one that was there last; forgets the old run if the clock has jumped back.
+  /// Whether it is neither repeated nor stray; forgets the old run if the clock has jumped back.
   bool isNew(const geometry_msgs::TransformStamped& transform);
 
-  /// tf2 with it, in place of the mount of that frame if there is one.
+  /// Adds it to tf2, replacing the mount of that frame if there is one.
   void set(const geometry_msgs::TransformStamped& transform, bool is_static);
 
   double restart_after_;
-  StageMonitor* monitor_ = nullptr;                                ///< none without mounts
+  StageMonitor* monitor_ = nullptr;                                ///< null without mounts
   std::map<std::string, geometry_msgs::TransformStamped> mounts_;  ///< by frame; not from tf yet
   tf2::BufferCore core_;
   std::map<std::string, StampGate> gates_;  ///< by child frame

@@ -10,8 +10,8 @@
 namespace datmo {
 
 /// Feeds a TransformBuffer from /tf and /tf_static, in the callback queue of `node` (unlike
-/// tf2_ros::TransformListener, which has a thread of its own), so that whoever waits for a
-/// transform is passed on as soon as it is there.
+/// tf2_ros::TransformListener, which has its own thread), so that messages waiting for a transform
+/// are processed as soon as it is received.
 class TransformSubscription {
  public:
   /// `buffer` and `monitor` must outlive the subscription; `changed` is called after each message.

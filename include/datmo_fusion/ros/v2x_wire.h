@@ -13,25 +13,25 @@
 
 namespace datmo {
 
-/// All that the nodelet `v2x_wire` does between its topics and its socket: which wire a datagram is
-/// for, what our own tracks make (advice, and datagrams to the destination), and what the
-/// diagnostics say of both.
+/// Everything that the nodelet `v2x_wire` does between its topics and its socket: dispatches
+/// received datagrams (StationWire, SignalWire), turns our own tracks into advice and datagrams to
+/// the destination, and reports both in the diagnostics.
 class V2xWire {
  public:
   /// `monitor` must outlive it. Throws OptionError.
   V2xWire(const Checked<StationWireOptions>& options, StageMonitor& monitor);
 
-  /// The socket is open.
+  /// Reports that the socket is open.
   void listening();
 
-  /// The socket has failed, at this ROS time.
+  /// Reports that the socket has failed, at this ROS time.
   void failed(const DeviceError& error, Stamp now);
 
-  /// What a datagram that came at this ROS time says of stations; null if nothing.
+  /// Returns what a datagram received at this ROS time says about stations; null if nothing.
   StationTracksMessagePtr received(std::string_view datagram, Stamp now);
 
-  /// Sends our own tracks, if there is a destination. Advice for the vehicle among them; null if
-  /// there is none.
+  /// Sends our own tracks, if there is a destination. Returns advice for the vehicle; null if there
+  /// is none.
   SignalAdviceMessagePtr serveOwn(const StationTracksMessage& tracks);
 
  private:

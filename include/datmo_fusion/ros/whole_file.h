@@ -5,14 +5,14 @@
 
 namespace datmo {
 
-/// Throws std::runtime_error that names the file and says why it cannot be written: a folder, no
-/// folder to write it in, no permission there. For the start of work whose result it is to hold.
+/// Throws std::runtime_error with the file's name and the reason if it cannot be written: it is a
+/// directory, its directory does not exist, or permission is missing. Call it before starting work
+/// whose result goes there.
 void checkWritable(const std::string& file);
 
-/// Writes a text file that appears under its name when it is complete, and not at all otherwise: it
-/// is written beside it as `<file>.part` first. What stood there before stays until then. Throws
-/// std::runtime_error that names the file if it cannot be written: a folder, no rights, a full
-/// disk.
+/// Writes a text file atomically: it is written as `<file>.part` first, and appears under its name
+/// only when complete. An existing file is kept until then. Throws std::runtime_error with the
+/// file's name if it cannot be written: a directory, missing permission, a full disk.
 void writeWholeFile(const std::string& file, const std::string& text);
 
 }  // namespace datmo

@@ -23,21 +23,21 @@ struct DetectionAssociationOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// An object of the scanner in the image.
+/// An object of the scanner, projected into the image.
 struct ProjectedObject {
   ImageRegion region;
-  double range = 0.0;        ///< m, from the camera over ground to its nearest point, > 0
+  double range = 0.0;        ///< m, horizontal, from the camera to its nearest point, > 0
   double range_sigma = 0.0;  ///< m
 };
 
-/// Which detection each object is seen as (an index, or none).
+/// Returns for each object the index of its detection, or none.
 ///
-/// A pair must share the object's columns by `min_coverage`, up to the uncertainty of where it is
-/// in the image, and its distance must be that of the detection (rangeOf) within `range_gate`: what
-/// is hidden behind or stands before it is another. The likeliest assignment over all pairs, by how
-/// far the ranges and the middles are apart (solveAssignment); each must be likelier than that both
-/// are unrelated. Of a vehicle the scanner may have several pieces: those inside of its columns are
-/// seen as the same detection.
+/// A pair must share `min_coverage` of the object's columns, within the uncertainty of its position
+/// in the image, and its range must agree with the detection's (rangeOf) within `range_gate`: what
+/// is hidden behind or stands in front is a different object. The most likely assignment over all
+/// pairs is chosen, by the differences of ranges and of column centers (solveAssignment); each pair
+/// must be likelier than two unrelated objects. The scanner may see a vehicle as several pieces:
+/// those inside its columns get the same detection.
 std::vector<std::optional<std::size_t>> associate(const std::vector<ProjectedObject>& objects,
                                                   const std::vector<ImageDetection>& detections,
                                                   const MountedCamera& camera,

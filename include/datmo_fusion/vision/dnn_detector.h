@@ -26,25 +26,25 @@ struct DnnDetectorOptions {
   void check() const;
 };
 
-/// A model that cannot be used: the message names the file, what is wrong, and what was expected.
+/// Thrown for an unusable model; the message names the file, what is wrong, and what was expected.
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A neural network by cv::dnn: YOLO of Darknet (a .weights file with its .cfg beside it) or YOLOX
-/// as ONNX. It looks at the whole image once, and at each person that it sees a second time, close
-/// up: whether a person rides a cycle is not to be seen in an image that was shrunk. Scores: 0 to
-/// 1, a network's own, not calibrated.
+/// A neural network run by cv::dnn: YOLO of Darknet (a .weights file with its .cfg beside it) or
+/// YOLOX as ONNX. It processes the whole image once, and each detected person a second time at
+/// higher resolution, because a downscaled image does not show whether a person rides a cycle.
+/// Scores: 0 to 1, those of the network, uncalibrated.
 class DnnDetector : public ImageDetector {
  public:
-  /// Loads the model and looks at an empty image, so that a bad one is found at once. Throws
-  /// ModelError, for a file that is missing, cut or of another kind and for a network with other
-  /// outputs than its labels ask for; OptionError.
+  /// Loads the model and runs it on an empty image, to detect a bad one at once. Throws ModelError
+  /// for a file that is missing, truncated or of another kind, and for a network whose outputs do
+  /// not match its labels; OptionError.
   explicit DnnDetector(const Checked<DnnDetectorOptions>& options);
   ~DnnDetector() override;
 
-  /// Regions are not used.
+  /// Regions are ignored.
   std::vector<ImageDetection> detect(const cv::Mat& image,
                                      const std::vector<ImageRegion>& regions) override;
 

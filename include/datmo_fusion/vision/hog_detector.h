@@ -19,9 +19,9 @@ struct HogDetectorOptions {
 };
 
 /// OpenCV's people detector (histograms of oriented gradients: Dalal and Triggs, 2005), which needs
-/// no file. It looks at the regions alone, each scaled so that a person on the road there has the
-/// height it was trained for. Reports pedestrians; it does not tell them from riders. Scores: m /
-/// (1 + m) of the margin m of its support vector machine, 0 to 1.
+/// no file. It searches only the regions, each scaled so that a person on the road there has the
+/// height it was trained for. Reports pedestrians; it does not distinguish them from riders.
+/// Scores: m / (1 + m) of the margin m of its support vector machine, 0 to 1.
 class HogDetector : public ImageDetector {
  public:
   /// Throws OptionError.

@@ -20,7 +20,7 @@ struct ClassSize {
   double height = 0.0, height_sigma = 0.0;
 };
 
-/// As ObjectClassifierOptions has its kinds; of vehicles cars, vans and trucks by their shares.
+/// Returns the sizes in ObjectClassifierOptions; for vehicles a mixture of cars, vans and trucks.
 /// Throws std::invalid_argument for a class that no detector reports (unknown, pole).
 ClassSize sizeOf(ObjectClass object_class);
 
@@ -33,29 +33,30 @@ struct ImageRangeOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How far from the camera the near side of what a detector sees is, over ground.
+/// Horizontal distance from the camera to the near side of a detected object.
 struct ImageRange {
   double range = 0.0;  ///< m, > 0
   double sigma = 0.0;  ///< m
 };
 
-/// Range by size (the height of its class over the rectangle's) and by the ground plane (where the
-/// line of sight of the rectangle's lower edge meets the road), fused by their covariance: both err
-/// by that edge. Where they contradict each other the variance is raised by as much (Birge ratio).
-/// An edge at the image's border says nothing: without the upper one there is no range by size,
-/// without the lower one none at all by either.
+/// Estimates the range by size (the height of its class over the rectangle's) and by the ground
+/// plane (where the line of sight of the rectangle's lower edge meets the road), fused by their
+/// covariance, since both depend on that edge. If they contradict each other the variance is raised
+/// accordingly (Birge ratio). An edge at the image's border gives no information: without the upper
+/// one there is no range by size, without the lower one neither.
 ///
-/// None where neither says anything, or the range is beyond `max_range`.
+/// Returns none if neither is available, or the range is beyond `max_range`.
 std::optional<ImageRange> rangeOf(const MountedCamera& camera, const ImageDetection& detection,
                                   const ImageRangeOptions& options);
 
-/// What a detector sees where no other sensor has anything: an object by bearing and range, as sure
-/// as it is, in the base frame. Its box stands across the line of sight, for its heading is not
-/// known: its rear is the near side, left and right are those of the rectangle, and the far side is
-/// hidden. A side is hidden, too, where the image or something nearer of what is `seen` cuts it off
-/// (its rectangle reaches farther down). Of no sensor and of no class probability yet.
+/// Creates an object from a detection without any other sensor, in the base frame, from bearing and
+/// range with their uncertainty. Its box is aligned across the line of sight, because its heading
+/// is unknown: the rear is the near side, left and right are those of the rectangle, and the far
+/// side is hidden. A side is also hidden if it is cut off by the image border or by something
+/// nearer in `seen` (whose rectangle reaches farther down). No sensor and no class probability are
+/// set.
 ///
-/// None where there is no range (rangeOf), or its foot is behind something nearer.
+/// Returns none without a range (rangeOf), or if its foot is behind something nearer.
 std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection& detection,
                                const ImageRangeOptions& options,
                                const std::vector<ImageDetection>& seen = {});

@@ -17,7 +17,7 @@
 
 namespace datmo {
 
-/// How objects and what the detector reports come together (MonoClassifier).
+/// How objects and detections are combined (MonoClassifier).
 enum class MonoMethod { kAssociation, kThesis };
 
 /// OpenCV's people detector (HogDetector), or a neural network (DnnDetector).
@@ -43,46 +43,46 @@ struct MonoClassifierOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one image led to.
+/// Result for one image.
 struct MonoClassification {
-  ObjectList list;          ///< base frame, the exposure's stamp; no views: not all is looked for
-  std::size_t in_view = 0;  ///< objects of the scanner that are in the image
-  std::size_t detections = 0;  ///< of the detector
-  std::size_t classified = 0;  ///< of the scanner's objects, those in the list
-  std::size_t alone = 0;       ///< of the list, those that the image alone has
+  ObjectList list;  ///< base frame, the exposure's stamp; no views: the search is not exhaustive
+  std::size_t in_view = 0;     ///< scanner objects within the image
+  std::size_t detections = 0;  ///< number of the detector's detections
+  std::size_t classified = 0;  ///< scanner objects in the list
+  std::size_t alone = 0;       ///< objects in the list from the image alone
 };
 
-/// Objects of the scanner and an image -> what they are (thesis 4.2.3).
+/// Classifies the scanner's objects with an image (thesis 4.2.3).
 ///
-/// association: a detector looks at the image (ImageDetector), what it sees is associated with the
-/// objects (associate), and what is left over becomes an object by itself (objectOf) if its class
-/// is as probable as `min_alone`. The thesis asks for a rectangle of each class around each object
-/// instead (`method: thesis`): the class whose rectangle has the surest detection in it is taken,
-/// and what the scanner does not see is not there.
+/// association: detections in the image (ImageDetector) are associated with the objects
+/// (associate), and the remaining ones become objects of their own (objectOf) if their class
+/// probability is at least `min_alone`. The thesis instead places a rectangle of each class around
+/// each object (`method: thesis`): the class whose rectangle contains the most certain detection is
+/// chosen, and objects that the scanner does not see are ignored.
 ///
-/// An object in the list is the scanner's, with its sensors, and with a class and its probability.
-/// Its position says next to nothing, and its sides nothing: they are the scanner's own, which must
-/// not count twice. What the image alone has is of sensor "mono".
+/// An object in the list is the scanner's, with its sensors, plus a class and its probability. Its
+/// position carries almost no information and its sides none: they are the scanner's own and must
+/// not be counted twice. Objects from the image alone have the sensor "mono".
 ///
-/// Not thread safe. Same input, same output.
+/// Not thread safe. Deterministic.
 class MonoClassifier {
  public:
   /// Throws OptionError and ModelError.
   explicit MonoClassifier(const Checked<MonoClassifierOptions>& options);
 
-  /// With a detector of the caller's, whose scores are as reliable as `options` say of the chosen
-  /// one. Throws OptionError.
+  /// Uses the caller's detector; its reliability is that of the chosen one in `options`. Throws
+  /// OptionError.
   MonoClassifier(const Checked<MonoClassifierOptions>& options,
                  std::unique_ptr<ImageDetector> detector);
   ~MonoClassifier();
 
-  /// `image`: as ImageDetector takes it, of the camera's size (else std::invalid_argument);
-  /// `objects`: base frame at the exposure, its stamp; those that are not valid are left out.
+  /// `image`: as for ImageDetector, of the camera's size (else std::invalid_argument); `objects`:
+  /// base frame at the exposure, its stamp; invalid ones are ignored.
   MonoClassification classify(const cv::Mat& image, const MountedCamera& camera,
                               const ObjectList& objects);
 
-  /// false: what the detector reports is right no more often than by chance, by its reliability;
-  /// then it does not look, and nothing is found.
+  /// false: by its reliability the detector is no better than chance; then it is not run and
+  /// nothing is found.
   bool tellsAnything() const;
 
  private:

@@ -17,7 +17,7 @@ class Mat;
 
 namespace datmo {
 
-/// How an image becomes a grid (MonoGridModel).
+/// How an image is converted to a grid (MonoGridModel).
 enum class MonoGridMethod { kLines, kThesis };
 
 struct MonoGridOptions {
@@ -37,42 +37,41 @@ struct MonoGridOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one image led to.
+/// Result for one image.
 struct MonoGridResult {
   SensorGrid grid;
   std::size_t free = 0;      ///< cells of the grid
   std::size_t occupied = 0;  ///< cells of the grid
-  std::size_t learned = 0;   ///< pixels of the road
+  std::size_t learned = 0;   ///< road pixels
 };
 
-/// One image and the scan of its time -> what the image says of each cell around the vehicle
-/// (thesis 4.1). What the road looks like is learned from cells that the scanner sees free
-/// (RoadColor).
+/// Converts an image and a scan of the same time to a grid around the vehicle (thesis 4.1). The
+/// road's appearance is learned from cells that the scanner sees free (RoadColor).
 ///
-/// Method `thesis` (4.1.4): the pixel of each beam's end is background or not, and so are all cells
-/// along its line, to the end of the grid.
+/// Method `thesis` (4.1.4): the pixel at each beam's end is background or not, which decides all
+/// cells along its line, to the end of the grid.
 ///
-/// Method `lines`, beyond the thesis, which proposes it (4.1.6): each cell on the road is a patch
-/// of the image, and what the patches of a line of sight say is bounded by the scan's depth and by
-/// what may stand on the road. Cells of the road's colors are free up to where the scanner sees
-/// something; that is occupied if it is of other colors, else undecided. What is of other colors
-/// without an echo is free if the road goes on so soon behind it that nothing of
-/// `min_obstacle_height` hides there: paint. Otherwise it is undecided, and so is, by as much as
-/// the camera's pitch may deceive, the road before it, unless the scanner says where it ends.
+/// Method `lines`, proposed in the thesis as future work (4.1.6): each cell on the road is a patch
+/// of the image, and what the patches along a line of sight say is limited by the scan's depth and
+/// by obstacles that may stand on the road. Cells of road color are free up to the scanner's echo,
+/// whose cell is occupied if it has another color, else undecided. Another color without an echo is
+/// free (paint) if road reappears so soon behind it that nothing of `min_obstacle_height` can be
+/// hidden there. Otherwise it is undecided, and so is the road before it, as far as the camera's
+/// pitch may shift it, unless the scanner determines where it ends.
 ///
-/// Not thread safe. Same input, same output.
+/// Not thread safe. Deterministic.
 class MonoGridModel {
  public:
   /// Throws OptionError.
   explicit MonoGridModel(const Checked<MonoGridOptions>& options);
 
   /// `image`: 8 bit, gray or BGR, of the camera's size (else std::invalid_argument). `scan`: in the
-  /// vehicle's frame at the exposure, its stamp; `scanner_height`: above the road, m. All is
-  /// unknown until something is learned, or with a camera that is not above the road.
+  /// vehicle's frame at the exposure, its stamp; `scanner_height`: above the road, m. All cells are
+  /// unknown until the road is learned, and if the camera is not above the road.
   MonoGridResult grid(const cv::Mat& image, const MountedCamera& camera, const Scan& scan,
                       double scanner_height);
 
-  /// Forgets what the road looks like.
+  /// Forgets the road's appearance.
   void reset() { color_.reset(); }
 
  private:

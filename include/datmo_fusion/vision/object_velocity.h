@@ -18,11 +18,11 @@ struct ObjectVelocityOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Gives each object the velocity that the points in its box share (sharedVelocity); none where no
-/// point is. A point belongs to the object whose box is nearest, if it is within `margin` and the
-/// standard deviation of the object's position of it, and as high above the ground as road users
-/// are; within several boxes, to that of the nearest center. Objects and points in the vehicle's
-/// frame, z up from the ground, of one time. Throws OptionError.
+/// Sets each object's velocity to that shared by the points in its box (sharedVelocity); none
+/// without points. A point belongs to the object with the nearest box, if it is within `margin`
+/// plus the standard deviation of the object's position, and at the height of road users above the
+/// ground; if it is within several boxes, to the one with the nearest center. Objects and points in
+/// the vehicle's frame, z up from the ground, of one time. Throws OptionError.
 void measureVelocities(const std::vector<PointVelocity>& points,
                        const Checked<ObjectVelocityOptions>& options, std::vector<Object>& objects);
 

@@ -13,33 +13,33 @@
 
 namespace datmo {
 
-/// When an image pair was taken, and from where: the left camera's optical frame in a fixed frame.
+/// Stamp of an image pair and pose of the left camera's optical frame in a fixed frame.
 struct Exposure {
   Stamp stamp;
   Eigen::Isometry3d camera_in_fixed = Eigen::Isometry3d::Identity();
 };
 
-/// A point and how it moves, in the fixed frame's axes.
+/// A point and its velocity, in the fixed frame's axes.
 struct PointVelocity {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< m, at the later exposure
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< m/s
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the velocity, m^2/s^2
-  /// m^2/s^2, what comes on top and neighbors have in common: the camera's own motion, and errors
-  /// of the images' rectification.
+  /// m^2/s^2, additional covariance that neighbors have in common: from the camera's own motion and
+  /// from rectification errors.
   Eigen::Matrix3d common_covariance = Eigen::Matrix3d::Zero();
 };
 
-/// The velocity of one feature found in two image pairs, own motion taken out by the two poses
-/// (Franke et al. 2005, "6D-Vision", for two exposures and without its filter). The covariance is
-/// of first order in the noise of flow and disparity; errors of the poses are not in it. Nothing if
-/// `earlier` does not precede `later`, a value is not finite, or a disparity is less than three of
-/// its standard deviations: its depth has no useful mean. Throws std::invalid_argument if a focal
-/// length, the baseline or a standard deviation is not more than 0.
+/// Returns the velocity of a feature found in two image pairs, compensated for the camera's motion
+/// by the two poses (Franke et al. 2005, "6D-Vision", for two exposures and without its filter).
+/// The covariance is first order in the noise of flow and disparity; it does not include errors of
+/// the poses. Returns none if `earlier` does not precede `later`, a value is not finite, or a
+/// disparity is less than three of its standard deviations: its depth has no useful mean. Throws
+/// std::invalid_argument if a focal length, the baseline or a standard deviation is not positive.
 std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFeature& from,
                                            const Exposure& earlier, const StereoFeature& to,
                                            const Exposure& later);
 
-/// How the features of one object become its velocity.
+/// How the velocities of an object's features are fused.
 struct SharedVelocityOptions {
   double outlier_share = 0.2;  ///< 1
   double max_speed = 40.0;     ///< m/s
@@ -49,29 +49,29 @@ struct SharedVelocityOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// About which a body turns, as far as that is known.
+/// Estimated center about which a body turns.
 struct BodyCenter {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();    ///< m
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
 };
 
-/// The velocity over the ground of the center of an object, from its features.
+/// Velocity of an object's center over ground, from its features.
 struct SharedVelocity {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();    ///< m/s
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2/s^2
   double inliers = 0.0;                                  ///< sum of probabilities
-  double wrong_probability = 1.0;  ///< 0 to 1, that all inliers are of something else
+  double wrong_probability = 1.0;  ///< 0 to 1, that all inliers belong to something else
 };
 
-/// The most likely x and y velocity of the points: normal with each point's covariance, or an
-/// outlier, uniform over all speeds (expectation maximization from the most likely one of the
-/// points' own velocities). The covariance grows with the scatter of the inliers where that is more
-/// than their noise says; what they have in common stays, however many they are; and as that of the
-/// center it is the less certain the farther the points are from it: the rear of a van that turns
-/// moves aside. (The turn rate is not estimated: at the end of a line of sight the noise of range
-/// makes levers where there are none.) It is the object's own unless all inliers are outliers that
-/// agree by chance: the fewer they are the likelier. Nothing of no points, or beyond `max_speed`.
-/// Covariances must be positive definite, the center's semidefinite. Throws OptionError.
+/// Returns the most likely x and y velocity of the points: each is either normal with its
+/// covariance, or an outlier, uniform over all speeds (expectation maximization, started from the
+/// most likely of the points' own velocities). The covariance grows if the inliers scatter more
+/// than their noise; the common part stays regardless of their number; and since the velocity is
+/// that of the center, it is less certain the farther the points are from it: the rear of a turning
+/// van moves sideways. (The turn rate is not estimated: at the end of a line of sight range noise
+/// creates false lever arms.) The result is wrong if all inliers are outliers that agree by chance,
+/// which is likelier the fewer they are. None without points, or beyond `max_speed`. Covariances
+/// must be positive definite, the center's semidefinite. Throws OptionError.
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
                                              const Checked<SharedVelocityOptions>& options);

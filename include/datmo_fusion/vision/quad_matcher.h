@@ -25,9 +25,9 @@ struct QuadMatcherOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Finds features of the newest image pair in the one before: corners of the left image are
-/// followed to the right one, to the right and the left one before, and back to where they came
-/// from. Who does not come back, or not along the rows of the rectified images, is left out.
+/// Matches features of the newest image pair to the one before: corners of the left image are
+/// tracked to the right one, to the previous right and left ones, and back to their start. Features
+/// that do not return to it, or do not stay on the rows of the rectified images, are dropped.
 /// Sources: Shi and Tomasi, Good features to track, 1994; Bouguet, Pyramidal implementation of the
 /// Lucas Kanade feature tracker, 2000; the circle of Geiger, Ziegler and Stiller, StereoScan, 2011.
 class QuadMatcher {
@@ -36,11 +36,11 @@ class QuadMatcher {
   explicit QuadMatcher(const Checked<QuadMatcherOptions>& options);
   ~QuadMatcher();
 
-  /// Rectified, 8 bit gray, of the same size (else std::invalid_argument). Nothing for the first
-  /// pair, and for the first one of another size.
+  /// Images: rectified, 8 bit gray, of the same size (else std::invalid_argument). Returns nothing
+  /// for the first pair, and for the first one of another size.
   std::vector<FeatureQuad> match(const cv::Mat& left, const cv::Mat& right);
 
-  /// Forgets the images, as after construction.
+  /// Forgets the images.
   void reset();
 
  private:

@@ -23,34 +23,34 @@ struct RoadColorOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What the road looks like: a mixture of Gaussians over colors, learned from image to image.
+/// Appearance of the road: a mixture of Gaussians over colors, learned from image to image.
 ///
-/// The thesis has one Gaussian, learned once from pixels that were segmented by hand (4.1.4, eq.
-/// 4.1.4 to 4.1.6): `components: 1`. A road in sun and shade has several colors, and they change:
-/// here each image's samples shift the components by the time that has passed (on-line EM; Cappe &
+/// The thesis has one Gaussian, learned once from manually segmented pixels (4.1.4, eq. 4.1.4 to
+/// 4.1.6): `components: 1`. A road in sun and shade has several colors, and they change: here each
+/// image's samples shift the components according to the elapsed time (on-line EM; Cappe &
 /// Moulines, On-line expectation-maximization algorithm for latent data models, 2009), and a color
-/// that none of them has takes the place of the rarest one (Stauffer & Grimson, Adaptive background
+/// that matches none of them replaces the rarest one (Stauffer & Grimson, Adaptive background
 /// mixture models for real-time tracking, 1999).
 class RoadColor {
  public:
   /// Throws OptionError.
   explicit RoadColor(const Checked<RoadColorOptions>& options) : options_(*options) {}
 
-  /// The pixels of the road of an image that was exposed at `stamp`, all of one number of channels;
-  /// another number than before starts over, too few change nothing. Same input, same output.
+  /// Learns the road pixels of an image exposed at `stamp`, all with the same number of channels. A
+  /// changed number of channels starts over; too few samples change nothing. Deterministic.
   void learn(const PixelColors& samples, Stamp stamp);
 
-  /// Whether it has learned anything of images with so many channels.
+  /// Whether anything was learned from images with this number of channels.
   bool isKnown(Eigen::Index channels) const {
     return !gaussians_.empty() && gaussians_.front().mean.size() == channels;
   }
 
-  /// Probability that a pixel of this color is of the road, of which half of all pixels are, and
-  /// the others of any color alike. `color`: of as many channels as were learned.
+  /// Returns the probability that a pixel of this color is road, with a prior of one half and a
+  /// uniform distribution of other colors. `color`: with the number of channels that was learned.
   double probability(const PixelColor& color) const;
 
-  /// Standard deviations (Mahalanobis) to the nearest component; in place of the density's
-  /// threshold of the thesis (eq. 4.1.6), of which it is a function for one Gaussian.
+  /// Mahalanobis distance to the nearest component; it replaces the thesis's threshold on the
+  /// density (eq. 4.1.6), of which it is a function for one Gaussian.
   double distance(const PixelColor& color) const;
 
   /// Forgets everything.
@@ -83,16 +83,16 @@ class RoadColor {
   };
 
   void begin(PixelColors samples);
-  /// Moves the components toward the samples by `share`. `finds_new`: what is of none of them is
-  /// left out, and may become one.
+  /// Moves the components toward the samples by `share`. `finds_new`: samples that match no
+  /// component are left out, and may become a new one.
   void shift(const PixelColors& samples, double share, bool finds_new);
-  /// Those that have any weight, which is made 1 in all.
+  /// Keeps the components with any weight, normalized to a total of 1.
   void keep(std::vector<Moments> moments);
   double density(const PixelColor& color) const;
 
   RoadColorOptions options_;
   std::vector<Gaussian> gaussians_;
-  Stamp learned_;  ///< when they learned last
+  Stamp learned_;  ///< stamp of the last learning step
 };
 
 }  // namespace datmo

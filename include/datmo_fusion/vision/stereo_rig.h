@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// A rectified pair of cameras and the noise of what is found in its images.
+/// A rectified pair of cameras and the noise of features in its images.
 struct StereoRig {
   PinholeCamera left;
   double baseline = 0.0;         ///< m, > 0: from the left camera to the right one
@@ -21,15 +21,15 @@ struct StereoFeature {
   double disparity = 0.0;                           ///< px, left column minus right one
 };
 
-/// Throws std::invalid_argument if a focal length, the baseline or a standard deviation is not more
-/// than 0.
+/// Throws std::invalid_argument if a focal length, the baseline or a standard deviation is not
+/// positive.
 void checkRig(const StereoRig& rig);
 
-/// Whether a feature is finite and its disparity at least three of its standard deviations: else
-/// its depth has no useful mean.
+/// Whether a feature is finite and its disparity at least three of its standard deviations;
+/// otherwise its depth has no useful mean.
 bool isUsable(const StereoRig& rig, const StereoFeature& feature);
 
-/// m, left camera's frame; of a feature that is usable.
+/// Returns the point of a usable feature, m, left camera's frame.
 Eigen::Vector3d triangulate(const StereoRig& rig, const StereoFeature& feature);
 
 }  // namespace datmo

@@ -9,9 +9,9 @@ namespace datmo {
 namespace {
 
 constexpr std::size_t kMinPairs = 2;
-constexpr double kParameters = 3.0;  ///< of the motion: x, y, heading
+constexpr double kParameters = 3.0;  ///< parameters of the motion: x, y, heading
 
-/// Weighted sums over pairs, of which one can be taken out again.
+/// Weighted sums over pairs, from which a pair can be removed again.
 class PairSums {
  public:
   void add(const PointPair& pair, double sign = 1.0) {
@@ -24,8 +24,7 @@ class PairSums {
     across_ += weight * (pair.a.x() * pair.b.y() - pair.a.y() * pair.b.x());
   }
 
-  /// The least sum of squares that a rigid motion leaves (Arun, Huang, Blostein 1987), without one
-  /// pair.
+  /// Minimum sum of squares of a rigid motion (Arun, Huang, Blostein 1987), without one pair.
   double costWithout(const PointPair& pair) const {
     PairSums rest = *this;
     rest.add(pair, -1.0);
@@ -55,7 +54,7 @@ ConsistentPairs consistentPairs(const std::vector<PointPair>& pairs, double gate
   if (pairs.size() <= kMinPairs) {
     return result;
   }
-  std::vector<PointPair> centered = pairs;  // sums of squares of coordinates far off lose digits
+  std::vector<PointPair> centered = pairs;  // squares of large coordinates lose digits
   PairSums sums;
   for (PointPair& pair : centered) {
     pair.a -= pairs.front().a;

@@ -13,15 +13,16 @@ namespace datmo {
 
 namespace {
 
-/// Fixes that are kept for the start; of more, every second one is left out.
+/// Maximum number of fixes kept for the start; beyond it every second one is dropped.
 constexpr std::size_t kMaxFirstFixes = 400;
 
-/// m, from which on a vehicle has driven: a pose that trembles while it stands drifts nowhere.
+/// m; minimum distance that counts as driven, so that pose jitter of a standing vehicle is no
+/// drift.
 constexpr double kMinDrive = 0.5;
 
 Point2 antennaInMap(const EarthFix& fix) { return fix.base_in_map.pose * fix.antenna_in_base; }
 
-/// Of the antenna in the map, m^2: what the pose does not know.
+/// Covariance of the antenna's position in the map, m^2, from the pose's uncertainty.
 Eigen::Matrix2d antennaCovariance(const EarthFix& fix) {
   Eigen::Matrix<double, 2, 3> jacobian;
   jacobian << Eigen::Matrix2d::Identity(),
@@ -60,7 +61,7 @@ void EarthFrameFilter::moveTo(const Pose2& base_in_map) {
   }
 }
 
-/// Of a pose and a fix whose numbers are far apart no digit may be left.
+/// A pose and a fix with very different magnitudes may leave no significant digits.
 void EarthFrameFilter::restartIfNotFinite() {
   if (has_started_ && !(state_.allFinite() && covariance_.allFinite())) {
     ++counts_.restarts;
@@ -96,14 +97,14 @@ void EarthFrameFilter::take(const EarthFix& fix) {
   }
 }
 
-/// Share of a fix's variance that the fixes had in common at first and have no more.
+/// Share of a fix's variance that the fixes shared at first but no longer do.
 double EarthFrameFilter::changedShare(const std::vector<EarthFix>& fixes) const {
   const double seconds = secondsBetween(fixes.front().stamp, fixes.back().stamp);
   return options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
 }
 
-/// How far the map drifted from the mean of the fixes to the first and to the last one, along one
-/// axis, m^2: a third of what a random walk is from end to end. `lever`: m^2, of what turns.
+/// Variance of the map's drift from the mean of the fixes to the first or last one, along one axis,
+/// m^2: a third of a random walk's variance from end to end. `lever`: m^2, of the rotation.
 double EarthFrameFilter::driftAmong(const std::vector<EarthFix>& fixes, double lever) const {
   double distance = 0.0;
   for (std::size_t i = 1; i < fixes.size(); ++i) {
@@ -139,8 +140,9 @@ std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
     across += weight * (a.x() * b.y() - a.y() * b.x());
     spread += weight * a.squaredNorm();
   }
-  // Within the correlation time the shared error turns nothing; what of it changes meanwhile is as
-  // the rest of a fix, and counts but once for all fixes. So does what the map drifts.
+  // Within the correlation time the shared error causes no rotation; the part of it that changes
+  // meanwhile acts like the rest of a fix's error, but counts only once for all fixes. So does the
+  // map's drift.
   start.count = static_cast<double>(fixes.size());
   start.drift = driftAmong(fixes, spread / start.weights);
   const double inflation = (1.0 - options_.correlated_share) + changedShare(fixes) * start.count +
@@ -154,13 +156,13 @@ std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
   return start;
 }
 
-/// Least squares over the first fixes that fit together; the error that they share moves them all.
+/// Least squares over the consistent first fixes; their shared error shifts all of them.
 void EarthFrameFilter::start() {
   const auto first = startOf(first_fixes_);
   if (!first) {
     return;
   }
-  // Against each other, without what they share.
+  // Compares the fixes with each other, without their shared error.
   const double share = 1.0 - options_.correlated_share + changedShare(first_fixes_);
   std::vector<PointPair> pairs;
   for (const EarthFix& fix : first_fixes_) {
@@ -190,7 +192,7 @@ void EarthFrameFilter::start() {
   begin(*found, std::max(1.0, consistent.variance_factor));
 }
 
-/// `factor`: by which their residuals' variance is larger than expected.
+/// `factor`: ratio of the residuals' variance to the expected one.
 void EarthFrameFilter::begin(const Start& start, double factor) {
   const Pose2 turned_map(0.0, 0.0, start.heading);
   const double heading_variance = factor * start.heading_variance;
@@ -205,19 +207,19 @@ void EarthFrameFilter::begin(const Start& start, double factor) {
       Eigen::Matrix2d::Identity() *
       (factor * (1.0 - options_.correlated_share) * mean_variance / start.count + start.drift +
        shared);
-  // The mean of the antenna in the map is where the heading has no lever.
+  // Position and heading are uncorrelated at the mean antenna position in the map.
   covariance_.topLeftCorner<2, 2>() += arm * arm.transpose() * heading_variance;
   covariance_.block<2, 1>(0, 2) = -arm * heading_variance;
   covariance_.block<1, 2>(2, 0) = -arm.transpose() * heading_variance;
   covariance_(2, 2) = heading_variance;
-  // What the fixes shared is in the position with the other sign.
+  // The shared error is in the position with the opposite sign.
   covariance_.bottomRightCorner<2, 2>() = shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(0, 3) = -shared * Eigen::Matrix2d::Identity();
   covariance_.block<2, 2>(3, 0) = -shared * Eigen::Matrix2d::Identity();
   has_started_ = true;
 }
 
-/// The covariance of the map's pose after what it drifts on the straight way from driven_to_.
+/// The covariance of the map's pose including the drift of a straight drive from driven_to_.
 Eigen::Matrix3d EarthFrameFilter::driftedTo(const Pose2& base_in_map) const {
   const double distance = (base_in_map.position() - driven_to_.position()).norm();
   const Pose2 map(state_(0), state_(1), state_(2));

@@ -11,9 +11,9 @@ namespace datmo {
 
 namespace {
 
-constexpr double kMinStep = 0.01;  ///< m; nodes that are nearer are one
+constexpr double kMinStep = 0.01;  ///< m; closer nodes are merged
 
-/// Of its own nodes; empty if they cannot be used.
+/// Points from the lane's own nodes; empty if they are unusable.
 std::vector<Point2> pointsOf(const MapLane& lane, const Point2& reference,
                              const LocalPlane& plane) {
   std::vector<Point2> points;
@@ -53,7 +53,7 @@ std::vector<Point2> pointsOf(const MapLane& lane, const MapIntersection& interse
   return points;
 }
 
-/// Only of lanes that are for vehicles, or that these share.
+/// Whether a lane is for vehicles, or shared by them.
 bool isForVehicles(const MapLane& lane) {
   constexpr std::int64_t kMotorVehicles = 1 << 6;  // the fourth of ten flags
   return (lane.direction & MapLane::kIngress) != 0 &&

@@ -12,7 +12,7 @@ constexpr double kSemiMajor = 6378137.0;  // m
 constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
 
-constexpr double kHighest = 1e5;  // m: above is no vehicle
+constexpr double kHighest = 1e5;  // m: no vehicle is higher
 
 /// Iterations of the latitude; each gains more than two digits near the surface.
 constexpr int kIterations = 6;

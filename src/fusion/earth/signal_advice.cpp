@@ -32,12 +32,12 @@ bool isRed(SignalState state) {
          state == SignalState::kPreMovement;
 }
 
-/// Of the lights as a whole; empty: they work.
+/// Fault of the signals as a whole; empty: they work.
 std::string faultOf(const ApproachingHost& host, const std::optional<IntersectionSignals>& signals,
                     const SignalAdviceOptions& options) {
-  // Of DE IntersectionStatusObject: failure flash, failure mode, off, no valid SPAT.
+  // DE IntersectionStatusObject: failure flash, failure mode, off, no valid SPAT.
   constexpr std::array<unsigned, 4> kOff = {2, 8, 9, 13};
-  // By hand, time stopped, preempted: the times that are given need not come true.
+  // Manual control, time stopped, preemption: the given times may not hold.
   constexpr std::array<unsigned, 3> kIrregular = {0, 1, 3};
   // Lanes have changed, no valid MAP.
   constexpr std::array<unsigned, 2> kMap = {11, 12};
@@ -60,8 +60,8 @@ std::string faultOf(const ApproachingHost& host, const std::optional<Intersectio
   return has_any(kMap) ? "map_not_valid" : "";
 }
 
-/// Lanes that the vehicle may be on: the nearest one's neighbors, too, if the position is not known
-/// well enough.
+/// Lanes that the vehicle may be on: the nearest one, and its neighbors if the position is too
+/// uncertain.
 std::vector<Candidate> lanesOf(const ApproachingHost& host, const std::vector<ApproachLane>& lanes,
                                const SignalAdviceOptions& options) {
   std::vector<Candidate> found;
@@ -82,9 +82,9 @@ std::vector<Candidate> lanesOf(const ApproachingHost& host, const std::vector<Ap
   return found;
 }
 
-/// How the vehicle comes to the stop line. All is bounded: it holds wherever it may be.
+/// The vehicle's approach to the stop line, with bounds that hold for its whole uncertainty.
 struct Approach {
-  std::optional<TimeSpan> arrival;  ///< none: it stands
+  std::optional<TimeSpan> arrival;  ///< none: it stands still
   bool can_stop = false;            ///< surely
   bool cannot_stop = false;         ///< surely
 };
@@ -109,7 +109,7 @@ Approach approachOf(const ApproachingHost& host, double distance,
   return approach;
 }
 
-/// Whether it can be said that a light that shows `state` when the vehicle comes lets it pass.
+/// Whether a signal that shows `state` on arrival lets the vehicle pass, if that is certain.
 SignalVerdict verdictOf(SignalState state, const Approach& approach) {
   if (isGreen(state) || (isYellow(state) && approach.cannot_stop)) {
     return SignalVerdict::kPasses;
@@ -118,7 +118,7 @@ SignalVerdict verdictOf(SignalState state, const Approach& approach) {
                                                                 : SignalVerdict::kUnknown;
 }
 
-/// Verdicts on what may be, one after the other, until one differs.
+/// Combines the verdicts on all possibilities, one after another, until one differs.
 class Agreement {
  public:
   void add(SignalVerdict verdict, SignalState state) {
@@ -136,12 +136,12 @@ class Agreement {
   SignalState state_ = SignalState::kUnavailable;
 };
 
-/// What a group shows while the vehicle may come: each event that may be on then.
+/// Verdict on what a group shows during the arrival interval: each event that may be active then.
 Agreement onArrival(const SpatMovement& movement, Stamp reference, Stamp from,
                     const Approach& approach, const SignalAdviceOptions& options) {
   const TimeSpan& arrival = *approach.arrival;
   Agreement agreement;
-  TimeSpan before{-kEver, -kEver};  // the first event is on
+  TimeSpan before{-kEver, -kEver};  // the first event is active
   for (const SpatEvent& event : movement.events) {
     const bool is_first = &event == &movement.events.front();
     const EventStart start = startOf(event, before, is_first, reference, from);
@@ -157,7 +157,7 @@ Agreement onArrival(const SpatMovement& movement, Stamp reference, Stamp from,
     before = end;
   }
   if (arrival.last >= before.first) {
-    // After the events that are given. After green come yellow and red, for some seconds at least.
+    // After the last given event. Green is followed by yellow and red, for at least some seconds.
     const bool was_green = isGreen(movement.events.back().state);
     const bool is_red_yet = was_green && arrival.last <= before.first + options.stop_time;
     agreement.add(
@@ -210,7 +210,7 @@ void adviseLane(const ApproachingHost& host, const Candidate& candidate,
   }
 }
 
-/// The verdict of all movements, and why there is none.
+/// Sets the common verdict of all movements, or why there is none.
 void agree(const ApproachingHost& host, const SignalAdviceOptions& options, SignalAdvice& advice) {
   const auto& movements = advice.movements;
   const auto is_known = [](const MovementAdvice& one) {

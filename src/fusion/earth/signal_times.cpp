@@ -14,7 +14,7 @@ constexpr std::int64_t kMinute = 60;              // s
 constexpr std::int64_t kHour = 3600;              // s
 constexpr std::int64_t kDay = 86400;              // s
 
-constexpr double kLongestPhase = 600.0;  // s, for which the first event may have been on
+constexpr double kLongestPhase = 600.0;  // s; the first event may have been active for this long
 
 /// Days from 1970 to the first of January of a year (Gregorian).
 std::int64_t daysTo(std::int64_t year) {
@@ -96,7 +96,7 @@ TimeSpan endOf(const SpatEvent& event, Stamp reference, Stamp from) {
 
 EventStart startOf(const SpatEvent& event, const TimeSpan& before, bool is_first, Stamp reference,
                    Stamp from) {
-  constexpr double kMark = 0.1;  // s, to which marks are rounded
+  constexpr double kMark = 0.1;  // s, resolution of marks
   const std::optional<double> start = event.timing ? secondsTo(event.timing->start, reference, from,
                                                                is_first ? kLongestPhase : kLatePast)
                                                    : std::nullopt;

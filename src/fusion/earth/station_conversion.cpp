@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracks between a plane of east and north and the map, with what is not known of either.
+// Converts tracks between an east-north plane and the map, including the uncertainty of both.
 #include <algorithm>
 #include <string>
 
@@ -11,8 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// Position and velocity of a vector of the plane in the map, or of one of the map in the plane, by
-/// the rotation there.
+/// Rotation of position and velocity from the plane to the map, or vice versa.
 Eigen::Matrix4d rotationOfBoth(const Eigen::Matrix2d& rotation) {
   Eigen::Matrix4d both = Eigen::Matrix4d::Zero();
   both.topLeftCorner<2, 2>() = rotation;

@@ -26,15 +26,15 @@ double squaredDistance(const Point2& difference, const Eigen::Matrix2d& covarian
   return difference.dot(covariance.inverse() * difference);
 }
 
-/// What is surely no vehicle is none of ours.
+/// An object that is certainly not a vehicle cannot be ours.
 bool mayBeVehicle(const ClassProbabilities& classes) {
   const auto likeliest = std::max_element(classes.begin(), classes.end()) - classes.begin();
   const auto object_class = static_cast<ObjectClass>(likeliest);
   return object_class == ObjectClass::kVehicle || object_class == ObjectClass::kUnknown;
 }
 
-/// Whether a track is the own vehicle: its center within the vehicle's outline and both
-/// uncertainties, and as fast.
+/// Whether a track is the own vehicle: its center is within the vehicle's outline and both
+/// uncertainties, and its speed agrees.
 bool isOwn(const Track& track, const OwnVehicle& own, double gate) {
   if (!mayBeVehicle(track.class_probabilities)) {
     return false;
@@ -47,7 +47,7 @@ bool isOwn(const Track& track, const OwnVehicle& own, double gate) {
   const Eigen::Matrix2d position =
       track.covariance.topLeftCorner<2, 2>() + own.covariance + outline;
   const Eigen::Matrix2d velocity =
-      track.covariance.block<2, 2>(2, 2) + Eigen::Matrix2d::Identity();  // (1 m/s)^2 of ours
+      track.covariance.block<2, 2>(2, 2) + Eigen::Matrix2d::Identity();  // (1 m/s)^2 for ours
   return squaredDistance(track.box.center.position() - pose.position(), position) <= gate &&
          squaredDistance(track.state.segment<2>(2) - own.velocity, velocity) <= gate;
 }
@@ -98,9 +98,9 @@ bool StationTracks::isNew(const StationTrackList& list) const {
   return known == lists_.end() || known->second.stamp < list.stamp;
 }
 
-/// Not if its part has not come since: the other parts of a message are no sign that it is gone. A
-/// part that no longer serves is taken to have come without it: else a station could say that each
-/// of its lists is another part.
+/// False if its part has not been received since: other parts of a message do not show that it is
+/// gone. A part that has expired is assumed to have been received without it, otherwise a station
+/// could declare each of its lists another part.
 bool StationTracks::couldComeAgain(const Claim& claim, const StationTrackList& list) const {
   const auto last_list = lists_.find({list.station, claim.part});
   return claim.part == list.part ||

@@ -58,7 +58,7 @@ GridFuser::GridFuser(const Checked<GridFuserOptions>& options) : options_(*optio
 FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& motion) const {
   FusionResult result;
   result.missing = matched.missing;
-  std::deque<SensorGrid> moved;  // where `grids` point to
+  std::deque<SensorGrid> moved;  // storage for `grids`
   std::vector<WeighedGrid> grids;
   for (const MatchedGrid& one : matched.samples) {
     const std::optional<Pose2> base = baseAt(one.stamp, matched.stamp(), motion);

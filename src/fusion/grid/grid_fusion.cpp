@@ -14,23 +14,22 @@ namespace {
 
 constexpr float kPercent = 100.0F;
 
-/// Half a percent, the resolution of grids: nobody is surer for log-odds, which would else have no
-/// end.
+/// Half a percent, the resolution of grids: limits the log odds, which would otherwise be
+/// unbounded.
 constexpr float kMinProbability = 0.005F;
 
-/// Less agreement than the rounding of floats leaves.
+/// Agreement below the rounding error of floats.
 constexpr float kNoAgreement = 1e-6F;
 
-/// What a source's value of a cell means.
+/// Evidence in a source's value of a cell.
 struct Meaning {
-  // How much of the evidence is not against each (plausibility), and how much is for
-  // neither: Dempster's rule multiplies each of the three over the sources (commonality, Shafer
-  // 1976).
+  // Plausibility of occupied and of free, and the mass committed to neither: Dempster's rule
+  // multiplies each of the three over the sources (commonality, Shafer 1976).
   float may_be_occupied = 1.0F;
   float may_be_free = 1.0F;
   float open = 1.0F;
 
-  float probability = 0.5F;  ///< of being occupied, as far as the source is to be believed
+  float probability = 0.5F;  ///< of being occupied, discounted by the source's reliability
   float weighed = 0.0F;      ///< weight * percent
 };
 
@@ -46,7 +45,7 @@ Meaning meaningOf(float said, const GridSourceOptions& source) {
   return meaning;
 }
 
-/// One source, made ready: what each of its words means.
+/// One source with a table of the evidence of each value.
 struct Source {
   const Percent* cells;
   float weight;
@@ -55,14 +54,14 @@ struct Source {
   explicit Source(const WeighedGrid& weighed)
       : cells(weighed.grid->cells().data()), weight(static_cast<float>(weighed.source.weight)) {
     for (std::size_t percent = 0; percent < meanings.size(); ++percent) {
-      // More than 100 is no percent; it counts as 100.
+      // Values above 100 count as 100.
       const float said = std::min(1.0F, static_cast<float>(percent) / kPercent);
       meanings[percent] = meaningOf(said, weighed.source);
     }
   }
 };
 
-/// `value`: 0 to 100. Without std::lround, which takes longer than all the rest.
+/// `value`: 0 to 100. Does not use std::lround, which would take longer than everything else.
 Percent rounded(float value) {
   constexpr float kHalf = 0.5F;
   return static_cast<Percent>(value + kHalf);
@@ -76,7 +75,7 @@ class Evidence {
     may_be_free_ *= meaning.may_be_free;
     open_ *= meaning.open;
   }
-  /// What does not contradict itself, 0 to 1.
+  /// Share of evidence without contradiction, 0 to 1.
   float agreement() const { return may_be_occupied_ + may_be_free_ - open_; }
   float pignisticProbability() const {
     return agreement() < kNoAgreement ? 0.5F : (may_be_occupied_ - 0.5F * open_) / agreement();
@@ -88,7 +87,7 @@ class Evidence {
   float open_ = 1.0F;
 };
 
-// The rules: each takes, source by source, the evidence on one cell.
+// The rules: each processes, source by source, the evidence on one cell.
 
 struct WeightedSum {
   float sum = 0.0F;
@@ -100,7 +99,7 @@ struct WeightedSum {
   Percent result(const Evidence&) const { return rounded(sum / weights); }
 };
 
-/// Of sources in the order of their priority.
+/// Sources come in the order of their priority.
 struct Priority {
   Percent first = kUnknownPercent;
   void take(const Source&, Percent said, const Meaning&) {
@@ -115,7 +114,7 @@ struct Maximum {
   Percent result(const Evidence&) const { return max; }
 };
 
-/// The odds themselves multiply: the same without a logarithm.
+/// Multiplies the odds, which is equivalent and needs no logarithm.
 struct LogOdds {
   float occupied = 1.0F;
   float free = 1.0F;
@@ -136,7 +135,7 @@ struct DempsterShafer {
 template <typename Rule>
 void fuseCells(const std::vector<Source>& sources, FusedGrids& result) {
   const std::size_t cells = result.fused.cells().size();
-  // Bytes may alias anything: taken out of the loop, so that not all is read anew for each cell.
+  // Bytes may alias anything: hoisted out of the loop, so that it is not reloaded for each cell.
   Percent* const fused = result.fused.cells().data();
   Percent* const conflict = result.conflict.cells().data();
   for (std::size_t cell = 0; cell < cells; ++cell) {

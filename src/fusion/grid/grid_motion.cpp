@@ -13,7 +13,8 @@ namespace datmo {
 
 namespace {
 
-/// Occupied cells go where their center has come to: no other cell's center may lie in them now.
+/// Moves occupied cells to the new position of their center: no other cell's center may lie in
+/// them.
 void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGrid& moved) {
   const GridWindow& window = grid.window();
   const Eigen::Matrix2d rotation = old_base_in_new.rotation();
@@ -29,8 +30,8 @@ void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGr
   });
 }
 
-/// Where in each row the disks around occupied cells begin (+1) and end (-1): one column more than
-/// the grid has. Sums along a row count how many disks cover a cell, whatever their radius.
+/// For each row, where the disks around occupied cells begin (+1) and end (-1), with one column
+/// more than the grid. Sums along a row count how many disks cover a cell, whatever their radius.
 std::vector<int> diskEdges(const SensorGrid& grid, double radius) {
   const GridWindow& window = grid.window();
   const int columns = window.columns;

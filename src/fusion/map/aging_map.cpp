@@ -29,8 +29,8 @@ void AgingMapOptions::visit(OptionVisitor& visitor) {
                  min_probability, {0.0001, 0.3});
 }
 
-/// What is left of evidence at one time. Most cells were seen last at the same time: the
-/// exponential is made anew only for another one.
+/// Remaining share of evidence at one time. Most cells were last observed at the same time: the
+/// exponential is recomputed only when that time differs.
 class AgingMap::Decay {
  public:
   Decay(float now, double time_constant) : now_(now), time_constant_(time_constant) {}
@@ -38,7 +38,7 @@ class AgingMap::Decay {
   double logOddsOf(const Cell& cell) {
     if (cell.seen != seen_) {
       seen_ = cell.seen;
-      // What was seen after that (a grid may be later than its pose) is as it was then.
+      // A later observation (a grid may be newer than its pose) has not aged.
       left_ = std::exp(std::min(0.0, static_cast<double>(seen_ - now_)) / time_constant_);
     }
     return left_ * static_cast<double>(cell.log_odds);

@@ -13,7 +13,7 @@ namespace datmo {
 
 namespace {
 
-/// 95 percent of what a pose may be off lie within so many standard deviations.
+/// Number of standard deviations that contains 95 percent of pose errors.
 constexpr double kSigmas = 2.0;
 
 DistanceField distanceToOccupied(const SensorGrid& grid) {
@@ -22,7 +22,7 @@ DistanceField distanceToOccupied(const SensorGrid& grid) {
       std::numeric_limits<double>::infinity());
 }
 
-/// How far off what is seen at a point may seem because of the pose, m.
+/// Apparent displacement of a point because of the pose's uncertainty, m.
 class PoseReach {
  public:
   explicit PoseReach(const PoseWithCovariance& pose)

@@ -14,16 +14,16 @@ namespace datmo {
 
 namespace {
 
-/// From one pose to the next no odometry is off by more, m.
+/// Maximum odometry error between two poses, m.
 constexpr double kMaxMotionError = 2.0;
 
-/// Covariance of the vehicle at another position if it is as certain there as at this pose. An
-/// uncertain heading of the map itself makes what is farther on more uncertain, and is no gap.
+/// Expected covariance at another position with the same certainty as at this pose. An uncertain
+/// heading of the map makes distant positions more uncertain, which is not a gap.
 Eigen::Matrix3d expectedAt(const PoseWithCovariance& there, const PoseWithCovariance& before) {
   return carried(before.covariance, there.pose.position() - before.pose.position());
 }
 
-/// The grid, unknown where it is occupied near a mover (m, the grid's frame).
+/// The grid, with occupied cells near a mover set to unknown (m, the grid's frame).
 SensorGrid withoutMovers(SensorGrid grid, const std::vector<Point2>& movers, double margin) {
   const GridWindow window = grid.window();
   const Point2 reach(margin, margin);
@@ -43,7 +43,7 @@ SensorGrid withoutMovers(SensorGrid grid, const std::vector<Point2>& movers, dou
   return grid;
 }
 
-/// Each probability drawn toward 1/2 as far as the source is not reliable.
+/// Draws each probability toward 1/2 according to the source's reliability.
 SensorGrid discounted(SensorGrid grid, double reliability) {
   for (Percent& percent : grid.cells()) {
     if (percent != kUnknownPercent) {
@@ -54,7 +54,7 @@ SensorGrid discounted(SensorGrid grid, double reliability) {
   return grid;
 }
 
-/// A map in the window about a position.
+/// A map in the window around a position.
 SensorGrid imageOf(OccupancyMap& map, const Point2& center, Stamp stamp) {
   map.centerOn(center);
   SensorGrid image(stamp, map.window());
@@ -170,13 +170,13 @@ void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pos
 
 bool MapFuser::isLocated() const {
   const MapRecoveryOptions gap;
-  // Written so that what is not a number is not located.
+  // Written so that NaN counts as not located.
   return pose_ && maxPositionVariance(pose_->covariance) <= std::pow(gap.from_position_sigma, 2) &&
          pose_->covariance(2, 2) <= std::pow(gap.from_heading_sigma, 2);
 }
 
 std::optional<FusedMaps> MapFuser::fuse(Stamp now) {
-  std::deque<SensorGrid> images;  // where `grids` point to
+  std::deque<SensorGrid> images;  // storage for `grids`
   std::vector<WeighedGrid> grids;
   for (const auto& [source, map] : maps_) {
     if (map) {

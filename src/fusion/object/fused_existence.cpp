@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// A tracker that is sure may err all the same: the most that it is believed, and the least.
+/// Even a certain tracker may be wrong: its probabilities are limited to 1 - this up to this.
 constexpr double kMaxExistence = 0.999;
 
 double logOdds(double probability) {

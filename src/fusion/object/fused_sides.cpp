@@ -13,7 +13,7 @@ namespace {
 /// m^2, added to the variance of each side: keeps the information finite.
 constexpr double kMinSideVariance = 1e-8;
 
-/// Of the sides that were seen.
+/// Selects the sides that were seen.
 using SeenMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 
 /// Sides that were not seen have no information.
@@ -33,7 +33,7 @@ struct SeenSides {
 constexpr std::size_t axisOf(Eigen::Index side) { return static_cast<std::size_t>(side) / 2; }
 constexpr std::size_t endOf(Eigen::Index side) { return static_cast<std::size_t>(side) % 2; }
 
-/// 1 for sides across one axis.
+/// 1 for sides across the same axis.
 const SideMatrix kSameAxis = (SideMatrix() << 1, 1, 0, 0,  //
                               1, 1, 0, 0,                  //
                               0, 0, 1, 1,                  //

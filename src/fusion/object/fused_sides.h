@@ -14,17 +14,18 @@ namespace datmo {
 using SideVector = Eigen::Matrix<double, 4, 1>;
 using SideMatrix = Eigen::Matrix4d;
 
-/// Two sources together: the sides that either saw, their positions and covariance.
+/// Fusion of two sources: the sides that either saw, their positions and covariance.
 struct FusedSides {
   std::array<bool, kBoxSides> seen{};
   SideVector position = SideVector::Zero();
   SideMatrix covariance = SideMatrix::Zero();
-  /// How far the positions move, on average, as a share of a motion of all that the second one saw.
+  /// Mean displacement of the positions, as a share of a displacement of all sides that the second
+  /// source saw.
   double weight_of_b = 0.5;
 };
 
-/// Both in information form, in the same axes. A side that one did not see has no information of
-/// that one.
+/// Fuses both in information form, in the same axes. A side that a source did not see has no
+/// information from it.
 FusedSides fusedSides(const ObjectSides& a, const ObjectSides& b);
 
 }  // namespace datmo

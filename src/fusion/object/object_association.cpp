@@ -19,12 +19,12 @@ namespace datmo {
 
 namespace {
 
-/// m^2, of the difference between two sides: keeps weights finite.
+/// m^2, minimum variance of the difference between two sides: keeps weights finite.
 constexpr double kMinDifferenceVariance = 1e-8;
 
 bool standsStill(const Object& object) { return object.dynamic_state == DynamicState::kStatic; }
 
-/// m^2, of what one of both may have moved between the times they were seen at.
+/// m^2, of a possible motion between the times of the two observations.
 double motionVariance(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
   return standsStill(a) || standsStill(b) ? 0.0
                                           : square(options.object_speed * (b.delay - a.delay));
@@ -36,19 +36,19 @@ ClassBelief beliefOf(const Object& object) {
   return belief;
 }
 
-/// Not where both classes are known and differ.
+/// False if both classes are known and differ.
 bool mayBeOfOneClass(const Object& a, const Object& b) {
   return a.object_class == b.object_class || a.object_class == ObjectClass::kUnknown ||
          b.object_class == ObjectClass::kUnknown || beliefOf(a).compatible(b.object_class) ||
          beliefOf(b).compatible(a.object_class);
 }
 
-/// What the scan knows to stand is no part of what it does not: a person beside a tree or a parked
-/// car, or an echo of the curb below it.
+/// An object that the scan knows to be static does not match one that may move: a person beside a
+/// tree or a parked car, or an echo of the curb below it.
 bool oneStands(const Object& a, const Object& b) { return standsStill(a) != standsStill(b); }
 
-/// By how much two objects differ along an axis, m, and what that is uncertain by besides the
-/// positions as a whole, m^2.
+/// Difference between two objects along an axis, m, and its variance, m^2, without that of the
+/// positions as a whole.
 struct Difference {
   double value;
   double variance;
@@ -70,17 +70,17 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
   }
   const double beyond = std::max(0.0, b.position[0] - a.position[1]);
   const double before = std::max(0.0, a.position[0] - b.position[1]);
-  // Where the sides that face each other were both seen, nothing hidden fills the gap.
+  // If the sides that face each other were both seen, the gap between them is real.
   const std::size_t of_a = beyond > 0.0 ? 1 : 0;
   const bool bounded = beyond + before > 0.0 && a.isSeen(of_a) && b.isSeen(1 - of_a);
   return {beyond - before,
           bounded ? a.variance[of_a] + b.variance[1 - of_a] : unknown_size_variance};
 }
 
-/// Bounds of one object on how far apart a pair may be.
+/// Upper bounds for quickly rejecting a pair by distance.
 struct Extent {
   double radius;    ///< m, of the sides from the center
-  double variance;  ///< m^2, of a side along any axis, at most
+  double variance;  ///< m^2, maximum variance of a side along any axis
 };
 
 Extent extentOf(const Object& object) {
@@ -89,7 +89,7 @@ Extent extentOf(const Object& object) {
   for (const double variance : object.side_variance) {
     side = std::max(side, std::isfinite(variance) ? variance : 0.0);
   }
-  // A box that is turned into other axes, by an eighth of a turn at most.
+  // Rotated into other axes, by at most an eighth of a turn.
   const double turned = 0.5 * square(radius);
   return {radius, object.position_covariance.trace() + side + turned};
 }
@@ -113,7 +113,7 @@ std::vector<int> assignOptimally(const std::vector<Object>& known, const std::ve
   const double of_pair = square(options.body_std) + square(options.unknown_size_std);
   for (std::size_t i = 0; i < added.size(); ++i) {
     for (std::size_t j = 0; j < known.size(); ++j) {
-      // Most pairs are so far apart that nothing more needs to be known of them.
+      // Most pairs are too far apart to need a closer look.
       const double variance = extents_added[i].variance + extents_known[j].variance + of_pair +
                               motionVariance(known[j], added[i], options);
       const double reach =
@@ -131,7 +131,7 @@ std::vector<int> assignOptimally(const std::vector<Object>& known, const std::ve
   return solveAssignment(cost, Eigen::VectorXd::Zero(rows), options.max_work).column_of_row;
 }
 
-/// Middle of the side that is nearest to the sensor (thesis 3.3.2: of the front line segment).
+/// Middle of the side nearest to the sensor (thesis 3.3.2: of the front line segment).
 Point2 nearMiddle(const Box2& box, const Point2& sensor) {
   Point2 nearest = box.center.position();
   double min = std::numeric_limits<double>::infinity();
@@ -240,7 +240,7 @@ ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationO
   }
   ObjectPairing result;
   result.squared_distance = difference.dot(covariance.inverse() * difference);
-  result.possible = result.squared_distance <= options.gate;  // NaN is not
+  result.possible = result.squared_distance <= options.gate;  // false for NaN
   result.score = -0.5 * result.squared_distance - 0.5 * std::log(covariance.determinant()) -
                  std::log(2.0 * kPi * options.unrelated_density);
   return result;

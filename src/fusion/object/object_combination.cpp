@@ -19,19 +19,19 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviations of a difference that is no noise.
+/// Number of standard deviations at which a difference is significant.
 constexpr double kClearly = 4.0;
 
-/// m^2, of the position of a result.
+/// m^2, minimum position variance of a result.
 constexpr double kMinVariance = 1e-8;
 
-/// Correlation of a result: its covariance must be positive definite.
+/// Maximum correlation of a result: its covariance must be positive definite.
 constexpr double kMaxCorrelation = 0.999;
 
 double fusedVariance(double a, double b) { return a * b / (a + b); }
 
-/// How far the object surely reaches along an axis, m: the more of what both say, of the less sure
-/// one without what it is less sure by.
+/// Certain extent of the object along an axis, m: the maximum of both, the less certain one reduced
+/// by its excess uncertainty.
 double sureExtent(const ObjectSides& a, const ObjectSides& b, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
   const double less_sure = std::sqrt(a.covariance(i, i)) - std::sqrt(b.covariance(i, i));
@@ -39,14 +39,14 @@ double sureExtent(const ObjectSides& a, const ObjectSides& b, std::size_t axis) 
                   b.along[axis].extent() - std::max(0.0, -less_sure));
 }
 
-/// The sides across one axis in the result, and what moves both of them, m^2.
+/// The sides across one axis in the result, and their common variance, m^2.
 struct FusedAxis {
   SidePair sides;
   double common_variance = 0.0;
 };
 
-/// Takes an end back that one saw, where the other saw the object reach clearly beyond it: a beam
-/// that ends on a long side carries no information on its ends.
+/// Discards an end that one source saw if the other saw the object extend significantly beyond it:
+/// a beam that ends on a long side carries no information on its ends.
 void dropContradicted(ObjectSides& sides, const ObjectSides& other) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
@@ -63,9 +63,9 @@ void dropContradicted(ObjectSides& sides, const ObjectSides& other) {
   }
 }
 
-/// What both saw of an object whose ends across one axis neither saw. Two views of the same part
-/// are fused; of different parts, the object reaches as far as either saw it, of the less sure one
-/// without what it is less sure by.
+/// Extent from both sources if neither saw the ends across one axis. Two views of the same part are
+/// fused; with different parts, the object extends as far as either saw it, the less certain one
+/// reduced by its excess uncertainty.
 FusedAxis jointExtent(const ObjectSides& a, const ObjectSides& b, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
   const double of_a = a.covariance(i, i);
@@ -104,7 +104,7 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
   result.sides.variance = {kHiddenSide, kHiddenSide};
   if (sees_behind && sees_ahead) {
     const double min = std::min(fused.covariance(behind, behind), fused.covariance(ahead, ahead));
-    // More in common than they have makes the center less sure, never surer.
+    // Too much common variance makes the center less certain, never more.
     result.common_variance =
         std::max({fused.covariance(behind, ahead), std::min(of_whole, min), kMinVariance});
     const double middle = 0.5 * (fused.position[behind] + fused.position[ahead]);
@@ -130,8 +130,8 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
   return result;
 }
 
-/// m^2, of x and y of the box as a whole: what all sides that were seen have in common, for more
-/// would make some corner surer than it is.
+/// m^2, of x and y of the box as a whole: the covariance common to all seen sides; more would make
+/// some corner too certain.
 double commonCovariance(const FusedSides& fused, const std::array<FusedAxis, 2>& axes) {
   double min = kMaxCorrelation * std::sqrt(axes[0].common_variance * axes[1].common_variance);
   double sign = 0.0;
@@ -147,7 +147,7 @@ double commonCovariance(const FusedSides& fused, const std::array<FusedAxis, 2>&
   return sign * min;
 }
 
-/// Box, position and the variances of its sides; returns the share of `b` in them.
+/// Combines box, position and the variances of its sides; returns the share of `b` in them.
 double combineGeometry(const Object& a, const Object& b, Object& result) {
   const CommonHeading heading = commonHeading(a, b);
   const CommonAxes axes(a, b, heading);
@@ -185,7 +185,7 @@ DynamicState combinedState(DynamicState a, DynamicState b) {
   return DynamicState::kUnknown;
 }
 
-/// Of two independent measurements the mean by their information.
+/// Mean of two independent measurements, weighted by information.
 std::optional<MeasuredVelocity> combinedVelocity(const std::optional<MeasuredVelocity>& a,
                                                  const std::optional<MeasuredVelocity>& b) {
   if (!a || !b) {
@@ -198,8 +198,8 @@ std::optional<MeasuredVelocity> combinedVelocity(const std::optional<MeasuredVel
                           std::max(a->wrong_probability, b->wrong_probability)};
 }
 
-/// Of a camera's scattered points those are none that a beam ended at, nor is a single echo among
-/// them a surface.
+/// A camera's scattered points are not points at which a beam ended, and a single echo among them
+/// is not a surface.
 const std::vector<Point2>& surestPoints(const Object& a, const Object& b) {
   if (a.points.empty() || b.points.empty()) {
     return a.points.empty() ? b.points : a.points;
@@ -207,7 +207,7 @@ const std::vector<Point2>& surestPoints(const Object& a, const Object& b) {
   return a.position_covariance.trace() <= b.position_covariance.trace() ? a.points : b.points;
 }
 
-/// What the road says of one position is said once, however many sensors see something there.
+/// Prior information from the road counts once, however many sensors see an object there.
 double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
 
 }  // namespace
@@ -219,7 +219,7 @@ void combineClass(const Object& a, const Object& b, Object& result) {
     result.class_probability = known.class_probability;
     return;
   }
-  // The surer one last, whichever it is: the belief doubts what was said before.
+  // The more certain one last, in either order of arguments: the belief discounts what came before.
   const auto order = [](const Object& object) {
     return std::make_tuple(object.class_probability, object.object_class);
   };
@@ -237,7 +237,7 @@ Object combined(const Object& a, const Object& b) {
   const double share_of_b = combineGeometry(a, b, result);
   combineClass(a, b, result);
   result.delay = (1.0 - share_of_b) * a.delay + share_of_b * b.delay;
-  // What is seen in part looks lower than it is.
+  // A partly visible object looks lower than it is.
   result.height = std::max(a.height, b.height);
   result.dynamic_state = combinedState(a.dynamic_state, b.dynamic_state);
   result.velocity = combinedVelocity(a.velocity, b.velocity);

@@ -19,14 +19,14 @@ namespace datmo {
 
 namespace {
 
-/// An object moves if at least this share of the beams on what all sources see of it ends where the
-/// map is free; as moving_share of moving_objects.
+/// An object moves if at least this share of its beams, over the views of all sources, ends where
+/// the map is free; like moving_share of moving_objects.
 constexpr double kMinMovingShare = 0.3;
 
-/// Beyond this, odds are certainty, and sums of them lose the rest.
+/// Log odds beyond this count as certain; larger terms would swamp all others.
 constexpr double kMaxLogOdds = 20.0;
 
-/// Of a class to be taken for known.
+/// Minimum probability of a known class.
 constexpr double kKnownClass = 0.5;
 
 /// An object of the result, and which sources see it.
@@ -34,7 +34,7 @@ struct FusedObject {
   Object object;
   std::vector<bool> seen_by;
   std::size_t scan_points = 0;  ///< the scanner's points on it
-  PositionEvidence evidence;    ///< of the scan, about what another source sees of it
+  PositionEvidence evidence;    ///< of the scan, about another source's view of it
 };
 
 double positionStd(const Object& object) {
@@ -115,7 +115,7 @@ void ObjectFuserOptions::check() const {
   for (const auto& [name, source] : sources) {
     names += (names.empty() ? "" : ", ") + name;
   }
-  // Its own objects would be judged by its scan as those of others are.
+  // The scan would be used to judge the scanner's own objects like those of others.
   throw OptionError("scanner = \"" + scanner + "\": expected one of the sources (" + names + ")");
 }
 
@@ -170,7 +170,7 @@ class ObjectFuser::Fusion {
     return sensors;
   }
 
-  /// Joins a source's objects with what there is.
+  /// Merges a source's objects with the result so far.
   void add(std::size_t source) {
     std::vector<Object> known;
     known.reserve(objects_.size());
@@ -209,7 +209,7 @@ class ObjectFuser::Fusion {
     }
   }
 
-  /// One more source sees an object, as its object of this index.
+  /// Notes that one more source sees an object, as its object with this index.
   void note(std::size_t source, std::size_t index, FusedObject& fused) const {
     const ObjectIntake& intake = intakes_[source];
     fused.seen_by[source] = true;
@@ -220,8 +220,8 @@ class ObjectFuser::Fusion {
     }
   }
 
-  /// Of what another source sees, the scanner may see move just what is before or beside it: as
-  /// much of it moves as is its share of the beams that look there and are not hidden.
+  /// For an object of another source, the scanner may see moving points just in front of or beside
+  /// it: its moving share is reduced to the share of the beams toward it that are not occluded.
   void weighMotion(FusedObject& fused) const {
     Object& object = fused.object;
     const double others = fused.evidence.beamsElsewhere();
@@ -235,7 +235,7 @@ class ObjectFuser::Fusion {
     }
   }
 
-  /// Evidence on an object from those that do not see it.
+  /// Applies the evidence of the sources that do not see an object.
   void judge(FusedObject& fused) const {
     weighMotion(fused);
     Object& object = fused.object;

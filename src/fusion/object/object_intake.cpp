@@ -20,7 +20,7 @@ auto position(const Object& object) {
                          box.width, object.height, object.log_odds);
 }
 
-/// The objects that are valid, the nearest ones if there are too many, in an order of their own.
+/// The valid objects, the nearest if there are too many, in a canonical order.
 std::vector<const Object*> accepted(const ObjectList& list, std::size_t max,
                                     ObjectFusionCounts& counts) {
   std::vector<const Object*> objects;
@@ -48,7 +48,7 @@ Point2 sensorOf(const ObjectList& list) {
   return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
 }
 
-/// Evidence of the scan on an object of another source; it may show that the object is static.
+/// Evidence of the scan on another source's object; may set the object to static.
 PositionEvidence evidenceOf(Object& object, const ScanSupport& scan_support,
                             const ObjectFuserOptions& options) {
   const double moved = options.association.object_speed * std::abs(object.delay);

@@ -10,21 +10,21 @@
 
 namespace datmo {
 
-/// One source's objects, brought to where the vehicle was at the reference's stamp.
+/// One source's objects, moved to the vehicle's pose at the reference's stamp.
 struct ObjectIntake {
-  ObjectList list;  ///< valid objects, in an order of their own, and views; reference's stamp
+  ObjectList list;  ///< valid objects in a canonical order, and views; reference's stamp
   std::vector<PositionEvidence>
       scan_evidence;                     ///< of the scan, of each; of the scanner's own: none
-  Point2 sensor = Point2::Zero();        ///< m, from where it looks
-  std::optional<Visibility> visibility;  ///< of all its views; none: not known
+  Point2 sensor = Point2::Zero();        ///< m, sensor position
+  std::optional<Visibility> visibility;  ///< from all its views; none: unknown
 };
 
-/// @param scan_support null: nothing is known of what the scanner saw
-/// @param counts of what is left out, added to
+/// @param scan_support null: nothing is known about the scanner's view
+/// @param counts rejected objects are added to these
 ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupport* scan_support,
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts);
 
-/// Unless it was seen to move.
+/// Sets an object to static unless it was seen to move.
 void takeForStanding(Object& object);
 
 }  // namespace datmo

@@ -8,17 +8,17 @@
 
 namespace datmo {
 
-/// What a source's objects call its sensors. It may have another name than they have, `front_radar`
-/// than `radar`, and two sources may have the same sensor.
+/// Returns the names of a source's sensors in its objects. They may differ from the source's name,
+/// `front_radar` from `radar`, and two sources may have the same sensor.
 ///
 /// @param source its name
 /// @param list its objects and views at one time
 std::set<std::string> sensorsOf(const std::string& source, const ObjectList& list);
 
-/// Whether it is the class of other sources' objects and no sighting of its own (MonoClassifier):
-/// it saw no side and measured no velocity, and all its sensors are those of others. One detection
-/// may name several pieces of a vehicle, which exist no more surely for it, nor does any of them
-/// move.
+/// Whether an object is only a class for other sources' objects rather than an observation of its
+/// own (MonoClassifier): no side was seen, no velocity was measured, and all its sensors are those
+/// of others. One detection may name several pieces of a vehicle, which is evidence neither of
+/// their existence nor of their motion.
 bool isName(const Object& object, const std::set<std::string>& sensors_of_others);
 
 }  // namespace datmo

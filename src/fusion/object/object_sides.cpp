@@ -9,18 +9,18 @@ namespace datmo {
 
 namespace {
 
-/// rad^2; no box is a perfect rectangle.
+/// rad^2; no object is a perfect rectangle.
 constexpr double kMinHeadingVariance = 1e-6;
 
-/// rad; headings that differ by more are not one heading with noise: one of them is wrong.
+/// rad; headings that differ by more are not noisy versions of the same one: one of them is wrong.
 constexpr double kMaxTurn = 0.3;
 
-/// Of a heading modulo a quarter turn beyond knowing nothing, 1/rad^2.
+/// Information of a heading modulo a quarter turn, beyond that of a uniform distribution, 1/rad^2.
 double informationOf(double variance) {
   return std::max(0.0, 1.0 / std::max(variance, kMinHeadingVariance) - 1.0 / kUnknownAxisVariance);
 }
 
-/// How much an object's box would lose by being turned: length over uncertainty, squared.
+/// Cost of rotating an object's box: length over uncertainty, squared.
 double stiffnessOf(const Object& object) {
   double sides = 0.0;
   double seen = 0.0;
@@ -85,7 +85,7 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
         return object.side_variance[static_cast<std::size_t>(kToTheLeft[quarter % kBoxSides])];
       };
       const double own = variance(first + direction);
-      // The farthest point of a turned box in that direction is a corner: both its sides count.
+      // The farthest point of a rotated box in that direction is a corner: both its sides count.
       const double other = variance(first + direction + (slant > 0.0 ? 1 : kBoxSides - 1));
       const bool is_seen = std::abs(slant) <= kMaxTurn || std::isfinite(other);
       sides.along[axis].position[end] = end == 1 ? center[i] + half[i] : center[i] - half[i];

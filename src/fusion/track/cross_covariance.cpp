@@ -7,8 +7,8 @@ namespace datmo {
 
 namespace {
 
-/// What is left of the error of the prediction, P_after P_predicted^-1: no part of it more than
-/// there was.
+/// Remaining share of the prediction error, P_after P_predicted^-1, with no component larger than
+/// before.
 TrackCovariance keptError(const TrackCovariance& before, const TrackCovariance& after,
                           const LinearMotion& motion) {
   const JointAxes joint(after,

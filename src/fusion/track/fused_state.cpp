@@ -10,24 +10,24 @@ namespace datmo {
 
 namespace {
 
-/// Weight of covariance intersection that an estimate keeps which is worse in every respect. With
-/// a few percent of it the weight moves smoothly: by the determinant alone it would jump from the
-/// one to the other of two estimates that are as good.
+/// Minimum weight in covariance intersection of an estimate that is worse in every respect. A few
+/// percent keep the weight smooth: with the determinant alone it would jump between two equally
+/// good estimates.
 constexpr double kMinWeight = 0.01;
 
-/// The search for it.
+/// Limits of the search for the weight.
 constexpr int kMaxSteps = 60;
 constexpr double kWeightTolerance = 1e-12;
 
-/// Of the second estimate, in joint axes.
+/// Shares of the second estimate, in joint axes.
 struct FusedShares {
   TrackState gain;
   TrackState variance;
 };
 
-/// Weight of the first estimate: of the greatest determinant of the information
-/// w a^-1 + (1 - w) b^-1, times (w (1 - w))^least. Its logarithm is concave, and steep at both
-/// ends, so that its slope is 0 at one weight between them.
+/// Weight of the first estimate: maximizes the determinant of the information w a^-1 + (1 - w)
+/// b^-1, times (w (1 - w))^least. Its logarithm is concave and steep at both ends, so that its
+/// slope is 0 at one weight between them.
 double intersectionWeight(const TrackState& share) {
   constexpr double kEnds = kMinWeight * kTrackState;
   double low = 0.0;
@@ -70,8 +70,8 @@ StateEstimate fusedAlong(const JointAxes& joint, const StateEstimate& a, const S
 }
 
 /// With D = E[a a'], 1 - D = E[b b'] and C = E[a b'] in joint axes, the gain is (D - C) (1 - C -
-/// C')^-1. The covariance is computed as that of a weighted sum, which is positive whatever the
-/// gain is, and not as D minus the information of b.
+/// C')^-1. The covariance is computed as that of a weighted sum, which is positive for any gain,
+/// rather than as D minus the information of b.
 StateEstimate barShalomCampo(const JointAxes& joint, const StateEstimate& a, const StateEstimate& b,
                              const TrackCovariance& cross) {
   const TrackCovariance identity = TrackCovariance::Identity();

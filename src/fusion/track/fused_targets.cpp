@@ -24,8 +24,8 @@ bool areDuplicates(const Track& a, const Track& b, double reach) {
   return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
 }
 
-/// The surer one first; of two that are published, the older one: their existences change from one
-/// time to the next, and no object changes its id for that.
+/// Sorts more certain targets first; of two published ones, the older one: existences change all
+/// the time, and ids should not change with them.
 bool isSurer(const FusedTarget* a, const FusedTarget* b) {
   const auto rank = [](const FusedTarget& one) {
     const double doubt = one.published ? 0.0 : -one.track.existence_probability;
@@ -58,15 +58,15 @@ void FusedTarget::updateClass(const ClassMemory::Beliefs& beliefs,
 }
 
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
-  // One that was lost may be known by a track that has gone over to another.
+  // A lost target may be known by a track that has since switched to another object.
   std::multimap<FusedTarget::Member, std::size_t> owners_of;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     for (const auto& [member, since] : targets_[i].since) {
       owners_of.insert({member, i});
     }
   }
-  // First those that are confirmed, then those that are not lost, then those that share more
-  // tracks, then those that share one for longer, then the older ones.
+  // Order: confirmed, then not lost, then number of shared tracks, then duration of sharing, then
+  // age.
   using Claim = std::tuple<bool, bool, int, std::int64_t, std::size_t, std::size_t>;
   std::vector<Claim> claims;
   for (std::size_t group = 0; group < groups.size(); ++group) {

@@ -10,21 +10,21 @@ namespace datmo {
 
 namespace {
 
-/// Of the sum, that either has along any axis: rounding leaves no digits of less.
+/// Minimum share of the sum along any axis: rounding leaves no significant digits below it.
 constexpr double kMinShare = 1e-12;
 
-/// Added to the variances of both, of which each sum is 1, so that the sum's Cholesky factor has
-/// digits; and by how much more where that does not suffice.
+/// Added to both variances (relative to a sum of 1) so that the Cholesky factor of the sum is
+/// accurate; and the growth factor if that is not enough.
 constexpr double kFirstRepair = 1e-12;
 constexpr double kNextRepair = 10.0;
 
-/// A cross-covariance whose correlations have a larger norm is nonsense, and only its directions
-/// count: singular values of less than the root of the rounding of the largest would be lost.
+/// A cross-covariance whose correlations have a larger norm is invalid, and only its directions
+/// count: singular values below the square root of the largest one's rounding would be lost.
 constexpr double kMaxNorm = 10.0;
 
 using Solver = Eigen::SelfAdjointEigenSolver<TrackCovariance>;
 
-/// By forward substitution. Eigen's solves many right sides at once with the kernels of large
+/// Uses forward substitution. Eigen solves many right-hand sides at once with kernels for large
 /// matrices, which takes several times as long.
 TrackCovariance inverseOfLower(const TrackCovariance& lower) {
   TrackCovariance inverse = TrackCovariance::Zero();
@@ -83,7 +83,7 @@ TrackCovariance JointAxes::limitedCross(const TrackCovariance& cross,
       std_a.cwiseInverse().asDiagonal() * in_axes * std_b.cwiseInverse().asDiagonal();
   const double norm = correlations.norm();
   if (norm <= max_correlation) {
-    return in_axes;  // no singular value is more
+    return in_axes;  // no singular value exceeds it
   }
   correlations *= std::min(1.0, kMaxNorm / norm);
   const Solver solver(correlations.transpose() * correlations);

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// By how much the evidence of two tracks that were one may fall below `required` before they part.
+/// Evidence may fall this much below `required` before an associated pair is separated.
 constexpr double kAssociationHysteresis = 10.0;
 
 }  // namespace
@@ -66,7 +66,7 @@ void TrackAssociation::compareAll(Stamp stamp, const std::vector<PresentTracks>&
   }
 }
 
-/// What is far apart leaves no trace: so there are as many pairs as neighbors.
+/// Distant pairs are not stored, so only neighbors need memory.
 std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, const Track& b,
                                                 bool fresh, const PairKey& key) {
   const TrackComparison now = compare(a, b, options_.comparison);
@@ -124,7 +124,7 @@ void TrackAssociation::join(std::vector<TrackGroup>& groups,
   for (Eigen::Index column = 0; column < columns; ++column) {
     const auto members = static_cast<int>(groups[static_cast<std::size_t>(column)].size());
     for (Eigen::Index row = 0; row < rows; ++row) {
-      // All of the group agree with it, on the average more than is required.
+      // All of the group agree with it, on average with more than the required evidence.
       if (agreeing(row, column) == members && scores(row, column) > 0.0) {
         cost(row, column) = -scores(row, column) / members;
       }

@@ -13,13 +13,13 @@ namespace datmo {
 
 namespace {
 
-/// rad; headings that differ by more are not one heading with noise: one of them is wrong.
+/// rad; headings that differ by more are not noisy versions of the same one: one of them is wrong.
 constexpr double kMaxTurn = 0.3;
 
-/// rad^2; nobody knows a heading better.
+/// rad^2; lower limit of heading variances.
 constexpr double kMinHeadingVariance = 1e-6;
 
-/// m^2, of a box's center along an axis: no weight is without end.
+/// m^2, minimum variance of a box's center along an axis: limits the weights.
 constexpr double kMinCenterVariance = 1e-9;
 
 double headingOf(const Track& track) { return track.box.center.heading(); }
@@ -28,8 +28,8 @@ double headingVarianceOf(const Track& track) {
   return std::clamp(track.heading_variance, kMinHeadingVariance, kUnknownHeadingVariance);
 }
 
-/// Who knows best where the front is: who moves; of several their information on the velocity
-/// decides.
+/// The track that knows best which end is the front: a moving one; among several, the one with the
+/// most information on the velocity.
 const Track& whoKnowsFront(const std::vector<Track>& tracks, const TrackState& fused) {
   const auto order = [&](const Track& track) {
     const double ahead = Point2(fused.segment<2>(2)).dot(track.box.center.rotation().col(0));
@@ -44,9 +44,9 @@ struct Heading {
   double variance;  ///< rad^2
 };
 
-/// Modulo pi by the variances, of those that agree with the surest one; then the front. All follow
-/// the same motion, so that the result is weighted as by covariance intersection: it is never surer
-/// than the surest one.
+/// Fuses the headings modulo pi, weighted by variance, of those that agree with the most certain
+/// one; then chooses the front. All observe the same motion, so the variance is that of covariance
+/// intersection: never less than that of the most certain one.
 Heading fusedHeading(const std::vector<Track>& tracks, const TrackState& fused) {
   const Track& surest =
       *std::min_element(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
@@ -58,7 +58,7 @@ Heading fusedHeading(const std::vector<Track>& tracks, const TrackState& fused) 
   double pull = 0.0;
   for (const Track& track : tracks) {
     const double turn = angleBetween(headingOf(surest), headingOf(track));
-    // Of the axes, whichever end of them is the front.
+    // Angle between the axes, regardless of which end is the front.
     const double apart = std::abs(turn) > kQuarterTurn ? normalizeAngle(turn + kPi) : turn;
     if (std::abs(apart) <= kMaxTurn) {
       const double weight = 1.0 / headingVarianceOf(track);
@@ -76,7 +76,7 @@ Heading fusedHeading(const std::vector<Track>& tracks, const TrackState& fused) 
   return heading;
 }
 
-/// Extents of a box along the axes of another heading, and what is known of its center there.
+/// Extents of a box along the axes of another heading, and the variance of its center there.
 struct AxisSizes {
   Eigen::Vector2d size;      ///< m
   Eigen::Vector2d variance;  ///< m^2
@@ -117,7 +117,7 @@ std::uint32_t saturatedSum(std::uint32_t a, std::uint32_t b) {
   return a + std::min(b, std::numeric_limits<std::uint32_t>::max() - a);
 }
 
-/// Each with as much say as the others; who knows nothing of it has none.
+/// Averages the modes with equal weights; tracks without information have none.
 std::array<double, kMotionModes> averagedModes(const std::vector<Track>& tracks) {
   std::array<double, kMotionModes> modes{};
   double parts = 0.0;
@@ -167,7 +167,7 @@ std::vector<SourceTrack> mergedSources(const Track& a, const Track& b) {
   return all;
 }
 
-/// All of it that grows with each track.
+/// Adds everything that accumulates over the tracks.
 void addEvidence(Track& whole, const Track& track) {
   whole.height = std::max(whole.height, track.height);
   whole.moving = whole.moving || track.moving;

@@ -16,26 +16,26 @@ namespace datmo {
 
 namespace {
 
-/// Standard deviation of each component of other objects' velocity, m/s.
+/// Standard deviation of each velocity component of unrelated objects, m/s.
 constexpr double kUnrelatedSpeed = 8.0;
 
-/// Position and velocity: what distinguishes two objects. Accelerations are hardly known.
+/// Only position and velocity distinguish two objects; accelerations are too uncertain.
 constexpr int kCompared = 4;
 using Compared = Eigen::Matrix<double, kCompared, 1>;
 using ComparedCovariance = Eigen::Matrix<double, kCompared, kCompared>;
 
-/// No class is ever impossible (ClassBelief): the least ratio of "same class" against chance.
+/// No class is impossible (ClassBelief): minimum ratio of "same class" to chance.
 constexpr double kMinClassRatio = 0.05;
 
-/// Farther than this many times the gate nothing is compared: most pairs, and quickly.
+/// Pairs beyond this multiple of the gate are skipped: the fast path for most pairs.
 constexpr double kFarBeyond = 2.0;
 
 const double kLogOfTurn = std::log(2.0 * kPi);
 
-/// m^2, along the axes of the box: where a sensor takes the center of a body to be that it sees a
-/// part of.
+/// m^2, along the axes of the box: variance of a sensor's estimate of the center of a partly
+/// visible body.
 Eigen::Vector2d centerVariances(const Track& track, const TrackComparisonOptions& options) {
-  // The covariance of what several sensors track has the body's in it.
+  // The covariance of a track fused from several sensors already includes that of the body.
   const double body = track.sources.size() > 1 ? 0.0 : square(options.body_std);
   return {body + square(options.extent_share * track.box.length),
           body + square(options.extent_share * track.box.width)};
@@ -47,13 +47,13 @@ Eigen::Matrix2d centerCovariance(const Track& track, const TrackComparisonOption
   return axes * centerVariances(track, options).asDiagonal() * axes.transpose();
 }
 
-/// m^2, of a track's position in all directions together.
+/// m^2, total variance of a track's position.
 double positionVariance(const Track& track, const TrackComparisonOptions& options) {
   return track.covariance.topLeftCorner<2, 2>().trace() + centerVariances(track, options).sum();
 }
 
-/// Logarithm of how much likelier two tracks of these classes are if they are one object: all
-/// classes are equally likely before. All 0: not known.
+/// Log-likelihood ratio of the two tracks' classes for one object against two, with a uniform
+/// prior. All 0: unknown.
 double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
   const double all =
       std::accumulate(a.begin(), a.end(), 0.0) * std::accumulate(b.begin(), b.end(), 0.0);
@@ -64,7 +64,7 @@ double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
   return std::log(std::max(kMinClassRatio, same / all * static_cast<double>(kObjectClasses)));
 }
 
-/// Of unrelated tracks, of position and velocity, 1/(m^4/s^2).
+/// Log density of unrelated tracks in position and velocity, 1/(m^4/s^2).
 double logUnrelatedDensity(const Eigen::Vector2d& velocity, const TrackComparisonOptions& options) {
   const double variance = square(kUnrelatedSpeed);
   return std::log(options.unrelated_density) - std::log(2.0 * kPi * variance) -
@@ -82,7 +82,7 @@ PoseDifference magnitudes(const Pose2& a, const Pose2& b) {
           std::abs(a.y() - b.y())};
 }
 
-/// Between two points of a path, at a time between theirs.
+/// Interpolates between two points of a path.
 Pose2 interpolated(const PathPoint& before, const PathPoint& after, Stamp stamp) {
   const double whole = secondsBetween(before.stamp, after.stamp);
   const double share = whole > 0.0 ? secondsBetween(before.stamp, stamp) / whole : 1.0;

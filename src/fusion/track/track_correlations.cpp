@@ -5,11 +5,11 @@ namespace datmo {
 
 namespace {
 
-/// Correlation of the errors of two trackers that have just been found to follow one object, as
-/// they have done for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4).
+/// Error correlation of two trackers when they are found to follow one object, which they have done
+/// for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4).
 constexpr double kFirstCorrelation = 0.4;
 
-/// Which of the two knows the motion better is not known.
+/// It is unknown which of the two has the better motion estimate.
 LinearMotion meanMotion(const LinearMotion& a, const LinearMotion& b) {
   return {0.5 * (a.transition + b.transition), 0.5 * (a.noise + b.noise)};
 }

@@ -11,8 +11,8 @@ namespace datmo {
 
 namespace {
 
-/// An extent is twice as uncertain as the center, which lies half of it behind the side that is
-/// seen; one that differs by two standard deviations is believed half.
+/// An extent is twice as uncertain as the center, which lies half of it behind the visible side;
+/// one that differs by two standard deviations gets half of the weight.
 constexpr double kExtentPerCenter = 4.0;
 
 /// m, standard deviation of the center along the axis.
@@ -20,14 +20,14 @@ double sigmaAlong(const Track& track, const Point2& axis) {
   return std::sqrt(std::max(0.0, axis.dot(track.covariance.topLeftCorner<2, 2>() * axis)));
 }
 
-/// m, how long a track of this extent is likely to be, of which another one says that it is longer.
+/// m, likely extent of a track that another one says is longer.
 double believedExtent(double shorter, const Track& longer, const Point2& axis) {
   const double more = extentAlong(longer.box, axis) - shorter;
   const double sigma = kExtentPerCenter * sigmaAlong(longer, axis);
   return shorter + more * (more * more / (more * more + sigma * sigma));
 }
 
-/// Makes the box as long as `extent` along the axis, away from the sensor.
+/// Extends the box to `extent` along the axis, away from the sensor.
 void extend(Track& track, double extent, const Point2& axis, const Point2& sensor) {
   const double missing = extent - extentAlong(track.box, axis);
   if (missing <= 0.0) {

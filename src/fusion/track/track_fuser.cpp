@@ -16,11 +16,11 @@ namespace datmo {
 
 namespace {
 
-/// Tracks of different sources are duplicates where the box of one, so many times as large, holds
+/// Tracks of different sources are duplicates if the box of one, scaled by this factor, contains
 /// the center of the other.
 constexpr double kDuplicateGateScale = 1.0;
 
-/// The likeliest ones, by rising id.
+/// Keeps the tracks most likely to exist, by rising id.
 void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
   if (tracks.size() <= max) {
     return;
@@ -33,7 +33,7 @@ void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
             [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
-/// An order of tracks that does not depend on that of their sources.
+/// Orders tracks independently of the order of their sources.
 bool isSurer(const Track& a, const Track& b) {
   const auto rank = [](const Track& track) {
     return std::make_tuple(track.covariance.topLeftCorner<2, 2>().determinant(), track.state.x(),
@@ -42,7 +42,7 @@ bool isSurer(const Track& a, const Track& b) {
   return rank(a) < rank(b);
 }
 
-/// Any of them any other.
+/// Whether any two of them contradict each other.
 bool contradictEachOther(const std::vector<Track>& tracks, const TrackComparisonOptions& options) {
   for (auto a = tracks.begin(); a != tracks.end(); ++a) {
     if (std::any_of(a + 1, tracks.end(), [&](const Track& b) {
@@ -54,7 +54,7 @@ bool contradictEachOther(const std::vector<Track>& tracks, const TrackComparison
   return false;
 }
 
-/// Where the tracks of each list are seen from.
+/// Sensor positions of each list.
 std::vector<std::optional<Point2>> sensorsOf(const std::vector<SourceTracks>& sources) {
   std::vector<std::optional<Point2>> sensors(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The second half of TrackFuser's step: who looked where, what exists, and what is published.
+// Second half of TrackFuser's step: field of view, existence, and publication.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,25 +13,25 @@ namespace datmo {
 
 namespace {
 
-/// A source can see a position where each of its measurements would have detected the object at
-/// least so probably, lately: a quarter is several times a second.
+/// A source can see a position if each of its measurements would recently have detected the object
+/// with at least this probability: a quarter amounts to several detections per second.
 constexpr double kCanSee = 0.25;
 
-/// Time constant of the probability that a source detects: who has just come into view is not
-/// missed at once, s.
+/// Time constant of a source's detection probability, s: an object that has just come into view is
+/// not expected to have a track at once.
 constexpr double kLookingTime = 1.0;
 
-/// A source has whatever another one has, of the same sensor.
+/// Sources with the same sensor have the same tracks.
 constexpr double kSurelyAgrees = 1.0;
 
-/// What is likelier not there is of no list.
+/// Tracks that probably do not exist are never published.
 constexpr double kEven = 0.5;
 
 double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
 }
 
-/// From the nearest of the sensors that looked, m; none if none did.
+/// Distance to the nearest of the sensors that looked, m; none if none did.
 std::optional<double> rangeFrom(const std::vector<ViewFan>& fans, const Track& track) {
   std::optional<double> nearest;
   for (const ViewFan& fan : fans) {
@@ -102,7 +102,7 @@ const Track* TrackFuser::trackOf(const FusedTarget& target, std::size_t source,
 
 void TrackFuser::judge(FusedTarget& target, Stamp stamp,
                        const std::vector<PresentTracks>& present) const {
-  // Two sources that have it from one sensor count once.
+  // Two sources with tracks from the same sensor count once.
   const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
   std::vector<ExistenceReport> reports;
   bool seen_by_all = true;
@@ -110,7 +110,8 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     const TrackSourceOptions& own = options_.sources.at(names_[source]);
     const Track* const track = trackOf(target, source, present);
     const double looked = target.looked[source].value_or(0.0);
-    // Who has a track far away has one as much against chance as close by: both get rarer.
+    // A distant track is as much evidence against chance as a close one: true and false tracks both
+    // get rarer.
     const double range = track != nullptr ? 0.0 : target.ranges[source].value_or(0.0);
     reports.push_back({track != nullptr,
                        track != nullptr
@@ -133,7 +134,7 @@ bool TrackFuser::isWanted(const FusedTarget& target) const {
   }
   switch (options_.scheme) {
     case TrackScheme::kByExistence:
-      // Who has come out stays: a source into whose view it comes needs time to find it.
+      // A published track stays: a source whose view it enters needs time to detect it.
       return target.confirmed || target.published || existence >= options_.published_existence;
     case TrackScheme::kFusedPlusFallback:
       return target.confirmed || (target.track.sources.size() == 1 &&

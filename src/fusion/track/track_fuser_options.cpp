@@ -8,11 +8,12 @@ namespace datmo {
 
 namespace {
 
-/// m, over which a detection falls from most to little: about as far as a sensor's beams or pixels
-/// on a road user become half as many at the ranges where that begins to matter.
+/// m, range over which the detection probability falls from high to low: about the distance in
+/// which the number of beams or pixels on a road user halves at the ranges where that begins to
+/// matter.
 constexpr double kFalloff = 4.0;
 
-/// How probably it is a road user of each class, or anything else.
+/// Probability of each road user class, or of anything else.
 struct RoadUserShares {
   explicit RoadUserShares(const ClassProbabilities& classes)
       : pedestrian(classes[static_cast<std::size_t>(ObjectClass::kPedestrian)]),

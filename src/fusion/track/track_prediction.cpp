@@ -15,7 +15,7 @@ ObjectClass mostLikelyClass(const ClassProbabilities& probabilities) {
   return static_cast<ObjectClass>(best - probabilities.begin());
 }
 
-/// With the velocity to the other side.
+/// The same motion with reversed velocity.
 LinearMotion timeReversed(LinearMotion motion) {
   motion.transition.middleRows<2>(2) *= -1.0;
   motion.transition.middleCols<2>(2) *= -1.0;
@@ -54,7 +54,7 @@ Track predicted(Track track, double seconds, const TrackPredictionOptions& optio
   track.covariance = estimate.covariance;
   const double turn = track.moving ? track.yaw_rate * seconds : 0.0;
   track.box.center = Pose2(estimate.mean.head<2>(), track.box.center.heading() + turn);
-  // No less sure than knowing nothing, nor surer than before.
+  // Not more than a uniform distribution, and never less than before.
   const double drifted = track.heading_variance + options.heading_drift * std::abs(seconds);
   track.heading_variance =
       std::max(track.heading_variance, std::min(kUnknownHeadingVariance, drifted));

@@ -33,7 +33,7 @@ void WindowedEvidence::forgetBefore(Stamp stamp, const WindowedEvidenceOptions& 
     looks_.pop_front();
   }
   if (looks_.empty()) {
-    sum_ = 0.0;  // no rounding is left over
+    sum_ = 0.0;  // removes accumulated rounding errors
   }
 }
 

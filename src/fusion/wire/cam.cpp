@@ -25,7 +25,7 @@ void skipTurning(Uper& uper) {
   uper.integer(yaw_rate_confidence, 0, 8);
 }
 
-/// DF BasicVehicleContainerHighFrequency, but for what is optional at its end.
+/// DF BasicVehicleContainerHighFrequency, without the optional fields at its end.
 void walkVehicle(Uper& uper, Cam& cam) {
   constexpr int kOptional = 7;
   for (int i = 0; i < kOptional; ++i) {
@@ -42,8 +42,8 @@ void walkVehicle(Uper& uper, Cam& cam) {
   skipTurning(uper);
 }
 
-/// DF BasicVehicleContainerLowFrequency: a vehicle of no special role, its lights not known, its
-/// path empty. For writers alone: nothing of it is read.
+/// DF BasicVehicleContainerLowFrequency: a vehicle without special role, lights unknown, empty
+/// path. Only for writers: none of it is read.
 void writeLowFrequency(Uper& uper) {
   constexpr std::int64_t kPathMax = 40;
   uper.extended();
@@ -56,7 +56,7 @@ void writeLowFrequency(Uper& uper) {
 void walkCam(Uper& uper, Cam& cam) {
   walk(uper, cam.header);
   uper.integer(cam.generation_time, 0, 65535);
-  uper.extended();  // additions stand behind all that is read, as do the next two
+  uper.extended();  // additions come after all that is read, as do the next two
   uper.present(cam.has_low_frequency);
   uper.present(false);  // of special vehicles
   const bool is_basic_extended = uper.extended();

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// That a station is what it says.
+/// Probability that a station is what it reports.
 constexpr double kSureClass = 0.95;
 
 /// The probability of a class; the others share the rest.
@@ -39,7 +39,7 @@ ObjectClass classOf(std::int64_t station_type) {
   return is_vehicle ? ObjectClass::kVehicle : ObjectClass::kUnknown;
 }
 
-/// Of a vehicle the position is the middle of its front (EN 302 637-2, B.19).
+/// A vehicle reports the middle of its front (EN 302 637-2, B.19).
 void moveToCenter(const std::optional<ItsDirection>& heading, StationTrack& track) {
   const double half = 0.5 * track.length;
   Eigen::Matrix2d covariance = square(half) / 3.0 * Eigen::Matrix2d::Identity();

@@ -13,7 +13,7 @@ constexpr std::int64_t kMaxContainers = 8;
 constexpr std::int64_t kVehicleContainer = 1;
 constexpr std::int64_t kObjectContainer = 5;
 
-/// An optional field that is read and written; `walk_it` has the field.
+/// Reads or writes an optional field; `walk_it` walks it.
 template <typename Field, typename Walk>
 void walkOptional(bool is_there, std::optional<Field>& field, Walk walk_it) {
   if (is_there) {
@@ -169,7 +169,7 @@ void walkManagement(Uper& uper, Cpm& cpm) {
   }
 }
 
-/// DF OriginatingVehicleContainer, but for what is optional at its end.
+/// DF OriginatingVehicleContainer, without the optional fields at its end.
 void walkVehicle(Uper& uper, std::optional<ItsAngle>& orientation) {
   constexpr int kOptional = 3;
   uper.extended();
@@ -181,22 +181,22 @@ void walkVehicle(Uper& uper, std::optional<ItsAngle>& orientation) {
 
 /// DF PerceivedObjectContainer.
 void walkObjects(Uper& uper, Cpm& cpm, ItsDictionary dictionary) {
-  uper.extended();  // additions stand behind all that is read
+  uper.extended();  // additions come after all that is read
   uper.integer(cpm.object_count, 0, Cpm::kMaxObjects);
   const std::int64_t size =
       uper.extensibleSize(static_cast<std::int64_t>(cpm.objects.size()), 0, Cpm::kMaxObjects);
   for (std::int64_t i = 0; i < size; ++i) {
     if (i == static_cast<std::int64_t>(cpm.objects.size())) {
-      cpm.objects.emplace_back();  // of a reader: one by one, whatever number it was told
+      cpm.objects.emplace_back();  // of a reader: one by one, because the number is not trusted
     }
     walk(uper, cpm.objects[static_cast<std::size_t>(i)], dictionary);
   }
 }
 
-/// All before the containers. Returns whether they are followed by additions.
+/// Everything before the containers. Returns whether additions follow them.
 void walkHead(Uper& uper, Cpm& cpm) {
   walk(uper, cpm.header);
-  uper.extended();  // additions stand behind all that is read
+  uper.extended();  // additions come after all that is read
   walkManagement(uper, cpm);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMillisecond = 1e-3;  // s
 
-/// Of a class whose confidence is not available.
+/// Probability of a class whose confidence is not available.
 constexpr double kLikelyClass = 0.5;
 
 ObjectClass classOf(const CpmClass& one) {
@@ -68,7 +68,7 @@ double dimensionOf(const std::optional<std::int64_t>& dimension) {
              : kItsDecimeter * static_cast<double>(*dimension);
 }
 
-/// The heading of the message; else that of the motion, as far as that is known.
+/// Uses the heading of the message; otherwise that of the motion, if known.
 void setHeading(const CpmObject& object, const StationMessageOptions& options,
                 StationTrack& track) {
   std::optional<ItsDirection> heading;
@@ -86,7 +86,7 @@ void setHeading(const CpmObject& object, const StationMessageOptions& options,
   }
 }
 
-/// None where its position is out of range.
+/// Returns none if its position is out of range.
 std::optional<Eigen::Matrix2d> setPosition(const CpmObject& object,
                                            const StationMessageOptions& options,
                                            StationTrack& track) {
@@ -107,7 +107,7 @@ std::optional<Eigen::Matrix2d> setPosition(const CpmObject& object,
   return covariance;
 }
 
-/// None without number or position. At the reference time.
+/// Returns none without id or position. At the reference time.
 std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix2d& reference,
                                     const StationMessageOptions& options) {
   StationTrack track;

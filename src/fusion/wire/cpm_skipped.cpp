@@ -47,7 +47,7 @@ void skipGroup(Uper& uper) {
   if (has_id) {
     uper.skipInteger(0, kItsByteMax);
   }
-  uper.skipInteger(0, kItsByteMax);  // how many they are
+  uper.skipInteger(0, kItsByteMax);  // their number
   if (has_profiles) {
     uper.skipInteger(0, 15);  // four bits
   }
@@ -56,7 +56,7 @@ void skipGroup(Uper& uper) {
   }
 }
 
-/// The subclass of people and those on two wheels: a number, or a name, by the dictionary.
+/// The subclass of people and riders: a number or a name, depending on the dictionary.
 void skipSubProfile(Uper& uper, CpmClass::Profile profile, ItsDictionary dictionary) {
   constexpr std::int64_t kNumberMax = 15;
   if (dictionary != ItsDictionary::k211) {
@@ -129,7 +129,7 @@ void skipMapPosition(Uper& uper) {
   const bool has_connection = uper.present(false);
   const bool has_distance = uper.present(false);
   if (has_reference) {
-    uper.present(false);  // a road segment or an intersection: both alike
+    uper.present(false);  // a road segment or an intersection: same encoding
     if (uper.present(false)) {
       uper.skipInteger(0, kTwoBytesMax);  // region
     }

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-// Fields of a perceived object that are passed over, and its class, of which little is used (ETSI
-// TS 102 894-2).
+// Skipped fields of a perceived object, and its class, most of which is ignored (ETSI TS 102
+// 894-2).
 
 /// DF Acceleration3dWithConfidence.
 void skipAccelerationVector(Uper& uper);

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// Length and width, m, of what does not tell them.
+/// Length and width, m, of an object whose size is not reported.
 struct UsualSize {
   double length = 0.0;
   double width = 0.0;
@@ -66,7 +66,7 @@ Velocity velocityOf(const ItsSpeed& speed, const std::optional<ItsDirection>& co
   }
   const Point2 along(std::cos(course->angle), std::sin(course->angle));
   const Eigen::Matrix2d along_variance = along * along.transpose();
-  // Across, a slow one is as uncertain as along.
+  // At low speed the lateral uncertainty is as large as the longitudinal one.
   const double across = std::max(square(ahead * course->sigma), square(*sigma));
   return {ahead * along,
           square(*sigma) * along_variance + across * (Eigen::Matrix2d::Identity() - along_variance),

@@ -11,9 +11,9 @@
 
 namespace datmo {
 
-// What CAM and CPM say of position, motion and size, in our units.
+// Position, motion and size from CAM and CPM, in our units.
 
-/// Where a station is, and how sure that is.
+/// A station's position and its uncertainty.
 struct ReferencePosition {
   LocalPlane plane;
   Eigen::Matrix2d covariance;  ///< m^2
@@ -31,16 +31,16 @@ struct Velocity {
 
 Velocity unknownVelocity(const StationMessageOptions& options);
 
-/// By speed and course; without course the speed goes anywhere.
+/// Velocity from speed and course; without course the direction is unknown.
 Velocity velocityOf(const ItsSpeed& speed, const std::optional<ItsDirection>& course,
                     const StationMessageOptions& options);
 
-/// Slower is standing, m/s.
+/// m/s; slower is standing still.
 inline constexpr double kStandstill = 0.3;
 
 void setVelocity(const Velocity& velocity, StationTrack& track);
 
-/// Of extents that are 0, those that are usual.
+/// Replaces extents of 0 by the usual ones.
 void setSize(ObjectClass object_class, StationTrack& track);
 
 StationMessage decode(const Cam& cam, Stamp now, const StationMessageOptions& options);

@@ -19,7 +19,7 @@ constexpr std::int64_t kMillisecondsPerSecond = 1000;
 constexpr std::int64_t kEpoch = 1072915200;  // s, 2004-01-01 00:00:00 UTC, of ours
 constexpr std::int64_t kGenerationPeriod = 65536;
 
-/// Of a normal distribution: what holds 95 %, in standard deviations; and of one in the plane.
+/// Standard deviations that contain 95 % of a normal distribution; and of one in the plane.
 constexpr double kSigmas = 1.96;
 constexpr double kEllipseSigmas = 2.4477;
 
@@ -121,14 +121,14 @@ std::optional<Eigen::Matrix2d> fromEllipse(const ItsPosition& position, double o
       position.semi_minor == ItsPosition::kAxisOutOfRange) {
     return std::nullopt;
   }
-  // 0 is not to be used: taken as not available.
+  // 0 is a reserved value: treated as not available.
   const auto sigma = [&](std::int64_t axis) {
     return axis == ItsPosition::kNoAxis || axis == 0
                ? otherwise
                : kItsCentimeter * static_cast<double>(axis) / kEllipseSigmas;
   };
   const double major = sigma(position.semi_major);
-  // Of an ellipse without direction the larger circle is true in any.
+  // Without direction, the larger circle covers the ellipse.
   const bool is_directed = position.major_direction != ItsAngle::kNoValue;
   const double minor = is_directed ? sigma(position.semi_minor) : major;
   const double angle = degrees(kAngleUnit * static_cast<double>(position.major_direction));

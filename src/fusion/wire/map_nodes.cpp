@@ -11,7 +11,7 @@ namespace {
 
 /// Bits of the coordinates of Node-XY-20b to Node-XY-32b.
 constexpr std::array<unsigned, 6> kNodeBits = {10, 11, 12, 13, 14, 16};
-constexpr std::int64_t kGeodeticNode = 6;  ///< of the choice; behind it, 7, a regional one
+constexpr std::int64_t kGeodeticNode = 6;  ///< index in the choice; the next one, 7, is regional
 constexpr std::int64_t kRegionalNode = 7;
 
 /// Offset-B10 and its like.
@@ -76,7 +76,7 @@ void skipNodeAttributes(Uper& uper) {
   }
 }
 
-/// The smallest of the choice that has room for it.
+/// The smallest alternative of the choice that can hold the node.
 std::int64_t kindOf(const MapNode& node) {
   const auto fits = [&node](unsigned bits) {
     const std::int64_t half = std::int64_t{1} << (bits - 1);
@@ -87,7 +87,7 @@ std::int64_t kindOf(const MapNode& node) {
   return node.is_geodetic ? kGeodeticNode : found - kNodeBits.begin();
 }
 
-/// A node; one of a region, which nobody knows where it is, makes the lane one without nodes.
+/// A node; a regional one, whose position is unknown, leaves the lane without nodes.
 void walkNode(Uper& uper, MapNode& node, bool& is_known) {
   const bool is_extended = uper.extended();
   const bool has_attributes = uper.present(false);

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// DF SignalControlZone: regional extensions alone.
+/// DF SignalControlZone: only regional extensions.
 void skipPreemption(Uper& uper) {
   const bool is_extended = uper.extended();
   skipRegional(uper);
@@ -19,7 +19,7 @@ void skipPreemption(Uper& uper) {
   }
 }
 
-/// DF LaneAttributes: direction, sharing and type; of the type's attributes nothing is kept.
+/// DF LaneAttributes: direction, sharing and type; the type's attributes are ignored.
 void walkAttributes(Uper& uper, MapLane& lane) {
   constexpr std::int64_t kTypes = 8;
   constexpr unsigned kVehicleBits = 8;
@@ -98,7 +98,7 @@ void walkLane(Uper& uper, MapLane& lane) {
   skipEnd(uper, has_regional, is_extended);
 }
 
-/// DF Position3D, but for the elevation.
+/// DF Position3D without elevation.
 void walkReference(Uper& uper, MapIntersection& intersection) {
   const bool is_extended = uper.extended();
   const bool has_elevation = uper.present(false);
@@ -135,7 +135,7 @@ void walkIntersectionGeometry(Uper& uper, MapIntersection& intersection) {
   skipEnd(uper, has_regional, is_extended);
 }
 
-/// What comes behind the intersections is not read.
+/// Ignores everything after the intersections.
 void walkMapem(Uper& uper, Mapem& message) {
   constexpr int kBehind = 4;  // road segments, parameters, restrictions, regional
   walk(uper, message.header, ItsHeader::kMapem);

@@ -129,7 +129,7 @@ void walkIntersectionState(Uper& uper, SpatIntersection& intersection) {
   skipEnd(uper, has_regional, is_extended);
 }
 
-/// What comes behind the intersections is not read.
+/// Ignores everything after the intersections.
 void walkSpatem(Uper& uper, Spatem& message) {
   walk(uper, message.header, ItsHeader::kSpatem);
   uper.extended();

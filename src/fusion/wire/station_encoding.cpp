@@ -15,10 +15,10 @@ namespace datmo {
 
 namespace {
 
-/// 36 bytes each at most: below 1,400 bytes, what a datagram may have on Ethernet and ITS-G5.
+/// At most 36 bytes each: below 1,400 bytes, the size of a datagram on Ethernet and ITS-G5.
 constexpr std::size_t kObjectsPerMessage = 35;
 
-/// Less likely classes are left out.
+/// Less likely classes are omitted.
 constexpr double kMinClass = 0.01;
 
 ItsPosition positionOf(const StationTrack& own, const Point2& front, const LocalPlane& plane) {
@@ -52,7 +52,7 @@ Cam camOf(const StationTrackList& list, const StationTrack& own, const ItsPositi
   return cam;
 }
 
-/// A class of the standard's and how likely it is.
+/// A class of the standard and its probability.
 struct PossibleClass {
   CpmClass::Kind kind;
   CpmClass::Profile profile;
@@ -91,7 +91,7 @@ CpmObject objectOf(const StationTrack& track, const Point2& reference) {
   constexpr std::int64_t kMaxDimension = CpmObject::kDimensionOutOfRange;
   const Point2 position = track.position - reference;
   CpmObject object;
-  object.id = (static_cast<std::int64_t>(track.id) - 1) % kIds;  // 0 is ourselves
+  object.id = (static_cast<std::int64_t>(track.id) - 1) % kIds;  // 0 is the own vehicle
   object.x = coordinateOf(position.x(), track.covariance(0, 0));
   object.y = coordinateOf(position.y(), track.covariance(1, 1));
   CpmVelocity velocity;
@@ -112,7 +112,7 @@ CpmObject objectOf(const StationTrack& track, const Point2& reference) {
 }
 
 bool isInReach(const StationTrack& track, const Point2& reference) {
-  constexpr double kReach = 1310.7;  // m, what a coordinate can be
+  constexpr double kReach = 1310.7;  // m, maximum of a coordinate
   return ((track.position - reference).array().abs() < kReach).all();
 }
 

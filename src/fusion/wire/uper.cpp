@@ -10,9 +10,9 @@ namespace datmo {
 namespace {
 
 constexpr int kOctet = 8;              // bits
-constexpr std::int64_t kShort = 128;   // lengths below take one octet
-constexpr std::int64_t kLong = 16384;  // and those below this one two
-constexpr std::int64_t kSmall = 64;    // small numbers below take six bits
+constexpr std::int64_t kShort = 128;   // shorter lengths take one octet
+constexpr std::int64_t kLong = 16384;  // and shorter ones than this two
+constexpr std::int64_t kSmall = 64;    // smaller "small numbers" take six bits
 
 /// Bits of an integer of 0 to `range`.
 int widthOf(std::uint64_t range) {
@@ -42,7 +42,7 @@ void Uper::skipInteger(std::int64_t min, std::int64_t max) {
 
 void Uper::skipSmallNumber() {
   if (present(false)) {
-    skipOpenType();  // its octets have the form of one
+    skipOpenType();  // encoded like an open type
   } else {
     skipInteger(0, kSmall - 1);
   }

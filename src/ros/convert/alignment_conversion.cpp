@@ -12,8 +12,8 @@ namespace datmo {
 
 namespace {
 
-/// px, m, rad and s, of a term and of its standard deviation: a camera of which less is known is
-/// not mounted.
+/// px, m, rad and s; maximum of a term and of its standard deviation: a less certain camera is not
+/// mounted.
 constexpr double kMaxOffset = 1e3;
 
 }  // namespace
@@ -48,7 +48,7 @@ StereoAlignment fromMessage(const StereoAlignmentMessage& message) {
       message.heading_variance, message.time_variance;
   alignment.agreement = message.agreement;
   alignment.usable = message.usable != 0;
-  // NaN compares false with everything.
+  // Comparisons with NaN are false.
   if (!(alignment.mean.array().abs() <= kMaxOffset).all() || !(variances.array() >= 0.0).all() ||
       !(variances.array() <= kMaxOffset * kMaxOffset).all()) {
     throw InputError(

@@ -16,15 +16,15 @@ using sensor_msgs::CameraInfo;
 using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
 
-/// Where P (3 x 4, row by row) of a camera info holds them.
+/// Indices in P (3 x 4, row by row) of a camera info.
 constexpr std::size_t kFocalLength = 0;
 constexpr std::size_t kImageCenter = 2;
 constexpr std::size_t kBaseline = 3;  // times -focal length
 
-/// The middle of the first pixel is at 0, so that the image begins this much before it (px).
+/// The center of the first pixel is at 0, so the image begins this much before it (px).
 constexpr double kHalfPixel = 0.5;
 
-/// Of half of a field of view: 85 degrees.
+/// Tangent of half of the maximum field of view: 85 degrees.
 constexpr double kMaxTangent = 12.0;
 
 constexpr std::size_t kPackedStep = 3 * sizeof(float);
@@ -36,7 +36,7 @@ template <typename... Parts>
   throw InputError(reason, text.str());
 }
 
-/// Bytes from a point's begin to its field of this name.
+/// Offset in bytes of the field with this name within a point.
 std::size_t offsetOf(const std::string& name, const PointCloud2& message) {
   const auto field = std::find_if(message.fields.begin(), message.fields.end(),
                                   [&name](const PointField& f) { return f.name == name; });
@@ -54,7 +54,7 @@ std::size_t offsetOf(const std::string& name, const PointCloud2& message) {
   return field->offset;
 }
 
-/// Bytes of a row without what it is padded with.
+/// Bytes of a row without padding.
 std::uint64_t rowBytes(const PointCloud2& message) {
   return std::uint64_t{message.width} * message.point_step;
 }
@@ -64,7 +64,7 @@ void checkSize(const PointCloud2& message) {
     refuse("empty_cloud", "cloud of ", message.width, " x ", message.height,
            " points: expected at least one");
   }
-  // A cloud of one row needs no step to the next one.
+  // A cloud of one row needs no valid row step.
   const std::uint64_t rows_before = std::uint64_t{message.height} - 1;
   if (rows_before > 0 && message.row_step < rowBytes(message)) {
     refuse("wrong_size", "cloud with rows of ", message.row_step, " bytes: expected at least ",
@@ -86,12 +86,12 @@ void checkPoints(const PointsView& points) {
   refuse("no_valid_point", "cloud of ", points.count, " points, none of them finite");
 }
 
-/// NaN compares false with everything, and so is never within.
+/// False for NaN.
 bool isWithin(double value, double min, double max) { return value >= min && value <= max; }
 
 /// Focal length and image borders.
 StereoCamera pinholeCamera(const CameraInfo& info) {
-  // Binning of 0 is as good as 1 by the message's definition.
+  // Binning of 0 means 1 according to the message definition.
   const double binning = std::max(1U, info.binning_x);
   const double full_focal_length = info.P[kFocalLength];
   StereoCamera camera;
@@ -158,7 +158,7 @@ void CloudPoints::shiftInverseDepths(double shift) {
   for (std::size_t i = 0; i < view_.count; ++i) {
     Eigen::Vector3f point = view_[i];
     const float stretched = 1.0F + inverse * point.z();
-    // In this order a number that is not one stays so.
+    // In this order NaN stays NaN.
     point = stretched > 0.0F ? Eigen::Vector3f(point / stretched)
                              : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
     std::memcpy(shifted.data() + i * kPackedStep, point.data(), kPackedStep);

@@ -18,7 +18,7 @@ namespace datmo {
 
 namespace {
 
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< as messages have it
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< memory layout of messages
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 template <typename Message>
@@ -71,11 +71,11 @@ StationTrack fromMessage(const datmo_fusion::StationTrack& message, const LocalP
   return track;
 }
 
-/// m^2; no receiver is surer, and none on the earth less sure: its covariance is not filled.
+/// m^2; variances outside this range mean that the covariance was not filled in.
 constexpr double kMinFixVariance = 1e-8;
 constexpr double kMaxFixVariance = 1e14;
 
-/// Our own track has this number.
+/// Id of our own track.
 constexpr std::uint32_t kOwnId = 0;
 
 }  // namespace
@@ -112,7 +112,7 @@ GeodeticPosition positionOf(const sensor_msgs::NavSatFix& message) {
     throw InputError("no_fix", "the receiver says that it has no position (status " +
                                    std::to_string(message.status.status) + ")");
   }
-  // A receiver without height may say NaN of it.
+  // A receiver without height may report NaN.
   const double altitude = std::isfinite(message.altitude) ? message.altitude : 0.0;
   const GeodeticPosition position = geodetic(message, altitude);
   if (!isValid(position)) {

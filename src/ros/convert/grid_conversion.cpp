@@ -16,14 +16,14 @@ namespace datmo {
 
 namespace {
 
-/// Cell sizes (m) beyond these are of no grid around a vehicle.
+/// Cell sizes (m) outside this range belong to no grid around a vehicle.
 constexpr double kMinCellSize = 1e-3;
 constexpr double kMaxCellSize = 100.0;
 
 constexpr double kMicrometersPerMeter = 1e6;
 constexpr Percent kMaxPercent = 100;
 
-/// Of a cell, or of a turn in rad: what is less is rounding.
+/// Tolerance for rounding, in cells, or in rad for a rotation.
 constexpr double kLatticeTolerance = 1e-2;
 constexpr double kTurnTolerance = 1e-6;
 
@@ -35,7 +35,7 @@ template <typename... Parts>
 }
 
 double cellSize(float resolution) {
-  // NaN compares false with everything.
+  // Comparisons with NaN are false.
   if (!(resolution >= kMinCellSize && resolution <= kMaxCellSize)) {
     refuse("grid with cells of ", resolution, " m: expected ", kMinCellSize, " to ", kMaxCellSize,
            " m");
@@ -43,7 +43,7 @@ double cellSize(float resolution) {
   return std::round(static_cast<double>(resolution) * kMicrometersPerMeter) / kMicrometersPerMeter;
 }
 
-/// The cell whose lower left corner is at the origin.
+/// The cell with its lower left corner at the origin.
 CellIndex cornerAt(const Pose2& origin, double cell_size) {
   const double column = std::round(origin.x() / cell_size);
   const double row = std::round(origin.y() / cell_size);

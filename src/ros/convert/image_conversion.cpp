@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// What `convert` makes of the image. Throws InputError (`bad_encoding`).
+/// Applies `convert` to the image. Throws InputError (`bad_encoding`).
 template <typename Convert>
 auto converted(const sensor_msgs::Image& image, const Convert& convert) -> decltype(convert()) {
   const auto refuse = [&image](const std::string& why) {

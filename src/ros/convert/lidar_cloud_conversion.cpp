@@ -21,7 +21,7 @@ constexpr std::array<const char*, 4> kTimeFields = {"t", "offset_time", "time", 
 
 constexpr double kNanosecond = 1e-9;  // s
 
-/// Times of more (s) are counted since 1970, not since the stamp.
+/// Times above this (s) are counted since 1970 rather than from the stamp.
 constexpr double kEpoch = 1e6;
 
 template <typename Number>
@@ -31,7 +31,7 @@ double numberAt(const std::uint8_t* data) {
   return static_cast<double>(number);
 }
 
-/// The times of a cloud's points, from one of its fields.
+/// The times of a cloud's points, read from one of its fields.
 class PointTimes {
  public:
   explicit PointTimes(const PointCloud2& message) : stamp_(message.header.stamp.toSec()) {
@@ -48,7 +48,7 @@ class PointTimes {
 
   std::string field() const { return field_ != nullptr ? field_->name : ""; }
 
-  /// s after the cloud's stamp. `point`: where its bytes begin.
+  /// Returns s after the cloud's stamp. `point`: start of its bytes.
   double at(const std::uint8_t* point) const {
     const std::uint8_t* data = point + field_->offset;
     switch (field_->datatype) {
@@ -63,7 +63,7 @@ class PointTimes {
   }
 
  private:
-  /// 0: not a type of times.
+  /// 0: not a valid type for times.
   static std::size_t sizeOf(const PointField& field) {
     switch (field.datatype) {
       case PointField::UINT32:
@@ -80,7 +80,7 @@ class PointTimes {
   const PointField* field_ = nullptr;
 };
 
-/// The first time that is not near the stamp, said; NaN is not near either.
+/// The fault of the first time that is not close to the stamp; NaN never is.
 std::optional<InputError> faultOf(const std::vector<float>& times, const std::string& field,
                                   double max_sweep) {
   const auto bad = std::find_if(times.begin(), times.end(),

@@ -35,17 +35,17 @@ struct ConfigWriter {
   void operator()(const std::string& value) const {
     config.strs.push_back(parameter<dynamic_reconfigure::StrParameter>(name, value));
   }
-  /// The protocol has no lists: such an option is not shown.
+  /// The protocol has no lists: such an option is omitted.
   void operator()(const std::vector<double>& /*values*/) const {}
 };
 
-/// The protocol's names of the types, in the order of OptionValue.
+/// The protocol's type names, in the order of OptionValue.
 std::string typeOf(const OptionValue& value) {
   constexpr const char* kTypes[] = {"bool", "int", "double", "str"};
   return kTypes[value.index()];
 }
 
-/// A bound in the option's own type; infinite ones are the type's largest.
+/// A bound in the option's own type; an infinite one becomes the type's limit.
 OptionValue boundLike(const OptionValue& value, double bound) {
   if (std::holds_alternative<int>(value)) {
     using Limits = std::numeric_limits<int>;
@@ -58,7 +58,7 @@ OptionValue boundLike(const OptionValue& value, double bound) {
   return value;
 }
 
-/// As parameter_generator_catkin writes an enumeration: text of a Python dictionary.
+/// An enumeration in the format of parameter_generator_catkin: text of a Python dictionary.
 std::string editMethodOf(const LiveOption& option) {
   std::string choices;
   for (const std::string& choice : option.choices) {

@@ -15,13 +15,13 @@ namespace datmo {
 
 namespace {
 
-/// m; nothing on the earth is farther away, and squares stay far from the limits of a double.
+/// m; no coordinate on the earth is larger, and squares stay far below the limits of a double.
 constexpr double kMaxCoordinate = 1e9;
 
-/// Quaternions travel as doubles; one that is off by more than this was never normalized.
+/// Quaternions are sent as doubles; one with a larger error was never normalized.
 constexpr double kUnitLengthTolerance = 1e-3;
 
-/// Where the 6 x 6 covariances of ROS (x, y, z, roll, pitch, yaw) hold ours over x, y and heading.
+/// Index of our covariance over x, y and heading in ROS's 6 x 6 (x, y, z, roll, pitch, yaw).
 std::size_t indexInSix(int row, int column) {
   constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
   return 6 * kPlanar.at(static_cast<std::size_t>(row)) +

@@ -52,7 +52,7 @@ inline geometry_msgs::Vector3 size(const Box2& box, double height) {
 
 ObjectMessage toMessage(const Object& object);
 
-/// A turn about the vertical axis; others are not looked for.
+/// The heading is the rotation about the vertical axis; others are ignored.
 inline Pose2 boxCenter(const geometry_msgs::Pose& pose) {
   const auto& q = pose.orientation;
   return {pose.position.x, pose.position.y, 2.0 * std::atan2(q.z, q.w)};

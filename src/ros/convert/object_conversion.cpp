@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// rad: a full turn in single precision may be a little more than one.
+/// rad: a full turn in single precision may slightly exceed the exact one.
 constexpr double kRounding = 1e-5;
 
-/// A value beyond the last one that has a name is not known (zero in both enumerations).
+/// A value beyond the last defined one becomes unknown (zero in both enumerations).
 template <typename Enumeration>
 Enumeration named(std::uint8_t value, Enumeration last) {
   return value <= static_cast<std::uint8_t>(last) ? static_cast<Enumeration>(value)
@@ -67,7 +67,7 @@ FieldOfViewMessage toMessage(const SensorView& view) {
   return message;
 }
 
-/// NaN compares false with everything.
+/// Comparisons with NaN are false.
 bool isValid(const FieldOfViewMessage& view) {
   const geometry_msgs::Pose2D& pose = view.pose;
   const double width = static_cast<double>(view.max_bearing) - view.min_bearing;

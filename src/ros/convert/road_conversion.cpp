@@ -15,11 +15,10 @@ namespace datmo {
 
 namespace {
 
-/// s: a day. What was not seen for longer is no border that anybody follows, and the message's
-/// duration ends somewhere.
+/// s: a day. A border unseen for longer is not followed, and the message's duration is bounded.
 constexpr double kMaxUnseen = 86400.0;
 
-/// NaN compares false with everything.
+/// False for NaN.
 bool isProbability(double value) { return value >= 0.0 && value <= 1.0; }
 
 InputError badBorder(const std::string& what, const std::string& expected) {
@@ -91,7 +90,7 @@ RoadBorderMessage toMessage(const RoadBorder& border) {
   message.side = static_cast<std::uint8_t>(border.side);
   message.side_street = static_cast<std::uint8_t>(border.side_street);
   message.probability = static_cast<float>(border.probability);
-  checkAge(border.unseen_for);  // the message's duration throws another error
+  checkAge(border.unseen_for);  // the message's duration would throw another error
   message.unseen = ros::Duration(border.unseen_for);
   for (const BorderPoint& point : border.points) {
     geometry_msgs::Point32 position;

@@ -14,11 +14,11 @@ namespace datmo {
 
 namespace {
 
-/// Stands for a beam that saw nothing (REP 117).
+/// A beam without return (REP 117).
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
-/// No scanner of a vehicle sees farther (m); drivers also say "no limit" and "no return" with
-/// numbers of any size.
+/// No vehicle's scanner has a longer range (m); drivers also use arbitrarily large numbers for "no
+/// limit" and "no return".
 constexpr float kMaxReach = 1000.0F;
 
 template <typename Message>
@@ -59,8 +59,7 @@ void checkSize(const Message& message) {
   }
 }
 
-/// What is wrong with the time increment; NaN compares false with everything, and so is never
-/// right.
+/// What is wrong with the time increment; NaN never passes, because comparisons with it are false.
 template <typename Message>
 std::optional<InputError> faultOfTimes(const Message& message, double max_sweep) {
   const double sweep =
@@ -75,15 +74,15 @@ std::optional<InputError> faultOfTimes(const Message& message, double max_sweep)
                         " s for all beams; takes them as measured at once");
 }
 
-/// NaN compares false with everything, and so is never valid. Nor is 0, by which drivers say that
-/// they measured nothing, also where range_min is 0.
+/// NaN is never valid, because comparisons with it are false. Nor is 0, which drivers use for "no
+/// measurement", even if range_min is 0.
 bool isHit(float range, float range_min, float reach) {
   return range > 0.0F && range >= range_min && range <= reach;
 }
 
 float rangeOf(float range, float /*range_min*/, float /*reach*/) { return range; }
 
-/// The nearest valid echo; without one, no return if there was no echo or one says so.
+/// The nearest valid echo; without one, no return if there was no echo or an echo says so.
 float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float reach) {
   float nearest = kNoReturn;
   bool no_return = beam.echoes.empty();

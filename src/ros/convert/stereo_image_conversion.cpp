@@ -18,7 +18,7 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-/// Bytes of a pixel, by the encodings that are read.
+/// Bytes per pixel of the supported encodings.
 const std::map<std::string, std::size_t> kPixelSizes = {
     {encodings::MONO8, 1}, {encodings::RGB8, 3}, {encodings::BGR8, 3}};
 
@@ -26,7 +26,7 @@ std::string sizeText(std::size_t width, std::size_t height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// Throws InputError unless the calibration is of the image.
+/// Throws InputError unless the calibration matches the image.
 void checkInfo(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& image) {
   if (info.width != image.width || info.height != image.height) {
     throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) +
@@ -47,8 +47,8 @@ void checkInfo(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& im
   }
 }
 
-/// The two cameras as one. Throws InputError unless they are a rectified stereo pair; the library
-/// would end the process.
+/// Returns the model of both cameras. Throws InputError unless they are a rectified stereo pair,
+/// for which the library would end the process.
 image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
                                           const sensor_msgs::CameraInfo& right) {
   constexpr std::size_t kFx = 0;

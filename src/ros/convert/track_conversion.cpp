@@ -15,7 +15,7 @@ namespace datmo {
 
 namespace {
 
-/// Row by row, as messages have it.
+/// Row by row, the layout of messages.
 using CovarianceMessage = Eigen::Matrix<double, kTrackState, kTrackState, Eigen::RowMajor>;
 
 template <typename Values>
@@ -26,7 +26,7 @@ std::vector<float> toFloats(const Values& values) {
   return result;
 }
 
-/// NaN of all if the message has another number of them.
+/// All NaN if the message has another number of them.
 template <std::size_t count>
 std::array<double, count> fromFloats(const std::vector<float>& values) {
   std::array<double, count> result;

@@ -52,7 +52,7 @@ PointVelocity pointOf(const Values& values) {
   return point;
 }
 
-/// NaN compares false with everything.
+/// False for NaN.
 bool isUsable(const PointVelocity& point) {
   const auto spread = [](const Eigen::Matrix3d& covariance) {
     return covariance.topLeftCorner<2, 2>().determinant();
@@ -63,7 +63,7 @@ bool isUsable(const PointVelocity& point) {
          spread(point.common_covariance) >= 0.0;
 }
 
-/// Throws InputError unless the fields lie as toMessage puts them.
+/// Throws InputError unless the fields have the layout of toMessage.
 void check(const sensor_msgs::PointCloud2& message) {
   if (message.is_bigendian != 0U) {
     throw InputError("big_endian", "cloud of big endian numbers: expected little endian ones");

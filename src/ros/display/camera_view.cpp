@@ -15,7 +15,7 @@ namespace datmo {
 
 namespace {
 
-/// Two seconds of a fast scanner's tracks; a second of a camera's images.
+/// Two seconds of a fast scanner's tracks; one second of a camera's images.
 constexpr std::size_t kMaxTrackLists = 50;
 constexpr std::size_t kMaxImages = 30;
 
@@ -29,7 +29,7 @@ Eigen::Isometry3d poseAt(const tf2::BufferCore& transforms, const std::string& p
     Eigen::Isometry3d pose(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
     pose.translation() = Eigen::Vector3d(t.x, t.y, t.z);
     return pose;
-  } catch (const std::runtime_error& error) {  // tf2's, and that of ros::Time near its end
+  } catch (const std::runtime_error& error) {  // from tf2, and from ros::Time near its end
     throw InputError("missing_transform", "transform " + parent + " -> " + child +
                                               ": expected on tf (" + error.what() + ")");
   }
@@ -114,7 +114,7 @@ const TrackArray* CameraView::nearestTracks(Stamp stamp) const {
   return nearest;
 }
 
-/// Null while tracks may come that are nearer. Throws InputError.
+/// Null while closer tracks may still be received. Throws InputError.
 sensor_msgs::ImagePtr CameraView::draw(const sensor_msgs::ImageConstPtr& image,
                                        bool wait_for_tracks) {
   const Stamp stamp = toStamp(image->header.stamp);

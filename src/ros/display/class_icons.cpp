@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// A square of the image with x to the right and y down, 0 to 1 each.
+/// A square of the image with x to the right and y down, each from 0 to 1.
 class Icon {
  public:
   Icon(const cv::Rect& frame, const cv::Scalar& color, cv::Mat& canvas)

@@ -7,8 +7,8 @@
 
 namespace datmo {
 
-/// Draws what a road user is as a pictogram, a person, a cyclist, a car or a pole, in a square of a
-/// bgr8 image (thesis 4.2.5); of an unknown one nothing. `frame`: px, not smaller than 5 x 5.
+/// Draws a pictogram of a road user's class, a person, a cyclist, a car or a pole, in a square of a
+/// bgr8 image (thesis 4.2.5); nothing for an unknown class. `frame`: px, at least 5 x 5.
 void drawClassIcon(ObjectClass object_class, const cv::Rect& frame, const cv::Scalar& color,
                    cv::Mat& canvas);
 

@@ -11,13 +11,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
-/// Share of a person's height, and of a cyclist's, that is the head.
+/// Share of the head in a person's height, and in a cyclist's.
 constexpr double kHeadShare = 0.2;
 
-/// m; what is drawn thin.
+/// m; thickness of thin shapes.
 constexpr double kThin = 0.2;
 
-/// Upright, from the ground on.
+/// Upright, standing on the ground.
 Marker standing(const std_msgs::Header& header, const std::string& name, int type,
                 const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size) {
   Marker marker = makeMarker(header, name + " bodies", type);

@@ -16,21 +16,21 @@
 
 namespace datmo {
 
-/// Shape on the ground of an object of a class, in its size (thesis figure 4.13): a box for a
-/// vehicle and for what is not known, a thin cylinder for a pole; with a head on top a cylinder for
-/// a pedestrian and a narrow box for a cyclist. Colors are the caller's.
+/// Shape of an object by class, on the ground and in its size (thesis figure 4.13): a box for a
+/// vehicle or an unknown class, a thin cylinder for a pole, a cylinder with a head for a pedestrian
+/// and a narrow box with a head for a cyclist. The caller sets the colors.
 struct ClassShape {
   visualization_msgs::Marker body;
   std::optional<visualization_msgs::Marker> head;
 };
 
-/// In the namespaces "<name> bodies" and "<name> heads".
+/// Returns the shape in the namespaces "<name> bodies" and "<name> heads".
 ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
                    ObjectClass object_class, const geometry_msgs::Pose& pose,
                    const geometry_msgs::Vector3& size, const MarkersOptions& options);
 
-/// Who saw it: violet the lidar, cyan stereo (as in thesis figure 3.13), yellow two or more, gray
-/// any other one.
+/// Color of the sensors: violet lidar, cyan stereo (as in thesis figure 3.13), yellow two or more,
+/// gray any other one.
 std_msgs::ColorRGBA colorOfSensors(const std::vector<std::string>& sensors, float opacity);
 
 /// "lidar+stereo".

@@ -18,23 +18,23 @@ using visualization_msgs::Marker;
 using Vector = Eigen::Vector3f;
 using Vectors = std::vector<Vector>;
 
-/// From this opacity on a shape hides what is behind it.
+/// A shape with at least this opacity hides what is behind it.
 constexpr float kOpaque = 0.85F;
 
-/// Sides of what is round, and rings of a sphere.
+/// Number of sides of round shapes, and of rings of a sphere.
 constexpr int kSides = 16;
 constexpr int kRings = 6;
 
-/// Light from above, a little from the front and the left: share of a color that is seen anyway,
-/// and the direction to the light.
+/// Light from above, slightly from the front and the left: ambient share, and the direction to the
+/// light.
 constexpr float kAmbient = 0.62F;
 const Vector kLight = Vector(0.36F, 0.48F, 0.8F);
 
-/// Length of an arrow's head over its width, and the share of the arrow that it has at most.
+/// Length of an arrow's head over its width, and its maximum share of the arrow.
 constexpr float kHeadLength = 1.3F;
 constexpr float kMaxHeadShare = 0.5F;
 
-/// A ribbon's corner is no farther from its middle than so many half widths: sharp turns have no
+/// Maximum distance of a ribbon's corner from its center line, in half widths: sharp turns have no
 /// spikes.
 constexpr float kMaxMiter = 2.0F;
 
@@ -79,7 +79,7 @@ class Pencil {
     triangle(a, c, d);
   }
 
-  /// A share of the marker's scale: the unit shapes are about the origin, 1 large.
+  /// Scales a point of a unit shape (size 1, centered at the origin) by the marker's scale.
   Vector scaled(float x, float y, float z) const { return scale_.cwiseProduct(Vector(x, y, z)); }
 
   const Vector& scale() const { return scale_; }
@@ -105,7 +105,7 @@ void drawBox(Pencil& pencil) {
   pencil.quad(corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1));
 }
 
-/// Of the unit circle about the z axis, at a height.
+/// A point of the unit circle around the z axis, at a height.
 Vector onCircle(const Pencil& pencil, int side, float share, float z) {
   const double angle = kTurn * side / kSides;
   return pencil.scaled(0.5F * share * static_cast<float>(std::cos(angle)),
@@ -137,14 +137,14 @@ void drawSphere(Pencil& pencil) {
   }
 }
 
-/// To the left of a line, of length 1, in the plane z = const; zero where it has no direction.
+/// Unit vector to the left of a line in the plane z = const; zero if the line has no direction.
 Vector leftOf(const Vector& from, const Vector& to) {
   const Vector left(from.y() - to.y(), to.x() - from.x(), 0.0F);
   const float length = left.norm();
   return length > 0.0F ? Vector(left / length) : Vector(Vector::Zero());
 }
 
-/// Half a ribbon's width at a point: between the normals of both pieces (miter).
+/// Half the ribbon at a point, along the bisector of both pieces' normals (miter).
 Vector ribbonSide(const Vectors& points, std::size_t i, float half_width) {
   const Vector before = i > 0 ? leftOf(points[i - 1], points[i]) : Vector(Vector::Zero());
   const Vector after = i + 1 < points.size() ? leftOf(points[i], points[i + 1]) : before;
@@ -166,7 +166,7 @@ void drawRibbon(const Vectors& points, Pencil& pencil) {
   }
 }
 
-/// Flat, as wide as the marker's shaft and head.
+/// Flat, with the widths of the marker's shaft and head.
 void drawArrow(const Vectors& points, Pencil& pencil) {
   if (points.size() != 2) {
     return;

@@ -25,7 +25,7 @@ namespace {
 const std::string kMap = "map";
 const std::string kConflict = "conflict";
 
-/// What no screen shows and no network carries.
+/// Maximum number of pixels: more fits no screen and no network.
 constexpr double kMaxPixels = 2e7;
 
 using Color = cv::Vec3b;  // red, green, blue
@@ -39,22 +39,22 @@ const cv::Scalar kTitleBar(30, 32, 36);
 const cv::Scalar kTitleText(235, 235, 235);
 const cv::Scalar kVehicle(0, 110, 255);
 
-constexpr double kTitleScale = 0.55;  // of OpenCV's letters, which are 22 px high
-constexpr int kTitleInset = 7;        // px, from the left and from below
+constexpr double kTitleScale = 0.55;  // of OpenCV's font, which is 22 px high
+constexpr int kTitleInset = 7;        // px, from the left and from the bottom
 
-/// m; the vehicle is drawn as an arrowhead of a car's size.
+/// m; the vehicle is drawn as an arrowhead with the size of a car.
 constexpr double kVehicleLength = 4.0;
 constexpr double kVehicleWidth = 1.8;
 
-/// By percent, the last one for unknown.
+/// Color by percent, the last one for unknown.
 using Palette = std::array<Color, 102>;
 constexpr std::size_t kUnknownSlot = 101;
 constexpr double kMaxPercent = 100.0;
 
-/// Sensors that are careful contradict each other weakly, and that is to be seen too.
+/// Cautious sensors contradict each other only weakly, which should be visible too.
 constexpr double kConflictExponent = 0.5;
 
-/// From free to `full`, which has 100 percent; with an `exponent` below 1 little shows more.
+/// Colors from free to `full` at 100 percent; an `exponent` below 1 emphasizes small values.
 Palette paletteTo(const Color& full, double exponent) {
   Palette palette;
   for (std::size_t percent = 0; percent < kUnknownSlot; ++percent) {
@@ -86,14 +86,14 @@ void drawTitle(const std::string& text, cv::Mat bar) {
 
 }  // namespace
 
-/// The part of the picture below the title, and the position of the vehicle in it.
+/// The area of the picture below the title, and the vehicle's position in it.
 struct GridViews::Panel {
   cv::Mat image;
   double ahead = 0.0;    ///< m
   double to_side = 0.0;  ///< m
   double pixels_per_meter = 0.0;
 
-  /// The middle of a pixel in the vehicle's frame, m.
+  /// Center of a pixel in the vehicle's frame, m.
   Point2 pointAt(int row, int column) const {
     return {ahead - (row + 0.5) / pixels_per_meter, to_side - (column + 0.5) / pixels_per_meter};
   }
@@ -180,7 +180,7 @@ sensor_msgs::ImagePtr GridViews::draw() const {
   return message;
 }
 
-/// Returns what is wrong with the grid; nothing if it is drawn.
+/// Returns what is wrong with the grid; empty if it was drawn.
 std::string GridViews::drawGrid(const std::string& name, Panel& panel) const {
   try {
     panel.drawCells(fromMessage(gridOf(name)), baseInGrid(name), paletteOf(name));

@@ -29,7 +29,7 @@ constexpr int kMiddle = kIconWidth / 2;
 constexpr int kCenter = kRowHeight / 2;
 constexpr int kGround = kRowHeight - 3;
 
-constexpr double kTextScale = 0.5;  // of OpenCV's letters, which are 22 px high
+constexpr double kTextScale = 0.5;  // of OpenCV's font, which is 22 px high
 constexpr double kFullChannel = 255.0;
 
 const cv::Scalar kBackground(226, 230, 232);
@@ -41,7 +41,7 @@ cv::Scalar toScalar(const std_msgs::ColorRGBA& color) {
   return kFullChannel * cv::Scalar(color.r, color.g, color.b);
 }
 
-/// One line of the legend: a picture in a rectangle of kIconWidth x kRowHeight, and what it is.
+/// One entry of the legend: a picture in a rectangle of kIconWidth x kRowHeight, and its text.
 struct Entry {
   std::string text;
   std::function<void(const cv::Mat&)> draw;
@@ -57,7 +57,7 @@ void drawHead(const cv::Mat& icon, const cv::Scalar& color) {
   cv::circle(icon, {kMiddle, kRadius + 1}, kRadius, color, cv::FILLED, cv::LINE_AA);
 }
 
-/// Seen from the side, as class_shapes makes them.
+/// Side view of the shapes in class_shapes.
 Entry classEntry(const std::string& text, ObjectClass object_class, int half_width, int top,
                  bool head) {
   const cv::Scalar color = toScalar(colorOfClass(object_class, true, 1.0F));

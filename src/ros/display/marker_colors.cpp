@@ -14,7 +14,7 @@ namespace datmo {
 
 namespace {
 
-/// How far the color of what stands is from its class's to white.
+/// Share of white in the color of a stationary object.
 constexpr float kPaleness = 0.5F;
 
 std_msgs::ColorRGBA fullColorOf(ObjectClass object_class) {

@@ -21,12 +21,12 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// The outlines of true objects: width as a share of the other lines', and the length of a dash and
-/// of the gap after it, m.
+/// Outlines of ground-truth objects: line width relative to the other lines, and the length of a
+/// dash and of the following gap, m.
 constexpr double kThinLine = 0.7;
 constexpr double kDash = 0.4;
 
-/// The lines of a strip as dashes.
+/// Converts the lines of a strip to dashes.
 Marker dashed(Marker strip) {
   std::vector<geometry_msgs::Point> dashes;
   for (std::size_t i = 0; i + 1 < strip.points.size(); ++i) {
@@ -46,7 +46,7 @@ Marker dashed(Marker strip) {
   return strip;
 }
 
-/// Opacity of the outline of what is not seen to move, and of bodies.
+/// Opacity of outlines of objects not known to move, and of bodies.
 constexpr float kPale = 0.4F;
 constexpr float kBody = 0.3F;
 
@@ -88,7 +88,7 @@ MarkerArray markersOf(const LabeledScanMessage& scan, const MarkersOptions& opti
     marker.colors.push_back(colorOfPoint(point.state));
   }
   MarkerArray markers;
-  if (!marker.points.empty()) {  // rviz takes an empty list for a mistake
+  if (!marker.points.empty()) {  // rviz reports an empty list as an error
     markers.markers.push_back(marker);
   }
   return markers;

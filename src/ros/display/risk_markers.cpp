@@ -22,18 +22,18 @@ constexpr double kContactHeight = 0.06;
 constexpr float kTubeOpacity = 0.35F;
 constexpr float kContactOpacity = 0.8F;
 
-/// m, diameter of the disc of a contact that is certain, and share of it that each has.
+/// m, diameter of the disc of a certain contact, and the share of it for any contact.
 constexpr double kContactSize = 2.5;
 constexpr double kMinContactShare = 0.35;
 
-/// m over the ground: the letters of a contact, and those of the level, above the host.
+/// m above ground: text of a contact, and text of the level, above the host.
 constexpr double kContactLabel = 2.5;
 constexpr double kLevelLabel = 4.0;
 
-/// Height of the letters of the level's reason, which is a whole sentence, over that of the others.
+/// Relative text height of the level's reason, which is a whole sentence.
 constexpr double kSentence = 0.6;
 
-/// s; where a message has no path of the host to tell.
+/// s; used if the message has no predicted path of the host.
 constexpr double kDefaultHorizon = 4.0;
 
 double horizonOf(const RiskArray& risks) {
@@ -42,13 +42,13 @@ double horizonOf(const RiskArray& risks) {
   return horizon > 0.0 ? horizon : kDefaultHorizon;
 }
 
-/// Left (1) or right (-1) edge of the host's outline, at its middle moved by `ahead` (m).
+/// Left (1) or right (-1) edge of the host's outline, at its center moved forward by `ahead` (m).
 geometry_msgs::Point edgeOf(const geometry_msgs::Pose2D& pose, double ahead, double left) {
   return pointAt(pose.x + ahead * std::cos(pose.theta) - left * std::sin(pose.theta),
                  pose.y + ahead * std::sin(pose.theta) + left * std::cos(pose.theta), kTubeHeight);
 }
 
-/// Strips that the front bumper covers from step to step.
+/// Strips swept by the front bumper from step to step.
 Marker tubeOf(const RiskArray& risks) {
   Marker marker = makeMarker(risks.header, "host tube", Marker::TRIANGLE_LIST);
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
@@ -120,7 +120,7 @@ void addLevel(const RiskArray& risks, const RiskStyle& style, MarkerArray& marke
 MarkerArray markersOf(const RiskArray& risks, const RiskStyle& style) {
   MarkerArray markers;
   Marker tube = tubeOf(risks);
-  if (!tube.points.empty()) {  // rviz takes an empty list for a mistake
+  if (!tube.points.empty()) {  // rviz reports an empty list as an error
     markers.markers.push_back(tube);
   }
   for (const RiskMessage& risk : risks.risks) {

@@ -22,21 +22,21 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// Opacity of a border that hardly is one; of a sure one it is 1.
+/// Opacity of a border with low probability; a certain one has 1.
 constexpr float kUnsure = 0.2F;
 
-/// Brightness of a side street's borders; of those of the vehicle's own road it is 1.
+/// Brightness of a side street's borders; those of the vehicle's own road have 1.
 constexpr float kDim = 0.6F;
 
-/// Line widths of a sure border, one that hardly is one, and those beside it.
+/// Line widths of a certain border, one with low probability, and of the lines beside it.
 constexpr double kSureWidth = 3.0;
 constexpr double kMinWidth = 1.0;
 constexpr double kBandWidth = 0.4;
 
-/// Standard deviations from a border to the lines beside it: 95 % of where it may be.
+/// Standard deviations between a border and the lines beside it: 95 % of its position.
 constexpr double kBandSigmas = 2.0;
 
-/// Letters beside those of a track.
+/// Text height relative to that of a track.
 constexpr double kSmallText = 0.5;
 
 std_msgs::ColorRGBA colorOf(const RoadBorder& border) {
@@ -55,7 +55,7 @@ Marker lineOf(const std_msgs::Header& header, const RoadBorder& border,
   return marker;
 }
 
-/// m, from a point of the border to the left line beside it.
+/// m, vector from the border to the left line beside it.
 Point2 halfBandAt(const std::vector<BorderPoint>& points, std::size_t i) {
   const Point2& before = points[i == 0 ? 0 : i - 1].position;
   const Point2& after = points[std::min(i + 1, points.size() - 1)].position;
@@ -63,7 +63,7 @@ Point2 halfBandAt(const std::vector<BorderPoint>& points, std::size_t i) {
   return kBandSigmas * points[i].sigma * perpendicular(along);
 }
 
-/// Both lines beside a border, as one list of pieces.
+/// Both lines beside a border, as a list of pieces.
 Marker bandOf(const std_msgs::Header& header, const RoadBorder& border,
               const MarkersOptions& options) {
   Marker marker = makeMarker(header, "road border sigmas", Marker::LINE_LIST);

@@ -8,13 +8,14 @@ namespace datmo {
 
 namespace {
 
-/// Scans after which it is judged: a second or two.
+/// Number of scans before the verdict: one or two seconds.
 constexpr std::size_t kScans = 20;
 
-/// Of the end points; fewer outside of the window are far walls that nobody misses.
+/// Maximum share of end points outside the window; fewer are irrelevant distant walls.
 constexpr double kMaxOutside = 0.1;
 
-/// Window to both sides, by the scanner's reach: twice is room for what is left behind.
+/// Maximum window on both sides relative to the scanner's range: twice leaves room for what is
+/// behind.
 constexpr double kMaxExcess = 4.0;
 
 std::string meters(double length) {

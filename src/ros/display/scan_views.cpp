@@ -7,8 +7,8 @@ namespace datmo {
 
 namespace {
 
-/// A second and more of a fast scanner: fused objects may have waited so long for those of another
-/// sensor.
+/// More than a second of a fast scanner: fused objects may have waited that long for those of
+/// another sensor.
 constexpr std::size_t kMaxViews = 64;
 
 }  // namespace
@@ -25,7 +25,7 @@ void ScanViews::add(const LabeledScanMessage& message, const LabeledScan& scan) 
   }
 }
 
-/// The one that came last, where a scan came twice.
+/// The latest one, if a scan was received twice.
 const ScanViews::View* ScanViews::find(const std_msgs::Header& base) const {
   const auto found = std::find_if(views_.rbegin(), views_.rend(), [&](const View& view) {
     return view.base.stamp == base.stamp && view.base.frame_id == base.frame_id;

@@ -10,7 +10,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_msgs::KeyValue;
 
-/// What a stage's report (StageReporter) calls its lines.
+/// Names in a stage's report (StageReporter).
 constexpr char kReceived[] = " received";
 constexpr char kRate[] = " rate [Hz]";
 constexpr char kAge[] = " age [s]";

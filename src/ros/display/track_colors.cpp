@@ -14,13 +14,13 @@ namespace datmo {
 
 namespace {
 
-/// Share of its color that lines and letters have.
+/// Brightness of lines and text relative to the color.
 constexpr float kInk = 0.45F;
 
-/// The golden section: multiples of it, modulo 1, are spread evenly whatever their number.
+/// The golden section: its multiples modulo 1 are evenly spread for any number.
 constexpr double kGoldenSection = 0.618033988749895;
 
-/// Hue of the slowest, blue; the fastest are red, 0.
+/// Hue of slow tracks, blue; fast ones are red, 0.
 constexpr double kSlowHue = 0.62;
 
 std_msgs::ColorRGBA paintOf(const TrackMessage& track, TrackColor color_by, bool moving,

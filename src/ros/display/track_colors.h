@@ -7,10 +7,10 @@
 
 namespace datmo {
 
-/// Of a track's body and ellipse.
+/// Color of a track's body and ellipse.
 std_msgs::ColorRGBA colorOf(const TrackMessage& track, TrackColor color_by, float opacity);
 
-/// Of its lines and letters: darker, to be read on a light map.
+/// Color of its lines and text: darker, to be readable on a light map.
 std_msgs::ColorRGBA inkOf(const TrackMessage& track, TrackColor color_by);
 
 }  // namespace datmo

@@ -15,18 +15,18 @@ namespace datmo {
 
 namespace {
 
-constexpr double kNear = 0.3;  // m: nearer than any mounted camera sees another road user
+constexpr double kNear = 0.3;  // m: closer than any mounted camera sees another road user
 constexpr double kFullChannel = 255.0;
-constexpr double kLetterHeight = 22.0;  // px, of OpenCV's letters at scale 1
-constexpr int kMargin = 3;              // px, round a label's letters
-constexpr double kMinOpacity = 0.3;     // what probably does not exist is shown all the same
+constexpr double kLetterHeight = 22.0;  // px, of OpenCV's font at scale 1
+constexpr int kMargin = 3;              // px, around a label's text
+constexpr double kMinOpacity = 0.3;     // improbable tracks remain visible
 const cv::Scalar kText(255, 255, 255);
 
 cv::Scalar toBgr(const std_msgs::ColorRGBA& color) {
   return kFullChannel * cv::Scalar(color.b, color.g, color.r);
 }
 
-/// Ends far out of the image, of edges beside the camera, are cut first: OpenCV draws with 16 bits.
+/// Clips ends far outside the image, of edges beside the camera, first: OpenCV draws with 16 bits.
 void drawEdges(const std::vector<ImageSegment>& edges, const cv::Scalar& color, int line_width,
                cv::Mat& canvas) {
   for (const ImageSegment& edge : edges) {
@@ -38,16 +38,16 @@ void drawEdges(const std::vector<ImageSegment>& edges, const cv::Scalar& color, 
   }
 }
 
-/// A label: a filled rectangle with letters.
+/// A label: a filled rectangle with text.
 struct Label {
   std::string text;
-  double scale = 1.0;  ///< of the letters
-  int baseline = 0;    ///< px, below the letters' feet
-  int icon = 0;        ///< px, side of the class icon before them; 0: none
+  double scale = 1.0;  ///< of the text
+  int baseline = 0;    ///< px, below the text's baseline
+  int icon = 0;        ///< px, side of the class icon before the text; 0: none
   cv::Rect frame;
 };
 
-/// Above the box; at the upper edge of the image where there is no room.
+/// Label above the box; at the upper edge of the image if there is no room.
 Label labelAbove(const TrackBox& box, const Eigen::AlignedBox2d& bounds,
                  const CameraViewOptions& options, const cv::Size& image) {
   Label label;
@@ -64,7 +64,7 @@ Label labelAbove(const TrackBox& box, const Eigen::AlignedBox2d& bounds,
   return label;
 }
 
-/// Moves a label up until it covers none of those that are there.
+/// Moves a label up until it overlaps none of the others.
 void moveClear(const std::vector<Label>& others, Label& label) {
   for (bool moved = true; moved && label.frame.y > 0;) {
     moved = false;
@@ -89,7 +89,7 @@ void drawLabel(const Label& label, const TrackBox& box, cv::Mat& canvas) {
               cv::LINE_AA);
 }
 
-/// Draws a box and its label as far as it is opaque. `bounds`: of the box in the image.
+/// Draws a box and its label with its opacity. `bounds`: of the box in the image.
 void drawFaded(const TrackBox& box, const std::vector<ImageSegment>& edges,
                const Eigen::AlignedBox2d& bounds, const Label& label,
                const CameraViewOptions& options, cv::Mat& canvas) {

@@ -14,23 +14,23 @@
 
 namespace datmo {
 
-/// A track as a camera image shows it.
+/// A track prepared for drawing on a camera image.
 struct TrackBox {
   Box3 box;               ///< in the camera's frame
   double distance = 0.0;  ///< m, from the camera
   ObjectClass object_class = ObjectClass::kUnknown;
   cv::Scalar color;      ///< blue, green, red
   double opacity = 1.0;  ///< 0 to 1
-  std::string text;      ///< "#id class speed", the class where it is known, the speed if it moves
+  std::string text;      ///< "#id class speed", the class if known, the speed if moving
 };
 
-/// A track `later` seconds after its stamp (negative: before), moved by its velocity. The less
-/// likely it exists, the fainter it is.
+/// Returns a track `later` seconds after its stamp (negative: before), moved by its velocity, with
+/// an opacity that depends on its existence.
 TrackBox trackBox(const TrackMessage& track, double later, const Eigen::Isometry3d& fixed_in_camera,
                   const CameraViewOptions& options);
 
-/// Draws boxes with their labels, class icons and distances on a bgr8 image. The label of the
-/// nearest is just above it, others higher where they would cover one of a nearer track.
+/// Draws boxes with their labels, class icons and distances on a bgr8 image. Labels are just above
+/// their boxes, or higher to avoid covering that of a nearer track.
 void drawTrackBoxes(const PinholeCamera& camera, std::vector<TrackBox> boxes,
                     const CameraViewOptions& options, cv::Mat& canvas);
 

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// "#id class speed": the class only where it is known, the speed only of what moves.
+/// Returns "#id class speed": the class only if known, the speed only if moving.
 std::string labelText(const TrackMessage& track);
 
 }  // namespace datmo

@@ -21,17 +21,16 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// The ellipse that holds the true position with 95 %: quantile of chi-square with two degrees of
-/// freedom.
+/// The 95 % ellipse of the position: quantile of chi-square with two degrees of freedom.
 constexpr double kEllipseGate = 5.991;
 
-/// Opacity of a box that hardly exists, and of one that surely does.
+/// Opacity of a track with low existence, and of a certain one.
 constexpr float kFaint = 0.1F;
 constexpr float kSolid = 0.9F;
 
 constexpr float kEllipseOpacity = 0.3F;
 
-/// m, just above the ground: not hidden by the map.
+/// m, just above the ground, so that the map does not hide it.
 constexpr double kEllipseHeight = 0.02;
 
 double heightOf(const TrackMessage& track, const MarkersOptions& options) {
@@ -51,8 +50,8 @@ Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// So high above the box that it does not cover it where it is looked at from up to 45 degrees
-/// above the ground, whichever way the box is turned.
+/// High enough above the box not to cover it when seen from up to 45 degrees above the ground, for
+/// any heading of the box.
 Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
                const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
@@ -64,7 +63,7 @@ Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// On the ground, where the position is with 95 %.
+/// The 95 % ellipse of the position, on the ground.
 Marker ellipseOf(const std_msgs::Header& header, const TrackMessage& track,
                  const MarkersOptions& options) {
   Eigen::Matrix2d covariance;
@@ -87,7 +86,7 @@ Marker ellipseOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// Where it was lately.
+/// Its recent path.
 Marker pathOf(const std_msgs::Header& header, const TrackMessage& track,
               const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track paths", Marker::LINE_STRIP);
@@ -114,7 +113,7 @@ Marker groundOutline(const std_msgs::Header& header, const std::string& name,
   return outline;
 }
 
-/// The class as a shape, and on the ground its outline and who saw it.
+/// The class as a shape, and on the ground its outline and the outline of the sensors.
 void addBody(const std_msgs::Header& header, const TrackMessage& track, const TrackStyle& style,
              MarkerArray& markers) {
   const MarkersOptions& options = style.sizes;
@@ -144,7 +143,7 @@ void addTrack(const std_msgs::Header& header, const TrackMessage& track, const T
   add(ellipseOf(header, track, style.sizes), track, colorOf(track, style.color_by, kEllipseOpacity),
       markers);
   const Marker path = pathOf(header, track, style.sizes);
-  if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
+  if (path.points.size() > 1) {  // rviz reports a line of one point as an error
     add(path, track, ink, markers);
   }
 }

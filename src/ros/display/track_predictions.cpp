@@ -23,7 +23,7 @@ constexpr double kPredictionHeight = 0.04;
 /// Opacity of the path of a mode that is certain.
 constexpr float kCertain = 0.8F;
 
-/// m; a path that ends nearer to its start is not drawn: rviz takes it for a mistake.
+/// m; a path that ends closer to its start is not drawn: rviz reports it as an error.
 constexpr double kShortest = 0.05;
 
 Marker pathOf(const std_msgs::Header& header, const BodyPath& path, double line_width) {

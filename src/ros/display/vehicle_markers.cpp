@@ -15,10 +15,10 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// Parts of a car as shares of its length (from the rear), width and height: those of a common
+/// Parts of a car as shares of its length (from the rear), width and height, like a common
 /// hatchback.
 constexpr double kFloor = 0.12;      // of the height
-constexpr double kBelt = 0.6;        // of the height: where the windows begin
+constexpr double kBelt = 0.6;        // of the height: lower edge of the windows
 constexpr double kCabinRear = 0.06;  // of the length
 constexpr double kCabinFront = 0.68;
 constexpr double kCabinWidth = 0.86;
@@ -38,15 +38,15 @@ const std_msgs::ColorRGBA kTire = color(0.05F, 0.05F, 0.05F);
 const std_msgs::ColorRGBA kHeadLamp = color(1.0F, 1.0F, 0.85F);
 const std_msgs::ColorRGBA kTailLamp = color(0.8F, 0.0F, 0.0F);
 
-/// Puts parts together; each position is a share of the body's length, half width and height.
+/// Assembles the parts; each position is a share of the body's length, half width and height.
 class Body {
  public:
   Body(std_msgs::Header header, const VehicleBodyOptions& options)
       : header_(std::move(header)), options_(options) {
-    header_.stamp = ros::Time();  // with frame_locked: it is where its frame is now
+    header_.stamp = ros::Time();  // with frame_locked: follows the latest position of its frame
   }
 
-  /// From rear to front, as wide as `width` about `side` (-1 right, 1 left), from bottom to top.
+  /// From rear to front, `width` wide around `side` (-1 right, 1 left), from bottom to top.
   struct Extent {
     double rear, front, side, width, bottom, top;
   };

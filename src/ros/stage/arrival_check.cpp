@@ -11,12 +11,13 @@ namespace datmo {
 
 namespace {
 
-/// A gap of more is another count, no loss: a stage that stood still for an hour has missed 720,000
-/// messages of odometry at 200 Hz. The time between two messages does not tell: after a standstill
-/// the last ones before it, from the buffer of the connection, come together with those after it.
+/// A larger gap is a new numbering rather than a loss: a stage that stood still for an hour has
+/// missed 720,000 messages of odometry at 200 Hz. The time between two messages is not informative:
+/// after a standstill the last ones before it, from the connection's buffer, are received together
+/// with those after it.
 constexpr std::uint32_t kMaxGap = 1000000;
 
-/// Publishers that are remembered: those with a new name at each start are many.
+/// Maximum number of remembered publishers: some have a new name at each start.
 constexpr std::size_t kMaxPublishers = 20;
 
 std::string waitedFor(double seconds, double max_wait) {

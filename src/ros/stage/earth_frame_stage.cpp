@@ -13,7 +13,7 @@ namespace datmo {
 
 namespace {
 
-/// A receiver has some in the time between two poses; more wait for a pose that does not come.
+/// A receiver sends a few between two poses; more are waiting for a pose that does not come.
 constexpr std::size_t kMaxWaiting = 50;
 
 Pose2 between(const Pose2& a, const Pose2& b, double share) {

@@ -33,9 +33,9 @@ Contrast contrastOf(const cv::Mat& image) {
   return {mean[0], deviation[0]};
 }
 
-/// Whether a quarter of the image's height was not transmitted: all of one gray. Black is none: a
-/// road and the own hood are clipped at night; nor is white of the upper half, in which the sky is.
-/// Of an image of fewer rows nothing is said.
+/// Whether a quarter of the image's height was not transmitted and is uniformly gray. Black does
+/// not count, because a road and the own hood are clipped at night; nor does white in the upper
+/// half, which may be sky. Images with too few rows are not judged.
 bool lacksPart(const cv::Mat& image) {
   if (image.rows < kQuarters) {
     return false;

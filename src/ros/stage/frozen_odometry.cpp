@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// m, rad, by the twist: over this the poses of wheels change, however coarse their encoders are.
+/// m, rad, by the twist: over this distance wheel odometry changes, however coarse the encoders.
 constexpr double kCountedDistance = 0.3;
 constexpr double kCountedTurn = degrees(3.0);
 
@@ -26,7 +26,7 @@ bool FrozenOdometry::take(const nav_msgs::Odometry& message) {
   const Measured measured = {pose.position.x,    pose.position.y, pose.orientation.z,
                              pose.orientation.w, twist.linear.x,  twist.angular.z};
   const Stamp stamp = toStamp(message.header.stamp);
-  // As bytes: what is not a number is the same as itself here.
+  // Compared as bytes, so that NaN equals itself.
   if (is_first_ || std::memcmp(measured.data(), last_.data(), sizeof(measured)) != 0) {
     pose_counts_ =
         pose_counts_ || (!is_first_ && std::memcmp(measured.data(), last_.data(), kPoseBytes) != 0);

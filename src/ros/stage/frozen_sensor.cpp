@@ -12,14 +12,14 @@ namespace datmo {
 
 namespace {
 
-/// m, rad; what stays the same over this is no measurement of what is there now.
+/// m, rad; a measurement that stays identical over this motion is not current.
 constexpr double kFrozenDistance = 0.3;
 constexpr double kFrozenTurn = degrees(3.0);
 
-/// Of so few beams that come back, rounded as a scanner does, all may be the same by chance.
+/// With fewer echoes, rounded as a scanner does, all may be identical by chance.
 constexpr std::ptrdiff_t kMinReturns = 10;
 
-/// Some scanners report as a range beyond their reach that nothing came back.
+/// Some scanners report a missing return as a range beyond their maximum.
 std::vector<std::uint8_t> bytesOf(const std::vector<float>& ranges, float min_range,
                                   float max_range) {
   const auto returns = std::count_if(ranges.begin(), ranges.end(), [&](float range) {
@@ -44,7 +44,7 @@ bool FrozenSensor::take(Stamp stamp, std::vector<std::uint8_t> measured,
     is_frozen_ = false;
     return false;
   }
-  // From one to the next, as odometry is not kept for as long as a sensor may be frozen.
+  // Step by step, because odometry is not stored for as long as a sensor may be frozen.
   if (const std::optional<Pose2> step = motion(before, stamp)) {
     moved_ = moved_ * *step;
   }

@@ -106,7 +106,8 @@ void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing
     const auto before = absences_.find(source);
     Absence& absence = absences[source];
     absence = before == absences_.end() ? Absence{stamp, {}} : before->second;
-    // One set without it is nothing: it may be slower than the reference, or have just begun.
+    // A single set without it means nothing: it may be slower than the reference, or have just
+    // started.
     const bool lasts = one.why == WhyMissing::kSilent ||
                        secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
     if (lasts && absence.said.insert(one.why).second) {

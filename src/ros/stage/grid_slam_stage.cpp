@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// The hold of the odometry is said once, for all stages.
+/// The hold of the odometry is set once, for all stages.
 GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
   GridSlamOptions slam = options.slam;
   slam.odometry_hold = options.motion.hold;

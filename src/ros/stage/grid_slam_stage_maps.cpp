@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GridSlamStage does with maps, their files, and their frame.
+// GridSlamStage's handling of maps, their files, and their frame.
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/map_saving.h"
@@ -24,7 +24,7 @@ std::string GridSlamStage::saveMap(const std::string& file) const {
   return savedMapText(file, slam_.lastingMap());
 }
 
-/// Whether saving there would replace a file of the prior map.
+/// Whether saving there would overwrite a file of the prior map.
 bool GridSlamStage::isOfPriorMap(const std::string& file) const {
   const std::string& prior = options_.prior_map.file;
   return !prior.empty() && mapServerNames(file).yaml == mapServerNames(prior).yaml;

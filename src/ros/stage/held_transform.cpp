@@ -9,12 +9,12 @@ namespace datmo {
 
 namespace {
 
-/// Scans are silent when none comes for so many of their periods, and for so long (s): no scanner
-/// that works leaves out as many, and a camera of 10 Hz waits for three of its frames at most.
+/// Scans count as silent when none was received for this many of their periods, and for this long
+/// (s): no working scanner drops that many, and a camera of 10 Hz waits for at most three frames.
 constexpr double kSilentPeriods = 3.0;
 constexpr double kSilence = 0.3;
 
-/// s: the longest gap of scans of which it is measured what becomes of the pose (scripts/gaps).
+/// s: the longest gap of scans for which the pose error was measured (scripts/gaps).
 constexpr double kLongest = 5.0;
 
 }  // namespace
@@ -22,7 +22,7 @@ constexpr double kLongest = 5.0;
 void HeldTransform::served(Stamp now) {
   if (served_) {
     const double step = std::max(0.0, secondsBetween(*served_, now));
-    period_ = step_ > 0.0 ? std::min(step_, step) : step;  // a single gap is no period
+    period_ = step_ > 0.0 ? std::min(step_, step) : step;  // a single gap is not a period
     step_ = step;
   }
   served_ = now;

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// No source of tracks can have this name.
+/// Cannot be the name of a source of tracks.
 constexpr char kOdometryStream[] = "/odometry";
 
 }  // namespace

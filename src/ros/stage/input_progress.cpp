@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// s after which a missing input is named: drivers have started by then.
+/// s after which a missing input is reported: drivers have started by then.
 constexpr double kPatience = 5.0;
 
 }  // namespace

@@ -15,10 +15,10 @@ namespace datmo {
 
 namespace {
 
-/// Scans that wait for the thread at the most: a minute of them.
+/// Maximum number of scans that wait for the thread: a minute.
 constexpr std::size_t kMaxQueuedScans = 1000;
 
-/// Of these it is given so many at a time: what it finds counts, and it can end, that soon.
+/// Maximum batch: results are used, and the thread can stop, after each one.
 constexpr std::size_t kMaxScansAtATime = 100;
 
 constexpr double kBytesPerMegabyte = 1e6;

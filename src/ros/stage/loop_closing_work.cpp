@@ -26,8 +26,8 @@ void take(LoopCloser& closer, const LoopJob::Step& step) {
   }
 }
 
-/// Calls it; what went wrong, or nothing. There may be no memory, in a thread that must not end by
-/// it.
+/// Calls `call`; returns the error message, or an empty one. Even memory exhaustion must not end
+/// the thread.
 template <typename Call>
 std::string errorOf(const Call& call) {
   try {

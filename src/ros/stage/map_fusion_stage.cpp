@@ -19,7 +19,7 @@ namespace datmo {
 
 namespace {
 
-/// The source that has the poses.
+/// The source of the poses.
 constexpr char kPoses[] = "labeled_scan";
 
 /// Rows of a pose's covariance in ROS: x, y, z, roll, pitch, yaw.
@@ -106,7 +106,7 @@ void MapFusionStage::readPriorMap(const GridWindow& window) {
   map.window.width = window.rows * window.cell_size;
   try {
     fuser_.setPrior(readMap(options_.prior_map, map));
-  } catch (const std::exception& error) {  // no memory, too
+  } catch (const std::exception& error) {  // out of memory, too
     monitor_.warned(InputError("bad_prior_map", error.what()));
     monitor_.condition(HealthLevel::kDegraded, "goes on without the prior map");
   }
@@ -151,7 +151,7 @@ std::optional<MapFusionOutput> MapFusionStage::next(Stamp now) {
 
 MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
   const auto* const scan = std::get_if<LabeledScan>(matched.reference().payload.get());
-  if (scan == nullptr) {  // poses are silent: another source led
+  if (scan == nullptr) {  // poses are silent: another source led the set
     inputs_.report(matched.stamp(), matched.missing);
     return {};
   }

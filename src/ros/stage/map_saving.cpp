@@ -35,7 +35,7 @@ datmo_fusion::SaveMap::Response answerSaveMap(
   try {
     response.message = save(request.file);
     response.success = true;
-  } catch (const std::exception& error) {  // no memory, too
+  } catch (const std::exception& error) {  // out of memory, too
     response.message = error.what();
     monitor.warned(InputError("map_not_saved", error.what()));
   }

@@ -22,7 +22,7 @@ namespace datmo {
 
 namespace {
 
-/// As an OptionError: the host stops with its message.
+/// Converts errors to OptionError: the host stops with its message.
 std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& options) {
   try {
     return std::make_unique<MonoClassifier>(options);
@@ -31,13 +31,13 @@ std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& opti
   }
 }
 
-/// In the detector's thread, so that no scan waits for it. Where the process may not be that nice,
-/// it works on as it was.
+/// Lowers the priority of the detector's thread, so that no scan waits for it. If that is not
+/// permitted, the priority stays unchanged.
 void giveWay(const MonoClassifierStageOptions& options) {
   if (options.detector_threads > 0) {
     cv::setNumThreads(options.detector_threads);
   }
-  // Linux: of this thread alone, and of those that it starts.
+  // On Linux this applies only to this thread and those that it starts.
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
   setpriority(PRIO_PROCESS, thread,
               std::max(getpriority(PRIO_PROCESS, thread), options.detector_nice));
@@ -97,7 +97,7 @@ void MonoClassifierStage::reset() {
   wait_.clear();
   exposure_.reset();
   results_.clear();
-  ++run_;  // what the detector still looks at is of no use
+  ++run_;  // invalidates what the detector is still processing
 }
 
 void MonoClassifierStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
@@ -143,7 +143,7 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
 void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
   const Stamp exposure = toStamp(image.header.stamp);
   const double age = secondsBetween(exposure, wait_.newestStamp().value_or(exposure));
-  // Of a clock that jumped back it is no older, and starts over.
+  // After a jump of the clock it is not old, but starts over.
   if (age > options_.max_age && age < options_.input.restart_after) {
     throw InputError("old_image", "image " + std::to_string(age) +
                                       " s older than the newest objects: expected at most " +
@@ -159,7 +159,7 @@ ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
     return result;
   }
   const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
-  // Of the vehicle at the objects' time, in its frame at the exposure.
+  // Pose of the vehicle at the objects' time, in its frame at the exposure.
   const auto base = baseAt(list->stamp, exposure, motion);
   if (!base) {
     monitor_.warned(InputError("no_motion",
@@ -200,7 +200,7 @@ MonoClassifierStage::Result MonoClassifierStage::work(MonoClassifier& classifier
   try {
     const auto pixels = grayOrColor(job.image);
     result.classification = classifier.classify(pixels->image, job.camera, job.objects);
-  } catch (const std::exception& error) {  // of OpenCV, in a thread that must not end by it
+  } catch (const std::exception& error) {  // of OpenCV: must not end the thread
     result.error = error.what();
   }
   result.seconds = watch.seconds();

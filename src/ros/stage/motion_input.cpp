@@ -12,10 +12,10 @@ namespace datmo {
 
 namespace {
 
-/// No source of a stage that fuses several can have this name.
+/// Cannot be the name of a source of a stage that fuses several.
 constexpr char kMotionStream[] = "/motion";
 
-/// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
+/// Throws InputError (`wrong_frame`) unless the odometry has the vehicle's frames.
 void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) {
   const std::string& odom = message.header.frame_id;
   const std::string& base = message.child_frame_id;
@@ -118,7 +118,7 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
                                       "max_acceleration, max_yaw_acceleration); the map's pose was "
                                       "corrected, and that is no motion");
   }
-  // What the vehicle did up to this pose is what it is expected to do after it.
+  // The motion up to this pose is the prediction for the time after it.
   buffer_.add({stamp, step->twist, step->traveled});
 }
 

@@ -13,10 +13,10 @@ namespace datmo {
 
 namespace {
 
-/// (m/s)^2: of a speed of which nothing is known.
+/// (m/s)^2: variance of an unknown speed.
 constexpr double kUnknownSpeedVariance = kMaxSpeed * kMaxSpeed;
 
-/// First element of a covariance in sensor_msgs/Imu whose quantity the sensor does not measure.
+/// In sensor_msgs/Imu, the first covariance element of a quantity that is not measured.
 constexpr double kNotMeasured = -1.0;
 
 Twist2 checked(const Twist2& twist, const std::string& what) {
@@ -67,7 +67,7 @@ nav_msgs::OdometryPtr MotionStage::takeTwist(
 nav_msgs::OdometryPtr MotionStage::takeTwist(const std_msgs::Header& header,
                                              const geometry_msgs::Twist& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
-    const bool uses_imu = options_.motion.usesImu();  // and then that has the yaw rate
+    const bool uses_imu = options_.motion.usesImu();  // if so, the yaw rate is the IMU's
     const double yaw_rate = uses_imu ? 0.0 : inBase(header.frame_id, message.angular).z();
     const Twist2 twist = checked({inBase(header.frame_id, message.linear).x(), yaw_rate}, "twist");
     runner_.check("twist", header.stamp);

@@ -72,7 +72,7 @@ std::optional<RoadModel> MovingObjectsStage::roadAt(Stamp stamp, const std::stri
                                         map_frame + "', the scan's map; all objects pass"});
     return std::nullopt;
   }
-  // Of a clock that jumped they may also be too new.
+  // After a jump of the clock they may also be too new.
   const double age = std::abs(secondsBetween(road_->stamp, stamp));
   if (age > options_.border_age) {
     monitor_.warned({"old_borders", "borders of the road " + std::to_string(age) +

@@ -20,10 +20,10 @@ namespace {
 
 constexpr char kObjectList[] = "object list";
 
-/// A second and more of a fast scanner: longer than a list may wait (SourceMatcherOptions).
+/// More than a second of a fast scanner: longer than a list may wait (SourceMatcherOptions).
 constexpr std::size_t kMaxScans = 64;
 
-/// Names of the sources with such a list.
+/// Names of the sources that have such a list.
 std::string sourcesWith(const std::vector<SourceObjects>& lists,
                         const std::function<bool(const std::vector<Object>&)>& is_such) {
   std::string names;
@@ -141,7 +141,7 @@ ObjectArrayPtr ObjectFusionStage::fuse(const Matched& matched) {
   const LabeledScan* const scan = scanAt(matched.stamp());
   times_without_scan_ += scan == nullptr ? 1 : 0;
   const ObjectFusionResult result = fuser_.fuse(lists, scan);
-  // Sets come by rising stamp.
+  // Sets have rising stamps.
   scans_.erase(scans_.begin(),
                std::find_if(scans_.begin(), scans_.end(), [&matched](const LabeledScan& one) {
                  return one.stamp > matched.stamp();

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// A second of a fast scanner, which is the longest wait.
+/// One second of a fast scanner, the longest wait.
 constexpr std::size_t kMaxWaiting = 50;
 
 }  // namespace
@@ -28,7 +28,7 @@ bool OdometryWait::serveNext(Stamp now) {
 }
 
 bool OdometryWait::mayGoOn(const Waiting& waiting, Stamp now) const {
-  // A clock that was set back ends the wait, too.
+  // A clock that was set back also ends the wait.
   const bool waited = std::abs(secondsBetween(waiting.since, now)) >= max_wait_;
   const OdometrySample* newest = odometry_.newest();
   if (waited || newest == nullptr) {

@@ -10,10 +10,10 @@ namespace datmo {
 
 namespace {
 
-/// Of the largest element: what sums of doubles may be off by.
+/// Relative to the largest element: rounding error of sums of doubles.
 constexpr double kRounding = 1e-6;
 
-/// s, behind the newest input: results are of what was measured, not of what will be.
+/// s, ahead of the newest input: results refer to measurements, not to the future.
 constexpr double kMaxAhead = 1.0;
 
 }  // namespace

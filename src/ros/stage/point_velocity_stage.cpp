@@ -16,10 +16,10 @@ namespace datmo {
 
 namespace {
 
-/// m/s; no vehicle of which odometry says nothing is faster, as a rule.
+/// m/s; usual maximum speed of a vehicle without odometry.
 constexpr double kUnknownSpeed = 20.0;
 
-/// rad/s, the same of a turn.
+/// rad/s, the same for its turn rate.
 constexpr double kUnknownTurn = 0.5;
 
 StereoRig rigOf(const image_geometry::StereoCameraModel& model,
@@ -103,7 +103,7 @@ sensor_msgs::PointCloud2Ptr PointVelocityStage::takeImage(StereoSide side,
 sensor_msgs::PointCloud2Ptr PointVelocityStage::takeInfo(
     StereoSide side, const sensor_msgs::CameraInfoConstPtr& info) {
   return runner_.serve([&] {
-    // A clock that jumped back is known by whichever comes first, and takes nothing newer with it.
+    // Whichever message comes first detects a jump back of the clock, before newer ones are stored.
     runner_.check(side == StereoSide::kLeft ? "left/camera_info" : "right/camera_info",
                   info->header.stamp);
     return serve(pairs_.takeInfo(side, info));
@@ -124,7 +124,7 @@ sensor_msgs::PointCloud2Ptr PointVelocityStage::serve(const std::optional<Stereo
     return toMessage(points, pair->left.stamp, options_.frames.base);
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& error) {  // of OpenCV, cv_bridge and image_geometry
+  } catch (const std::exception& error) {  // from OpenCV, cv_bridge and image_geometry
     throw InputError("bad_images", std::string("images that cannot be matched: ") + error.what());
   }
 }
@@ -138,8 +138,8 @@ std::vector<PointVelocity> PointVelocityStage::velocitiesOf(const StereoPair& pa
   const std::string& frame =
       options_.frames.camera.empty() ? pair.left.image->header.frame_id : options_.frames.camera;
   const LastPair now{pair.left.stamp, sensorMount(transforms_.core(), options_.frames.base, frame)};
-  // From here on the matcher's last images may be these or those before: unless all goes well the
-  // time of neither is kept, for a wrong one would scale all velocities.
+  // From here on it is uncertain which images the matcher holds: unless everything succeeds, no
+  // stamp is kept, because a wrong one would scale all velocities.
   const std::optional<LastPair> last = std::exchange(last_, std::nullopt);
   const std::vector<FeatureQuad> quads =
       matcher_.match(gray(pair.left, model.left()), gray(pair.right, model.right()));

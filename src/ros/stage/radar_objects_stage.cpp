@@ -12,11 +12,11 @@ namespace datmo {
 
 namespace {
 
-/// Up to the stamp, over which the vehicle's velocity is taken, s: shorter is noise where it comes
-/// from poses.
+/// Period before the stamp over which the vehicle's velocity is averaged, s: shorter ones are noisy
+/// if it comes from poses.
 constexpr double kTwistTime = 0.1;
 
-/// Nearer to upright a radar's ranges say nothing of where a thing is on the ground, rad.
+/// Maximum elevation, rad: closer to vertical, range says nothing about the position on the ground.
 constexpr double kMaxElevation = 1.0;
 
 }  // namespace
@@ -51,7 +51,7 @@ RadarCycle RadarObjectsStage::cycleOf(const RadarScanMessage& message) {
   cycle.radar_in_base = mount.scanner_in_base;
   std::uint64_t bad = 0;
   for (const datmo_fusion::RadarReturn& one : message.returns) {
-    // NaN compares false with everything.
+    // Comparisons with NaN are false.
     const bool is_good = one.range > 0.0F && one.range <= options_.max_range &&
                          std::abs(one.azimuth) <= kPi && std::abs(one.elevation) <= kMaxElevation &&
                          std::abs(one.doppler_velocity) <= options_.max_doppler;

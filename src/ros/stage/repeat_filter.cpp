@@ -7,10 +7,11 @@ namespace datmo {
 
 namespace {
 
-/// s without an error after which its return is news: an operator has looked away by then.
+/// s without an error after which its return is reported again: an operator has looked away by
+/// then.
 constexpr double kLongQuiet = 60.0;
 
-/// Causes of one reason that are said: a name that never repeats must not fill the console.
+/// Maximum number of reported causes per reason: ever-changing names must not fill the console.
 constexpr std::size_t kMaxCauses = 20;
 
 bool isDigit(char character) { return std::isdigit(static_cast<unsigned char>(character)) != 0; }
@@ -29,7 +30,7 @@ std::size_t endOfNumber(const std::string& text, std::size_t begin) {
   return end;
 }
 
-/// The message without its numbers; those in names stay.
+/// The message without its numbers, except those in names.
 std::string causeIn(const std::string& message) {
   std::string cause;
   for (std::size_t i = 0; i < message.size();) {

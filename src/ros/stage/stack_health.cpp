@@ -12,7 +12,7 @@ namespace {
 
 using Stages = std::vector<StageState>;
 
-/// s; a stage reports each second, on a machine that has much to do every few.
+/// s; a stage reports every second, on a heavily loaded machine every few seconds.
 constexpr double kEndedAfter = 10.0;
 
 bool contains(const std::vector<std::string>& topics, const std::string& topic) {
@@ -26,7 +26,7 @@ const StageState* producerOf(const Stages& stages, const std::string& topic) {
   return found == stages.end() ? nullptr : &*found;
 }
 
-/// The stage farthest up the chain from this one that makes nothing.
+/// The most upstream stage from this one that has no output.
 const StageState& sourceOfNothing(const Stages& stages, const StageState& stage,
                                   std::set<std::string>& visited) {
   visited.insert(stage.stage);

@@ -5,29 +5,29 @@ namespace datmo {
 
 namespace {
 
-/// s; a detector in images may take longer than the scanner for some turns.
+/// s; a detector in images may take longer than several scanner periods.
 constexpr double kMonoLateBy = 0.4;
 
 using Remaps = std::map<std::string, std::string>;
 
-/// A row of the graph: when there is the stage, and what it is.
+/// A row of the graph: the condition for a stage, and the stage.
 struct Row {
   bool present = false;
   StackPart part = StackPart::kPerception;
   std::string name;
   Remaps remaps = {};
   OptionValues parameters = {};
-  std::string type = {};  ///< empty: as the name
+  std::string type = {};  ///< empty: same as the name
 };
 
 using Rows = std::vector<Row>;
 
-/// The stereo camera's clouds.
+/// Remappings for the stereo camera's clouds.
 Remaps cameraRemaps() {
   return {{"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
 }
 
-/// The stereo camera's images, and what is made of them.
+/// Remappings for the stereo camera's images and what is derived from them.
 Remaps imageRemaps() {
   return {{"left/image", "stereo/left/image_rect"},
           {"left/camera_info", "stereo/left/camera_info"},
@@ -42,12 +42,12 @@ Remaps with(Remaps remaps, const std::string& topic, const std::string& graph_to
   return remaps;
 }
 
-/// What grid_fusion and map_fusion fuse beside the sources that their sections name.
+/// Sources that grid_fusion and map_fusion fuse in addition to those in their sections.
 OptionValues fusedGrids(const GraphSwitches& switches) {
   return switches.mono ? OptionValues{{"sources/mono/use", true}} : OptionValues();
 }
 
-/// What object_fusion fuses beside the sources that its section names.
+/// Sources that object_fusion fuses in addition to those in its section.
 OptionValues fusedSources(const GraphSwitches& switches) {
   OptionValues sources;
   if (switches.mono) {
@@ -66,12 +66,12 @@ OptionValues fusedSources(const GraphSwitches& switches) {
   return sources;
 }
 
-/// What track_fusion fuses beside the sources that its section names.
+/// Sources that track_fusion fuses in addition to those in its section.
 OptionValues fusedTracks(const GraphSwitches& switches) {
   return switches.v2x ? OptionValues{{"sources/v2x/use", true}} : OptionValues();
 }
 
-/// The topic of the scans that SLAM takes.
+/// The topic of the scans for SLAM.
 std::string scanOf(const GraphSwitches& switches) {
   return switches.scan_from_cloud ? "cloud_scan" : switches.merge_scans ? "merged_scan" : "scan";
 }
@@ -84,7 +84,7 @@ Remaps monoImages() {
   return {{"image", "stereo/left/image_rect"}, {"camera_info", "stereo/left/camera_info"}};
 }
 
-/// From what sensors send to scans, points and odometry.
+/// From sensor messages to scans, points and odometry.
 Rows inputRows(const GraphSwitches& switches) {
   const Remaps scan{{"scan", scanOf(switches)}};
   const bool has_images = switches.stereo != StereoPoints::kClouds;
@@ -93,21 +93,21 @@ Rows inputRows(const GraphSwitches& switches) {
       {switches.scan_from_cloud, StackPart::kSensors, "cloud_to_scan", scan},
       {true, StackPart::kSensors, "motion"},
       {switches.merge_scans, StackPart::kSensors, "scan_merge", scan},
-      // Before the points of the same images: what they are of gets its velocity.
+      // Before the points of the same images, whose objects get their velocities.
       {has_images && switches.stereo_objects, StackPart::kStereo, "point_velocity", imageRemaps(),
        rectified},
       {has_images, StackPart::kStereo, "stereo_image_proc", imageRemaps(), rectified},
   };
 }
 
-/// Grids, SLAM, and what is made of the scans that it labels.
+/// Grids, SLAM, and what is derived from the labeled scans.
 Rows mapRows(const GraphSwitches& switches) {
   const Remaps scan{{"scan", scanOf(switches)}};
   const Remaps camera = cameraRemaps();
   const bool low_level = switches.low_level_fusion;
   const bool grids = low_level || switches.map_fusion;
   return {
-      // Before those that take the same clouds.
+      // Before the stages that use the same clouds.
       {grids || switches.stereo_objects, StackPart::kStereo, "stereo_alignment",
        with(camera, "scan", scanOf(switches))},
       {grids, StackPart::kPerception, "lidar_grid", scan},
@@ -144,7 +144,7 @@ Rows objectRows(const GraphSwitches& switches) {
   };
 }
 
-/// From objects to tracks, and what is made of these.
+/// From objects to tracks, and what is derived from these.
 Rows trackRows(const GraphSwitches& switches) {
   const std::string objects = fusesObjects(switches) ? "objects/fused" : "objects";
   const std::string tracks = switches.track_fusion ? "tracks/lidar" : "tracks";
@@ -153,7 +153,7 @@ Rows trackRows(const GraphSwitches& switches) {
        StackPart::kPerception,
        "tracker",
        {{"objects", objects}, {"early_objects", "objects/early"}, {"tracks", tracks}}},
-      // What the scanner saw is not what the camera could see.
+      // The scanner's field of view is not the camera's.
       {switches.stereo_tracker,
        StackPart::kPerception,
        "stereo_tracker",

@@ -13,10 +13,10 @@ namespace datmo {
 
 namespace {
 
-/// Messages over which a rate is taken: a few seconds of a scanner.
+/// Number of messages for a rate: a few seconds of a scanner.
 constexpr std::size_t kRateWindow = 50;
 
-/// Messages over which processing times are taken, so that a 99th percentile has a meaning.
+/// Number of messages for processing times, so that a 99th percentile is meaningful.
 constexpr std::size_t kTimingWindow = 1000;
 
 template <typename Value>

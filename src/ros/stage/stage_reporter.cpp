@@ -22,11 +22,11 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
-constexpr double kDiagnosticsPeriod = 1.0;  // s, the custom of /diagnostics
-constexpr std::uint32_t kTimingQueue = 50;  // several stages for a second or so
+constexpr double kDiagnosticsPeriod = 1.0;  // s, usual for /diagnostics
+constexpr std::uint32_t kTimingQueue = 50;  // several stages for about a second
 
-/// Asks the master once, when the first type is needed; nobody publishes anything while it does not
-/// answer.
+/// Queries the master once, when the first type is needed; if it does not respond, no topic has a
+/// publisher.
 PublishedType askMaster() {
   const auto types = std::make_shared<std::optional<std::map<std::string, std::string>>>();
   return [types](const std::string& topic) -> std::string {

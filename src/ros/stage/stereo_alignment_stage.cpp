@@ -16,10 +16,10 @@ namespace datmo {
 
 namespace {
 
-/// Half a second of a fast scanner: longer than a cloud takes to be made.
+/// Half a second of a fast scanner: longer than the latency of a cloud.
 constexpr std::size_t kMaxScans = 25;
 
-/// s, over which the vehicle's twist is taken.
+/// s, averaging period of the vehicle's twist.
 constexpr double kTwistTime = 0.1;
 
 struct TermName {

@@ -52,7 +52,7 @@ void StereoInput::take(const StereoAlignmentMessage& message) {
 }
 
 bool StereoInput::isRefused(Stamp stamp) const {
-  // A clock that was set makes it old in the other direction.
+  // After a step of the clock it is old in the other direction.
   return !alignment_.usable &&
          std::abs(secondsBetween(alignment_.stamp, stamp)) <= options_.camera.alignment_hold;
 }

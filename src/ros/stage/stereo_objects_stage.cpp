@@ -99,7 +99,7 @@ ObjectArrayPtr StereoObjectsStage::finish(VelocityWait::Served served) {
     measure(*served.points, list.objects);
   }
   auto array = boost::make_shared<ObjectArray>(toMessage(list, options_.frames.base));
-  // The time that it waited is not the stage's.
+  // Waiting time is not processing time.
   monitor_.processed({list.stamp, served.seconds + watch.seconds()});
   return array;
 }

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Frames of one camera that wait for the other: as many as the nodelets' queues hold.
+/// Maximum number of frames of one camera that wait for the other: the nodelets' queue length.
 constexpr std::size_t kMaxQueue = 5;
 
 }  // namespace

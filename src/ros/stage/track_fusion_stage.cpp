@@ -21,7 +21,7 @@ namespace {
 
 constexpr char kTrackList[] = "track list";
 
-/// Those that are valid, by rising id; of several with one id, the first.
+/// The valid tracks, by rising id; the first of several with the same id.
 std::vector<Track> validTracks(const std::vector<Track>& all) {
   std::vector<Track> tracks;
   std::copy_if(all.begin(), all.end(), std::back_inserter(tracks),

@@ -14,7 +14,7 @@ namespace datmo {
 
 namespace {
 
-/// Three seconds of a fast scanner: more than any transform is worth waiting for.
+/// Three seconds of a fast scanner: longer than waiting for any transform is useful.
 constexpr std::size_t kMaxWaiting = 50;
 
 }  // namespace
@@ -181,7 +181,7 @@ void TrackerStage::connect(StagePorts& ports) {
   ports.in<ObjectArray>("objects",
                         [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
   if (!options_.scan_view) {
-    return;  // early lists are of a scan's objects
+    return;  // early lists contain a scan's objects
   }
   ports.optionalIn<ObjectArray>(
       "early_objects", [this](const auto& objects, Stamp now) { takeEarlyObjects(objects, now); });

@@ -14,13 +14,13 @@ namespace datmo {
 
 namespace {
 
-/// Over which the own velocity is taken from the poses, s: shorter is noise.
+/// Averaging period of the own velocity from poses, s: shorter ones are noisy.
 constexpr double kVelocityTime = 0.3;
 
-/// Of the own pose at another time than a scan's, s.
+/// Maximum time between the own pose and the scan's stamp, s.
 constexpr double kMaxPoseAge = 1.0;
 
-/// Of our own speed and acceleration, as others are sent them, (m/s)^2 and (m/s^2)^2.
+/// Variances of our own speed and acceleration, as sent to others, (m/s)^2 and (m/s^2)^2.
 constexpr double kOwnVelocityVariance = 0.04;
 constexpr double kOwnAccelerationVariance = 4.0;
 
@@ -59,7 +59,7 @@ void V2xStage::reset() {
 void V2xStage::takeFrame(const EarthFrameMessage& message) {
   runner_.serve([&] {
     EarthFrame frame = fromMessage(message);
-    // By the same position as the last one: only its covariance is newer.
+    // From the same position as the last one: only its covariance is newer.
     if (!frame_ || frame.stamp != frame_->stamp) {
       runner_.check("earth_frame", message.header.stamp);
     }
@@ -119,7 +119,7 @@ TrackArrayPtr V2xStage::takeStation(const StationTracksMessage& message, Stamp n
     report();
     runner_.processed(list.stamp);
     if (last_stamp_ && list.stamp <= *last_stamp_) {
-      return nullptr;  // it goes out with the next one
+      return nullptr;  // it is sent with the next one
     }
     last_stamp_ = list.stamp;
     return boost::make_shared<TrackArray>(
@@ -135,7 +135,7 @@ std::optional<OwnVehicle> V2xStage::ownAt(Stamp stamp) const {
   OwnVehicle own;
   for (const StampedPose& earlier : poses_) {
     const double seconds = secondsBetween(earlier.stamp, last.stamp);
-    if (seconds >= kVelocityTime) {  // the last one that is: the shortest time that serves
+    if (seconds >= kVelocityTime) {  // the last one that is: the shortest sufficient time
       own.velocity = (last.pose.pose.position() - earlier.pose.pose.position()) / seconds;
     }
   }

@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// A second of a fast camera: more than matching takes.
+/// One second of a fast camera: longer than matching takes.
 constexpr std::size_t kMaxOfEach = 50;
 
 }  // namespace
@@ -32,7 +32,7 @@ void VelocityWait::addPoints(Stamp stamp, std::vector<PointVelocity> points) {
   const bool first = !newest_;
   newest_ = stamp;
   if (served_ && stamp <= *served_) {
-    // Nobody could know that the first ones would come.
+    // The first points could not be expected.
     if (!first) {
       monitor_.dropped(InputError(
           "late_velocities",

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// A second of a fast scanner: more than grid fusion waits for a slow sensor.
+/// One second of a fast scanner: longer than grid fusion waits for a slow sensor.
 constexpr std::size_t kMaxWaitingScans = 50;
 
 }  // namespace

@@ -29,7 +29,7 @@ struct EarthFrameOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One position of the receiver: where it is on the earth, and where in the map.
+/// One position fix of the receiver, and the vehicle's pose in the map at the same time.
 struct EarthFix {
   Stamp stamp;
   Point2 in_plane = Point2::Zero();                          ///< m, east and north
@@ -40,39 +40,41 @@ struct EarthFix {
 
 struct EarthFrameCounts {
   std::uint64_t used = 0;
-  std::uint64_t gated = 0;     ///< too far from where the vehicle is taken to be
-  std::uint64_t restarts = 0;  ///< of which so many came one after the other
+  std::uint64_t gated = 0;     ///< too far from the vehicle's expected position
+  std::uint64_t restarts = 0;  ///< after gated fixes in a row or a gap, or if not finite
 };
 
-/// Where the map lies on the earth: position and heading of the map's frame in a local plane of
-/// east and north, by positions of a satellite receiver and the poses in the map at the same times.
+/// Estimates where the map lies on the earth: position and heading of the map's frame in a local
+/// plane (x east, y north), from positions of a satellite receiver and the poses in the map at the
+/// same times.
 ///
-/// At first by weighted least squares over all fixes that fit together (Arun, Huang, Blostein 1987,
-/// in the plane; consistentPairs), until the distance driven tells the heading; then by an extended
-/// Kalman filter. Its state also has the receiver's error that fixes share for a while (atmosphere,
-/// multipath), as a Gauss-Markov process: without it the covariance would fall with each fix, as if
-/// they were independent. The map drifts with the distance driven, turning about the vehicle.
+/// It starts with weighted least squares over all fixes that fit together (Arun, Huang, Blostein
+/// 1987, in the plane; consistentPairs), until the vehicle has driven far enough for the heading to
+/// be observable, and goes on with an extended Kalman filter. Its state includes the receiver's
+/// error that successive fixes share (atmosphere, multipath), as a Gauss-Markov process: without it
+/// the covariance would shrink with each fix as if they were independent. The map drifts with the
+/// distance driven, turning about the vehicle.
 class EarthFrameFilter {
  public:
   /// Throws OptionError.
   explicit EarthFrameFilter(const Checked<EarthFrameOptions>& options) : options_(*options) {}
 
-  /// Takes the next fix, by rising stamps.
+  /// Processes the next fix. Stamps must rise.
   void add(const EarthFix& fix);
 
-  /// The vehicle drove on to this pose after the last fix: the map drifts with the distance that it
-  /// drives, pose by pose. Without it, a drive between two fixes counts as a straight line.
+  /// Reports the vehicle's pose after the last fix: the map drifts with the distance driven from
+  /// pose to pose. Without it, the drive between two fixes counts as a straight line.
   void moveTo(const Pose2& base_in_map);
 
-  /// Of the map's frame in the plane, where the drive has come to; none until the heading is known.
+  /// Pose of the map's frame in the plane at the last pose; none until the heading is known.
   std::optional<PoseWithCovariance> mapInPlane() const;
 
-  /// The same at this pose of the vehicle, to which it has gone straight on from there.
+  /// The same at this pose of the vehicle, assuming a straight drive from the last one.
   std::optional<PoseWithCovariance> mapInPlane(const Pose2& base_in_map) const;
 
   const EarthFrameCounts& counts() const { return counts_; }
 
-  /// Forgets all but the counts.
+  /// Forgets everything except the counts.
   void reset();
 
  private:
@@ -81,20 +83,20 @@ class EarthFrameFilter {
   using Covariance = Eigen::Matrix<double, kState, kState>;
 
   void take(const EarthFix& fix);
-  /// What least squares over first fixes say of the map.
+  /// Result of least squares over the first fixes.
   struct Start {
-    double count = 0.0;    ///< of the fixes
+    double count = 0.0;    ///< number of fixes
     double weights = 0.0;  ///< sum, 1 / m^2
-    double drift = 0.0;    ///< of the map meanwhile, m^2
+    double drift = 0.0;    ///< drift variance of the map meanwhile, m^2
     Point2 mean_in_plane = Point2::Zero();
-    Point2 mean_in_map = Point2::Zero();  ///< of the antenna
+    Point2 mean_in_map = Point2::Zero();  ///< antenna position
     double heading = 0.0;                 ///< rad
     double heading_variance = 0.0;        ///< rad^2
   };
 
   double changedShare(const std::vector<EarthFix>& fixes) const;
   double driftAmong(const std::vector<EarthFix>& fixes, double lever) const;
-  /// None while they are too few, or do not tell the heading.
+  /// None while there are too few fixes, or they do not determine the heading.
   std::optional<Start> startOf(const std::vector<EarthFix>& fixes) const;
   void start();
   void begin(const Start& start, double factor);
@@ -110,8 +112,8 @@ class EarthFrameFilter {
   bool has_started_ = false;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  Stamp last_stamp_;  ///< of a fix
-  Pose2 driven_to_;   ///< up to where the map's drift is in the covariance
+  Stamp last_stamp_;  ///< of the last fix
+  Pose2 driven_to_;   ///< pose up to which the map's drift is in the covariance
   int gated_in_a_row_ = 0;
 };
 

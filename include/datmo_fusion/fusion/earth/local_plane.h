@@ -14,10 +14,10 @@ struct GeodeticPosition {
   double altitude = 0.0;   ///< m, above the ellipsoid
 };
 
-/// Whether it is finite and on the earth.
+/// Whether the position is finite and on the earth.
 bool isValid(const GeodeticPosition& position);
 
-/// The plane that touches the ellipsoid's parallel surface at a datum: x to the east, y to the
+/// The plane tangent at a datum to the surface parallel to the ellipsoid: x to the east, y to the
 /// north, m. Within 10 km of the datum heights of 100 m shift a point by less than 0.2 m.
 class LocalPlane {
  public:
@@ -27,7 +27,7 @@ class LocalPlane {
 
   Point2 toPlane(const GeodeticPosition& position) const;
 
-  /// Of a point in the plane; its altitude is that of the earth's surface below it.
+  /// Converts a point in the plane; the altitude is that of the earth's surface below it.
   GeodeticPosition toGeodetic(const Point2& point) const;
 
  private:

@@ -34,13 +34,13 @@ struct SignalAdviceOptions {
 struct ApproachingHost {
   Stamp stamp;
   Point2 front = Point2::Zero();  ///< m
-  double heading = 0.0;           ///< rad, from east to the left
-  double speed = 0.0;             ///< m/s, ahead
+  double heading = 0.0;           ///< rad, counterclockwise from east
+  double speed = 0.0;             ///< m/s, forward
   double speed_sigma = 0.0;       ///< m/s
-  double position_sigma = 0.0;    ///< m, along the worst axis
+  double position_sigma = 0.0;    ///< m, along the least certain axis
 };
 
-/// The lights of an intersection, and when they were so.
+/// The signals of an intersection and the time they refer to.
 struct IntersectionSignals {
   Stamp stamp;
   SpatIntersection state;
@@ -48,36 +48,37 @@ struct IntersectionSignals {
 
 enum class SignalVerdict { kUnknown, kPasses, kMustBrake };
 
-/// A lane that the vehicle may be on, and one group of lights of it.
+/// A lane that the vehicle may be on, and one of its signal groups.
 struct MovementAdvice {
   std::int64_t lane = 0;
   std::int64_t group = 0;  ///< 0: the lane has none
   SignalState now = SignalState::kUnavailable;
-  SignalState on_arrival = SignalState::kUnavailable;  ///< unavailable: not known
-  std::optional<double> min_end;                       ///< s from the host's stamp, of what is now
-  std::optional<double> max_end;                       ///< s
-  std::optional<double> likely_end;                    ///< s
+  SignalState on_arrival = SignalState::kUnavailable;  ///< unavailable: unknown
+  std::optional<double> min_end;     ///< s from the host's stamp, of the current state
+  std::optional<double> max_end;     ///< s
+  std::optional<double> likely_end;  ///< s
   SignalVerdict verdict = SignalVerdict::kUnknown;
 };
 
 struct SignalAdvice {
   SignalVerdict verdict = SignalVerdict::kUnknown;  ///< that of all movements if they agree
-  std::string reason;                               ///< of one that is not known, for people
-  double distance = 0.0;          ///< m to the stop line, of the lane that is nearest
-  double deceleration = 0.0;      ///< m/s^2, with which it stops there
-  std::optional<double> arrival;  ///< s at this speed; none: it stands
+  std::string reason;                               ///< why it is unknown, for people
+  double distance = 0.0;                            ///< m to the stop line, on the nearest lane
+  double deceleration = 0.0;                        ///< m/s^2, needed to stop there
+  std::optional<double> arrival;  ///< s at the current speed; none: the vehicle stands still
   std::vector<MovementAdvice> movements;
 };
 
-/// Whether the vehicle passes an intersection at its speed: which lanes it may be on, how far it is
-/// to the stop line, and what the lights show when it gets there. None if it is on no lane that
-/// leads into the intersection.
+/// Predicts whether the vehicle can pass an intersection at its present speed: which lanes it may
+/// be on, how far it is to the stop line, and what the signals show on arrival. Returns none if it
+/// is on no lane that leads into the intersection.
 ///
-/// A verdict holds for all that may be: for the whole time from the first to the last end that the
-/// lights may have, for the vehicle's position and speed and a margin of time, for each lane that
-/// it may be on, and for each of their groups, since the lane does not say where it wants to go.
-/// What differs among these is not known, nor what lies between two events. Green with right of way
-/// or not passes; yellow that it surely cannot stop for at `comfort_deceleration` passes, too.
+/// A verdict holds for all possibilities: for the whole interval in which the signals may change,
+/// for the uncertainty of the vehicle's position and speed and a time margin, for each lane that it
+/// may be on, and for each of their signal groups, since the lane does not tell where the vehicle
+/// wants to go. If these differ, or the arrival falls between two events, the verdict is unknown.
+/// Green passes, with or without right of way; so does yellow for which the vehicle surely cannot
+/// stop at `comfort_deceleration`.
 std::optional<SignalAdvice> adviseSignals(const ApproachingHost& host,
                                           const std::vector<ApproachLane>& lanes,
                                           const std::optional<IntersectionSignals>& signals,

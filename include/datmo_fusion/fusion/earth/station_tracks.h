@@ -19,13 +19,13 @@
 
 namespace datmo {
 
-/// One object as another station has it, in a local plane of east and north.
+/// An object tracked by another station, in a local plane (x east, y north).
 struct StationTrack {
-  std::uint32_t id = 0;                                      ///< of the station
+  std::uint32_t id = 0;                                      ///< assigned by the station
   Point2 position = Point2::Zero();                          ///< m, center of the box
   Point2 velocity = Point2::Zero();                          ///< m/s
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of both
-  double heading = 0.0;                                      ///< rad, from east to the left
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of position and velocity
+  double heading = 0.0;                                      ///< rad, counterclockwise from east
   double heading_variance = kUnknownHeadingVariance;
   double length = 0.0;  ///< m
   double width = 0.0;   ///< m
@@ -38,8 +38,8 @@ struct StationTrack {
 struct StationTrackList {
   Stamp stamp;
   std::uint32_t station = 0;
-  std::uint32_t part = 0;    ///< of what it tracks, where that comes in several lists
-  double clock_sigma = 0.0;  ///< s, of the stamp; 0: not known
+  std::uint32_t part = 0;    ///< number of this list if the station splits its tracks into several
+  double clock_sigma = 0.0;  ///< s, of the stamp; 0: unknown
   std::vector<StationTrack> tracks;
 };
 
@@ -62,92 +62,93 @@ struct StationTrackOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where the own vehicle is, in the map.
+/// State of the own vehicle in the map.
 struct OwnVehicle {
   Box2 box;
   Point2 velocity = Point2::Zero();                          ///< m/s
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2, of the position
 };
 
-/// What was left out since construction.
+/// Tracks rejected since construction.
 struct StationTrackCounts {
   std::uint64_t fast = 0;     ///< faster than max_speed
-  std::uint64_t jumped = 0;   ///< not where the last message led to
-  std::uint64_t sudden = 0;   ///< new ids of a station whose ids seldom come twice, out of nowhere
-  std::uint64_t invalid = 0;  ///< numbers that are none, or a covariance that is none
-  std::uint64_t own = 0;      ///< our own vehicle, as others see it
+  std::uint64_t jumped = 0;   ///< outside the gate of the prediction from the last message
+  std::uint64_t sudden = 0;   ///< new ids out of nowhere, of a station whose ids seldom repeat
+  std::uint64_t invalid = 0;  ///< non-finite values, or an invalid covariance
+  std::uint64_t own = 0;      ///< our own vehicle, as perceived by others
   std::uint64_t many = 0;     ///< beyond max_tracks
-  std::uint64_t twice = 0;    ///< of an object that a second station has, too
+  std::uint64_t twice = 0;    ///< duplicates of objects that a second station reports
 };
 
-/// Tracks of other stations to tracks in the map.
+/// Converts tracks of other stations to tracks in the map.
 ///
-/// The covariance of each is its own, turned, with what is not known of the map's pose on the
-/// earth, and of the station's clock: an object at v that is t seconds off is v t elsewhere. That
-/// of the acceleration is what objects do.
+/// Each covariance is the station's own, rotated, plus the uncertainty of the map's pose on the
+/// earth and of the station's clock: an object with speed v and a clock error t is displaced by v
+/// t. Acceleration gets the variance of typical objects.
 ///
-/// A track that is not where its last message led to is left out until several in a row fit
-/// together. A new id is taken at its word, but of a station most of whose ids have come but once:
-/// there it has to be where one of the station's last tracks led to, or to come again. Else a
-/// station that renames its tracks in each message could place objects anywhere. Not thread safe.
+/// A track outside the gate of its last message's prediction is rejected until several messages in
+/// a row are consistent. A new id is accepted at once, unless most ids of the station have appeared
+/// only once: then it must match the prediction of one of the station's last tracks, or appear
+/// again. Otherwise a station that renames its tracks in each message could place objects anywhere.
+/// Not thread safe.
 class StationTracks {
  public:
   /// Throws OptionError.
   explicit StationTracks(const Checked<StationTrackOptions>& options) : options_(*options) {}
 
-  /// Whether a list is a station's next one of its part: it comes after its last one. An old one
-  /// that is sent again is not.
+  /// Whether a list is newer than the last one of the same station and part. An old list that is
+  /// sent again is not.
   bool isNew(const StationTrackList& list) const;
 
-  /// `own`: at the list's stamp; none: not known, nothing is taken for it.
+  /// Converts a list. `own`: at the list's stamp; none: unknown, and no track is taken for it.
   TrackList toMap(const StationTrackList& list, const PoseWithCovariance& map_in_plane,
                   const std::optional<OwnVehicle>& own);
 
-  /// What all stations said last, together, at one time: predicted to it, while their lists serve.
-  /// Of an object that several have, the surest track counts.
+  /// Merges the last lists of all stations, predicted to one time, as long as they are valid. If
+  /// several stations report an object, the most certain track is kept.
   TrackList merged(Stamp stamp);
 
   const StationTrackCounts& counts() const { return counts_; }
 
-  /// Forgets stations and tracks; ids and counts go on.
+  /// Forgets stations and tracks; ids and counts continue.
   void reset();
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;  ///< station, and its id or its part
 
   struct Claim {
-    std::uint32_t id = 0;  ///< ours
+    std::uint32_t id = 0;  ///< our id
     Stamp stamp;
-    std::uint32_t part = 0;  ///< in which it came last
+    std::uint32_t part = 0;  ///< part of its last list
     StationTrack track;
-    int to_prove = 0;        ///< messages that have to fit before it is used
-    bool is_sudden = false;  ///< while that is so because it is new
+    int to_prove = 0;        ///< consistent messages required before it is used
+    bool is_sudden = false;  ///< it must prove itself because it is new
     int messages = 0;
   };
 
-  /// What a station said before a list.
+  /// What a station reported before a list.
   struct Before {
-    bool renames = false;     ///< most of its ids that could have come again came but once
-    std::vector<Claim> last;  ///< if so: of its last list of the same part
+    bool renames = false;     ///< most ids that could have come again appeared only once
+    std::vector<Claim> last;  ///< if so: tracks of its last list of the same part
   };
 
   bool couldComeAgain(const Claim& claim, const StationTrackList& list) const;
   Before before(const StationTrackList& list) const;
   bool isCredible(const StationTrackList& list, const StationTrack& track, const Before& before);
   bool follows(const Claim& last, Stamp stamp, const StationTrack& track) const;
-  /// A credible track with all that is not known of it.
+  /// An accepted track with all its uncertainty.
   Track inMap(const StationTrackList& list, const StationTrack& theirs,
               const PoseWithCovariance& map_in_plane) const;
   void forgetOld(Stamp now);
 
   StationTrackOptions options_;
   StationTrackCounts counts_;
-  std::map<Key, TrackList> lists_;  ///< by station and part: what passed of its last one
+  std::map<Key, TrackList> lists_;  ///< by station and part: accepted tracks of the last list
   std::map<Key, Claim> claims_;     ///< by station and id
   std::uint32_t next_id_ = 1;
 };
 
-/// A track of ours as others take it.
+/// Converts one of our tracks to the form that other stations use.
 StationTrack toStation(const Track& track, const PoseWithCovariance& map_in_plane);
 
 }  // namespace datmo

@@ -17,9 +17,9 @@ struct GridFuserOptions {
   double mover_speed = 15.0;                         ///< m/s
   std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar, stereo, mono
 
-  /// Vision decides where it sees, for a planar scanner takes road paint for obstacles and
-  /// misses thin poles (thesis 3.2.3). A single camera is in use on demand alone, and is believed
-  /// less: colors are not depths.
+  /// Vision has priority where it sees, since a planar scanner takes road paint for obstacles and
+  /// misses thin poles (thesis 3.2.3). A single camera is used only on request and has a lower
+  /// weight: color is not depth.
   GridFuserOptions();
 
   void visit(OptionVisitor& visitor);
@@ -28,14 +28,15 @@ struct GridFuserOptions {
   std::vector<std::string> sourcesInUse() const;
 };
 
-/// What a set of matched grids led to.
+/// Result of fusing one set of matched grids.
 struct FusionResult {
   FusedGrids grids;                    ///< at the stamp of the reference's grid
-  std::vector<MissingSource> missing;  ///< those of the set, and those whose motion is not known
+  std::vector<MissingSource> missing;  ///< missing in the set, or with unknown motion
 };
 
-/// Brings matched grids to the reference's stamp and fuses them (thesis 3.2.3). What may have moved
-/// by itself between the stamps, at up to `mover_speed`, is not called free (movedGrid).
+/// Transforms matched grids to the reference's stamp and fuses them (thesis 3.2.3). Cells that a
+/// mover may have entered between the stamps, at up to `mover_speed`, are not marked free
+/// (movedGrid).
 class GridFuser {
  public:
   /// Throws OptionError.

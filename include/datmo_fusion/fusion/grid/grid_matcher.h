@@ -14,7 +14,8 @@ namespace datmo {
 using MatchedGrid = SourceSample<SensorGrid>;
 using MatchedGrids = MatchedSamples<SensorGrid>;
 
-/// A grid of another window than those that it is to be matched with; the message names both.
+/// Thrown for a grid with another window than those it is to be matched with; the message names
+/// both.
 class WrongWindowError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -23,26 +24,26 @@ class WrongWindowError : public std::invalid_argument {
 /// For messages: "300 x 360 cells of 0.3 m from cell (-150, -180)".
 std::string describe(const GridWindow& window);
 
-/// Which grids of several sources belong together: those of one window that SourceMatcher says
-/// belong together in time. A grid may be in several sets: it is what is known of the world until
-/// there is a newer one.
+/// Matches grids of several sources that have the same window and belong together in time
+/// (SourceMatcher). A grid may be in several sets: it remains the best knowledge until a newer one
+/// arrives.
 class GridMatcher {
  public:
-  /// `sources`: the names of all that may publish. Throws OptionError, also if the reference is not
-  /// one of them.
+  /// `sources`: the names of all possible publishers. Throws OptionError, also if the reference is
+  /// not one of them.
   GridMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
 
-  /// One more grid; one that is not newer than the last of its source is left out.
+  /// Adds a grid; one that is not newer than the last of its source is ignored.
   ///
-  /// Throws WrongWindowError for a window that is not the reference's (before that has spoken: not
-  /// the first one's), and std::invalid_argument for a source that there is not. If the reference
-  /// itself comes with a new window, what waits is forgotten.
+  /// Throws WrongWindowError if the window differs from the reference's (before the reference's
+  /// first grid: from that of the first grid), and std::invalid_argument for an unknown source. If
+  /// the reference itself has a new window, all waiting grids are dropped.
   void add(const std::string& source, SensorGrid grid);
 
-  /// The next set, by rising stamp (SourceMatcher::next).
+  /// Returns the next set, by rising stamp (SourceMatcher::next).
   std::optional<MatchedGrids> next(Stamp now) { return matcher_.next(now); }
 
-  /// Forgets all: the clock has jumped back.
+  /// Forgets everything; call it when the clock has jumped back.
   void reset();
 
  private:

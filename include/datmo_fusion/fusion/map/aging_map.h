@@ -12,45 +12,44 @@ namespace datmo {
 
 struct AgingMapOptions {
   double time_constant = 60.0;    ///< s
-  double hit_probability = 0.8;   ///< of a cell that a grid has occupied
-  double free_probability = 0.4;  ///< of one that it has free
-  double min_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
+  double hit_probability = 0.8;   ///< of a cell that a grid reports as occupied
+  double free_probability = 0.4;  ///< of one that it reports as free
+  double min_probability = 0.02;  ///< lower clamp of a cell; the upper one is 1 - this
 
   void visit(OptionVisitor& visitor);
 };
 
-/// The map that one sensor makes from its instantaneous grids: a rolling window of log-odds, as
-/// OccupancyMap without what scan matching needs, in which evidence ages. What is not seen again
-/// decays exponentially toward unknown: the closed form of a cell that changes its state at random
-/// (Meyer-Delius et al., Occupancy grid models for robot mapping in changing environments, 2012),
-/// with unknown as what it changes to.
+/// The map that one sensor builds from its instantaneous grids: a rolling window of log odds, like
+/// OccupancyMap without the data for scan matching, in which evidence ages. Cells that are not
+/// observed again decay exponentially toward unknown: the closed form of a cell that changes its
+/// state at random (Meyer-Delius et al., Occupancy grid models for robot mapping in changing
+/// environments, 2012), with unknown as the limit.
 class AgingMap {
  public:
-  /// A window of at least one cell about the map's origin. Throws OptionError.
+  /// Creates a window of at least one cell about the map's origin. Throws OptionError.
   AgingMap(const Checked<AgingMapOptions>& options, int columns, int rows, double cell_size);
 
   const GridWindow& window() const { return cells_.window(); }
 
-  /// Moves the window with the vehicle (m, map frame); what is outside then is forgotten.
+  /// Moves the window with the vehicle (m, map frame); cells that leave it are forgotten.
   void centerOn(const Point2& position) { cells_.centerOn(position); }
 
-  /// Takes in a grid of the vehicle's frame, seen from `base_in_map`; by rising stamp. Each cell is
-  /// updated once, by what grid_slam's map takes a hit and a beam that passes for, and an occupied
-  /// one is never lost by rounding (as in movedGrid).
+  /// Integrates a grid of the vehicle's frame, observed from `base_in_map`; stamps must rise. Each
+  /// cell is updated once, with the log odds of the options, whose defaults are those of
+  /// OccupancyMap; occupied cells are never lost by rounding (as in movedGrid).
   void update(const SensorGrid& grid, const Pose2& base_in_map);
 
-  /// Log-odds of a cell as they are worth at this time, not before it was seen; 0 where nothing is
-  /// known.
+  /// Returns the log odds of a cell, aged to `now` (unaged if observed later); 0 if unknown.
   double logOdds(CellIndex cell, Stamp now) const;
 
-  /// The window at this time, in the map's frame; what is as likely occupied as free, to a percent,
-  /// is unknown.
+  /// Returns the window at `now`, in the map's frame; cells within a percent of 1/2 are unknown.
   SensorGrid image(Stamp now) const;
 
  private:
   struct Cell {
-    float log_odds = 0.0F;                                 ///< when it was seen last
-    float seen = -std::numeric_limits<float>::infinity();  ///< s since the first grid
+    float log_odds = 0.0F;                                 ///< at the last observation
+    float seen = -std::numeric_limits<float>::infinity();  ///< s since the first grid, of the last
+                                                           ///< observation
   };
 
   class Decay;

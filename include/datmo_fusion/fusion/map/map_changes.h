@@ -19,19 +19,19 @@ inline constexpr Percent kNewPercent = 100;
 inline constexpr Percent kVanishedPercent = 0;
 
 struct MapChanges {
-  SensorGrid grid;  ///< in the map's frame, of the window of what was compared
+  SensorGrid grid;  ///< in the map's frame, with the window of the inputs
   int appeared = 0;
   int vanished = 0;
 };
 
-/// What differs between a map that was made before and what sensors see now; both of one window, in
-/// the map's frame (else std::invalid_argument).
+/// Compares an earlier map with the current one; both must have the same window, in the map's frame
+/// (else std::invalid_argument).
 ///
-/// A cell is new if `now` is occupied and `before` was free, and vanished if it is the other way
-/// round, each with a probability of `sure` at least; and if the other map has nothing occupied
-/// within `same_within` cells and two standard deviations of the pose, which grow with the distance
-/// from the vehicle by those of the heading: what seems to have moved by less may not have moved.
-/// What one of the two does not know has not changed.
+/// A cell is new if `now` is occupied and `before` was free, and vanished in the opposite case,
+/// each with a probability of at least `sure`; and if the other map has nothing occupied within
+/// `same_within` cells plus two standard deviations of the pose, which grow with the distance from
+/// the vehicle by those of the heading: a smaller apparent motion may be a pose error. Cells
+/// unknown in either map are unchanged.
 MapChanges changesBetween(const SensorGrid& before, const SensorGrid& now,
                           const PoseWithCovariance& base_in_map, const MapChangeOptions& options);
 

@@ -14,7 +14,7 @@
 
 namespace datmo {
 
-/// How far the map of one source is to be believed.
+/// Reliability of one source's map.
 struct MapSourceOptions {
   bool use = true;
   double reliability = 1.0;
@@ -23,80 +23,81 @@ struct MapSourceOptions {
 };
 
 struct MapFuserOptions {
-  AgingMapOptions map;  ///< of each source
+  AgingMapOptions map;  ///< for each source
   MapChangeOptions changes;
   double prior_reliability = 0.7;
   double conflict_from = 0.25;
   double mover_margin = 1.0;                        ///< m
   std::map<std::string, MapSourceOptions> sources;  ///< by name; at first lidar, stereo, mono
 
-  /// Reliabilities of scanner and stereo camera as measured on the simulated data sets 1 to 3: the
-  /// depth's error smears what a camera sees, and no number of looks mends that. Those of the low
-  /// level (GridFuserOptions) are of single measurements. That of a single camera is not measured.
+  /// The reliabilities of scanner and stereo camera were measured on the simulated data sets 1 to
+  /// 3: depth errors smear a camera's map, and repeated observations do not fix that. Those of the
+  /// low level (GridFuserOptions) are for single measurements. The single camera's was not
+  /// measured.
   MapFuserOptions();
 
   void visit(OptionVisitor& visitor);
 
-  /// Names of the sources that are in use and to be believed at all.
+  /// Names of the sources that are in use and have a reliability above 0.
   std::vector<std::string> sourcesInUse() const;
 };
 
-/// The maps of all sources as one; grids in the map's frame.
+/// The fused maps of all sources, in the map's frame.
 struct FusedMaps {
   SensorGrid fused;
-  SensorGrid conflict;                ///< percent of the evidence that contradicts itself
-  int cells_in_conflict = 0;          ///< of at least `conflict_from`
+  SensorGrid conflict;                ///< percent of contradictory evidence
+  int cells_in_conflict = 0;          ///< with at least `conflict_from`
   std::optional<MapChanges> changes;  ///< none without a prior map, or while the pose is uncertain
 };
 
-/// Fusion at map level (thesis 2.3.2, named there): each sensor keeps a map of its own, all by one
-/// pose, and the maps are fused cell by cell. Sensors need not measure at one time, and one that is
-/// silent is still there, as far as its evidence has not aged.
+/// Fusion at map level (proposed in thesis 2.3.2): each sensor builds its own map, all with the
+/// same pose, and the maps are fused cell by cell. Sensors need not measure at the same time, and a
+/// silent one still contributes until its evidence has aged.
 ///
-/// Each map is discounted by its source's reliability, and the log-odds add up (fuseGrids,
-/// kLogOdds): reliability bounds what a source can say however often it looks, and where it is
-/// alone, too, for its systematic errors do not average out. A prior map is one more source, which
+/// Each map is discounted by its source's reliability, and the log odds are summed (fuseGrids,
+/// kLogOdds): reliability limits a source's evidence no matter how often it looks, even where it is
+/// alone, because its systematic errors do not average out. A prior map is one more source, which
 /// does not age.
 ///
-/// A pose that in one step becomes far more or less certain (by what MapRecoveryOptions calls a
-/// gap), or jumps by more than the vehicle's motion, lies elsewhere than the maps: they begin anew.
-/// While it is as uncertain, the prior map is left out.
+/// If the pose becomes far more or less certain in one step (a gap in the sense of
+/// MapRecoveryOptions), or jumps by more than the vehicle's motion, it no longer matches the maps:
+/// they are restarted. While it is that uncertain, the prior map is ignored.
 class MapFuser {
  public:
   /// Throws OptionError.
   explicit MapFuser(const Checked<MapFuserOptions>& options);
 
-  /// The map of what was there before; its window must be as that of the grids.
+  /// Sets the prior map; its window must match that of the grids.
   void setPrior(OccupancyMap prior) { prior_ = std::move(prior); }
 
-  /// Whether the vehicle is known much worse at this pose than at the last one.
+  /// Whether the pose is much less certain than the last one.
   bool isLessCertain(const PoseWithCovariance& base_in_map) const;
 
-  /// The vehicle's pose from now on, for the window and for what take() and fuse() do. `motion`: of
-  /// the vehicle since the last pose, as something else than the map knows it; none: nothing does.
+  /// Sets the vehicle's current pose, for the window and for take() and fuse(). `motion`: the
+  /// vehicle's motion since the last pose, from a source other than the map; none: unknown.
   void moveTo(const PoseWithCovariance& base_in_map,
               const std::optional<Pose2>& motion = std::nullopt);
 
-  /// A grid that a source saw from a pose of the vehicle in the map; by rising stamp for each
-  /// source, and all of one window, which is that of the maps, about the vehicle. What is occupied
-  /// within `mover_margin` of a mover (m, map frame) is left out: the map is of what stands still.
+  /// Integrates a grid that a source observed from `base_in_map`; per source stamps must rise. All
+  /// grids must have the same window, that of the maps about the vehicle. Occupied cells within
+  /// `mover_margin` of a mover (m, map frame) are ignored: the map represents the static world.
   /// Throws std::out_of_range for a source that is not in use.
   void take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
             const std::vector<Point2>& movers);
 
-  /// None before the first grid.
+  /// Returns none before the first grid.
   std::optional<FusedMaps> fuse(Stamp now);
 
-  /// How often the maps began anew after such a pose, since the start.
+  /// How often the maps were restarted after such a pose, since construction.
   int mapsBegun() const { return maps_begun_; }
 
-  /// Forgets all but the prior map.
+  /// Forgets everything except the prior map.
   void reset();
 
  private:
   bool isLocated() const;
 
-  /// Whether the maps do not lie where this pose says.
+  /// Whether this pose is inconsistent with the maps.
   bool isElsewhere(const PoseWithCovariance& base_in_map, const std::optional<Pose2>& motion) const;
 
   MapFuserOptions options_;

@@ -8,17 +8,17 @@ namespace datmo {
 /// What one source reports on the existence of an object.
 struct ExistenceReport {
   bool has_track = false;
-  double existence = 0.0;              ///< 0 to 1, by its own tracker; of no use without track
-  double looked = 0.0;                 ///< 0 to 1, that it looked where the object is
-  double detection_probability = 0.0;  ///< 0 to 1, that it has a track of what it looks at
+  double existence = 0.0;              ///< 0 to 1, by its own tracker; unused without a track
+  double looked = 0.0;                 ///< 0 to 1, probability that it looked at the object
+  double detection_probability = 0.0;  ///< 0 to 1, that it has a track of an object it looks at
   double false_agreement_probability =
-      1.0;  ///< more than 0, to 1, that it has one there of a ghost
+      1.0;  ///< above 0, up to 1, that it has a track of a ghost there
 };
 
-/// That an object exists, by Bayes: as likely as the source says that is surest of it; each other
-/// one that has a track of it, too, multiplies the odds by detection_probability /
-/// false_agreement_probability (1 at least), and each that has none by 1 - detection_probability *
-/// looked. Of no source with a track: 0.
+/// Returns the existence probability by Bayes: it starts at that of the most certain source with a
+/// track. Each other source with a track multiplies the odds by detection_probability /
+/// false_agreement_probability (at least 1), and each one without by 1 - detection_probability *
+/// looked. 0 if no source has a track.
 double fusedExistence(const std::vector<ExistenceReport>& reports);
 
 }  // namespace datmo

@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// Which objects of two sensors are one (associate).
+/// How objects of two sensors are associated (associate).
 enum class ObjectAssociationMethod { kOptimal, kNearestNeighbor };
 
 struct ObjectAssociationOptions {
@@ -26,30 +26,30 @@ struct ObjectAssociationOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What two objects of different sensors have in common, taken for one.
+/// Result of comparing two objects of different sensors.
 struct ObjectPairing {
-  bool possible = false;          ///< within the gate, and not of different classes
+  bool possible = false;          ///< within the gate, and not of different known classes
   double squared_distance = 0.0;  ///< 1, Mahalanobis
   double score = 0.0;             ///< log-likelihood ratio of "one object" against "two"
 };
 
-/// Compares along each of two axes (those of the surer heading) the sides that both saw; where no
-/// side is common, how far apart the visible parts are, which is weak evidence, for the size is
-/// not known. Positions of moving objects may differ by `object_speed` times the seconds
+/// Compares, along the two axes of the more certain heading, the sides that both sensors saw.
+/// Without a common side it uses the gap between the visible parts, which is weak evidence because
+/// the size is unknown. Positions of moving objects may differ by `object_speed` times the time
 /// between them, as a standard deviation. Symmetric.
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options);
 
-/// For each of `added` the one of `known` that is the same object, or kUnassigned; no one twice.
-/// All valid (isValid), in one frame.
+/// Returns for each object of `added` the index of the same object in `known`, or kUnassigned; no
+/// index twice. All objects must be valid (isValid) and in one frame.
 ///
-/// optimal: the assignment that is likeliest over all pairs (solveAssignment), at the scores of
-/// `pairing`; a pair must be likelier than two objects.
+/// optimal: the most likely one-to-one assignment over all pairs (solveAssignment), by the scores
+/// of `pairing`; a pair must be likelier than two separate objects.
 ///
-/// nearest_neighbor: thesis 3.3.3; the nearest one, where the middle of the side that faces the
-/// sensor is nearer than `min_distance` times range / `min_range`. Of several that have the
-/// same nearest one the nearest keeps it. No classes.
+/// nearest_neighbor: thesis 3.3.3; the nearest object, if the middles of the sides that face the
+/// sensor are closer than `min_distance` times range / `min_range`. If several choose the same
+/// object, the nearest one gets it. Classes are ignored.
 ///
-/// @param sensor m, of `added`, from where ranges are counted and near sides are seen
+/// @param sensor m, sensor position of `added`, from which ranges are measured and near sides seen
 std::vector<int> associate(const std::vector<Object>& known, const std::vector<Object>& added,
                            const Point2& sensor, const ObjectAssociationOptions& options);
 

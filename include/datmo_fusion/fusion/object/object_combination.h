@@ -5,22 +5,22 @@
 
 namespace datmo {
 
-/// Two objects that two sensors saw, taken for one, in the frame of both (thesis 3.3.3).
+/// Fuses two observations of one object by two sensors, in a common frame (thesis 3.3.3).
 ///
 /// Position and size: each sensor measures the positions of the sides that it saw, with covariance
 /// A P A' + V, where P moves the box as a whole (A: to each side) and V holds the sides' own
-/// variances. The positions are fused in information form, which for points is the thesis's
-/// (x_a / P_a + x_b / P_b) / (1 / P_a + 1 / P_b). A side that one did not see is as the other saw
-/// it; one that neither saw is no nearer than either surely says. The time the object is seen at
-/// (`delay`) is weighted as its position is: right for all constant velocities.
+/// variances. The positions are fused in information form, which for points is the thesis's (x_a /
+/// P_a + x_b / P_b) / (1 / P_a + 1 / P_b). A side seen by one sensor only is as that one saw it; a
+/// side seen by neither is no nearer than either surely says. The observation time (`delay`) is
+/// weighted like the position, which is exact for any constant velocity.
 ///
-/// Class by Bayes; moving if one says so, else static if one says so. The logarithms of the odds
-/// add up, as for independent detectors. The points are those of the one whose position is surer,
-/// as they are asked where exactly it was seen. Both must be valid (isValid).
+/// Classes are fused by Bayes; the result is moving if either says so, else static if either says
+/// so. Log odds are summed, as for independent detectors. The points are those of the object with
+/// the more certain position, since they serve for exact positions. Both must be valid (isValid).
 Object combined(const Object& a, const Object& b);
 
-/// Class and probability alone: of one that says nothing the other's, else Bayes. `result` may be
-/// one of both.
+/// Fuses class and probability only: if one has no class, the other's; else Bayes. `result` may
+/// alias `a` or `b`.
 void combineClass(const Object& a, const Object& b, Object& result);
 
 }  // namespace datmo

@@ -43,54 +43,54 @@ struct ObjectFuserOptions {
   /// Names of the sources that are in use.
   std::vector<std::string> sourcesInUse() const;
 
-  /// By how much those of them may be late that are not waited for, s.
+  /// Allowed lateness, s, of the sources that are not waited for.
   std::map<std::string, double> lateSources() const;
 };
 
-/// The objects of one source, to be fused with others.
+/// The objects of one source, to be fused with those of others.
 struct SourceObjects {
   std::string source;
   ObjectList list;          ///< vehicle's frame at the list's own stamp
   Pose2 base_in_reference;  ///< of the vehicle at that stamp, in its frame at the reference's stamp
 };
 
-/// What became of the objects of one set of lists.
+/// Counts of one set of lists.
 struct ObjectFusionCounts {
-  std::size_t rejected = 0;       ///< not valid (isValid)
-  std::size_t refused = 0;        ///< beyond the most of one list: the farthest
+  std::size_t rejected = 0;       ///< invalid (isValid)
+  std::size_t refused = 0;        ///< beyond the maximum of one list: the farthest
   std::size_t fused = 0;          ///< objects that two or more sources see
-  std::size_t names_of_gone = 0;  ///< classes of another source's object that is not there
+  std::size_t names_of_gone = 0;  ///< classes for another source's object that does not exist
 };
 
-/// One list of all sources.
+/// The fused list of all sources.
 struct ObjectFusionResult {
   ObjectList list;  ///< vehicle's frame at the reference's stamp
   ObjectFusionCounts counts;
 };
 
-/// Lists of objects of several sources -> one list (thesis 3.3.3).
+/// Fuses object lists of several sources (thesis 3.3.3).
 ///
-/// Every list is moved by the vehicle's own motion to where the vehicle is at the reference's
-/// stamp; its objects stay where they were at their own time, which `delay` gives. Then each list
-/// in turn is associated with what there is (associate), pairs are fused (combined), and all other
-/// objects kept.
+/// Each list is moved by the vehicle's own motion to the vehicle's pose at the reference's stamp;
+/// its objects keep the positions of their own time, given by `delay`. Then the lists are
+/// associated one after another with the result so far (associate), pairs are fused (combined), and
+/// all other objects are kept.
 ///
-/// That it is an object at all: seen by one more source, the log-odds rise by
-/// log(detection_probability / false_agreement_probability); not seen by one that looked there (its
-/// view, with what it saw as occluders; of the scanner the scan) they fall by log(1 - p), p being
-/// that it would have been seen. Where beams end on static points at the position of an object of
-/// another source, it stands still: known before the association, so that it is not joined with
-/// what moves beside it. So does a pole, unless it was seen to move.
+/// Existence: if one more source sees the object, the log odds rise by log(detection_probability /
+/// false_agreement_probability); if a source that looked there does not see it (its field of view,
+/// with what it saw as occluders; for the scanner the scan), they fall by log(1 - p), where p is
+/// the probability that it would have seen it. If beams end on static points at the position of
+/// another source's object, the object is static; this is decided before association, so that it is
+/// not joined with a mover beside it. A pole is static unless it was seen to move.
 ///
-/// Neither the order of a list's objects nor anything before matters. No state.
+/// The result depends neither on the order of a list's objects nor on earlier calls: no state.
 class ObjectFuser {
  public:
   /// Throws OptionError.
   explicit ObjectFuser(const Checked<ObjectFuserOptions>& options);
 
-  /// The first list is the reference; all sources must be in the options, and there must be one
-  /// (else std::out_of_range).
-  /// `scan`: what the planar scanner saw at the reference's stamp, in its frame; null: not known.
+  /// Fuses one set of lists, of which the first is the reference. There must be at least one, and
+  /// all sources must be in the options (else std::out_of_range). `scan`: of the planar scanner at
+  /// the reference's stamp, in its frame; null: unknown.
   ObjectFusionResult fuse(const std::vector<SourceObjects>& sources, const LabeledScan* scan) const;
 
  private:

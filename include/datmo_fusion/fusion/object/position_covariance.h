@@ -12,8 +12,8 @@
 
 namespace datmo {
 
-/// How well a sensor measures where an object is, by the object's range. Empty lists: as the object
-/// itself says.
+/// A sensor's position accuracy as a function of range. Empty lists: the object's own covariance is
+/// used.
 struct PositionCovarianceOptions {
   double bin_width = 2.0;                ///< m
   std::vector<double> range_variance;    ///< m^2, by range bin
@@ -23,12 +23,12 @@ struct PositionCovarianceOptions {
 
   bool empty() const { return range_variance.empty(); }
 
-  /// Throws OptionError, with `name` before the names of the options, unless the two lists are of
-  /// the same length.
+  /// Throws OptionError, with `name` before the names of the options, unless both lists have the
+  /// same length.
   void check(const std::string& name) const;
 
-  /// m^2, at a position (m) relative to a sensor, both in one frame, by the bin of its range;
-  /// beyond the last bin as in that. Not for empty lists (std::out_of_range).
+  /// Returns the covariance, m^2, at a position (m) relative to a sensor, both in one frame, by its
+  /// range bin; beyond the last bin, that of the last. Throws std::out_of_range for empty lists.
   Eigen::Matrix2d at(const Point2& position, const Point2& sensor) const;
 };
 

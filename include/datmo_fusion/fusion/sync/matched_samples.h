@@ -10,21 +10,21 @@
 namespace datmo {
 
 enum class WhyMissing {
-  kSilent,    ///< it has said nothing for `silent_after`
+  kSilent,    ///< it has published nothing for `silent_after`
   kNoneNear,  ///< it publishes, but had nothing within `tolerance` of the requested stamp
-  kNoMotion,  ///< it had, but how the vehicle moved in between is not known
+  kNoMotion,  ///< it had one, but the vehicle's motion in between is unknown
 };
 
 /// "silent", "none near", "no motion".
 const char* toText(WhyMissing why);
 
-/// A source without a sample for this fusion, and why.
+/// A source without a sample in this set, and why.
 struct MissingSource {
   std::string source;
   WhyMissing why = WhyMissing::kSilent;
 };
 
-/// What one source said, at its own stamp.
+/// A sample of one source, at its own stamp.
 template <typename Payload>
 struct SourceSample {
   std::string source;
@@ -32,7 +32,7 @@ struct SourceSample {
   std::shared_ptr<const Payload> payload;
 };
 
-/// What belongs together: the reference's sample first, then the others by name.
+/// A matched set: the reference's sample first, then the others by name.
 template <typename Payload>
 struct MatchedSamples {
   std::vector<SourceSample<Payload>> samples;  ///< at least one

@@ -9,12 +9,12 @@
 
 namespace datmo {
 
-/// The vehicle's motion from one stamp to a later one: its pose at `to` in its frame at `from`;
-/// none if it is not known (OdometryBuffer::motion).
+/// Returns the vehicle's motion from one stamp to a later one: its pose at `to` in its frame at
+/// `from`; none if unknown (OdometryBuffer::motion).
 using MotionBetween = std::function<std::optional<Pose2>(Stamp from, Stamp to)>;
 
-/// Pose of the vehicle at one stamp in its frame at another one, whichever is the later; none if
-/// the motion is not known.
+/// Returns the pose of the vehicle at `stamp` in its frame at `reference`, in either time order;
+/// none if the motion is unknown.
 std::optional<Pose2> baseAt(Stamp stamp, Stamp reference, const MotionBetween& motion);
 
 }  // namespace datmo

@@ -15,8 +15,8 @@
 
 namespace datmo {
 
-/// The samples of one source that may yet be in a set, by rising stamp. Bounded: the oldest gives
-/// way.
+/// The samples of one source that may still be used in a set, by rising stamp. Bounded: the oldest
+/// is dropped first.
 template <typename Payload>
 class SampleQueue {
  public:
@@ -26,17 +26,17 @@ class SampleQueue {
     bool served = false;
   };
 
-  /// `late_by`: s, by how much it may be late; 0: sets wait for it.
+  /// `late_by`: s, allowed lateness; 0: sets wait for this source.
   void setLateBy(double late_by) { late_by_ = late_by; }
   double lateBy() const { return late_by_; }
 
-  /// The last stamp since samples were forgotten, also of a sample that is gone.
+  /// Stamp of the last sample since samples were forgotten, even if that sample is gone.
   std::optional<Stamp> last() const { return last_; }
 
-  /// How many samples have been in no set and will be in none, since the start.
+  /// Number of samples that were never used in a set and never will be.
   std::uint64_t unserved() const { return unserved_; }
 
-  /// One that is not newer than the last is left out: false.
+  /// Adds a sample; returns false and ignores it if it is not newer than the last.
   bool add(Stamp stamp, std::shared_ptr<const Payload> payload) {
     if (last_ && stamp <= *last_) {
       return false;
@@ -49,16 +49,16 @@ class SampleQueue {
     return true;
   }
 
-  /// The oldest sample after a stamp (of all, without one); null if there is none.
-  /// `unserved_only`: of those that have been in no set.
+  /// Returns the oldest sample after a stamp (or of all, without one); null if there is none.
+  /// `unserved_only`: considers only samples that were in no set.
   Sample* firstAfter(std::optional<Stamp> stamp, bool unserved_only) {
     return find([&](const Sample& sample) {
       return (!stamp || *stamp < sample.stamp) && !(unserved_only && sample.served);
     });
   }
 
-  /// The sample nearest in time, of two equally near ones the earlier; of those only that are not
-  /// nearer to `next`. Null if there is none.
+  /// Returns the sample nearest in time, the earlier one of two equally near, ignoring those that
+  /// are nearer to `next`. Null if there is none.
   Sample* nearest(Stamp stamp, std::optional<Stamp> next) {
     const auto distance = [](Stamp at, const Sample& sample) {
       return std::abs(secondsBetween(at, sample.stamp));
@@ -83,14 +83,14 @@ class SampleQueue {
     }
   }
 
-  /// Drops all up to the last that served: what is older would be a step back in time.
+  /// Drops all up to the last one that was used: older ones would be a step back in time.
   void dropUpToServed() {
     while (find([](const Sample& sample) { return sample.served; }) != nullptr) {
       dropOldest();
     }
   }
 
-  /// As if the source had never spoken, but for the count of what served nobody.
+  /// Resets as if the source had never published, but keeps the count of unserved samples.
   void forget() {
     dropWhile([](Stamp) { return true; });
     last_.reset();

@@ -30,33 +30,33 @@ struct SourceMatcherOptions {
 /// Throws OptionError for a reference that is not one of the sources.
 void checkReference(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
 
-/// In how many sets a sample may be.
+/// How many sets a sample may be in.
 enum class Serving {
   kOften,  ///< it is the latest of its source until there is a newer one
-  kOnce,   ///< it is evidence, which must not be counted twice
+  kOnce,   ///< it is evidence that must not be counted twice
 };
 
-/// Which samples of several sources belong together in time. Each sample of the reference source
-/// leads to one set, as soon as every other live source has spoken of its stamp or a later one, or
-/// after `max_wait`; of each other source the sample nearest in time is in the set, of two
-/// equally near ones the earlier. While the reference is silent the next live source by name takes
-/// its role; it has it back when it publishes again.
+/// Matches samples of several sources that belong together in time. Each sample of the reference
+/// source yields one set, as soon as every other live source has published that stamp or a later
+/// one, or after `max_wait`. Of each other source the set has the sample nearest in time, the
+/// earlier one of two equally near. While the reference is silent, the next live source by name
+/// takes its role, until the reference publishes again.
 ///
-/// A source that may be late (a detector that takes its time) holds nobody up: its sample is in the
-/// next set after it has come, if that is no more than so much later.
+/// No set waits for a source with an allowed lateness (a slow detector): its sample goes into the
+/// next set after its arrival, if that is within its lateness.
 ///
-/// A sample that serves once is kept for the next set if that is nearer to it, as far as is known
-/// by then.
+/// A sample that serves once is kept for the next set if that one is nearer to it, as far as is
+/// known by then.
 ///
-/// Silence counts from a source's last stamp; before its first, from the first stamp of any. Pure
-/// data time: what comes out hangs on what is put in, and on nothing else.
+/// Silence counts from a source's last stamp; before its first, from the first stamp of any source.
+/// Only data time is used: the output depends on the input alone.
 template <typename Payload>
 class SourceMatcher {
  public:
   using Matched = MatchedSamples<Payload>;
 
-  /// `sources`: the names of all that may publish; `late_by`: s, by how much those that no set
-  /// waits for may be late. Throws OptionError.
+  /// `sources`: the names of all possible publishers; `late_by`: s, allowed lateness of those that
+  /// no set waits for. Throws OptionError.
   SourceMatcher(const Checked<SourceMatcherOptions>& options,
                 const std::vector<std::string>& sources, Serving serving,
                 const std::map<std::string, double>& late_by = {})
@@ -68,29 +68,31 @@ class SourceMatcher {
     }
   }
 
-  /// Throws std::invalid_argument for a source that there is not.
+  /// Throws std::invalid_argument for an unknown source.
   void checkSource(const std::string& source) const;
 
-  /// One more sample; one that is not newer than the last of its source is left out. Throws
-  /// std::invalid_argument for a source that there is not.
+  /// Adds a sample; one that is not newer than the last of its source is ignored. Throws
+  /// std::invalid_argument for an unknown source.
   void add(const std::string& source, Stamp stamp, std::shared_ptr<const Payload> payload);
 
-  /// The next set, by rising stamp; none if nothing is ready. Call it until there is none.
+  /// Returns the next set, by rising stamp; none if nothing is ready. Call it until it returns
+  /// none.
   /// `now`: time of the data, the newest stamp that the caller has seen.
   std::optional<Matched> next(Stamp now);
 
-  /// The first set after a stamp (of all, without one) that still waits, with what has come for it
-  /// until now; none if nothing waits. It stays so: next() gives it later, as it is then.
+  /// Returns the first waiting set after a stamp (or of all, without one), with the samples
+  /// received so far; none if nothing waits. The set keeps waiting: next() returns it later,
+  /// complete.
   std::optional<Matched> early(std::optional<Stamp> after, Stamp now) const;
 
-  /// How many samples of a source have been in no set and will be in none, since the start. Throws
-  /// std::out_of_range for a source that there is not.
+  /// Number of samples of a source that were never used in a set and never will be. Throws
+  /// std::out_of_range for an unknown source.
   std::uint64_t unserved(const std::string& source) const { return sources_.at(source).unserved(); }
 
-  /// Forgets all samples, as if no source had spoken since the first.
+  /// Forgets all samples, as if no source had published since the first stamp.
   void forgetSamples();
 
-  /// Forgets all but the counts: the clock has jumped back.
+  /// Forgets everything except the counts; call it when the clock has jumped back.
   void reset();
 
  private:
@@ -109,20 +111,20 @@ class SourceMatcher {
     return older >= -options_.tolerance && older <= std::max(source.lateBy(), options_.tolerance);
   }
 
-  /// The source whose samples lead to sets at this time; null: all are silent.
+  /// The source whose samples currently yield sets; null: all are silent.
   Entry* leader(Stamp now);
 
-  /// The source's oldest sample that may lead to a set; null if there is none.
+  /// The source's oldest sample that may yield a set; null if there is none.
   Sample* pending(Source& source) const;
 
   bool isComplete(Stamp stamp, Stamp now) const;
 
-  /// The source's sample that belongs to this stamp of the leader; null if there is none.
+  /// The source's sample that matches this stamp of the leader; null if there is none.
   Sample* nearest(Source& source, Stamp stamp, Source& leader) const;
 
   Matched match(Entry& leader, Sample& sample, Stamp now);
 
-  /// Drops the samples that can be in no set after one of this stamp.
+  /// Drops the samples that cannot be in any set after this stamp.
   void dropPast(Source& source, Stamp stamp) const;
 
   SourceMatcherOptions options_;
@@ -194,7 +196,7 @@ void SourceMatcher<Payload>::reset() {
 
 template <typename Payload>
 auto SourceMatcher<Payload>::leader(Stamp now) -> Entry* {
-  // What waits is served, however long ago it was said.
+  // A waiting sample is used, no matter how old it is.
   const auto leads = [&](Entry& entry) {
     return !isSilent(entry.second, now) || pending(entry.second) != nullptr;
   };

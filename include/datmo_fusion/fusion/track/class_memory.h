@@ -10,27 +10,27 @@
 
 namespace datmo {
 
-/// What all sources believe of the class of one object, by the tracks that they have of it.
+/// Combines the class beliefs of all sources on one object, from their tracks of it.
 ///
-/// An object stays what it is when it leaves the view of the sensor that classified it, so the
-/// belief of a track that ended counts on, until its source has another one that tells something.
-/// That of a track that went over to another object does not.
+/// An object keeps its class when it leaves the view of the sensor that classified it, so the
+/// belief of a track that ended is kept until its source has another track with class information.
+/// The belief of a track that switched to another object is dropped.
 class ClassMemory {
  public:
   using Member = std::pair<std::string, std::uint32_t>;  ///< a source, and the id of its track
   using Beliefs = std::map<Member, ClassProbabilities>;
 
-  /// The beliefs of the present: `own` of the tracks of the object, none while it is lost; `all` of
-  /// those of any.
+  /// Sets the current beliefs: `own` from the tracks of this object, empty while it is lost; `all`
+  /// from those of any object.
   void update(const Beliefs& own, const Beliefs& all);
 
-  /// Of all sources together, as if they were independent. Equal probabilities before anything was
-  /// said.
+  /// Returns the belief of all sources combined as if they were independent; equal probabilities
+  /// before there was any information.
   ClassProbabilities belief() const;
 
  private:
   Beliefs present_;
-  std::map<std::string, ClassProbabilities> ended_;  ///< by source; of the last one
+  std::map<std::string, ClassProbabilities> ended_;  ///< by source; of its last track
 };
 
 }  // namespace datmo

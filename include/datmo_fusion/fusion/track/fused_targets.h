@@ -15,50 +15,52 @@
 
 namespace datmo {
 
-/// An object that one source or more have a track of.
+/// An object that at least one source tracks.
 struct FusedTarget {
   using Member = ClassMemory::Member;
 
   std::uint32_t id = 0;
-  Track track;                    ///< fused, at the present; `sources`: those it was last fused of
-  std::map<Member, Stamp> since;  ///< when it got each of these tracks
-  ClassMemory classes;            ///< what these and those before them believed of its class
+  Track track;                    ///< fused, at the current time; `sources`: those last fused
+  std::map<Member, Stamp> since;  ///< when each of these tracks was associated
+  ClassMemory classes;            ///< class beliefs of these and earlier tracks
   Stamp born;                     ///< when the first object of any of its tracks was seen
-  bool present = true;            ///< a source has a track of it now
-  double lost = 0.0;              ///< s, since one had
-  bool confirmed = false;         ///< all sources that could see it, and two sensors, had tracks
-  bool wanted = false;            ///< published, unless a surer one is at the same position
-  bool published = false;         ///< came out
-  /// By number of the source: that it would have detected it lately; none: not evaluated yet.
+  bool present = true;            ///< at least one source has a track of it now
+  double lost = 0.0;              ///< s, since no source had one
+  bool confirmed = false;  ///< once had tracks of all sources that could see it, and of two sensors
+  bool wanted = false;     ///< to be published, unless a more certain one is at the same position
+  bool published = false;  ///< has been published
+  /// By number of the source: probability that it would have detected it lately; none: not
+  /// evaluated.
   std::vector<std::optional<double>> looked;
-  std::vector<std::optional<double>> ranges;  ///< m, the same: from its sensor; none: not known
+  std::vector<std::optional<double>> ranges;  ///< m, likewise: from its sensor; none: unknown
 
-  /// Id of this source's track of it; none if it has none.
+  /// Returns the id of this source's track of it; none if it has none.
   std::optional<std::uint32_t> member(const std::string& source) const;
 
-  /// Its class, by what all tracks of the present believe of what they are of, without their
-  /// speed, and by its own.
+  /// Updates its class from the class beliefs (without speed) of all current tracks and from its
+  /// own speed.
   void updateClass(const ClassMemory::Beliefs& beliefs, const ClassBySpeedOptions& options);
 };
 
-/// Which fused target a group of tracks is: the one that has a track of the group already; of
-/// several the confirmed, then one that was not lost, one that has more of the tracks, that has had
-/// one for longer, the older one. So where the tracks of a target part, it goes on with the one
-/// that it has had for longest. Of new groups those that are where one was lost within `memory` are
-/// that one again. Ids rise and are never reused.
+/// Assigns groups of tracks to fused targets: a group continues the target that already has one of
+/// its tracks. Among several, confirmed targets come first, then those that are not lost, those
+/// that share more tracks, those that share one for longer, and older ones. So when the tracks of a
+/// target separate, it keeps the one it has had for longest. A new group at the position of a
+/// target lost within `memory` continues that target. Ids rise and are never reused.
 class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
 
-  /// The present tracks, one for each group, at `stamp`, `seconds` after the last time. The
-  /// covariances of those of several sources include TrackComparisonOptions::body_std.
-  /// Targets without one are lost: predicted, and forgotten after `memory` s.
+  /// Updates the targets with the current tracks, one per group, at `stamp`, `seconds` after the
+  /// last call. The covariances of tracks fused from several sources include
+  /// TrackComparisonOptions::body_std. Targets without a group are lost: predicted, and deleted
+  /// after `memory` s.
   void follow(Stamp stamp, double seconds, std::vector<Track> groups,
               const TrackFuserOptions& options);
 
-  /// Publishes those that are wanted; of two at one position (reaches), which no source has tracks
-  /// of both, the surer one: the one that was published before, if both are confirmed or neither
-  /// is.
+  /// Publishes the wanted targets. If two are at one position (reaches) and no source tracks both,
+  /// only the more certain one is published: the previously published one, if both are confirmed or
+  /// neither is.
   void publish(double reach);
 
   std::vector<FusedTarget>& all() { return targets_; }
@@ -68,7 +70,7 @@ class FusedTargets {
  private:
   using Owners = std::vector<std::optional<std::size_t>>;
 
-  /// Tracks that a group has in common with a target.
+  /// Tracks that a group shares with a target.
   struct Shared {
     int tracks = 0;
     Stamp since;  ///< when the target got the first of them
@@ -76,11 +78,11 @@ class FusedTargets {
   /// By index of the target.
   std::map<std::size_t, Shared> sharedWith(
       const Track& group, const std::multimap<FusedTarget::Member, std::size_t>& owners_of) const;
-  /// Of each group the index of its target, as far as it shares a track with one.
+  /// For each group the index of its target, if it shares a track with one.
   Owners byMembers(const std::vector<Track>& groups) const;
-  /// Those that are none's.
+  /// Targets without a group.
   std::vector<std::size_t> withoutGroup(const Owners& owners) const;
-  /// Adds those that were lost where a new group is.
+  /// Adds lost targets that a new group is close to.
   void addRefound(const std::vector<Track>& groups, const TrackComparisonOptions& options,
                   Owners& owners) const;
   void forgetLost(double memory);

@@ -18,7 +18,7 @@
 
 namespace datmo {
 
-/// When two tracks are one object (TrackAssociation).
+/// How to decide that two tracks are one object (TrackAssociation).
 enum class TrackAssociationTest { kAccumulated, kParallel };
 
 struct TrackAssociationOptions {
@@ -31,42 +31,42 @@ struct TrackAssociationOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Tracks of one source, all at one time in one fixed frame.
+/// Tracks of one source, all at one stamp in one fixed frame.
 struct PresentTracks {
-  std::size_t source = 0;     ///< number of the source, the same at all times
-  bool fresh = true;          ///< false: these are known already, predicted
+  std::size_t source = 0;     ///< index of the source, constant over time
+  bool fresh = true;          ///< false: an earlier list, predicted
   std::vector<Track> tracks;  ///< valid (isValid); ids are unique
 };
 
-/// One track of those.
+/// Refers to one of these tracks.
 struct TrackPosition {
   std::size_t list = 0;  ///< index of its source's PresentTracks
   std::size_t track = 0;
 };
 
-/// Tracks that are one object, of different sources; at least one.
+/// Tracks of different sources that are one object; at least one.
 using TrackGroup = std::vector<TrackPosition>;
 
-/// Decides which tracks of several sources are one object, by all that they did until now.
+/// Decides which tracks of several sources are one object, from their history.
 ///
-/// accumulated: each time two tracks are compared, the log-likelihood ratio of "one object" against
-/// "two" counts (compare), summed over a window of time (Bar-Shalom, Willett, Tian, Tracking and
-/// Data Fusion, 2011, 9.4.4: association from the histories of tracks): two cars that pass each
-/// other agree for a moment, one object always. Two become one from `required` on.
+/// accumulated: the log-likelihood ratio of "one object" against "two" (compare) is summed over a
+/// time window (Bar-Shalom, Willett, Tian, Tracking and Data Fusion, 2011, 9.4.4: association from
+/// the histories of tracks): two cars that pass each other agree for a moment, tracks of one object
+/// always. Two tracks are associated if the sum reaches `required`.
 ///
-/// parallel: thesis 3.4.2; two tracks in each other's gate are one if they were parallel over the
-/// history that they have in common.
+/// parallel: thesis 3.4.2; two tracks in each other's gate are associated if they were parallel
+/// over their common history.
 ///
-/// In both, one-to-one between sources and likeliest over all pairs, with a lead
-/// (`association_hysteresis`) for those who were one before: accumulated, these also stay one until
-/// they differ by as much more than it takes to become one.
+/// Both are one-to-one between sources and choose the most likely assignment over all pairs, with
+/// hysteresis (`association_hysteresis`) for pairs that were associated before: with accumulated, a
+/// pair is kept until its sum falls below `required` by that much.
 class TrackAssociation {
  public:
   /// Throws OptionError.
   explicit TrackAssociation(const Checked<TrackAssociationOptions>& options);
 
-  /// The groups of the tracks of a time, in the order of their first tracks: those of the first
-  /// source, then the others'. Stamps rise.
+  /// Returns the groups of the tracks, ordered by their first tracks: those of the first source,
+  /// then the others'. Stamps must rise.
   std::vector<TrackGroup> associate(Stamp stamp, const std::vector<PresentTracks>& sources);
 
   void reset() { *this = TrackAssociation(options_); }
@@ -82,13 +82,13 @@ class TrackAssociation {
   using PairKey = std::pair<TrackKey, TrackKey>;
   struct Pair {
     WindowedEvidence evidence;
-    bool together = false;  ///< at the last time
+    bool together = false;  ///< at the last stamp
   };
-  /// Two tracks of different sources that may be one object now.
+  /// Two tracks of different sources that may be one object.
   struct Candidate {
     TrackPosition one;
-    TrackPosition other;  ///< of a later list
-    double score = 0.0;   ///< more than 0: one object
+    TrackPosition other;  ///< in a later list
+    double score = 0.0;   ///< above 0: one object
     PairKey key;
   };
 
@@ -96,14 +96,14 @@ class TrackAssociation {
                   std::size_t other);
   std::optional<double> scoreOf(Stamp stamp, const Track& a, const Track& b, bool fresh,
                                 const PairKey& key);
-  /// Gives the tracks of a list to the groups of those before it, or each one of its own.
+  /// Adds the tracks of a list to the groups of those before it, or opens new groups.
   void join(std::vector<TrackGroup>& groups, const std::vector<PresentTracks>& sources,
             std::size_t list) const;
   void remember(Stamp stamp, const std::vector<TrackGroup>& groups);
 
   TrackAssociationOptions options_;
   std::map<PairKey, Pair> pairs_;
-  std::vector<Candidate> candidates_;  ///< of the present
+  std::vector<Candidate> candidates_;  ///< at the current stamp
 };
 
 }  // namespace datmo

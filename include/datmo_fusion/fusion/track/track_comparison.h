@@ -16,21 +16,20 @@ struct TrackComparisonOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Whether two tracks are of one object.
+/// Result of comparing two tracks.
 struct TrackComparison {
-  /// 1, Mahalanobis, of position and velocity: chi-square with four degrees of freedom where the
-  /// two are one. Infinity: so far from each other that nothing more was looked at.
+  /// 1, Mahalanobis, of position and velocity: chi-square with four degrees of freedom if the two
+  /// are one object. Infinity: too far apart for any further comparison.
   double squared_distance = 0.0;
   double log_likelihood_ratio = 0.0;  ///< of "one object" against "two"
 };
 
 /// Compares two tracks of different sensors at one time. Symmetric.
 ///
-/// By position, velocity and class. The statistical distance has both covariances as if they were
-/// independent: what errors the two have in common makes them agree better than that. What two
-/// sensors take for the center of a body differs by which parts of it they see, by a share of its
-/// size, and that is no noise of either track; one that was fused of several has body_std in its
-/// covariance already.
+/// Uses position, velocity and class. The statistical distance sums both covariances as if they
+/// were independent: common errors make the tracks agree better than that. Sensors that see
+/// different parts of a body disagree about its center by a share of its size, which is not noise
+/// of either track; the covariance of a track fused from several sources already includes body_std.
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options);
 
 struct ParallelTracksOptions {
@@ -40,9 +39,9 @@ struct ParallelTracksOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The thesis's test of two trajectories (3.4.2): means of the differences of heading, x and y over
-/// the history that both have in common, each below its threshold. Points of other times are
-/// interpolated; without common history the present counts alone. Symmetric but for rounding.
+/// The thesis's test of two trajectories (3.4.2): the mean differences of heading, x and y over the
+/// common history must each be below their threshold. Points at other times are interpolated;
+/// without common history only the current state counts. Symmetric except for rounding.
 bool areParallel(const Track& a, const Track& b, const ParallelTracksOptions& options);
 
 }  // namespace datmo

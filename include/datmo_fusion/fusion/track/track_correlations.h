@@ -12,18 +12,18 @@
 
 namespace datmo {
 
-/// How much the errors of trackers are correlated that follow one object: of each pair of tracks
-/// the cross-covariance, carried on from one fusion to the next (steppedCrossCovariance). Two that
-/// have just been found to be one object have shared its process noise for a while: they begin with
+/// Error correlations between trackers that follow one object: for each pair of tracks the
+/// cross-covariance, propagated from one fusion to the next (steppedCrossCovariance). A pair that
+/// has just been associated has shared the object's process noise for a while and begins with
 /// `first_correlation`.
 class TrackCorrelations {
  public:
-  /// A new time, `seconds` after the last one. Pairs that were not requested at the last one are
-  /// forgotten.
+  /// Advances time by `seconds`. Pairs that were not requested in the last step are deleted.
   void step(double seconds);
 
-  /// Of two tracks as their trackers made them, at the present: `sources` of each is itself. Each
-  /// pair is requested once at each time, in either order: of b and a it is the transpose.
+  /// Returns the cross-covariance of two unfused tracks (each is its own only `sources`) at the
+  /// current time. Each pair must be requested once per step, in either order: for b and a the
+  /// result is transposed.
   CrossCovariance between(const Track& a, const Track& b, const TrackPredictionOptions& prediction,
                           const TrackCombinationOptions& options);
 

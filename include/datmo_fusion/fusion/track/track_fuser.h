@@ -22,73 +22,73 @@
 
 namespace datmo {
 
-/// The newest tracks of one source; all sources in one fixed frame.
+/// The latest tracks of one source; all sources in one fixed frame.
 struct SourceTracks {
   std::string source;
   std::shared_ptr<const TrackList> list;  ///< at its own stamp
 };
 
-/// What became of the tracks of one set of lists.
+/// Counts of one set of lists.
 struct TrackFusionCounts {
-  std::size_t rejected = 0;  ///< not valid (isValid)
-  std::size_t refused = 0;   ///< beyond the most of one list: those of least existence
+  std::size_t rejected = 0;  ///< invalid (isValid)
+  std::size_t refused = 0;   ///< beyond the maximum of one list: those of least existence
   std::size_t fused = 0;     ///< tracks that two or more sources have
   std::size_t published = 0;
 };
 
-/// One list of all sources.
+/// The fused list of all sources.
 struct TrackFusionResult {
   TrackList list;  ///< at the time of fusion; `views` are those of all sources
   TrackFusionCounts counts;
 };
 
-/// Lists of tracks of several sensors -> one list (thesis 3.4).
+/// Fuses track lists of several sensors (thesis 3.4).
 ///
-/// All tracks are brought to one time. Which of them are one object is decided by what they did
-/// until now (TrackAssociation), the states of those are fused (combined), and the fused track has
-/// an id of its own, which stays while one source loses the object and finds it again. That it
-/// exists: fusedExistence, by what each source could see, as published with its tracks.
+/// All tracks are predicted to one time. Their history decides which of them are one object
+/// (TrackAssociation), the states of those are fused (combined), and the fused track has its own
+/// id, which persists while one source loses the object and finds it again. Its existence is from
+/// fusedExistence, by what each source could see, as published with its tracks.
 ///
-/// What is published, of the tracks that are likelier to exist than not:
+/// Which tracks with an existence above one half are published:
 ///
-///   - by_existence: those whose existence is probable enough by what all sources report, and those
-///     that two sensors confirmed once. A source that has no track of what it would surely have
-///     one of says as much as one that has.
-///     The thesis's (3.4.2):
-///   - fused_plus_fallback: those that all sources have, or had, that can see the position, and two
-///     sensors at least; and those of one source, `beyond`, where no other can see. One that comes
-///     from there into another's view stays for as long as that needs to confirm it.
-///   - confirmed_by_all: the first of these alone. For very noisy sensors.
+///   - by_existence: those with sufficient existence according to all sources, and those that two
+///     sensors once confirmed. A missing track of a source that would surely have one counts as
+///     much as a track does.
+///     The thesis's schemes (3.4.2):
+///   - fused_plus_fallback: those that all sources that can see the position have or had, at least
+///     two sensors; and those of the source `beyond` alone where no other can see. One that moves
+///     from there into another's view stays for the time that source needs to confirm it.
+///   - confirmed_by_all: only the first of these. For very noisy sensors.
 ///   - union: all. `sensors` lists who sees them.
 ///
-/// Of two at one position, of different sources, that are not associated yet, one is
-/// published: two bodies cannot be at one position. A source whose view is not known is never
-/// missed.
+/// Of two tracks of different sources at one position that are not associated yet, only one is
+/// published: two bodies cannot be at one position. A source with an unknown view is never expected
+/// to have a track.
 ///
-/// Not thread safe; stamps rise.
+/// Not thread safe; stamps must rise.
 class TrackFuser {
  public:
   /// Throws OptionError.
   explicit TrackFuser(const Checked<TrackFuserOptions>& options);
 
-  /// The tracks at `stamp`, of the newest lists of all sources that publish. A list may have been
-  /// given before; it is no new evidence then. Tracks that do not name their sensors are their
-  /// source's own. All sources must be in the options (else std::out_of_range).
+  /// Fuses the newest lists of all publishing sources at `stamp`. A list may have been given
+  /// before; it is not counted as new evidence then. Tracks that do not name their sensors count as
+  /// their source's own. All sources must be in the options (else std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 
-  /// Goes on with other live options (Tier::kLive) from the next call on; all others must be as
-  /// they were. Throws OptionError.
+  /// Changes live options (Tier::kLive) from the next call on; all others must be unchanged. Throws
+  /// OptionError.
   void setOptions(const Checked<TrackFuserOptions>& options);
 
-  /// Forgets all tracks; ids go on, so that none is reused.
+  /// Forgets all tracks; ids continue, so that none is reused.
   void reset();
 
  private:
   std::vector<PresentTracks> ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
                                     TrackFusionCounts& counts);
 
-  /// What a source's track says of the class, with (withSpeed) or without (withoutSpeed) what its
-  /// speed does.
+  /// Class probabilities of a source's track, with (withSpeed) or without (withoutSpeed) the
+  /// evidence of its speed.
   ClassProbabilities reportedClass(const Track& track, const TrackSourceOptions& source,
                                    decltype(withSpeed)* weigh) const;
   std::vector<Track> fused(const std::vector<TrackGroup>& groups,
@@ -96,14 +96,15 @@ class TrackFuser {
                            const std::vector<std::optional<Point2>>& sensors,
                            TrackFusionCounts& counts);
 
-  /// The tracks of a group as one, surest first, whatever the order of the sources is. What each
-  /// sensor takes to be the body's center (comparison/body_std) no tracker's covariance has, and it
-  /// does not average away.
+  /// Fuses the tracks of a group, most certain first, independent of the order of the sources. The
+  /// disagreement of sensors about the body's center (comparison/body_std) is in no tracker's
+  /// covariance and does not average out.
   Track joined(TrackGroup group, const std::vector<PresentTracks>& present,
                const std::vector<std::optional<Point2>>& sensors);
 
-  /// How much each source would have detected each target lately. Who has a track of it is not
-  /// evaluated: when it loses that, it takes a while until it is missed.
+  /// Updates how probably each source would have detected each target lately. Sources that have a
+  /// track of it are not evaluated: after losing it, it takes a while until they are expected to
+  /// see it.
   void look(const std::vector<SourceTracks>& sources, double seconds);
   void judgeAll(Stamp stamp, const std::vector<PresentTracks>& present);
 
@@ -113,20 +114,20 @@ class TrackFuser {
   void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const;
   bool isWanted(const FusedTarget& target) const;
 
-  /// So that a source without a track of it is evidence against it: of one that is published
-  /// already when it has had time to confirm its own.
+  /// Whether a missing track of some source is evidence against the target; for a target that is
+  /// already published, only after that source had time to confirm its own.
   bool isInOthersView(const FusedTarget& target) const;
   void publish(TrackFusionResult& result);
 
   TrackFuserOptions options_;
-  std::vector<std::string> names_;              ///< of the sources, by number
-  std::map<std::string, std::size_t> numbers_;  ///< of the sources
+  std::vector<std::string> names_;              ///< by index of the source
+  std::map<std::string, std::size_t> numbers_;  ///< index by name
   TrackAssociation association_;
   TrackCorrelations correlations_;
   FusedTargets targets_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;                ///< of the last call
-  std::vector<std::optional<Stamp>> newest_;  ///< list of each source
+  std::vector<std::optional<Stamp>> newest_;  ///< stamp of each source's newest list
 };
 
 }  // namespace datmo

@@ -15,21 +15,21 @@
 
 namespace datmo {
 
-/// That a source has a track of a road user of one class that moves and that it could see lately:
-/// near / (1 + exp((range - half_range) / 4 m)). The smaller one is and the farther, the fewer
-/// beams or pixels it has, and the later its motion shows.
+/// Probability that a source tracks a moving road user of one class that it could see lately: near
+/// / (1 + exp((range - half_range) / 4 m)). The smaller and the farther the road user is, the fewer
+/// beams or pixels it has, and the later its motion is observable.
 struct ClassDetectionOptions {
   double near = 0.6;         ///< 1, at range 0
-  double half_range = 30.0;  ///< m, at which it has fallen to half of that
+  double half_range = 30.0;  ///< m, at which it has dropped to half of that
 
   void visit(OptionVisitor& visitor);
 
-  /// At a range, m.
+  /// At this range, m.
   double probability(double range) const;
 };
 
-/// The same of all classes. The defaults are for a source that was not calibrated: that it has no
-/// track of a person counts little. calibrate_track_sources measures them.
+/// The same for all classes. The defaults are for an uncalibrated source: a missing track of a
+/// person has little weight. calibrate_track_sources measures them.
 struct TrackDetectionOptions {
   ClassDetectionOptions pedestrian{0.3, 25.0};
   ClassDetectionOptions cyclist{0.6, 30.0};
@@ -37,22 +37,22 @@ struct TrackDetectionOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Of what is of each class with its probability, at a range (m) from the sensor; what has no
-  /// class here, or none, is as likely each of these.
+  /// Returns the probability for an object with these class probabilities, at a range (m) from the
+  /// sensor; probability of no class or of another class is spread evenly over these.
   double probability(const ClassProbabilities& classes, double range) const;
 };
 
-/// Of a source's tracks, the share that are of what moves, by the class that they claim: what is
-/// taken for a person seldom is anything else, a corner of a wall that is passed looks like a car.
+/// Share of a source's tracks that are real movers, by claimed class: a track classified as a
+/// person is rarely anything else, but a corner of a wall that is passed looks like a car.
 struct TrueShareOptions {
   double pedestrian = 0.9;  ///< 1
   double cyclist = 0.9;     ///< 1
   double vehicle = 0.9;     ///< 1
-  double other = 0.9;       ///< 1, of no class, or of one that does not move
+  double other = 0.9;       ///< 1, without class, or of a static class
 
   void visit(OptionVisitor& visitor);
 
-  /// Of what is of each class with its probability.
+  /// Returns the share for these class probabilities.
   double of(const ClassProbabilities& classes) const;
 };
 
@@ -89,7 +89,7 @@ struct TrackFuserOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Throws OptionError where `beyond` is none of the sources in use.
+  /// Throws OptionError if `beyond` is not one of the sources in use.
   void check() const;
 
   /// Names of the sources that are in use.

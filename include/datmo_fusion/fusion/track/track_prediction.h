@@ -13,19 +13,19 @@ struct TrackPredictionOptions : ClassMotionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How the state of a track changes over `seconds`, or, less than 0, how it was before: by its most
-/// likely class.
+/// Returns the motion of a track over `seconds`; negative: backward in time. By its most likely
+/// class.
 ///
-/// What moves turns at its yaw rate (coordinatedTurn). What stands stays where it is; but it may
-/// start, so it becomes less sure as if it moved. Time that runs backward is the same motion with
-/// velocity and yaw rate reversed: the process noise is that of the time between, to either side.
+/// A moving object turns at its yaw rate (coordinatedTurn). A stationary one stays in place; but it
+/// may start, so its uncertainty grows as if it moved. Backward in time the motion has reversed
+/// velocity and yaw rate, with the process noise of the same duration.
 LinearMotion motionOf(const Track& track, double seconds, const TrackPredictionOptions& options);
 
-/// The track at a time `seconds` later than its own; less than 0: earlier. State and covariance by
-/// motionOf; the box moves with the state and turns at the yaw rate, and its heading becomes less
-/// sure. Age and the time since the last object change with the time, down to 0; all else stays.
+/// Predicts a track by `seconds`; negative: backward. State and covariance use motionOf; the box
+/// moves with the state and turns at the yaw rate, and its heading variance grows. Age and the time
+/// since the last object change accordingly, down to 0; all else is unchanged.
 ///
-/// The track must be valid, and `seconds` finite.
+/// The track must be valid and `seconds` finite.
 Track predicted(Track track, double seconds, const TrackPredictionOptions& options);
 
 }  // namespace datmo

@@ -16,22 +16,22 @@ struct WindowedEvidenceOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Log-likelihood ratios, summed over the last `window` seconds.
+/// Sum of log-likelihood ratios over the last `window` seconds.
 ///
-/// The errors of a track change as slowly as its filter forgets, so that looks in quick succession
-/// say the same again: the first counts in full, each later one by its share of
-/// `correlation_time`. So the sum does not hang on the rate of the sensors.
+/// Track errors change slowly, at the time constant of the filter, so observations in quick
+/// succession repeat the same information: the first counts in full, each later one by its share of
+/// `correlation_time`. So the sum does not depend on the rate of the sensors.
 class WindowedEvidence {
  public:
-  /// What was seen at `stamp`, not before the last look's; limited to `look_limit` either way.
+  /// Adds the evidence at `stamp`, not before the last one's; limited to +-`look_limit`.
   void look(Stamp stamp, double log_likelihood_ratio, const WindowedEvidenceOptions& options);
 
-  /// Time goes on: what is older than the window is forgotten.
+  /// Removes evidence older than the window.
   void forgetBefore(Stamp stamp, const WindowedEvidenceOptions& options);
 
   double sum() const { return sum_; }
 
-  /// Nothing is left in the window.
+  /// Whether nothing is left in the window.
   bool empty() const { return looks_.empty(); }
 
  private:

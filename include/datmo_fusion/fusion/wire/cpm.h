@@ -11,8 +11,9 @@
 
 namespace datmo {
 
-/// The common data dictionary that a CPM was made by: from V2.2.1 on subclasses of pedestrians,
-/// motorcyclists and animals, and correlations, have other bits, under the same version.
+/// The common data dictionary used by a CPM: from V2.2.1 on, subclasses of pedestrians,
+/// motorcyclists and animals, and correlations, are encoded differently under the same version
+/// number.
 enum class ItsDictionary { k211, k221 };
 
 /// DF CartesianCoordinateWithConfidence.
@@ -33,7 +34,7 @@ struct CpmVelocityComponent {
   static constexpr std::int64_t kNoValue = 16383;
 
   std::int64_t value = kNoValue;                      ///< 0.01 m/s
-  std::int64_t confidence = ItsSpeed::kNoConfidence;  ///< as of ItsSpeed
+  std::int64_t confidence = ItsSpeed::kNoConfidence;  ///< as in ItsSpeed
 };
 
 /// DF Velocity3dWithConfidence, in the plane.
@@ -41,7 +42,7 @@ struct CpmVelocity {
   bool is_polar = false;
   CpmVelocityComponent x;  ///< east
   CpmVelocityComponent y;  ///< north
-  ItsSpeed speed;          ///< where it is polar, and
+  ItsSpeed speed;          ///< if polar, and
   ItsAngle course;         ///< from east to north
 };
 
@@ -56,7 +57,7 @@ struct CpmClass {
   std::int64_t confidence = kNoConfidence;  ///< %
 };
 
-/// DF PerceivedObject: what we use of it.
+/// DF PerceivedObject: the fields that we use.
 struct CpmObject {
   static constexpr std::int64_t kDimensionOutOfRange = 255;
   static constexpr std::int64_t kNoDimension = 256;
@@ -84,10 +85,10 @@ struct Cpm {
   ItsHeader header{ItsHeader::kVersion, ItsHeader::kCpm, 0};
   std::int64_t reference_time = 0;  ///< ms, TimestampIts
   ItsPosition position;
-  std::int64_t segments = 1;  ///< messages that have what it perceives; 1: it is not segmented
-  std::int64_t segment = 1;   ///< the number of this one
+  std::int64_t segments = 1;  ///< messages that share the perceived objects; 1: not segmented
+  std::int64_t segment = 1;   ///< number of this one
   std::optional<ItsAngle> orientation;  ///< of a vehicle, from north clockwise
-  std::int64_t object_count = 0;        ///< that it perceives altogether
+  std::int64_t object_count = 0;        ///< number of perceived objects in total
   std::vector<CpmObject> objects;
 };
 

@@ -11,11 +11,11 @@
 
 namespace datmo {
 
-// Fields that SPATEM and MAPEM have in common, by ISO/TS 19091 (2018), profile C, module DSRC.
+// Fields common to SPATEM and MAPEM, by ISO/TS 19091 (2018), profile C, module DSRC.
 
 /// DF IntersectionReferenceID.
 struct IntersectionId {
-  std::optional<std::int64_t> region;  ///< who gave the number
+  std::optional<std::int64_t> region;  ///< issuer of the number
   std::int64_t number = 0;
 
   bool operator<(const IntersectionId& other) const {
@@ -26,22 +26,22 @@ struct IntersectionId {
 /// For people: "12.3456", "3456".
 std::string toText(const IntersectionId& id);
 
-/// Throws WireError (`other_version`, `other_message`) for a message that is not of the kind.
+/// Throws WireError (`other_version`, `other_message`) for a message of another kind.
 void walk(Uper& uper, ItsHeader& header, std::int64_t kind);
 void walk(Uper& uper, IntersectionId& id);
 
-/// What is there (see Uper::present) and optional.
+/// A value that is optional (see Uper::present).
 void walk(Uper& uper, bool is_there, std::optional<std::int64_t>& value, std::int64_t min,
           std::int64_t max);
 
-/// DescriptiveName, which is passed over.
+/// DescriptiveName, which is skipped.
 void skipName(Uper& uper);
 
 /// RegionalExtension, and a list of one to four of them.
 void skipRegional(Uper& uper);
 void skipRegionals(Uper& uper);
 
-/// What comes last in a SEQUENCE: regional extensions, then additions of later versions.
+/// The end of a SEQUENCE: regional extensions, then additions of later versions.
 void skipEnd(Uper& uper, bool has_regional, bool is_extended);
 
 /// A BIT STRING of fixed size as a number whose most significant bit is the first one.
@@ -49,7 +49,7 @@ inline void walkBits(Uper& uper, std::int64_t& value, unsigned size) {
   uper.integer(value, 0, (std::int64_t{1} << size) - 1);
 }
 
-/// An ENUMERATED with names beyond its root, which is passed over.
+/// An ENUMERATED with values beyond its root, which is skipped.
 void skipEnumerated(Uper& uper, std::int64_t last);
 
 /// SEQUENCE (SIZE(min..max)) OF.
@@ -64,7 +64,7 @@ void walkList(Uper& uper, std::vector<Item>& items, std::int64_t min, std::int64
   }
 }
 
-/// The same of what is passed over.
+/// The same for skipped items.
 template <typename Skip>
 void skipList(Uper& uper, std::int64_t max, const Skip& skip_item) {
   std::int64_t count = 1;

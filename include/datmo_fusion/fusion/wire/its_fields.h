@@ -8,8 +8,8 @@
 
 namespace datmo {
 
-// Fields that messages have in common, by ETSI TS 102 894-2 (common data dictionary), in its
-// units. Before anything is set they say that it is not available.
+// Fields common to several messages, by ETSI TS 102 894-2 (common data dictionary), in its units.
+// They default to "not available".
 
 /// OrdinalNumber1B, Identifier1B and their like.
 inline constexpr std::int64_t kItsByteMax = 255;
@@ -37,11 +37,11 @@ struct ItsPosition {
 
   std::int64_t latitude = kNoLatitude;    ///< 1e-7 deg, WGS 84
   std::int64_t longitude = kNoLongitude;  ///< 1e-7 deg
-  std::int64_t semi_major = kNoAxis;      ///< 0.01 m, of the ellipse that holds 95 %
+  std::int64_t semi_major = kNoAxis;      ///< 0.01 m, of the 95 % ellipse
   std::int64_t semi_minor = kNoAxis;      ///< 0.01 m
   std::int64_t major_direction = 3601;    ///< ItsAngle::value, from north clockwise
   std::int64_t altitude = kNoAltitude;    ///< 0.01 m, above the ellipsoid
-  std::int64_t altitude_confidence = 15;  ///< one of a table
+  std::int64_t altitude_confidence = 15;  ///< index into a table
 };
 
 /// DF Heading, Wgs84Angle (from north clockwise) and CartesianAngle (from x to y): all have the
@@ -66,7 +66,7 @@ struct ItsSpeed {
   std::int64_t confidence = kNoConfidence;  ///< 0.01 m/s, 95 %
 };
 
-/// DE TrafficParticipantType: the first and last of those that are vehicles, and others.
+/// DE TrafficParticipantType: the first and last vehicle types, and others.
 enum ItsStationType : std::int64_t {
   kItsUnknown = 0,
   kItsPedestrian = 1,
@@ -82,23 +82,23 @@ enum ItsStationType : std::int64_t {
 
 inline constexpr double kItsCentimeter = 0.01;  ///< m; m/s of speeds
 
-/// On the ellipsoid, of 1e-7 degrees.
+/// Returns a position on the ellipsoid; arguments in 1e-7 degrees.
 GeodeticPosition geodeticOf(std::int64_t latitude, std::int64_t longitude);
 
-/// Whatever message it is of.
+/// For a header of any message type.
 void walkFields(Uper& uper, ItsHeader& header);
 
 /// Throws WireError (`other_version`).
 void checkVersion(const ItsHeader& header);
 
-/// Throws WireError (`other_version`, `other_message`) for a message that is neither CAM nor CPM of
+/// Throws WireError (`other_version`, `other_message`) unless the message is a CAM or CPM of
 /// version 2.
 void walk(Uper& uper, ItsHeader& header);
 void walk(Uper& uper, ItsPosition& position);
 void walk(Uper& uper, ItsAngle& angle);
 void walk(Uper& uper, ItsSpeed& speed);
 
-/// DF AccelerationComponent, which is not available, or passed over.
+/// DF AccelerationComponent: written as not available, skipped when read.
 void skipAcceleration(Uper& uper);
 
 }  // namespace datmo

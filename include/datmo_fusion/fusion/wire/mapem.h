@@ -11,46 +11,46 @@
 
 namespace datmo {
 
-/// DF NodeXY, but for its attributes: a step from the node before it, at first from the
-/// intersection's reference point, or a position on the earth.
+/// DF NodeXY without attributes: an offset from the node before it (the first one from the
+/// intersection's reference point), or a position on the earth.
 struct MapNode {
   bool is_geodetic = false;
   std::int64_t x = 0;  ///< 0.01 m to the east; 1e-7 deg of longitude
   std::int64_t y = 0;  ///< 0.01 m to the north; 1e-7 deg of latitude
 };
 
-/// DF ComputedLane without turn and scale: another lane's nodes, moved.
+/// DF ComputedLane without rotation and scale: another lane's nodes, translated.
 struct MapComputedLane {
-  std::int64_t reference = 0;  ///< lane
+  std::int64_t reference = 0;  ///< lane id
   std::int64_t x = 0;          ///< 0.01 m to the east
   std::int64_t y = 0;          ///< 0.01 m to the north
-  bool is_changed = false;     ///< turned or scaled, too: not to be used
+  bool is_changed = false;     ///< also rotated or scaled: not usable
 };
 
-/// DF Connection: where a lane leads to, and which lights say when.
+/// DF Connection: where a lane leads to, and which signals control it.
 struct MapConnection {
   std::int64_t lane = 0;
   std::optional<std::int64_t> maneuvers;  ///< 12 flags, bit 0 the most significant
-  std::optional<std::int64_t> group;      ///< of signals
+  std::optional<std::int64_t> group;      ///< signal group
 };
 
 /// DF GenericLane.
 struct MapLane {
   static constexpr std::int64_t kIngress = 2;  ///< flags of `direction`
   static constexpr std::int64_t kEgress = 1;
-  static constexpr std::int64_t kVehicle = 0;  ///< `type` of one for vehicles
+  static constexpr std::int64_t kVehicle = 0;  ///< `type` of a lane for vehicles
   static constexpr std::int64_t kOtherType = -1;
 
   std::int64_t id = 0;
   std::int64_t direction = 0;
   std::int64_t sharing = 0;      ///< 10 flags
   std::int64_t type = kVehicle;  ///< LaneTypeAttributes
-  std::vector<MapNode> nodes;    ///< from the stop line on; empty: it has none that we read
-  std::optional<MapComputedLane> computed;  ///< in place of nodes
+  std::vector<MapNode> nodes;    ///< starting at the stop line; empty: none that we can read
+  std::optional<MapComputedLane> computed;  ///< instead of nodes
   std::vector<MapConnection> connections;
 };
 
-/// DF IntersectionGeometry, but for speed limits.
+/// DF IntersectionGeometry without speed limits.
 struct MapIntersection {
   IntersectionId id;
   std::int64_t revision = 0;
@@ -69,7 +69,7 @@ struct Mapem {
 
 std::string encode(Mapem message);
 
-/// What is not among the fields above is passed over. Throws WireError.
+/// Skips everything else. Throws WireError.
 Mapem decodeMapem(std::string_view bytes);
 
 }  // namespace datmo

@@ -11,17 +11,17 @@
 
 namespace datmo {
 
-/// DF TimeChangeDetails: TimeMark, 0.1 s of the hour in UTC.
+/// DF TimeChangeDetails: TimeMark, 0.1 s within the hour, UTC.
 struct SpatTiming {
-  static constexpr std::int64_t kHour = 36000;     ///< and the mark of what is later than that
-  static constexpr std::int64_t kUnknown = 36001;  ///< a mark that says nothing
+  static constexpr std::int64_t kHour = 36000;     ///< also marks times beyond that
+  static constexpr std::int64_t kUnknown = 36001;  ///< mark for an unknown time
 
   std::optional<std::int64_t> start;
   std::int64_t min_end = kUnknown;
   std::optional<std::int64_t> max_end;
   std::optional<std::int64_t> likely;
-  std::optional<std::int64_t> confidence;  ///< of `likely`, one of a table
-  std::optional<std::int64_t> next;        ///< when it begins again
+  std::optional<std::int64_t> confidence;  ///< of `likely`, index into a table
+  std::optional<std::int64_t> next;        ///< when the state recurs
 };
 
 /// DE MovementPhaseState.
@@ -38,22 +38,22 @@ enum class SignalState {
   kCaution
 };
 
-/// DF MovementEvent, but for advised speeds.
+/// DF MovementEvent without advised speeds.
 struct SpatEvent {
   SignalState state = SignalState::kUnavailable;
   std::optional<SpatTiming> timing;
 };
 
-/// DF MovementState: what the lights of a group show now, and after that.
+/// DF MovementState: what the signals of a group show now, and after that.
 struct SpatMovement {
   std::int64_t group = 0;
   std::vector<SpatEvent> events;  ///< 1 to 16
 };
 
-/// DF IntersectionState, but for enabled lanes and queues.
+/// DF IntersectionState without enabled lanes and queues.
 struct SpatIntersection {
   static constexpr std::int64_t kNoMinute = 527040;
-  static constexpr std::int64_t kLastMillisecond = 60999;  ///< of a minute, a leap second's too
+  static constexpr std::int64_t kLastMillisecond = 60999;  ///< of a minute with a leap second
 
   IntersectionId id;
   std::int64_t revision = 0;
@@ -75,7 +75,7 @@ struct Spatem {
 
 std::string encode(Spatem message);
 
-/// What is not among the fields above is passed over. Throws WireError.
+/// Skips everything else. Throws WireError.
 Spatem decodeSpatem(std::string_view bytes);
 
 }  // namespace datmo

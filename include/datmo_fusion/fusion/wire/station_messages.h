@@ -27,29 +27,30 @@ struct StationMessageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a message said, in a plane that touches the earth where its station is.
+/// The content of a message, in a plane tangent to the earth at its station.
 struct StationMessage {
   LocalPlane plane;
   StationTrackList list;
-  std::uint64_t left_out = 0;  ///< objects without number or position
+  std::uint64_t left_out = 0;  ///< objects without id or position
 };
 
-/// CAM: the station itself, with id 0, as part 0 of what it tracks; CPM: what it perceives, with
-/// its numbers plus one, as the part of its segment's number. Confidences are of 95 %; standard
-/// deviations come of them by the normal distribution, and where they are not available of the
-/// options. Correlations of a CPM are not used. `now`: a CAM's time is sent modulo 65.536 s.
+/// Decodes a CAM (the station itself, with id 0, as part 0 of its tracks) or a CPM (what it
+/// perceives, with its ids plus one, as the part with its segment's number). Confidences are 95 %;
+/// standard deviations follow from them by the normal distribution, or from the options if not
+/// available. Correlations of a CPM are ignored. `now` resolves a CAM's time, which is sent modulo
+/// 65.536 s.
 ///
-/// Throws WireError: also for a station that does not know where it is (`no_position`), and for one
-/// that is no vehicle nor person and says nothing else (`no_track`).
+/// Throws WireError, also for a station that does not know its position (`no_position`), and for
+/// one that is neither vehicle nor person and reports nothing else (`no_track`).
 StationMessage decodeStation(std::string_view bytes, Stamp now,
                              const StationMessageOptions& options);
 
-/// A CAM of the track with id 0, which is ourselves, and CPMs of the others, which are few enough
-/// for a datagram each. A CPM has each track's whole covariance, which has what we do not know of
-/// our own position, and so counts that twice. Tracks farther than 1.3 km are left out.
+/// Encodes the track with id 0, which is ourselves, as a CAM and the others as CPMs, each small
+/// enough for a datagram. A CPM has each track's whole covariance, which includes the uncertainty
+/// of our own position and so counts it twice. Tracks farther than 1.3 km are left out.
 ///
 /// `plane`: of the list. `low_frequency`: whether the CAM has that container. Throws WireError
-/// (`no_own_position`) where the list does not have ourselves.
+/// (`no_own_position`) if the list does not contain ourselves.
 std::vector<std::string> encodeStation(const StationTrackList& list, const LocalPlane& plane,
                                        const StationMessageOptions& options, bool low_frequency);
 

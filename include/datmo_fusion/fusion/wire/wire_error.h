@@ -7,11 +7,11 @@
 
 namespace datmo {
 
-/// A message of a station that is none, or not one for us.
+/// Thrown for a station's message that is malformed or of no use to us.
 class WireError : public std::runtime_error {
  public:
-  /// `reason`: a short, fixed name that is counted (`truncated_message`); `message`: what is wrong,
-  /// its value, what was expected.
+  /// `reason`: a short, fixed name under which it is counted (`truncated_message`); `message`: what
+  /// is wrong, the value, what was expected.
   WireError(std::string reason, const std::string& message)
       : std::runtime_error(message), reason_(std::move(reason)) {}
 

@@ -8,10 +8,10 @@
 
 namespace datmo {
 
-/// Without what the terms' errors have in common, and without what was refused.
+/// Omits the common covariance of the terms' errors, and what was rejected.
 StereoAlignmentMessagePtr toMessage(const StereoAlignment& alignment, const std::string& frame);
 
-/// Throws InputError (`bad_alignment`) for numbers that are not finite and variances below 0.
+/// Throws InputError (`bad_alignment`) for non-finite numbers and negative variances.
 StereoAlignment fromMessage(const StereoAlignmentMessage& message);
 
 }  // namespace datmo

@@ -14,11 +14,10 @@
 
 namespace datmo {
 
-/// The points of a message, where they lie or copied, if they do not lie as a PointsView needs
-/// them.
+/// The points of a message, in place if their layout suits a PointsView, else copied.
 class CloudPoints {
  public:
-  /// The points stay where they are, unless rows are padded. `message` must outlive this.
+  /// The points are not copied unless rows are padded. `message` must outlive this.
   ///
   /// Throws InputError: `empty_cloud` (no points), `missing_field` (x, y or z), `wrong_field_type`
   /// (they are not FLOAT32, or reach beyond the point), `big_endian`, `wrong_size` (less data than
@@ -31,41 +30,41 @@ class CloudPoints {
 
   const PointsView& view() const { return view_; }
 
-  /// Brings the points to another frame; they are copied.
+  /// Transforms the points to another frame; they are copied.
   void transform(const Eigen::Isometry3d& cloud_in_frame);
 
-  /// Adds this (1/m) to the inverse of each z, along its line of sight: what a bias of disparities
-  /// has done to them. What has no depth then is not finite.
+  /// Adds `shift` (1/m) to the inverse of each z, along its line of sight, to correct a disparity
+  /// bias. Points without a depth afterward become non-finite.
   void shiftInverseDepths(double shift);
 
-  /// Leaves out the points whose z (m) is not from `min_depth` to `max_depth`, 0: no upper bound;
-  /// the others are copied. Throws InputError (`no_valid_point`) if there is none.
+  /// Removes the points whose z (m) is outside `min_depth` to `max_depth`, 0: no upper bound; the
+  /// others are copied. Throws InputError (`no_valid_point`) if none remains.
   void keepDepths(double min_depth, double max_depth);
 
  private:
   void packRows(const sensor_msgs::PointCloud2& message);
-  /// Takes x, y and z, 4 bytes each, in place of the points that were.
+  /// Replaces the points by x, y and z, 4 bytes each.
   void replace(std::vector<std::uint8_t> packed);
 
   PointsView view_;
   std::vector<std::uint8_t> copy_;
 };
 
-/// Bounds of what a stereo camera may be like.
+/// Plausible range of a stereo camera's geometry.
 inline constexpr double kMinFocalLength = 10.0;  ///< px
 inline constexpr double kMaxFocalLength = 1e5;   ///< px
 inline constexpr double kMinBaseline = 0.005;    ///< m
 inline constexpr double kMaxBaseline = 10.0;     ///< m
 
-/// Geometry of a rectified pair from the right camera's info: focal length P[0], baseline -P[3] /
-/// P[0], image borders from its width, its region of interest and P[2]. Binning is taken into
-/// account. The noise of depths is left at 0: no message contains it.
+/// Returns the geometry of a rectified pair from the right camera's info: focal length P[0],
+/// baseline -P[3] / P[0], image borders from its width, its region of interest and P[2]. Binning is
+/// taken into account. The depth noise is left at 0: no message contains it.
 ///
-/// Throws InputError (`bad_camera_info`) for what no stereo camera is like: the left camera's info,
-/// whose baseline is 0, among it.
+/// Throws InputError (`bad_camera_info`) for values that no stereo camera has, including the left
+/// camera's info, whose baseline is 0.
 StereoCamera stereoCamera(const sensor_msgs::CameraInfo& right);
 
-/// The same of the info of a depth image, which has no baseline: that is left at 0.
+/// The same for the info of a depth image, which has no baseline: it is left at 0.
 StereoCamera depthCamera(const sensor_msgs::CameraInfo& info);
 
 }  // namespace datmo

@@ -14,10 +14,10 @@
 
 namespace datmo {
 
-/// What a message looks like, in a few words for people. Nothing is checked: what a message lacks
-/// is left out, or stands as it is.
+/// Describe a message in a few words for people. Nothing is checked: missing fields are omitted,
+/// bad values are shown unchanged.
 ///
-/// "360 beams to 8.0 m in frame laser, 12.5 Hz"; the rate is what the scan says itself.
+/// "360 beams to 8.0 m in frame laser, 12.5 Hz"; the rate is the one in the scan.
 std::string descriptionOf(const sensor_msgs::LaserScan& scan);
 std::string descriptionOf(const sensor_msgs::MultiEchoLaserScan& scan);
 

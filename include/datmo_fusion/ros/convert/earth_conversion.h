@@ -13,13 +13,13 @@
 
 namespace datmo {
 
-// As in messages.h, which all stages include; these are of two alone.
+// Not in messages.h, which all stages include: only two of them use this.
 using EarthFrameMessage = datmo_fusion::EarthFrame;
 using EarthFrameMessagePtr = datmo_fusion::EarthFramePtr;
 using StationTracksMessage = datmo_fusion::StationTracks;
 using StationTracksMessagePtr = datmo_fusion::StationTracksPtr;
 
-/// Where the map lies on the earth, and how well that is known.
+/// Pose of the map on the earth, and its uncertainty.
 struct EarthFrame {
   Stamp stamp;
   LocalPlane plane;
@@ -34,21 +34,21 @@ EarthFrame fromMessage(const EarthFrameMessage& message);
 /// Throws InputError (`no_fix`, `bad_position`).
 GeodeticPosition positionOf(const sensor_msgs::NavSatFix& message);
 
-/// Of east and north, m^2; where the receiver says nothing of it, that of `sigma` (m) on each axis.
+/// Returns the covariance of east and north, m^2; if the receiver gives none, `sigma` (m) per axis.
 Eigen::Matrix2d covarianceOf(const sensor_msgs::NavSatFix& message, double sigma);
 
 StationTracksMessage toMessage(const StationTrackList& list, const LocalPlane& plane);
 
-/// Our own track, that with id 0, in the plane that touches the earth there.
+/// Our own track, the one with id 0, in the plane tangent to the earth there.
 struct OwnTrack {
   LocalPlane plane;
   StationTrack track;
 };
 
-/// None if it is not in the list, or not on the earth.
+/// Returns none if it is not in the list or its position is invalid.
 std::optional<OwnTrack> ownTrack(const StationTracksMessage& message);
 
-/// Tracks that are not on the earth get a position of NaN, so that they are counted.
+/// Tracks with an invalid position get NaN, so that they are counted.
 StationTrackList fromMessage(const StationTracksMessage& message, const LocalPlane& plane);
 
 }  // namespace datmo

@@ -7,12 +7,12 @@
 
 namespace datmo {
 
-/// The pixels as bgr8, a copy to draw on. Throws InputError (`bad_encoding`): also where pixels are
+/// Copies the pixels as bgr8, to draw on. Throws InputError (`bad_encoding`), also if pixels are
 /// missing.
 cv_bridge::CvImagePtr colorCopy(const sensor_msgs::Image& image);
 
-/// The pixels as mono8 where they are gray, else as bgr8, without a copy where they are that
-/// already. Throws as colorCopy.
+/// Returns the pixels as mono8 if they are gray, else as bgr8, without a copy if they already have
+/// that encoding. Throws like colorCopy.
 cv_bridge::CvImageConstPtr grayOrColor(const sensor_msgs::ImageConstPtr& image);
 
 }  // namespace datmo

@@ -10,13 +10,13 @@
 
 namespace datmo {
 
-/// Live options as dynamic_reconfigure describes them. Lists are left out: it has none.
+/// Describes live options for dynamic_reconfigure, which has no lists: these are omitted.
 dynamic_reconfigure::ConfigDescription descriptionOf(const std::vector<LiveOption>& options);
 
-/// Their values; lists are left out.
+/// Returns their values; lists are omitted.
 dynamic_reconfigure::Config configOf(const std::vector<LiveOption>& options);
 
-/// The values that a client asks for, by key.
+/// Returns the values that a client requests, by key.
 OptionValues valuesOf(const dynamic_reconfigure::Config& config);
 
 }  // namespace datmo

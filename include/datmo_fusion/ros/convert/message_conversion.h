@@ -22,14 +22,14 @@ namespace datmo {
 geometry_msgs::Pose toMessage(const Pose2& pose);
 geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
 
-/// The pose seen from above; roll and pitch are left out. Throws InputError (`bad_pose`) if it is
-/// not finite, farther away than 1e9 m, or its quaternion is not of length 1.
+/// Returns the planar pose; roll and pitch are dropped. Throws InputError (`bad_pose`) if it is not
+/// finite, farther away than 1e9 m, or its quaternion does not have length 1.
 Pose2 fromMessage(const geometry_msgs::Pose& pose);
 
-/// The covariance of x, y and yaw, as it is.
+/// Returns the covariance of x, y and yaw, unchecked.
 Eigen::Matrix3d planarCovariance(const geometry_msgs::PoseWithCovariance& pose);
 
-/// Both. Throws InputError (`bad_pose`) for an invalid covariance, too.
+/// Converts both. Also throws InputError (`bad_pose`) for an invalid covariance.
 PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& pose);
 
 geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,
@@ -40,32 +40,31 @@ geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp 
 /// vehicle.
 OdometrySample toSample(const nav_msgs::Odometry& message);
 
-/// A value without a name is kUnknown.
+/// Converts a class; an undefined value becomes kUnknown.
 ObjectClass classFromMessage(std::uint8_t value);
 
 LabeledScanMessage toMessage(const LabeledScan& scan, const std::string& base_frame,
                              const std::string& map_frame);
 
-/// Throws InputError: `bad_pose` for one of the vehicle or the scanner, `bad_field` for one of the
-/// beams, `bad_point` for points that are not finite or of no known state.
+/// Throws InputError: `bad_pose` for a pose of the vehicle or the scanner, `bad_field` for a bad
+/// field of view, `bad_point` for points that are not finite or have an undefined state.
 LabeledScan fromMessage(const LabeledScanMessage& message);
 
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);
 
-/// No check beyond the enumerations: a value without a name becomes kUnknown. The tracker judges
-/// the numbers of each object by itself. A field of view that is none is left out.
+/// Checks only enumerations: an undefined value becomes kUnknown. The tracker checks the numbers of
+/// each object. An invalid field of view is dropped.
 ObjectList fromMessage(const ObjectArray& message);
 
-/// Without Track::objects, which the message does not have.
+/// Omits Track::objects, which the message does not have.
 TrackArray toMessage(const TrackList& list, const std::string& fixed_frame);
 
-/// The inverse, to the message's precision (probabilities and views are single). No check of the
-/// tracks: whoever takes them judges each by itself (isValid), and one whose probabilities are of
-/// the wrong number has NaN for them, which is not valid. A view that is none (isValid) is left
-/// out.
+/// The inverse, to the message's precision (probabilities and views are single). Tracks are not
+/// checked: each consumer validates them (isValid), and a track with the wrong number of
+/// probabilities gets NaN for them, which is invalid. An invalid view (isValid) is dropped.
 TrackList fromMessage(const TrackArray& message);
 
-/// The window of the map as it lies now: cell (0, 0) of the message is the window's lower left one.
+/// The current window of the map: cell (0, 0) of the message is the window's lower left one.
 nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,
                                   const std::string& map_frame);
 

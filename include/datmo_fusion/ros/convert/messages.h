@@ -16,9 +16,8 @@
 
 namespace datmo {
 
-// The package's messages under the names that the code uses: generated code puts them into a
-// namespace of the package's name. Those that have a struct of the same name in the core end in
-// Message.
+// The package's messages under the names used in the code: generated code puts them into a
+// namespace with the package's name. Names that a core struct also has get the suffix Message.
 using DroppedObjectMessage = datmo_fusion::DroppedObject;
 using FieldOfViewMessage = datmo_fusion::FieldOfView;
 using ObjectMessage = datmo_fusion::Object;

@@ -14,7 +14,7 @@ using datmo_fusion::RiskArray;
 using datmo_fusion::RiskArrayConstPtr;
 using datmo_fusion::RiskArrayPtr;
 
-/// Without the counts, which the message does not have.
+/// Omits the counts, which the message does not have.
 RiskArray toMessage(const RiskReport& report, const std::string& fixed_frame);
 
 }  // namespace datmo

@@ -11,20 +11,20 @@
 
 namespace datmo {
 
-/// The borders of one road have at most as many points in all: no road about a vehicle needs more.
+/// Maximum number of points of all borders of one road; no road around a vehicle needs more.
 inline constexpr std::size_t kMaxBorderPoints = 10000;
 
-/// Throws InputError: `bad_border` for a stretch of fewer than two points, points or an age that
-/// are not finite, another number of standard deviations than of points or one below zero, a side
-/// without a name, a probability that is none; `bad_road` for the probability of an intersection;
-/// `many_points` for more than kMaxBorderPoints.
+/// Throws InputError: `bad_border` for a section with fewer than two points, non-finite points or
+/// age, a number of standard deviations that differs from that of the points or a negative one, an
+/// undefined side, or an invalid probability; `bad_road` for an invalid probability of an
+/// intersection; `many_points` for more than kMaxBorderPoints.
 RoadBorders toMessage(const RoadModel& road, const std::string& fixed_frame);
 
 /// The inverse, to the message's precision (points and probabilities are single); throws the same.
-/// The frame is the caller's to check.
+/// The caller must check the frame.
 RoadModel fromMessage(const RoadBorders& message);
 
-/// What was left out of the objects of a scan in `base_frame` at `stamp`.
+/// Converts the objects dropped from those of a scan in `base_frame` at `stamp`.
 DroppedObjects toMessage(const std::vector<DroppedObject>& dropped, Stamp stamp,
                          const std::string& base_frame);
 

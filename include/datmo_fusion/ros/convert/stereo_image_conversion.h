@@ -12,16 +12,16 @@
 
 namespace datmo {
 
-/// Throws InputError (`bad_encoding`, `wrong_size`) unless an image is mono8, rgb8 or bgr8 with all
-/// of its bytes.
+/// Throws InputError (`bad_encoding`, `wrong_size`) unless the image is mono8, rgb8 or bgr8 and
+/// complete.
 void checkImage(const sensor_msgs::Image& image);
 
-/// The two cameras of a pair as one. Throws InputError (`wrong_size`, `bad_calibration`,
-/// `unknown_frame`) unless images and calibrations are those of a stereo pair.
+/// Returns the camera model of a pair. Throws InputError (`wrong_size`, `bad_calibration`,
+/// `unknown_frame`) unless images and calibrations belong to a stereo pair.
 image_geometry::StereoCameraModel stereoModel(const StereoPair& pair);
 
-/// An image that checkImage accepts, in this encoding (empty: its own), rectified if it is not
-/// `already`; its bytes may be the message's.
+/// Converts an image that checkImage accepts to this encoding (empty: its own), and rectifies it
+/// unless `already`; the result may share the message's data.
 cv::Mat rectifiedImage(const sensor_msgs::ImageConstPtr& image, const std::string& encoding,
                        const image_geometry::PinholeCameraModel& camera, bool already);
 

@@ -21,30 +21,30 @@ class Mat;
 
 namespace datmo {
 
-/// Tracks as boxes in perspective on the rectified image of a camera.
+/// Draws tracks as perspective boxes on the rectified image of a camera.
 ///
-/// Each track is drawn where it was when the image was exposed: it is moved by its velocity from
-/// the stamp of its list, the nearest in time, to the image's. An image waits until tf knows where
-/// the camera was; nothing blocks. Bad input is dropped through the monitor, never thrown:
+/// Each track is drawn at its position at the exposure: it is moved by its velocity from the stamp
+/// of its list, the nearest in time, to the image's. An image waits until tf knows the camera's
+/// pose; nothing blocks. Bad input is dropped and reported to the monitor, never thrown:
 /// `missing_camera_info`, `bad_camera_info`, `wrong_size`, `wrong_frame`, `bad_encoding`,
-/// `missing_transform`, and what StageRunner::check drops. An image for which no tracks are near
-/// enough in time is shown without boxes (`old_tracks`, a warning).
+/// `missing_transform`, and what StageRunner::check rejects. An image without tracks close enough
+/// in time is shown without boxes (`old_tracks`, a warning).
 class CameraView {
  public:
   /// `transforms` and `monitor` must outlive this. Throws OptionError.
   CameraView(const Checked<CameraViewOptions>& options, const TransformBuffer& transforms,
              StageMonitor& monitor);
 
-  /// Of the rectified images: its matrix P serves; the newest one.
+  /// Of the rectified images (matrix P); the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
   void takeTracks(const TrackArrayConstPtr& message);
 
-  /// Puts an image into the queue. `now`: ROS time.
+  /// Adds an image to the queue. `now`: ROS time.
   void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
-  /// The next image of the queue whose tracks and transform are there, as bgr8 with its boxes and
-  /// its own header; null if there is none. To be called until null, after each new input.
+  /// Returns the next image of the queue whose tracks and transform are available, as bgr8 with its
+  /// boxes and its own header; null if there is none. Call it until null, after each new input.
   sensor_msgs::ImagePtr next(Stamp now);
 
  private:

@@ -12,32 +12,32 @@
 
 namespace datmo {
 
-/// A corner of a triangle.
+/// Vertex of a triangle.
 struct DrawnVertex {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m
-  std_msgs::ColorRGBA color;                           ///< lit already
+  std_msgs::ColorRGBA color;                           ///< with lighting applied
 };
 
-/// Letters that face who looks.
+/// A text that faces the viewer.
 struct DrawnLabel {
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m, the middle
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m, its center
   std::string text;
   float height = 1.0F;  ///< m
   std_msgs::ColorRGBA color;
 };
 
-/// What a 3D view puts on the screen, in one frame: any number of shapes as two lists of triangles,
-/// so that hundreds of tracks are as few batches as one.
+/// Content of a 3D view in one frame: any number of shapes as two lists of triangles, so that
+/// hundreds of tracks need only two batches.
 struct Drawing {
-  std::vector<DrawnVertex> solid;        ///< three each; they hide what is behind
-  std::vector<DrawnVertex> translucent;  ///< three each
+  std::vector<DrawnVertex> solid;        ///< three per triangle; opaque
+  std::vector<DrawnVertex> translucent;  ///< three per triangle
   std::vector<DrawnLabel> labels;
-  std::size_t left_out = 0;  ///< markers with a number that is not finite
+  std::size_t left_out = 0;  ///< markers with a non-finite number
 };
 
-/// The shapes of markers of one frame as triangles: boxes, cylinders, spheres, arrows of two
-/// points, lines (flat ribbons above the ground), lists of triangles, and texts. Markers of other
-/// types, and those with a number that is not finite, are left out.
+/// Converts the markers of one frame to triangles: boxes, cylinders, spheres, arrows given by two
+/// points, lines (flat ribbons above the ground), triangle lists, and texts. Markers of other
+/// types, and those with non-finite numbers, are omitted.
 Drawing drawingOf(const visualization_msgs::MarkerArray& markers);
 
 }  // namespace datmo

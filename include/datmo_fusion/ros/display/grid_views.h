@@ -16,10 +16,10 @@
 
 namespace datmo {
 
-/// Draws grids side by side for a person to compare: in each panel the vehicle is at the same
-/// position, forward is up, and the scale is the same. Free is light, occupied dark, unknown a
-/// bluish gray; where sources contradict each other, the panel `conflict` is red. The panel `map`
-/// is turned into the vehicle's frame by the last pose; all others are of that frame already.
+/// Draws grids side by side for visual comparison: in each panel the vehicle is at the same
+/// position, forward is up, and the scale is the same. Free is light, occupied dark, unknown bluish
+/// gray; contradictions between sources are red in the panel `conflict`. The panel `map` is rotated
+/// into the vehicle's frame by the last pose; all others are in that frame already.
 ///
 ///     |<----- panel ----->|<gap>|
 ///     +-------------------+     +--
@@ -34,25 +34,26 @@ class GridViews {
   static constexpr int kTitleHeight = 24;  ///< px
   static constexpr int kGap = 4;           ///< px, between two panels
 
-  /// Throws OptionError: for panels see GridViewsOptions::panelNames; a picture that is too large.
+  /// Throws OptionError, for panels like GridViewsOptions::panelNames, and for a picture that is
+  /// too large.
   explicit GridViews(const Checked<GridViewsOptions>& options);
 
-  /// From the left.
+  /// From left to right.
   const std::vector<std::string>& panels() const { return panels_; }
 
-  /// The newest grid of a panel. One much older than the newest of all begins a new run of the
-  /// clock: what was taken before is forgotten. Not so the map, which may be as old as it likes.
+  /// Sets the newest grid of a panel. One much older than the newest of all indicates a new run of
+  /// the clock: everything before is forgotten. The exception is the map, which may be of any age.
   void takeGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid);
 
-  /// The newest pose of the vehicle in the map.
+  /// Sets the newest pose of the vehicle in the map.
   void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& pose) { pose_ = pose; }
 
-  /// The panels as rgb8, with the header of the grid that came last. A panel without a grid is
-  /// empty, and its title says why: none has come, it is silent, or the reason why it is bad.
+  /// Returns the panels as rgb8, with the header of the last grid. A panel without a grid is empty,
+  /// and its title says why: none received, silent, or the reason why it is bad.
   sensor_msgs::ImagePtr draw() const;
 
  private:
-  struct Panel;  ///< where it is in the picture
+  struct Panel;  ///< its position in the picture
 
   std::string drawGrid(const std::string& name, Panel& panel) const;
   const nav_msgs::OccupancyGrid& gridOf(const std::string& name) const;
@@ -64,8 +65,8 @@ class GridViews {
   int panel_height_;                                              ///< px, without the title
   std::map<std::string, nav_msgs::OccupancyGridConstPtr> grids_;  ///< by panel
   geometry_msgs::PoseWithCovarianceStampedConstPtr pose_;
-  std_msgs::Header last_;        ///< of the grid that came last
-  std::optional<Stamp> newest_;  ///< of all grids but the map
+  std_msgs::Header last_;        ///< of the last grid
+  std::optional<Stamp> newest_;  ///< of all grids except the map
 };
 
 }  // namespace datmo

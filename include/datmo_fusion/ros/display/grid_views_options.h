@@ -20,8 +20,8 @@ struct GridViewsOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Names of the panels from the left. Throws OptionError for none, for one that is twice there or
-  /// cannot be the name of a topic.
+  /// Names of the panels from left to right. Throws OptionError if there are none, for a duplicate,
+  /// and for one that cannot be a topic name.
   std::vector<std::string> panelNames() const;
 };
 

@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// What the shapes, colors and lines of the markers stand for, as an rgb8 image for a person.
+/// Draws a legend of the markers' shapes, colors and lines as an rgb8 image.
 sensor_msgs::ImagePtr drawLegend();
 
 }  // namespace datmo

@@ -10,10 +10,10 @@
 
 namespace datmo {
 
-// One meaning, one color: in the markers, in the legend and in camera images.
+// Each color has one meaning, in the markers, the legend and camera images.
 
-/// Blue a vehicle, magenta a pedestrian, green a cyclist, brown a pole, violet what is not known.
-/// Pale what stands.
+/// Blue: vehicle, magenta: pedestrian, green: cyclist, brown: pole, violet: unknown. Pale if
+/// stationary.
 std_msgs::ColorRGBA colorOfClass(ObjectClass object_class, bool moving, float opacity);
 
 /// Of a point of the scan, by ScanPoint.state.
@@ -25,7 +25,7 @@ std_msgs::ColorRGBA colorOfBorder(RoadSide side, float brightness, float opacity
 /// A bright color of a hue: 0 red, 1/3 green, 2/3 blue, 1 red again.
 std_msgs::ColorRGBA colorOfHue(double hue, float opacity);
 
-/// How soon something is: red now, green in `horizon` (s, more than 0) or later.
+/// Color of a time: from red (now) to green (`horizon`, s, more than 0, or later).
 std_msgs::ColorRGBA colorOfTime(double seconds, double horizon, float opacity);
 
 /// Of a level of risk (RiskArray.LEVEL_*): green none, yellow information, orange warning, red

@@ -10,14 +10,14 @@
 
 namespace datmo {
 
-/// Whether the map's window fits what the scanner sees, by its first scans: settings of another
-/// sensor set work badly, and without a word. Said once.
+/// Checks with the first scans whether the map's window fits the scanner's range: settings of
+/// another sensor would work badly without any message. Reported once.
 class ScanExtent {
  public:
   explicit ScanExtent(const GridWindowOptions& window) : window_(window) {}
 
-  /// Takes the next scan. `small_window` if many end points lie outside of the window, wherever the
-  /// vehicle heads; `large_window` if the scanner's reach is a small part of it.
+  /// Processes the next scan. `small_window` if many end points lie outside the window for any
+  /// heading of the vehicle; `large_window` if the scanner's range is a small part of it.
   std::optional<InputError> take(const Scan& scan);
 
  private:

@@ -14,28 +14,27 @@
 
 namespace datmo {
 
-/// Where the vehicle was at its last scans, as the SLAM found out, and what it could see from
-/// there.
+/// Poses of the vehicle at its last scans, as estimated by SLAM, and what it could see from there.
 ///
-/// tf has the pose, too, but only when the odometry that follows the scan has come: up to one of
-/// its periods later, which is longer than all stages need for the scan.
+/// tf has the pose, too, but only after the odometry that follows the scan: up to one odometry
+/// period later, which is longer than the processing time of all stages.
 class ScanViews {
  public:
   /// Throws OptionError.
   explicit ScanViews(const Checked<VisibilityOptions>& options);
 
-  /// Takes a labeled scan, newer than those before, and what its message says.
+  /// Adds a labeled scan, newer than those before, and its message.
   void add(const LabeledScanMessage& message, const LabeledScan& scan);
 
-  /// Forgets all scans: the clock has jumped back.
+  /// Forgets all scans; call it when the clock has jumped back.
   void clear() { views_.clear(); }
 
   /// Pose of the vehicle's frame in another one, at exactly the stamp of the header, which also
-  /// names the vehicle's frame; none if no labeled scan said so.
+  /// names the vehicle's frame; none without a labeled scan of that stamp.
   std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
   /// What the scanner could see at the stamp and from the frame of the header; null without a
-  /// labeled scan of that time, and where its field is not known. Valid until the next add().
+  /// labeled scan of that stamp, or if its field of view is unknown. Valid until the next add().
   const Visibility* visibility(const std_msgs::Header& base) const;
 
  private:
@@ -43,7 +42,7 @@ class ScanViews {
     std_msgs::Header base;
     std::string fixed_frame;
     Pose2 base_in_fixed;
-    std::optional<Visibility> visibility;  ///< none: the field is not known
+    std::optional<Visibility> visibility;  ///< none: the field of view is unknown
   };
 
   /// Null if there is none.

@@ -10,8 +10,8 @@
 
 namespace datmo {
 
-/// One line of the table of sources: an input of a stage, or, with an empty `input`, a node that
-/// has none. Cells are as the diagnostics say them; empty: not said.
+/// One row of the table of sources: an input of a stage, or, with an empty `input`, a node that has
+/// none. Cells have the text of the diagnostics; empty: not reported.
 struct SourceRow {
   std::string stage;
   std::string input;
@@ -20,19 +20,19 @@ struct SourceRow {
   std::string rate;        ///< Hz
   std::string age;         ///< s, of the last message
   std::string latency;     ///< ms, from the measurement to the result
-  std::string time;        ///< ms, the processing's median
+  std::string time;        ///< ms, median processing time
   std::string dropped;     ///< number of messages
-  std::string why;         ///< reasons and numbers: "old_stamp 3, bad_pose 1"
+  std::string why;         ///< reasons and counts: "old_stamp 3, bad_pose 1"
 };
 
-/// Keeps what each node said last in /diagnostics.
+/// Keeps each node's last report in /diagnostics.
 class SourceTable {
  public:
-  /// `now`: s, of any clock that rises.
+  /// `now`: s, of any monotonic clock.
   void take(const diagnostic_msgs::DiagnosticArray& message, double now);
 
-  /// By stage and input. Of a stage the first line alone has latency, time and drops. A node that
-  /// said nothing for longer than `silence` (s) is stale.
+  /// Rows by stage and input. Only the first row of a stage has latency, time and drops. A node
+  /// that has not reported for longer than `silence` (s) is stale.
   std::vector<SourceRow> rows(double now, double silence = 5.0) const;
 
   void clear() { nodes_.clear(); }

@@ -15,46 +15,46 @@
 
 namespace datmo {
 
-/// How a message came: who sent it, which one of theirs it is, and when (ROS time) it was put into
-/// the queue of its stage.
+/// Arrival of a message: its publisher, its sequence number there, and when (ROS time) it was put
+/// into the queue of its stage.
 struct Arrived {
   std::string publisher;
-  std::uint32_t sequence = 0;  ///< of its header; 0: the publisher does not count
-  ros::Time queued;            ///< zero: not known
+  std::uint32_t sequence = 0;  ///< of its header; 0: not numbered by the publisher
+  ros::Time queued;            ///< zero: unknown
 };
 
-/// Nothing is lost silently between a publisher and a stage, and where a stage cannot keep up, what
-/// it serves is new: counts the messages of one topic that queues or the network have lost, by the
-/// numbers that ROS gives them, and drops those that have waited for too long.
+/// Makes losses between a publisher and a stage visible, and keeps the stage's input recent if it
+/// cannot keep up: counts the messages of one topic lost in queues or the network, by ROS's
+/// sequence numbers, and drops those that have waited too long.
 class ArrivalCheck {
  public:
   /// `max_wait`: s; `monitor` must outlive it.
   ArrivalCheck(std::string topic, double max_wait, StageMonitor& monitor)
       : topic_(std::move(topic)), max_wait_(max_wait), monitor_(monitor) {}
 
-  /// Whether a message is to be served. Drops through the monitor what was lost before it
-  /// (`lost_message`), and itself if it is too old (`stale_message`).
+  /// Whether to process a message. Reports losses before it (`lost_message`) to the monitor, and
+  /// drops it if it is too old (`stale_message`).
   bool passes(const Arrived& message, const ros::Time& now);
 
  private:
-  /// How many were lost before this one of its publisher.
+  /// Number of messages lost before this one of the same publisher.
   std::uint32_t lostBefore(const Arrived& message);
 
   std::string topic_;
   double max_wait_;
   StageMonitor& monitor_;
-  std::map<std::string, std::uint32_t> last_;  ///< number by publisher
+  std::map<std::string, std::uint32_t> last_;  ///< sequence number by publisher
 };
 
-/// The number of a message in the order of its publisher; 0 where it has no header.
+/// Returns the sequence number of a message; 0 without a header.
 template <typename Message>
 std::uint32_t sequenceOf(const Message& message) {
   const std_msgs::Header* const header = ros::message_traits::header(message);
   return header == nullptr ? 0 : header->seq;
 }
 
-/// Numbers a message as ROS does where it writes it to a connection; to another nodelet of the
-/// process it goes as it is.
+/// Numbers a message, which ROS does only when it serializes it to a connection, not for a nodelet
+/// of the same process.
 template <typename Message>
 void setSequence(Message& message, std::uint32_t sequence) {
   if (std_msgs::Header* const header = ros::message_traits::header(message)) {
@@ -62,7 +62,7 @@ void setSequence(Message& message, std::uint32_t sequence) {
   }
 }
 
-/// In simulated time, when it was queued is not known: that clock goes as fast as a bag is played.
+/// In simulated time the queueing time is unknown: that clock runs as fast as a bag is played.
 template <typename Message>
 Arrived arrivedOf(const ros::MessageEvent<const Message>& event) {
   return {event.getPublisherName(), sequenceOf(*event.getConstMessage()),

@@ -12,26 +12,26 @@
 
 namespace datmo {
 
-/// Input check of one camera's rectified images: their info, and whether an image is that camera's.
+/// Input check of one camera's rectified images: camera info, and whether images match it.
 class CameraInput {
  public:
-  /// The newest one serves; its matrix P. Throws InputError (`bad_camera_info`): the last good one
-  /// goes on serving.
+  /// Sets the camera info (its matrix P); the newest is used. Throws InputError (`bad_camera_info`)
+  /// and keeps the last good one.
   void take(const sensor_msgs::CameraInfo& message);
 
   /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
   void check(const sensor_msgs::Image& image) const;
 
-  /// The camera of an image on the vehicle, as tf knows it. Throws InputError
+  /// Returns the camera of an image on the vehicle, with its mount from tf. Throws InputError
   /// (`missing_transform`), and std::bad_optional_access before the first info.
   MountedCamera mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
                         const TransformBuffer& transforms) const;
 
-  /// What an info has said. Throws std::bad_optional_access before the first.
+  /// Returns the camera of the last info. Throws std::bad_optional_access before the first.
   const PinholeCamera& pinhole() const { return camera_.value(); }
   double width() const { return info_.width; }    ///< px
   double height() const { return info_.height; }  ///< px
-  /// m, of the camera to the right of its frame's origin: that of the left one.
+  /// m, from the frame's origin (the left camera) to the camera, to the right.
   double shift() const { return shift_; }
 
  private:

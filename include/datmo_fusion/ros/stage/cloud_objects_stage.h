@@ -16,8 +16,8 @@
 namespace datmo {
 
 struct CloudObjectsStageOptions {
-  FrameOptions frames;      ///< of all stages
-  MotionOptions motion;     ///< of all stages
+  FrameOptions frames;      ///< shared by all stages
+  MotionOptions motion;     ///< shared by all stages
   double max_sweep = 0.25;  ///< s
   StreamOptions input;
   CloudObjectDetectorOptions detector;
@@ -26,9 +26,9 @@ struct CloudObjectsStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// CloudObjectDetector between messages. Points that have times are brought to the cloud's stamp by
-/// odometry, where the vehicle has none by the poses of the SLAM; where neither has come, all are
-/// taken as measured at once.
+/// Runs CloudObjectDetector on messages. Points with times are motion-compensated to the cloud's
+/// stamp by odometry or, if the vehicle has none, by the poses of SLAM; without either, all are
+/// assumed to be measured at the stamp.
 class CloudObjectsStage : public ObjectSource<sensor_msgs::PointCloud2> {
  public:
   using Options = CloudObjectsStageOptions;
@@ -39,7 +39,7 @@ class CloudObjectsStage : public ObjectSource<sensor_msgs::PointCloud2> {
 
  private:
   ObjectList detect(const sensor_msgs::PointCloud2& message) override;
-  /// Of the vehicle during the sweep; none if the points have no times, or it is not known.
+  /// The vehicle's twist during the sweep; none if the points have no times, or it is unknown.
   std::optional<Twist2> twistDuring(const ConvertedCloud& converted, Stamp stamp) const;
   void show(const CloudObjects& objects, const ConvertedCloud& converted);
 

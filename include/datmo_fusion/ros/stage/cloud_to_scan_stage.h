@@ -19,7 +19,7 @@
 namespace datmo {
 
 struct CloudToScanStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   std::string scan_frame = "cloud_scan";
   double max_sweep = 0.25;  ///< s
   StreamOptions input;
@@ -29,16 +29,16 @@ struct CloudToScanStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// What one cloud gives.
+/// Result for one cloud.
 struct CloudToScanOutput {
   sensor_msgs::LaserScanPtr scan;
-  /// base -> the scan's frame, if it is not the one of the last output: the scan's frame lies below
-  /// (or above) the lidar, at the height of the middle of the band, its axes are those of base.
+  /// base -> the scan's frame, if it has changed since the last output: it lies below (or above)
+  /// the lidar, at the height of the middle of the band, with the axes of base.
   std::optional<geometry_msgs::TransformStamped> mount;
 };
 
-/// CloudToScan between messages: the same one serves the nodelet and the bag runner. Bad input is
-/// dropped or warned of through the monitor, never thrown.
+/// Runs CloudToScan on messages, for both the nodelet and the bag runner. Bad input is dropped or
+/// warned about, with a report to the monitor, never thrown.
 class CloudToScanStage : public Stage {
  public:
   using Options = CloudToScanStageOptions;
@@ -47,7 +47,7 @@ class CloudToScanStage : public Stage {
   CloudToScanStage(const Checked<CloudToScanStageOptions>& options,
                    const TransformBuffer& transforms, StageMonitor& monitor);
 
-  /// Of a 3D lidar whose frame tf knows. Nothing if the cloud was dropped.
+  /// Converts a cloud of a 3D lidar whose frame is in tf. None if the cloud was dropped.
   std::optional<CloudToScanOutput> takeCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
@@ -64,7 +64,7 @@ class CloudToScanStage : public Stage {
   StageMonitor& monitor_;
   CloudToScan model_;
   StageRunner runner_;
-  std::optional<Eigen::Vector3d> mount_;  ///< m, that was put out last
+  std::optional<Eigen::Vector3d> mount_;  ///< m, of the last output
 };
 
 }  // namespace datmo

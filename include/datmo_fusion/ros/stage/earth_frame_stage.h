@@ -18,7 +18,7 @@
 namespace datmo {
 
 struct EarthFrameStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   StreamOptions input;
   double fix_sigma = 5.0;  ///< m
   double max_gap = 0.5;    ///< s
@@ -27,10 +27,10 @@ struct EarthFrameStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// EarthFrameFilter between messages: the positions of a satellite receiver and the poses in the
-/// map make the map's pose on the earth. The first position is the datum of the plane. A position
-/// waits for the pose after it, so that its own pose is interpolated; a bad one is dropped through
-/// the monitor.
+/// Runs EarthFrameFilter on messages: estimates the map's pose on the earth from a satellite
+/// receiver's positions and the poses in the map. The first position is the datum of the plane. A
+/// position waits for the pose after it, so that its own pose can be interpolated; a bad one is
+/// dropped and reported to the monitor.
 class EarthFrameStage : public Stage {
  public:
   using Options = EarthFrameStageOptions;
@@ -41,8 +41,8 @@ class EarthFrameStage : public Stage {
 
   void takeFix(const sensor_msgs::NavSatFix& message);
 
-  /// The frame by the last position before the pose, whose stamp it has, with the covariance that
-  /// the drive to the pose has left of it; null if it is not known.
+  /// Returns the frame from the last position before the pose, with the pose's stamp and the
+  /// covariance increased by the drive to the pose; null if unknown.
   EarthFrameMessagePtr takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   void connect(StagePorts& ports) override;

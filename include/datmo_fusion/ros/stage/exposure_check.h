@@ -13,17 +13,17 @@ struct ExposureCheckOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Whether a camera's images show anything, and each something new.
+/// Checks whether a camera's images show anything, and whether each is new.
 class ExposureCheck {
  public:
   explicit ExposureCheck(const ExposureCheckOptions& options) : options_(options) {}
 
   /// Throws InputError: `blank_image` (black, white, covered), `half_image` (a quarter of its
-  /// height or more is of one gray, and neither black nor sky), `frozen_image` (the same pixels as
-  /// the last one's, which was exposed earlier), and as grayOrColor does.
+  /// height or more is uniformly gray, and neither black nor sky), `frozen_image` (the same pixels
+  /// as the last image, which was exposed earlier), and errors of grayOrColor.
   void check(const sensor_msgs::ImageConstPtr& image) const;
 
-  /// The image has been accepted: the next one is compared with it.
+  /// Reports that the image was accepted: the next one is compared with it.
   void accept(const sensor_msgs::ImageConstPtr& image) { last_ = image; }
 
   void reset() { last_.reset(); }

@@ -10,18 +10,18 @@
 
 namespace datmo {
 
-/// Knows odometry whose driver repeats its last measurement under new stamps: pose and twist bit
-/// for bit the same, though a pose that counts cannot stay while the vehicle moves.
+/// Detects odometry whose driver repeats its last measurement with new stamps: pose and twist are
+/// bit for bit identical, although the pose must change while the vehicle moves.
 ///
-/// Repeated ones serve for as long as one serves that nothing comes after (MotionOptions::hold):
-/// some drivers send more often than they measure. A driver that leaves the pose as it is all the
-/// time is not judged: its twist may stay the same for many reasons.
+/// Repetitions are accepted as long as a single sample may be held (MotionOptions::hold), since
+/// some drivers publish faster than they measure. A driver whose pose is constant all the time is
+/// not judged: its twist may be constant for many reasons.
 class FrozenOdometry {
  public:
   /// `max_hold`: s.
   explicit FrozenOdometry(double max_hold) : max_hold_(max_hold) {}
 
-  /// By rising stamp. Whether the message says nothing of its stamp.
+  /// Stamps must rise. Returns whether the message carries no information about its stamp.
   bool take(const nav_msgs::Odometry& message);
 
   void reset() { *this = FrozenOdometry(max_hold_); }
@@ -32,7 +32,7 @@ class FrozenOdometry {
 
   double max_hold_;
   Measured last_{};
-  Stamp first_stamp_;  ///< of those with `last_`
+  Stamp first_stamp_;  ///< of the first with `last_`
   bool is_first_ = true;
   bool pose_counts_ = false;
 };

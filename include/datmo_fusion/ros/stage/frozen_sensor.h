@@ -15,15 +15,15 @@
 
 namespace datmo {
 
-/// The vehicle's motion from one stamp to a later one; none if it is not known.
+/// Returns the vehicle's motion from one stamp to a later one; none if unknown.
 using MotionBetween = std::function<std::optional<Pose2>(Stamp from, Stamp to)>;
 
-/// Knows a sensor whose driver repeats its last measurement under new stamps: bit for bit the same,
-/// which noise does not allow, though the vehicle has moved. While it stands, and where its motion
-/// is not known, nothing is said: a picture without noise may stay the same then.
+/// Detects a sensor whose driver repeats its last measurement with new stamps: bit for bit
+/// identical, which noise makes impossible, although the vehicle has moved. There is no verdict
+/// while it stands or its motion is unknown: a measurement without noise may then stay the same.
 class FrozenSensor {
  public:
-  /// By rising stamp. `measured`: empty if it is the same for many reasons (nothing is in view).
+  /// Stamps must rise. `measured`: empty if it may repeat for other reasons (nothing in view).
   bool take(Stamp stamp, std::vector<std::uint8_t> measured, const MotionBetween& motion);
 
   void reset() { *this = FrozenSensor(); }
@@ -35,11 +35,12 @@ class FrozenSensor {
   bool is_frozen_ = false;
 };
 
-/// Throws InputError (`frozen_scan`) if a scan is of a frozen scanner, and until there is another
-/// one the stage makes nothing.
+/// Throws InputError (`frozen_scan`) if a scan is from a frozen scanner; until another one comes
+/// the stage has no output.
 void checkNotFrozen(bool is_frozen, StageMonitor& monitor);
 
-/// The bytes of a scan's ranges; empty if too few beams come back to tell it from another.
+/// Returns the bytes of a scan's ranges; empty if it has too few echoes to distinguish it from
+/// another.
 std::vector<std::uint8_t> measuredBytes(const sensor_msgs::LaserScan& scan);
 std::vector<std::uint8_t> measuredBytes(const sensor_msgs::MultiEchoLaserScan& scan);
 

@@ -19,8 +19,8 @@
 namespace datmo {
 
 struct GridFusionStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   GridFuserOptions fuser;
@@ -28,15 +28,15 @@ struct GridFusionStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one set of grids led to, ready to be published.
+/// Result of one set of grids, ready to be published.
 struct GridFusionOutput {
   nav_msgs::OccupancyGridPtr fused;
   nav_msgs::OccupancyGridPtr conflict;
 };
 
-/// GridMatcher and GridFuser between messages: the same ones serve the nodelet and the bag runner.
-/// What is accepted, and how a missing source is reported: FusionInputs. When the clock jumps
-/// back all state is forgotten.
+/// Runs GridMatcher and GridFuser on messages, for both the nodelet and the bag runner.
+/// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
+/// clock jumps back.
 class GridFusionStage : public Stage {
  public:
   using Options = GridFusionStageOptions;
@@ -47,20 +47,20 @@ class GridFusionStage : public Stage {
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
-  /// One grid of a source (else it is dropped: `unknown_source`). `now`: ROS time.
+  /// Adds a grid of a source (else it is dropped: `unknown_source`). `now`: ROS time.
   void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Sets the newest odometry; ignored if the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
-  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     inputs_.takeMotion(message);
   }
 
-  /// The next set of grids that is ready, fused; none if there is none. Call it until there is
-  /// none, after each grid and from time to time: nobody knows before whether one that is waited
-  /// for still comes. `now`: ROS time.
+  /// Fuses the next set of grids that is ready; none if there is none. Call it until it returns
+  /// none, after each grid and periodically, because a set may become ready by timeout. `now`: ROS
+  /// time.
   std::optional<GridFusionOutput> next(Stamp now);
 
   void connect(StagePorts& ports) override;

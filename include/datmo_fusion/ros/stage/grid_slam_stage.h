@@ -36,8 +36,8 @@
 namespace datmo {
 
 struct GridSlamStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   bool fused_grid = false;
   double map_period = 1.0;         ///< s
   double max_tilt = degrees(5.0);  ///< rad
@@ -52,64 +52,64 @@ struct GridSlamStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// What one scan or fused grid led to, ready to be published.
+/// Result of one scan or fused grid, ready to be published.
 struct GridSlamOutput {
   LabeledScanPtr labeled_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
-  geometry_msgs::PoseWithCovarianceStampedPtr local_pose;  ///< without the drift of the map
+  geometry_msgs::PoseWithCovarianceStampedPtr local_pose;  ///< without the map's drift
   LocalizationStatePtr localization;
   std::vector<geometry_msgs::TransformStamped> transforms;
 };
 
-/// GridSlam between messages: the same one serves the nodelet and the bag runner.
+/// Runs GridSlam on messages, for both the nodelet and the bag runner.
 ///
-/// Bad input is dropped or warned of through the monitor, never thrown. When the clock jumps back
-/// all state is forgotten.
+/// Bad input is dropped or warned about, with a report to the monitor, never thrown. The state is
+/// reset when the clock jumps back.
 ///
-/// With `odometry_wait` a scan waits for the odometry before it (OdometryWait).
+/// With `odometry_wait` a scan waits for the odometry that precedes it (OdometryWait).
 ///
-/// With low-level fusion (`fused_grid`) scans only wait for the fused grid of their stamp, which
-/// sets the pace.
+/// With low-level fusion (`fused_grid`) scans wait for the fused grid of their stamp, which sets
+/// the pace.
 ///
-/// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
-/// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
-/// the scan. It is left out while odometry is silent. Without odometry, or with a motion that other
-/// sensors measure, map and odom are the same, and odom -> base_link is the pose.
+/// With odometry, map -> odom is chosen so that together with odom -> base_link at the scan's stamp
+/// it gives the pose; odom -> base_link itself comes from the publisher of the odometry, and may be
+/// ahead of the scan. It is omitted while odometry is silent. Without odometry, or with motion
+/// measured by other sensors, map and odom are identical, and odom -> base_link is the pose.
 class GridSlamStage : public Stage {
  public:
   using Options = GridSlamStageOptions;
 
-  /// `transforms` and `monitor` must outlive the stage. Throws OptionError, also for a prior map
-  /// that cannot be read.
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError, also for an unreadable
+  /// prior map.
   GridSlamStage(const Checked<GridSlamStageOptions>& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
-  /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone gives no
-  /// speed; not read where the options name no source of motion.
-  /// Returns its stamp; none if it was dropped.
+  /// Sets the newest odometry, the vehicle's own or that of MotionStage (without speed if from an
+  /// IMU alone); ignored if the options name no source of motion. Returns its stamp; none if it was
+  /// dropped.
   std::optional<Stamp> takeOdometry(const nav_msgs::Odometry& message);
 
-  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped or waits for
   /// the fused grid of its stamp.
   template <typename Message>
   std::optional<GridSlamOutput> takeScan(const Message& message);
 
-  /// The fused grid at the stamp of a scan that was taken before. One of another stamp (the scanner
-  /// is silent) serves alone. None if it was dropped; it is where the options say that there is no
-  /// low-level fusion.
+  /// Processes the fused grid at the stamp of an earlier scan. A grid of another stamp (the scanner
+  /// is silent) is used alone. None if it was dropped, also if the options have no low-level
+  /// fusion.
   std::optional<GridSlamOutput> takeGrid(const nav_msgs::OccupancyGrid& message);
 
-  /// The map after the last scan, whose stamp this is; null if it is not its turn. To be requested
-  /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
-  /// which may take as long to write as all stages need for the scan.
+  /// Returns the map after the last scan, with this stamp; null if it is not due. Request it after
+  /// publishing the scan's results, which other stages wait for; nothing waits for the map, and
+  /// creating it may take as long as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
 
-  /// Writes the map (writeMap); while the vehicle is not located, the one in which it was. Returns
-  /// a sentence on what was written. Throws MapFileError.
+  /// Writes the map (writeMap); while the vehicle is not located, the map in which it last was.
+  /// Returns a sentence about what was written. Throws MapFileError.
   std::string saveMap(const std::string& file) const;
 
-  /// The service save_map: as saveMap, of an absolute path that is not of the prior map in use.
-  /// What is wrong is in the response, and a warning of the monitor.
+  /// The service save_map: like saveMap, for an absolute path other than the prior map in use.
+  /// Errors are returned in the response and as a warning of the monitor.
   datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
 
   void connect(StagePorts& ports) override;
@@ -131,9 +131,9 @@ class GridSlamStage : public Stage {
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   LocalizationStatePtr localizationOf(const SlamResult& result) const;
-  /// By the odometry's poses.
+  /// From the odometry's poses.
   std::optional<Pose2> motionBetween(Stamp from, Stamp to) const;
-  /// map -> odom at the stamp of an odometry that was taken now, while scans are silent; else null.
+  /// map -> odom at the stamp of odometry received now, while scans are silent; else null.
   tf2_msgs::TFMessagePtr heldAt(Stamp stamp, Stamp now) const;
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 

@@ -8,9 +8,9 @@
 
 namespace datmo {
 
-/// Runs a callback of a host. No exception leaves it, as one would end the process and all nodelets
-/// with it: it is counted and said through the monitor, and the message that led to it is dropped.
-/// `input`: the topic, or what else called.
+/// Runs a callback of a host. Exceptions are caught, since one would end the process and all its
+/// nodelets: they are counted and reported to the monitor, and the message that caused it is
+/// dropped. `input`: the topic, or the name of another caller.
 template <typename Callback>
 void guarded(StageMonitor& monitor, const std::string& input, const Callback& callback) {
   try {

@@ -9,22 +9,22 @@
 
 namespace datmo {
 
-/// map -> odom while no scan comes: the last one that a scan led to, under the stamps of the
-/// motion, so that what other sensors see has a position in the map by odometry alone.
+/// map -> odom while scans are missing: the last one, with the stamps of the motion, so that other
+/// sensors' measurements can be transformed to the map by odometry alone.
 class HeldTransform {
  public:
-  /// What a scan has led to.
+  /// Sets the result of a scan.
   void set(const geometry_msgs::TransformStamped& transform) { last_ = transform; }
 
-  /// A scan has led to a pose, at this time (ROS time, not its stamp): one that is late is not
-  /// silent.
+  /// Reports that a scan gave a pose at this time (ROS time, not its stamp): a late scan is not
+  /// silence.
   void served(Stamp now);
 
-  /// The last one is no longer true, as when odometry begins anew.
+  /// Invalidates the last one, as when odometry restarts.
   void drop() { last_.reset(); }
 
-  /// At the stamp of a motion that came now; none before the first, while scans come, and when they
-  /// have been silent for so long that odometry alone is not enough.
+  /// Returns the transform at the stamp of a motion received now; none before the first scan, while
+  /// scans are received, and when they have been silent too long for odometry alone.
   std::optional<geometry_msgs::TransformStamped> at(Stamp stamp, Stamp now) const;
 
   void clear() { *this = {}; }
@@ -33,7 +33,7 @@ class HeldTransform {
   std::optional<geometry_msgs::TransformStamped> last_;
   std::optional<Stamp> served_;
   double step_ = 0.0;    ///< s, between the last two scans
-  double period_ = 0.0;  ///< s, from scan to scan: the shorter one of the last two steps
+  double period_ = 0.0;  ///< s, scan period: the shorter one of the last two steps
 };
 
 }  // namespace datmo

@@ -16,7 +16,7 @@
 
 namespace datmo {
 
-/// How the host's state is put together.
+/// How the host's state is determined.
 struct HostInputOptions {
   double acceleration_time = 0.5;  ///< s
   double max_age = 0.5;            ///< s
@@ -24,27 +24,27 @@ struct HostInputOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The host at a stamp: its pose from the labeled scans, its speed and yaw rate from the odometry,
-/// or, without that, from the poses, whose jumps are none of it; its acceleration from what the
-/// speed did lately.
+/// State of the host at a stamp: its pose from the labeled scans; its speed and yaw rate from
+/// odometry or, without it, from the poses, excluding their jumps; its acceleration from its recent
+/// speeds.
 class HostInput {
  public:
-  /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
+  /// `runner`: of the stage, which must call reset() when it is reset itself; it must outlive the
   /// input.
   HostInput(const Checked<HostInputOptions>& options, const MotionOptions& motion,
             FrameOptions frames, StageRunner& runner);
 
-  /// Throws as OdometryReader does.
+  /// Throws like OdometryReader.
   void take(const nav_msgs::Odometry& message);
 
-  /// The pose of a scan whose stamp was checked.
+  /// Sets the pose of a scan whose stamp was checked.
   void take(const LabeledScan& scan);
 
-  /// Throws InputError: `no_pose` if there is no scan near the stamp, `no_motion` if neither
-  /// odometry nor a second pose is.
+  /// Throws InputError: `no_pose` without a scan near the stamp, `no_motion` with neither odometry
+  /// nor a second pose.
   HostState at(Stamp stamp, const HostVehicleOptions& vehicle) const;
 
-  /// Whether the speed is the odometry's.
+  /// Whether the speed is from odometry.
   bool hasOdometry(Stamp stamp) const;
 
   void reset();
@@ -67,7 +67,7 @@ class HostInput {
   MotionOptions motion_;
   OdometryReader reader_;
   Twists odometry_;    ///< of the last acceleration_time
-  Twists from_poses_;  ///< the same
+  Twists from_poses_;  ///< of the last acceleration_time
   PoseMotion poses_;
   std::optional<StampedPose> last_pose_;
 };

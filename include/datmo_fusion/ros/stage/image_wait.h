@@ -14,17 +14,17 @@
 
 namespace datmo {
 
-/// The newest image, which waits for what another sensor measured at its exposure.
+/// Holds the newest image until another sensor's measurement at its exposure is received.
 ///
-/// It waits until a measurement of its time is there, until the measurements are past it, or until
-/// it has waited long enough.
+/// It waits until there is a measurement at its time, until the measurements are newer, or until
+/// its maximum waiting time.
 template <typename Measurement>
 class ImageWait {
  public:
-  /// `tolerance` (s): between exposure and measurement. `max_wait` (s): longest wait.
+  /// `tolerance` (s): between exposure and measurement. `max_wait` (s): maximum waiting time.
   ImageWait(double tolerance, double max_wait) : tolerance_(tolerance), max_wait_(max_wait) {}
 
-  /// Stamps rise.
+  /// Stamps must rise.
   void addMeasurement(Stamp stamp, Measurement measurement) {
     measurements_.emplace_back(stamp, std::move(measurement));
     if (measurements_.size() > kMaxMeasurements) {
@@ -32,12 +32,12 @@ class ImageWait {
     }
   }
 
-  /// False if an earlier image still waited, whose place it takes. `now`: ROS time.
+  /// Returns false if it replaces an earlier image that was still waiting. `now`: ROS time.
   bool addImage(const sensor_msgs::ImageConstPtr& image, Stamp now) {
     return !std::exchange(waiting_, Waiting{image, now}).has_value();
   }
 
-  /// The image, if it waits no more; else null. `now`: ROS time.
+  /// Returns the image if it need not wait any longer; else null. `now`: ROS time.
   sensor_msgs::ImageConstPtr next(Stamp now) {
     if (!waiting_) {
       return nullptr;
@@ -52,7 +52,7 @@ class ImageWait {
     return std::exchange(waiting_, std::nullopt)->image;
   }
 
-  /// The measurement nearest to this exposure; null if none is within the tolerance.
+  /// Returns the measurement nearest to this exposure; null if none is within the tolerance.
   const Measurement* nearest(Stamp exposure) const {
     const Measurement* nearest = nullptr;
     double min_interval = tolerance_;
@@ -66,7 +66,7 @@ class ImageWait {
     return nearest;
   }
 
-  /// Of the newest measurement; none without any.
+  /// Stamp of the newest measurement; none without any.
   std::optional<Stamp> newestStamp() const {
     return measurements_.empty() ? std::nullopt : std::optional(measurements_.back().first);
   }
@@ -82,7 +82,7 @@ class ImageWait {
     Stamp since;
   };
 
-  /// A second of a fast scanner: longer than an image may wait.
+  /// One second of a fast scanner: longer than an image may wait.
   static constexpr std::size_t kMaxMeasurements = 64;
 
   double tolerance_;

@@ -7,11 +7,11 @@
 
 namespace datmo {
 
-/// A message that cannot be served: dropped and counted by its reason.
+/// Thrown for an unusable message, which is dropped and counted by reason.
 class InputError : public std::runtime_error {
  public:
-  /// `reason`: a short, fixed name that is counted (`wrong_size`); `message`: what is wrong, its
-  /// value, what was expected.
+  /// `reason`: a short, fixed name under which it is counted (`wrong_size`); `message`: what is
+  /// wrong, the value, what was expected.
   InputError(std::string reason, const std::string& message)
       : std::runtime_error(message), reason_(std::move(reason)) {}
 

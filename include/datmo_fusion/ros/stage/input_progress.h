@@ -10,8 +10,8 @@
 
 namespace datmo {
 
-/// What a person reads of the start of a stage: which inputs have come and what they look like,
-/// what is waited for, and on which topics. Not thread safe.
+/// Progress report at the start of a stage for people: which inputs have been received and what
+/// they look like, which are missing, and on which topics. Not thread safe.
 class InputProgress {
  public:
   /// A line for the console.
@@ -22,7 +22,7 @@ class InputProgress {
 
   explicit InputProgress(std::vector<WatchedInput> inputs);
 
-  /// What is new since the last call. `seconds`: since the start, on the computer's clock.
+  /// Returns what is new since the last call. `seconds`: since the start, wall clock.
   std::vector<Line> news(const StageMonitor& monitor, double seconds,
                          const PublishedType& published_type);
 

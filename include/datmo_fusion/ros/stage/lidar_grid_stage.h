@@ -20,9 +20,9 @@
 namespace datmo {
 
 struct LidarGridStageOptions {
-  FrameOptions frames;             ///< of all stages
+  FrameOptions frames;             ///< shared by all stages
   double max_tilt = degrees(5.0);  ///< rad
-  MotionOptions motion;            ///< of all stages
+  MotionOptions motion;            ///< shared by all stages
   StreamOptions input;
   ScanConversionOptions scan;
   LidarGridOptions grid;
@@ -31,11 +31,11 @@ struct LidarGridStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// LidarGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
-/// is dropped or warned of through the monitor, never thrown.
+/// Runs LidarGridModel on messages, for both the nodelet and the bag runner. Bad input is dropped
+/// or warned about, with a report to the monitor, never thrown.
 ///
-/// A scan is compensated for the vehicle's motion by odometry, where the vehicle has none by the
-/// poses of the SLAM; where neither has come, all its beams are taken as measured at once.
+/// A scan is motion-compensated by odometry or, if the vehicle has none, by the poses of SLAM;
+/// without either, all its beams are assumed to be measured at the stamp.
 class LidarGridStage : public Stage {
  public:
   using Options = LidarGridStageOptions;
@@ -44,10 +44,10 @@ class LidarGridStage : public Stage {
   LidarGridStage(const Checked<LidarGridStageOptions>& options, const TransformBuffer& transforms,
                  StageMonitor& monitor);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Sets the newest odometry; ignored if the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
 
-  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.

@@ -26,10 +26,10 @@
 namespace datmo {
 
 struct LoopClosingStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   std::string global_frame = "global_map";
   double publish_period = 10.0;  ///< s
-  double publish_share = 0.05;   ///< of the drive's time
+  double publish_share = 0.05;   ///< share of the drive's duration
   KeyframeOptions keyframes;
   GradualCorrectionOptions correction;
   LoopCloserOptions loops;
@@ -39,49 +39,49 @@ struct LoopClosingStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// The optimized drive, in the global frame.
+/// The optimized trajectory and its map, in the global frame.
 struct OptimizedDrive {
   nav_msgs::PathConstPtr trajectory;
-  nav_msgs::OccupancyGridConstPtr map;  ///< null if it is too wide for one
+  nav_msgs::OccupancyGridConstPtr map;  ///< null if it is too large for one
 };
 
-/// LoopCloser between messages. The same stage serves the nodelet, where loops are searched and
-/// closed in a thread of their own, and the bag runner, where each scan is done with when it comes.
+/// Runs LoopCloser on messages. The nodelet searches for and closes loops in a separate thread; the
+/// bag runner processes each scan synchronously.
 ///
-/// The live map, its frame and all that is tracked in it stay as they are: `map` is the child of no
-/// other frame than before. Where it lies in the optimized drive is published as its child,
-/// `map` -> `global_map`, and moves there gradually.
+/// The live map, its frame and all tracks in it remain unchanged: `map` keeps its parent frame. Its
+/// pose in the optimized drive is published as a child frame, `map` -> `global_map`, which moves
+/// gradually.
 ///
-/// A clock that jumps back, and a SLAM that begins a new map or finds itself in a prior one
-/// (KeyframeSelector), begin a new trajectory, and the old one is forgotten.
+/// A new trajectory begins, and the old one is forgotten, when the clock jumps back and when SLAM
+/// begins a new map or locates itself in a prior one (KeyframeSelector).
 ///
-/// Bad input is dropped through the monitor, never thrown: what fromMessage refuses, stamps out of
-/// order, and `superseded_scan` (the thread has too many to do).
+/// Bad input is dropped and reported to the monitor, never thrown: what fromMessage rejects, stamps
+/// out of order, and `superseded_scan` (the thread is overloaded).
 class LoopClosingStage : public Stage {
  public:
   using Options = LoopClosingStageOptions;
 
-  /// `clock`: none: without a thread, and the output depends on nothing but the input. `monitor`
-  /// must outlive the stage. Throws OptionError.
+  /// `clock`: none: no thread, and the output depends on the input alone. `monitor` must outlive
+  /// the stage. Throws OptionError.
   LoopClosingStage(const Checked<LoopClosingStageOptions>& options, StageMonitor& monitor,
                    const StepClock& clock = {});
 
-  /// map -> global_map at the scan's stamp; null if the scan was dropped.
+  /// Returns map -> global_map at the scan's stamp; null if the scan was dropped.
   tf2_msgs::TFMessageConstPtr takeLabeledScan(const LabeledScanMessage& message, Stamp now);
 
-  /// The optimized drive if it has changed and is due; none otherwise. To be called from time to
-  /// time. `now`: ROS time.
+  /// Returns the optimized drive if it has changed and is due; none otherwise. Call it
+  /// periodically. `now`: ROS time.
   std::optional<OptimizedDrive> next(Stamp now);
 
-  /// Writes the map that was put out last (writeMap). Returns a sentence on what was written.
-  /// Throws MapFileError, also if there is none yet.
+  /// Writes the last published map (writeMap). Returns a sentence about what was written. Throws
+  /// MapFileError, also if there is none yet.
   std::string saveMap(const std::string& file) const;
 
-  /// What became of the searches for loops in the drive that was put out last, and its loops.
+  /// Results of the loop searches in the last published drive, and its loops.
   const LoopCounts& counts() const { return counts_; }
   const std::vector<ClosedLoop>& loops() const { return loops_; }
 
-  /// Blocks until the thread has nothing to do: for tests.
+  /// Blocks until the thread is idle; for tests.
   void waitUntilIdle() { worker_.waitUntilIdle(); }
 
   void connect(StagePorts& ports) override;
@@ -91,7 +91,7 @@ class LoopClosingStage : public Stage {
  private:
   void beginDrive(Stamp stamp);
   void queue(LoopJob::Step step);
-  /// Gives the thread what has come, unless it has something to do.
+  /// Passes the received scans to the thread unless it is busy.
   void startIfIdle(Stamp now);
   void takeResults();
   void show(const LoopResult& result);
@@ -104,13 +104,13 @@ class LoopClosingStage : public Stage {
   StageRunner runner_;
   KeyframeSelector selector_;
   GradualCorrection correction_;
-  Pose2 map_in_global_;  ///< to which the correction leads
+  Pose2 map_in_global_;  ///< target of the gradual correction
   std::vector<LoopJob::Step> waiting_;
   bool is_busy_ = false;
-  std::uint64_t drive_ = 0;       ///< counts the trajectories
-  Stamp begun_;                   ///< the drive
-  Stamp last_;                    ///< scan
-  std::optional<Stamp> changed_;  ///< ROS time since when the drive put out last is old
+  std::uint64_t drive_ = 0;       ///< counter of trajectories
+  Stamp begun_;                   ///< stamp of the drive's begin
+  Stamp last_;                    ///< stamp of the last scan
+  std::optional<Stamp> changed_;  ///< ROS time since when the last published drive is outdated
   std::optional<OptimizedDrive> due_;
   LoopCounts counts_;
   std::vector<ClosedLoop> loops_;

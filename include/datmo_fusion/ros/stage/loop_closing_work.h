@@ -21,10 +21,10 @@ struct LoopJob {
 
   std::vector<Step> steps;
   bool wants_results = false;  ///< trajectory, loops and map
-  std::uint64_t drive = 0;     ///< to which they belong
+  std::uint64_t drive = 0;     ///< trajectory that they belong to
 };
 
-/// What became of them.
+/// Result of a job.
 struct LoopResult {
   Pose2 map_in_global;
   LoopCounts counts;
@@ -32,16 +32,16 @@ struct LoopResult {
   std::size_t scans = 0;
   double memory = 0.0;                      ///< bytes
   double residual = 0.0;                    ///< in standard deviations
-  double seconds = 0.0;                     ///< that it took
-  std::vector<StampedPose> trajectory;      ///< empty if it was not wanted
-  std::vector<ClosedLoop> loops;            ///< the same
-  std::shared_ptr<const OccupancyMap> map;  ///< null if it was not wanted, or cannot be drawn
+  double seconds = 0.0;                     ///< processing time
+  std::vector<StampedPose> trajectory;      ///< empty if not requested
+  std::vector<ClosedLoop> loops;            ///< empty if not requested
+  std::shared_ptr<const OccupancyMap> map;  ///< null if not requested, or if it cannot be drawn
   std::uint64_t drive = 0;
-  std::string error;  ///< what went wrong; empty: nothing
+  std::string error;  ///< error message; empty: none
 };
 
-/// Throws nothing. After an error in the middle of the steps the closer is empty: what is left of
-/// the drive begins anew.
+/// Never throws. After an error in the middle of the steps the closer is empty: the rest of the
+/// drive starts a new trajectory.
 LoopResult closeLoops(LoopCloser& closer, const LoopJob& job);
 
 }  // namespace datmo

@@ -22,8 +22,8 @@
 namespace datmo {
 
 struct MapFusionStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
   double period = 1.0;     ///< s
   double tolerance = 0.1;  ///< s
@@ -34,7 +34,7 @@ struct MapFusionStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The maps, ready to be published; null while they are not due, `changes` also without a prior
+/// The maps, ready to be published; null while they are not due; `changes` also without a prior
 /// map.
 struct MapFusionOutput {
   nav_msgs::OccupancyGridPtr fused;
@@ -42,11 +42,11 @@ struct MapFusionOutput {
   nav_msgs::OccupancyGridPtr changes;
 };
 
-/// MapFuser between messages: the same one serves the nodelet and the bag runner. Instantaneous
-/// grids wait for the labeled scan of about their stamp, which has the pose and says what moves
-/// (SourceMatcher); each is taken in once, by the pose at its own stamp. What is accepted, and how
-/// a missing source is reported: FusionInputs. When the clock jumps back all but the prior map is
-/// forgotten.
+/// Runs MapFuser on messages, for both the nodelet and the bag runner. Instantaneous grids wait for
+/// the labeled scan closest to their stamp, which has the pose and the moving points
+/// (SourceMatcher); each is integrated once, with the pose at its own stamp. FusionInputs decides
+/// what is accepted and reports missing sources. When the clock jumps back everything except the
+/// prior map is forgotten.
 class MapFusionStage : public Stage {
  public:
   using Options = MapFusionStageOptions;
@@ -57,23 +57,23 @@ class MapFusionStage : public Stage {
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
-  /// One grid of a source (else it is dropped: `unknown_source`), of the first one's window (else
-  /// `wrong_window`). `now`: ROS time.
+  /// Adds a grid of a source (else it is dropped: `unknown_source`), with the first one's window
+  /// (else `wrong_window`). `now`: ROS time.
   void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
 
-  /// The pose, and what moves.
+  /// Sets the pose and the moving points.
   void takeLabeledScan(const LabeledScanMessage& message, Stamp now);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Sets the newest odometry; ignored if the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
-  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     inputs_.takeMotion(message);
   }
 
-  /// The next set of grids that is ready, taken in; none if there is none. Call it until there is
-  /// none, after each message and from time to time. `now`: ROS time.
+  /// Integrates the next set of grids that is ready; none if there is none. Call it until it
+  /// returns none, after each message and periodically. `now`: ROS time.
   std::optional<MapFusionOutput> next(Stamp now);
 
   void connect(StagePorts& ports) override;
@@ -81,7 +81,7 @@ class MapFusionStage : public Stage {
   double maxWait() const override { return options_.max_wait; }
 
  private:
-  /// What the matcher brings together in time.
+  /// Samples that the matcher aligns in time.
   using Sample = std::variant<SensorGrid, LabeledScan>;
   using Matched = MatchedSamples<Sample>;
 
@@ -89,7 +89,7 @@ class MapFusionStage : public Stage {
   void readPriorMap(const GridWindow& window);
   MapFusionOutput fuse(const Matched& matched);
 
-  /// Takes in the grids of a set; returns those that were not there or of no use.
+  /// Integrates the grids of a set; returns the missing and unusable ones.
   std::vector<MissingSource> ingest(const Matched& matched, const LabeledScan& scan);
   MapFusionOutput outputAt(Stamp stamp);
   void show(const FusedMaps& maps);

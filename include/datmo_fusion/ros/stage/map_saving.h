@@ -11,11 +11,12 @@
 
 namespace datmo {
 
-/// Writes a map (writeMap). Returns a sentence on what was written. Throws MapFileError.
+/// Writes a map (writeMap). Returns a sentence about what was written. Throws MapFileError.
 std::string savedMapText(const std::string& file, const OccupancyMap& map);
 
-/// The answer of a service save_map: `save` writes to an absolute path, says what was written, and
-/// throws if that fails. What is wrong is in the response, and a warning of the monitor.
+/// Returns the response of a service save_map: `save` writes to an absolute path, returns a
+/// sentence about what was written, and throws on failure. Errors are returned in the response and
+/// as a warning of the monitor.
 datmo_fusion::SaveMap::Response answerSaveMap(
     const datmo_fusion::SaveMap::Request& request, StageMonitor& monitor,
     const std::function<std::string(const std::string& file)>& save);

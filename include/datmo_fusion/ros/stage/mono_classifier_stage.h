@@ -28,8 +28,8 @@
 namespace datmo {
 
 struct MonoClassifierStageOptions {
-  FrameOptions frames;        ///< of all stages
-  MotionOptions motion;       ///< of all stages
+  FrameOptions frames;        ///< shared by all stages
+  MotionOptions motion;       ///< shared by all stages
   double tolerance = 0.06;    ///< s
   double max_wait = 0.15;     ///< s
   double max_age = 0.5;       ///< s
@@ -43,37 +43,35 @@ struct MonoClassifierStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// MonoClassifier between messages: one more source of objects. The same one serves the nodelet,
-/// where the detector has a thread of its own and looks at the newest image alone, and the bag
-/// runner, where each image is looked at when it comes.
+/// Runs MonoClassifier on messages, as one more source of objects. The nodelet runs the detector in
+/// a separate thread on the newest image only; the bag runner processes each image synchronously.
 ///
-/// An image waits for objects of its time (`tolerance`), which are brought to the exposure by the
-/// vehicle's motion; without any, or without that motion, it is looked at by itself. What is found
-/// has the exposure's stamp, however long it took.
+/// An image waits for objects of its time (`tolerance`), which are moved to the exposure by the
+/// vehicle's motion; without objects or motion it is processed alone. Results have the exposure's
+/// stamp, however long the detector took.
 ///
-/// Bad input is dropped through the monitor, never thrown: what CameraInput and grayOrColor refuse,
-/// `blank_image` (black, white), `half_image` (cut), `frozen_image` (the same pixels again),
-/// `old_image` (older than the newest objects by more than `max_age`), `superseded_image` (a newer
-/// one came before objects of its time), `slow_detector` (a newer one came before the detector had
-/// time), `missing_transform`. When the clock jumps back all objects are forgotten. A detector that
-/// is right no more often than by chance is warned of (`detector_tells_nothing`).
+/// Bad input is dropped and reported to the monitor, never thrown: what CameraInput and grayOrColor
+/// reject, `blank_image` (black, white), `half_image` (truncated), `frozen_image` (repeated
+/// pixels), `old_image` (older than the newest objects by more than `max_age`), `superseded_image`
+/// (a newer one came before objects of its time), `slow_detector` (a newer one came before the
+/// detector was idle), `missing_transform`. Objects are forgotten when the clock jumps back. A
+/// detector that is no better than chance causes a warning (`detector_tells_nothing`).
 class MonoClassifierStage : public Stage {
  public:
   using Options = MonoClassifierStageOptions;
 
-  /// `clock`: none: without a thread, and the output depends on nothing but the input. `transforms`
-  /// and `monitor` must outlive the stage. Throws OptionError; also for a model that cannot be
-  /// used.
+  /// `clock`: none: no thread, and the output depends on the input alone. `transforms` and
+  /// `monitor` must outlive the stage. Throws OptionError, also for an unusable model.
   MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
                       const TransformBuffer& transforms, StageMonitor& monitor,
                       const StepClock& clock = {});
 
-  /// With a detector of the caller's. Throws OptionError.
+  /// Uses the caller's detector. Throws OptionError.
   MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
                       const TransformBuffer& transforms, StageMonitor& monitor,
                       const StepClock& clock, std::unique_ptr<MonoClassifier> classifier);
 
-  /// Of the rectified images; the newest one serves.
+  /// Of the rectified images; the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
   void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
@@ -82,11 +80,11 @@ class MonoClassifierStage : public Stage {
   /// `now`: ROS time.
   void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
-  /// The next list that is ready, at its exposure's stamp; null if there is none. To be called
-  /// until null, after each input and from time to time. `now`: ROS time.
+  /// Returns the next list that is ready, at its exposure's stamp; null if there is none. Call it
+  /// until null, after each input and periodically. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 
-  /// Blocks until the detector has nothing to do: for tests.
+  /// Blocks until the detector is idle; for tests.
   void waitUntilIdle() { worker_.waitUntilIdle(); }
 
   void connect(StagePorts& ports) override;
@@ -94,18 +92,18 @@ class MonoClassifierStage : public Stage {
   double maxWait() const override { return options_.max_wait; }
 
  private:
-  /// All that the detector's thread needs.
+  /// Input of the detector's thread.
   struct Job {
     sensor_msgs::ImageConstPtr image;
     MountedCamera camera;
     ObjectList objects;     ///< base frame at the exposure, its stamp
-    std::uint64_t run = 0;  ///< of the clock
+    std::uint64_t run = 0;  ///< number of the clock's run
   };
   struct Result {
     MonoClassification classification;
     double seconds = 0.0;
     std::uint64_t run = 0;
-    std::string error;  ///< what went wrong; empty: nothing
+    std::string error;  ///< error message; empty: none
   };
 
   template <typename Message>
@@ -128,7 +126,7 @@ class MonoClassifierStage : public Stage {
   CameraInput camera_;
   ExposureCheck exposure_;
   ImageWait<ObjectList> wait_;
-  std::uint64_t run_ = 0;  ///< counts how often the clock started over
+  std::uint64_t run_ = 0;  ///< number of clock restarts
   std::deque<Result> results_;
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier

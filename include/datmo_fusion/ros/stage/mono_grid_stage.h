@@ -23,9 +23,9 @@
 namespace datmo {
 
 struct MonoGridStageOptions {
-  FrameOptions frames;             ///< of all stages
+  FrameOptions frames;             ///< shared by all stages
   double max_tilt = degrees(5.0);  ///< rad
-  MotionOptions motion;            ///< of all stages
+  MotionOptions motion;            ///< shared by all stages
   double tolerance = 0.06;         ///< s
   double max_wait = 0.1;           ///< s
   ExposureCheckOptions exposure;
@@ -37,16 +37,16 @@ struct MonoGridStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// MonoGridModel between messages: one more source of grids. The same one serves the nodelet and
-/// the bag runner.
+/// Runs MonoGridModel on messages, as one more source of grids, for both the nodelet and the bag
+/// runner.
 ///
-/// An image waits for the scan of its time (`tolerance`), which is compensated for the vehicle's
-/// motion and brought to the exposure by it; the grid has the exposure's stamp.
+/// An image waits for the scan of its time (`tolerance`), which is motion-compensated and moved to
+/// the exposure; the grid has the exposure's stamp.
 ///
-/// Bad input is dropped or warned of through the monitor, never thrown: what CameraInput,
-/// ExposureCheck and toScan refuse, `no_scan` (none of the image's time came within `max_wait`; an
-/// image that is older than the scans has none either), `no_motion`, `superseded_image`,
-/// `missing_transform`. When the clock jumps back the road's colors are forgotten.
+/// Bad input is dropped or warned about, with a report to the monitor, never thrown: what
+/// CameraInput, ExposureCheck and toScan reject, `no_scan` (none of the image's time came within
+/// `max_wait`, or the image is older than the scans), `no_motion`, `superseded_image`,
+/// `missing_transform`. The road's colors are forgotten when the clock jumps back.
 class MonoGridStage : public Stage {
  public:
   using Options = MonoGridStageOptions;
@@ -55,7 +55,7 @@ class MonoGridStage : public Stage {
   MonoGridStage(const Checked<MonoGridStageOptions>& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
-  /// Of the rectified images; the newest one serves.
+  /// Of the rectified images; the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
   void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
@@ -67,8 +67,8 @@ class MonoGridStage : public Stage {
   /// `now`: ROS time.
   void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
-  /// The grid of the image that waits, at its exposure's stamp; null if there is none. To be called
-  /// after each input and from time to time. `now`: ROS time.
+  /// Returns the grid of the waiting image, at its exposure's stamp; null if there is none. Call it
+  /// after each input and periodically. `now`: ROS time.
   nav_msgs::OccupancyGridPtr next(Stamp now);
 
   void connect(StagePorts& ports) override;

@@ -18,21 +18,20 @@
 
 namespace datmo {
 
-/// Input check of a stage for odometry: of the vehicle, in its frames, with stamps that rise and
-/// twists that a vehicle can have.
+/// Input check for the vehicle's odometry: its frames, rising stamps and plausible twists.
 class OdometryReader {
  public:
-  /// `stream`: its name at the runner, of the stage, which is to call reset() when it is reset
-  /// itself; the runner must outlive the reader. Throws OptionError.
+  /// `stream`: its name at the runner, which belongs to the stage, must call reset() here when
+  /// reset itself, and must outlive the reader. Throws OptionError.
   OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames, std::string stream,
                  StageRunner& runner);
 
-  /// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
-  /// vehicle has (the mean over a gap of clocks, say) is left out and warned of (`bad_twist`): the
-  /// pose is what counts. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and those
-  /// of StageRunner::check), for a measurement that is repeated for longer than it serves
-  /// (`frozen_odometry`), and without odometry_pose for a change of the twist that no vehicle
-  /// can make (`impossible_twist`).
+  /// Converts odometry according to the options: with odometry_pose also its pose, and then an
+  /// implausible twist (for example the mean over a clock gap) is ignored with a warning
+  /// (`bad_twist`), because the pose decides. Throws InputError (`wrong_frame`, `bad_odometry`,
+  /// `bad_pose`, and those of StageRunner::check), for a measurement repeated longer than it may be
+  /// held (`frozen_odometry`), and without odometry_pose for an implausible change of the twist
+  /// (`impossible_twist`).
   OdometrySample read(const nav_msgs::Odometry& message);
 
   void reset() {
@@ -51,26 +50,26 @@ class OdometryReader {
   TwistGate gate_;
 };
 
-/// The motion of the vehicle between two stamps, as its odometry measures it; where its speed is
-/// not measured, as the poses of the SLAM do.
+/// The vehicle's motion between two stamps, from odometry or, if its speed is not measured, from
+/// the poses of SLAM.
 class MotionInput {
  public:
-  /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
+  /// `runner`: of the stage, which must call reset() when it is reset itself; it must outlive the
   /// input. Throws OptionError.
   MotionInput(const Checked<MotionOptions>& options, FrameOptions frames, StageRunner& runner);
 
-  /// Not read where the speed is not measured. Throws as OdometryReader does.
+  /// Ignored if the speed is not measured. Throws like OdometryReader.
   void take(const nav_msgs::Odometry& message);
 
-  /// The same for the vehicle's pose in a frame that does not move; read only where its speed
-  /// is not measured. Throws InputError (`bad_pose`, `pose_jump`, and those of StageRunner::check).
+  /// The same for the vehicle's pose in a fixed frame; used only if its speed is not measured.
+  /// Throws InputError (`bad_pose`, `pose_jump`, and those of StageRunner::check).
   void take(const geometry_msgs::PoseWithCovarianceStamped& message);
 
-  /// From one stamp to a later one; none if it is not known (OdometryBuffer::motion).
+  /// Returns the motion from one stamp to a later one; none if unknown (OdometryBuffer::motion).
   std::optional<Pose2> between(Stamp from, Stamp to) const { return buffer_.motion(from, to); }
 
-  /// A scan as measured at once, at its stamp (compensateMotion); as it is where the motion is not
-  /// known.
+  /// Returns a scan as if measured at once, at its stamp (compensateMotion); unchanged if the
+  /// motion is unknown.
   Scan compensated(const Scan& scan) const;
 
   /// Forgets everything.

@@ -22,29 +22,28 @@
 namespace datmo {
 
 struct MotionStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
 };
 
-/// It has no section of its own: `motion` is of all stages.
+/// It has no section of its own: `motion` is shared by all stages.
 template <>
 inline MotionStageOptions readStageOptions(const OptionValues& /*values*/,
                                            const SharedOptions& shared) {
   return {shared.frames, shared.motion, StreamOptions()};
 }
 
-/// Odometry for vehicles whose driver publishes none: from the twist of some sensor, or from the
-/// yaw rate of an Imu and the speed of a twist or of the wheels, as MotionOptions says. The same
-/// one serves the nodelet and the bag runner. Bad input is dropped through the monitor, never
-/// thrown.
+/// Odometry for vehicles whose driver publishes none: from a sensor's twist, or from the yaw rate
+/// of an IMU and the speed of a twist or of the wheels, according to MotionOptions. Used by both
+/// the nodelet and the bag runner. Bad input is dropped and reported to the monitor, never thrown.
 ///
-/// Out: nav_msgs/Odometry of the vehicle's frame at the stamp of the sensor that sets the pace (the
-/// Imu, if there is one), its pose by dead reckoning from the first one. With an Imu alone the
-/// speed is not known: 0 with a variance that says so, and the pose only turns.
+/// Output: nav_msgs/Odometry of the vehicle's frame at the stamp of the sensor that sets the pace
+/// (the IMU, if there is one), with a pose by dead reckoning from the first one. With an IMU alone
+/// the speed is unknown: 0 with a correspondingly large variance, and the pose only rotates.
 ///
-/// Angular velocities and twists are turned from their sensor's frame to the vehicle's by the mount
-/// from tf or `mounts`; one without frame_id is taken to be in the vehicle's.
+/// Angular velocities and twists are rotated from their sensor's frame to the vehicle's by the
+/// mount from tf or `mounts`; those without frame_id are assumed to be in the vehicle's frame.
 class MotionStage : public Stage {
  public:
   using Options = MotionStageOptions;
@@ -53,8 +52,8 @@ class MotionStage : public Stage {
   MotionStage(const MotionStageOptions& options, const TransformBuffer& transforms,
               StageMonitor& monitor);
 
-  /// Each of them: the odometry that the message led to; null if it was dropped, or only serves
-  /// those of the Imu. Not to be called for what the source does not use.
+  /// Each returns the odometry that the message yields; null if it was dropped, or is only stored
+  /// for use with the IMU. Not to be called for inputs that the source does not use.
   nav_msgs::OdometryPtr takeImu(const sensor_msgs::Imu& message);
   nav_msgs::OdometryPtr takeTwist(const geometry_msgs::TwistStamped& message);
   nav_msgs::OdometryPtr takeTwist(const geometry_msgs::TwistWithCovarianceStamped& message);
@@ -73,10 +72,10 @@ class MotionStage : public Stage {
                                   const geometry_msgs::Twist& message);
   nav_msgs::OdometryPtr keepSpeed(Stamp stamp, double speed);
 
-  /// Speed at the stamp of an Imu; 0 without a source of it. Throws InputError (`no_speed`).
+  /// Speed at the stamp of an IMU; 0 without a source of speed. Throws InputError (`no_speed`).
   double speedAt(Stamp stamp) const;
 
-  /// Turns a vector from a sensor's frame to the vehicle's. Throws InputError.
+  /// Rotates a vector from a sensor's frame to the vehicle's. Throws InputError.
   Eigen::Vector3d inBase(const std::string& frame, const geometry_msgs::Vector3& vector) const;
 
   void reset();
@@ -85,8 +84,8 @@ class MotionStage : public Stage {
   MotionStageOptions options_;
   const TransformBuffer& transforms_;
   StageRunner runner_;
-  std::optional<StampedSpeed> speed_;  ///< the newest
-  std::optional<Stamp> last_;          ///< of the odometry
+  std::optional<StampedSpeed> speed_;  ///< the newest one
+  std::optional<Stamp> last_;          ///< of the last odometry
   Twist2 last_twist_;
   Pose2 base_in_odom_;
 };

@@ -25,15 +25,15 @@ struct MovingObjectsStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// What one labeled scan led to.
+/// Result of one labeled scan.
 struct MovingObjectsOutput {
   ObjectArrayPtr objects;     ///< in the frame of the scan
-  DroppedObjectsPtr dropped;  ///< left out of them; null without road borders
+  DroppedObjectsPtr dropped;  ///< removed from them; null without road borders
 };
 
-/// MovingObjectDetector and BorderFilter between messages: the same one serves the nodelet and the
-/// bag runner. Bad input is dropped through the monitor, never thrown. Without borders that are new
-/// enough all objects pass.
+/// Runs MovingObjectDetector and BorderFilter on messages, for both the nodelet and the bag runner.
+/// Bad input is dropped and reported to the monitor, never thrown. Without recent borders all
+/// objects pass.
 class MovingObjectsStage : public Stage {
  public:
   using Options = MovingObjectsStageOptions;
@@ -41,7 +41,7 @@ class MovingObjectsStage : public Stage {
   /// `monitor` must outlive the stage. Throws OptionError.
   MovingObjectsStage(const Checked<MovingObjectsStageOptions>& options, StageMonitor& monitor);
 
-  /// The road for the scans from now on, in the frame of their map; read if `road_borders`.
+  /// Sets the road for the following scans, in their map frame; used with `road_borders`.
   void takeRoadBorders(const RoadBorders& message);
 
   /// None if the scan was dropped.
@@ -52,7 +52,7 @@ class MovingObjectsStage : public Stage {
   void change(const OptionValues& values) override;
 
  private:
-  /// The borders that serve a scan; none, and the monitor warned, if there are none.
+  /// The borders valid for a scan; none, with a warning of the monitor, if there are none.
   std::optional<RoadModel> roadAt(Stamp stamp, const std::string& map_frame);
   DroppedObjectsPtr dropAtBorders(const LabeledScan& scan, const LabeledScanMessage& message,
                                   ObjectList& objects);

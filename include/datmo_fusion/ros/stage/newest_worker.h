@@ -11,15 +11,15 @@
 
 namespace datmo {
 
-/// Does long work beside the thread that asks for it, always on what was asked for last: one job is
-/// done, one waits at most. Or, for a result that depends on nothing but the input, does each job
-/// at once. All but the work is called by one thread.
+/// Runs long jobs in a separate thread, always on the latest request: one job runs, at most one
+/// waits. Alternatively, for output that depends on the input alone, it runs each job
+/// synchronously. All functions except the work itself are called by one thread.
 template <typename Job, typename Result>
 class NewestWorker {
  public:
   using Work = std::function<Result(const Job&)>;
 
-  /// `work` must not throw. `beside`: in a thread of its own, which calls `prepare` first.
+  /// `work` must not throw. `beside`: use a separate thread, which calls `prepare` first.
   NewestWorker(
       Work work, bool beside, std::function<void()> prepare = [] {})
       : work_(std::move(work)) {
@@ -31,7 +31,7 @@ class NewestWorker {
     }
   }
 
-  /// Waits for the job that is being done; the one that waits is left.
+  /// Waits for the running job; a waiting one is discarded.
   ~NewestWorker() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -45,7 +45,7 @@ class NewestWorker {
   NewestWorker(const NewestWorker&) = delete;
   NewestWorker& operator=(const NewestWorker&) = delete;
 
-  /// Returns whether another job, which had not been begun, was dropped for this one.
+  /// Returns whether another job, which had not been started, was dropped in favor of this one.
   bool start(Job job) {
     if (!thread_.joinable()) {
       done_.push_back(work_(job));
@@ -61,13 +61,13 @@ class NewestWorker {
     return drops;
   }
 
-  /// What was done since the last call, in order.
+  /// Returns the results since the last call, in order.
   std::vector<Result> take() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return std::exchange(done_, {});
   }
 
-  /// Blocks until no job is being done or waits.
+  /// Blocks until no job runs or waits.
   void waitUntilIdle() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return !next_ && !busy_; });

@@ -22,8 +22,8 @@
 namespace datmo {
 
 struct ObjectFusionStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   bool retroactive = false;
@@ -32,16 +32,16 @@ struct ObjectFusionStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Matched lists of objects and ObjectFuser between messages: the same ones serve the nodelet and
-/// the bag runner. What is accepted, and how a missing source is reported: FusionInputs. When
-/// the clock jumps back all state is forgotten.
+/// Matches object lists and runs ObjectFuser on them, for both the nodelet and the bag runner.
+/// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
+/// clock jumps back.
 ///
-/// A list is fused once: a source slower than the reference does not count twice. One that was in
-/// no set is counted. Objects and views that do not name their sensor are taken for their source's
-/// own; views that are not valid are left out, and said.
+/// Each list is fused once: a source slower than the reference does not count twice. Lists that
+/// were in no set are counted. Objects and views that do not name their sensor count as their
+/// source's own; invalid views are dropped and reported.
 ///
-/// `retroactive`: a list of the reference that waits for others leads at once to an early list, of
-/// what there is; the fused one of its stamp follows as if there had been none.
+/// `retroactive`: a list of the reference that waits for others yields an early list at once, from
+/// the data at hand; the complete fused list of its stamp follows as if there had been none.
 class ObjectFusionStage : public Stage {
  public:
   using Options = ObjectFusionStageOptions;
@@ -52,26 +52,26 @@ class ObjectFusionStage : public Stage {
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
-  /// The objects of one source (else they are dropped: `unknown_source`). `now`: ROS time.
+  /// Adds the objects of a source (else dropped: `unknown_source`). `now`: ROS time.
   void takeObjects(const std::string& source, const ObjectArray& message, Stamp now);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Sets the newest odometry; ignored if the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
-  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     inputs_.takeMotion(message);
   }
 
-  /// What the scanner saw; it serves for objects at exactly its stamp.
+  /// Sets the scanner's scan, which is used for objects at exactly its stamp.
   void takeLabeledScan(const LabeledScanMessage& message);
 
-  /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
-  /// Call it until null, after each list and from time to time: it is not known before whether one
-  /// that is waited for still comes. `now`: ROS time.
+  /// Fuses the next set of lists that is ready, at the reference's stamp; null if there is none.
+  /// Call it until null, after each list and periodically, because a set may become ready by
+  /// timeout. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 
-  /// The next early list; null if there is none. To be called when there is no fused one.
+  /// Returns the next early list; null if there is none. Call it when there is no fused one.
   ObjectArrayPtr nextEarly(Stamp now);
 
   void connect(StagePorts& ports) override;
@@ -81,7 +81,7 @@ class ObjectFusionStage : public Stage {
  private:
   using Matched = MatchedSamples<ObjectList>;
 
-  /// The lists of the set whose motion is known; the others are added to `missing`.
+  /// The lists of the set with known motion; the others are added to `missing`.
   std::vector<SourceObjects> movedLists(const Matched& matched,
                                         std::vector<MissingSource>& missing) const;
   /// Null without a scan of this stamp.
@@ -98,8 +98,8 @@ class ObjectFusionStage : public Stage {
   ObjectFuser fuser_;
   StagePublisher<ObjectArray> fused_;
   StagePublisher<ObjectArray> early_;
-  std::optional<Stamp> newest_;    ///< of all lists that came out
-  double early_seconds_ = 0.0;     ///< spent on early lists since the last set
+  std::optional<Stamp> newest_;    ///< of all published lists
+  double early_seconds_ = 0.0;     ///< time spent on early lists since the last set
   std::deque<LabeledScan> scans_;  ///< newer than the last set, by rising stamp
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;

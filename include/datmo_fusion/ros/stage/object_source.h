@@ -21,17 +21,18 @@
 
 namespace datmo {
 
-/// What stages have in common that find objects in each message of one sensor by itself, with the
-/// vehicle's motion: one more source of objects for object_fusion. `sensor` (radar) is the topic of
-/// its messages, and that of its objects is objects/radar. Bad input is dropped or warned of
-/// through the monitor, never thrown. A stage adds how it detects.
+/// Base of stages that detect objects in each message of one sensor, using the vehicle's motion:
+/// one more source for object_fusion. `sensor` (radar) is the topic of its messages, and the
+/// objects are published on objects/radar. Bad input is dropped or warned about, with a report to
+/// the monitor, never thrown. A derived stage adds the detection.
 template <typename Message>
 class ObjectSource : public Stage {
  public:
   void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
 
-  /// Objects in the vehicle's frame at the message's stamp; null if the message was dropped.
+  /// Returns objects in the vehicle's frame at the message's stamp; null if the message was
+  /// dropped.
   ObjectArrayPtr take(const Message& message) {
     return runner_.serve(sensor_, message, [&] {
       const ObjectList objects = detect(message);
@@ -62,10 +63,11 @@ class ObjectSource : public Stage {
         sensor_(std::move(sensor)),
         motion_options_(options.motion) {}
 
-  /// In the vehicle's frame at the message's stamp. Throws InputError where the message is bad.
+  /// Objects in the vehicle's frame at the message's stamp. Throws InputError if the message is
+  /// bad.
   virtual ObjectList detect(const Message& message) = 0;
 
-  /// To be called by detect() when nothing else is wrong with the message (StageRunner::check).
+  /// To be called by detect() after all other checks of the message (StageRunner::check).
   void checkStamp(const Message& message) { runner_.check(sensor_, message.header.stamp); }
 
   FrameOptions frames_;

@@ -9,25 +9,27 @@
 
 namespace datmo {
 
-/// Scans that wait for the last odometry before their stamp, where the network may deliver them
-/// before it: then the same messages lead to the same poses, whatever the delay of each. The newest
-/// sample is that one if the next is due only after the scan (OdometryBuffer::period).
+/// Holds scans until the last odometry before their stamp has been received, since the network may
+/// deliver them out of order: then the same messages lead to the same poses, whatever the latency
+/// of each. The newest sample is the last one if the next is due only after the scan
+/// (OdometryBuffer::period).
 ///
-/// A scan waits `max_wait` (s) at most by the caller's clock, and not at all where it is 0, or for
-/// odometry that is silent: the newest is older than the scan by more than `hold` (s). A bounded
-/// number waits. Scans are served in the order in which they came.
+/// A scan waits at most `max_wait` (s) on the caller's clock, and not at all if that is 0 or
+/// odometry is silent: the newest is older than the scan by more than `hold` (s). The number of
+/// waiting scans is bounded. Scans are served in order of arrival.
 class OdometryWait {
  public:
-  /// `odometry`: that has come; it must outlive the wait.
+  /// `odometry`: received samples; it must outlive the wait.
   OdometryWait(const OdometryBuffer& odometry, double max_wait, double hold)
       : odometry_(odometry), max_wait_(max_wait), hold_(hold) {}
 
   double maxWait() const { return max_wait_; }
 
-  /// A scan; `serve` is called when it is its turn. `now`: the caller's clock.
+  /// Adds a scan; `serve` is called when it is its turn. `now`: the caller's clock.
   void add(Stamp scan, Stamp now, std::function<void()> serve);
 
-  /// Serves the oldest scan if it need not wait any longer; false if it does, or there is none.
+  /// Serves the oldest scan if it need not wait any longer; returns false if it must, or there is
+  /// none.
   bool serveNext(Stamp now);
 
  private:

@@ -23,17 +23,17 @@
 
 namespace datmo {
 
-/// Whether a matrix (row by row, `size` x `size`) is a covariance: finite, symmetric and without a
-/// negative eigenvalue beyond rounding.
+/// Whether a matrix (row by row, `size` x `size`) is a covariance: finite, symmetric and without
+/// negative eigenvalues beyond rounding.
 bool isCovariance(const double* values, std::size_t size);
 
 namespace detail {
 
-/// Goes through all fields of a message, as ROS's serialization lists them, and remembers the first
-/// that no receiver can use.
+/// Visits all fields of a message, as listed by ROS's serialization, and records the first one that
+/// is unusable for receivers.
 class FieldCheck {
  public:
-  /// What is wrong; empty: nothing.
+  /// What is wrong; empty: no fault.
   const std::string& fault() const { return fault_; }
 
   /// Called by ROS's serializers for each field.
@@ -59,7 +59,7 @@ class FieldCheck {
   template <typename Message>
   void message(const Message& content) {
     if constexpr (std::is_same_v<Message, sensor_msgs::LaserScan>) {
-      // Ranges may be NaN, which is no measurement, but not where their beams lie.
+      // Ranges may be NaN (no measurement), but not the limits and angles of the beams.
       for (const float value :
            {content.angle_min, content.angle_max, content.angle_increment, content.time_increment,
             content.scan_time, content.range_min, content.range_max}) {
@@ -76,7 +76,7 @@ class FieldCheck {
 
  private:
   /// Messages whose definitions give infinity a meaning: a side that was not seen, a contact that
-  /// does not come.
+  /// does not happen.
   template <typename Message>
   static constexpr bool kMayBeInfinite =
       std::is_same_v<Message, ObjectMessage> || std::is_same_v<Message, datmo_fusion::Risk>;
@@ -130,8 +130,8 @@ class FieldCheck {
 
 }  // namespace detail
 
-/// What makes a message worthless to whoever gets it: NaN, infinity without a meaning, no
-/// covariance where there should be one. Empty: nothing.
+/// Returns what makes a message unusable for receivers: NaN, infinity without a meaning, an invalid
+/// covariance. Empty: no fault.
 template <typename Message>
 std::string contentFault(const Message& message) {
   detail::FieldCheck check;
@@ -141,19 +141,19 @@ std::string contentFault(const Message& message) {
 
 /// A message to be published, without its type.
 struct OutputContent {
-  std::optional<Stamp> stamp;  ///< none of a message without header
+  std::optional<Stamp> stamp;  ///< none for a message without header
   std::string fault;           ///< contentFault
 };
 
-/// Check of one output: what cannot be used is not published but counted (`bad_output`), and the
-/// stage that made it is to start over.
+/// Check of one output: an unusable message is not published but counted (`bad_output`), and the
+/// stage that made it is reset.
 class OutputCheck {
  public:
   /// `monitor` must outlive it.
   OutputCheck(std::string topic, StageMonitor& monitor);
 
-  /// Whether it may be published. Its stamp may go back only when the stage has started over, and
-  /// is not ahead of all that the stage got.
+  /// Whether it may be published. Its stamp may decrease only after a reset of the stage, and must
+  /// not be ahead of all inputs of the stage.
   bool passes(const OutputContent& content);
 
  private:
@@ -162,7 +162,7 @@ class OutputCheck {
   std::string topic_;
   StageMonitor& monitor_;
   std::optional<Stamp> newest_;
-  std::uint64_t resets_ = 0;  ///< of the stage, when that was published
+  std::uint64_t resets_ = 0;  ///< number of resets of the stage when it was published
 };
 
 }  // namespace datmo

@@ -20,26 +20,26 @@ struct PartClocksOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The clocks of the machines on which parts of the stack run, beside ours.
+/// Compares the clocks of the machines that run parts of the stack with ours.
 class PartClocks {
  public:
   /// Throws OptionError.
   explicit PartClocks(const Checked<PartClocksOptions>& options) : options_(*options) {}
 
-  /// `received`: on our machine's clock.
+  /// `received`: time of arrival on our machine's clock.
   void take(const PartClock& answer, Stamp received);
 
-  /// For people, by process: "1.2 +- 0.3 ms ahead", "no answer for 12 s".
+  /// Descriptions for people, by process: "1.2 +- 0.3 ms ahead", "no answer for 12 s".
   std::map<std::string, std::string> descriptions(Stamp now) const;
 
-  /// The first clock that is surely off by more than `max_offset`, or whose machine does not answer
-  /// any more, added to what is known already.
+  /// Adds to `health` the first clock that is certainly off by more than `max_offset`, or whose
+  /// machine no longer answers.
   StackHealth judged(StackHealth health, Stamp now) const;
 
  private:
   struct Clock {
     ClockOffsetEstimator estimator;
-    Stamp last;  ///< answer, on our clock
+    Stamp last;  ///< last answer, on our clock
   };
 
   std::optional<std::string> fault(const std::string& process, const Clock& clock, Stamp now) const;

@@ -27,8 +27,8 @@
 namespace datmo {
 
 struct PointVelocityStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
   QuadMatcherOptions features;
   CameraMotionOptions camera_motion;
@@ -45,10 +45,10 @@ struct PointVelocityStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// Pairs of images of a stereo camera -> points with velocity over the ground: features that are
-/// found in two pairs (QuadMatcher), the camera's own motion (cameraMotion, from odometry on) taken
-/// out. The same one serves the nodelet and the bag runner. Bad input is dropped through the
-/// monitor, never thrown. When the clock jumps back the last images are forgotten.
+/// Computes points with velocity over ground from image pairs of a stereo camera: features matched
+/// between two pairs (QuadMatcher), compensated for the camera's own motion (cameraMotion, with
+/// odometry as prior). Used by both the nodelet and the bag runner. Bad input is dropped and
+/// reported to the monitor, never thrown. The last images are forgotten when the clock jumps back.
 class PointVelocityStage : public Stage {
  public:
   using Options = PointVelocityStageOptions;
@@ -60,9 +60,9 @@ class PointVelocityStage : public Stage {
   void takeOdometry(const nav_msgs::Odometry& message);
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
-  /// Points in the vehicle's frame at the left image's stamp (velocity_conversion.h), of the pair
-  /// that the message completes; null if there is none, or the pair was dropped. The first pair has
-  /// no point.
+  /// Returns points in the vehicle's frame at the left image's stamp (velocity_conversion.h), for
+  /// the pair that the message completes; null if it completes none, or the pair was dropped. The
+  /// first pair yields no points.
   sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
   sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
                                        const sensor_msgs::CameraInfoConstPtr& info);
@@ -78,7 +78,7 @@ class PointVelocityStage : public Stage {
   void reset();
   sensor_msgs::PointCloud2Ptr serve(const std::optional<StereoPair>& pair);
   std::vector<PointVelocity> velocitiesOf(const StereoPair& pair);
-  /// As odometry says; without it, standing still with what a vehicle may do.
+  /// From odometry; without it, standing still with the uncertainty of a vehicle's usual motion.
   CameraMotion priorSince(const LastPair& last, const LastPair& now) const;
 
   PointVelocityStageOptions options_;
@@ -87,7 +87,7 @@ class PointVelocityStage : public Stage {
   StageRunner runner_;
   MotionInput motion_;
   StereoPairs pairs_;
-  std::uint64_t unpaired_ = 0;  ///< frames that were reported
+  std::uint64_t unpaired_ = 0;  ///< number of frames reported
   QuadMatcher matcher_;
   std::optional<LastPair> last_;
 };

@@ -19,9 +19,9 @@
 
 namespace datmo {
 
-/// How many messages of a type may wait, so that memory is bounded and a hiccup costs nothing: a
-/// second of motion input (a fast Imu), a second of scans and what is made of them, and a
-/// few clouds or images, of several MB each.
+/// Maximum number of waiting messages per type, so that memory is bounded and short delays lose
+/// nothing: a second of motion input (a fast IMU), a second of scans and their results, and a few
+/// clouds or images of several MB each.
 template <typename Message>
 constexpr std::uint32_t queueLength() {
   constexpr auto is_any_of = [](auto... same) { return (same || ...); };
@@ -39,9 +39,10 @@ constexpr std::uint32_t queueLength() {
   }
 }
 
-/// s of ROS time for which a message of a type may wait in the queue of a stage: longer than a
-/// machine that keeps up ever lets one wait, and short enough that tracks are of now where it does
-/// not. Without a bound for motion, all of which adds up, and for what is not replaced by the next.
+/// Maximum time in s of ROS time that a message of a type may wait in the queue of a stage: longer
+/// than on a machine that keeps up, and short enough that tracks are current on one that does not.
+/// Unlimited for motion, where every message counts, and for messages that the next one does not
+/// replace.
 template <typename Message>
 constexpr double maxWaitInQueue() {
   constexpr auto is_any_of = [](auto... same) { return (same || ...); };

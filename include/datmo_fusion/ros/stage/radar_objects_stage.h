@@ -13,12 +13,12 @@
 
 namespace datmo {
 
-// As in messages.h, which all stages include; this is of one alone.
+// Not in messages.h, which all stages include: only this stage uses it.
 using RadarScanMessage = datmo_fusion::RadarScan;
 
 struct RadarObjectsStageOptions {
-  FrameOptions frames;         ///< of all stages
-  MotionOptions motion;        ///< of all stages
+  FrameOptions frames;         ///< shared by all stages
+  MotionOptions motion;        ///< shared by all stages
   double min_range = 0.5;      ///< m
   double max_range = 250.0;    ///< m
   double max_doppler = 100.0;  ///< m/s
@@ -29,8 +29,8 @@ struct RadarObjectsStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// RadarObjectDetector between messages. A cycle at which the vehicle's motion is not known is
-/// dropped: what stands would drive.
+/// Runs RadarObjectDetector on messages. A cycle with unknown vehicle motion is dropped, since
+/// stationary objects would appear to move.
 class RadarObjectsStage : public ObjectSource<RadarScanMessage> {
  public:
   using Options = RadarObjectsStageOptions;
@@ -41,7 +41,7 @@ class RadarObjectsStage : public ObjectSource<RadarScanMessage> {
 
  private:
   ObjectList detect(const RadarScanMessage& message) override;
-  /// Without the returns that are none, which are warned of.
+  /// Drops invalid returns, with a warning.
   RadarCycle cycleOf(const RadarScanMessage& message);
   /// Throws InputError (`no_motion`).
   Twist2 twistAt(Stamp stamp) const;

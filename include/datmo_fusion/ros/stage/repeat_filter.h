@@ -10,16 +10,15 @@
 
 namespace datmo {
 
-/// Keeps a console readable: an error is said the first time, and again when its cause changes or
-/// when it comes back after a long quiet. Repetitions are counted by reason, not said.
+/// Keeps a console readable: an error is printed the first time, and again when its cause changes
+/// or when it returns after a long quiet time. Repetitions are only counted by reason.
 ///
-/// Two errors have the same cause if they have the same reason and their messages differ in numbers
-/// alone: "tilted by 12.1 degrees" and "tilted by 12.3 degrees". Not thread safe.
+/// Two errors have the same cause if they have the same reason and their messages differ only in
+/// numbers: "tilted by 12.1 degrees" and "tilted by 12.3 degrees". Not thread safe.
 class RepeatFilter {
  public:
-  /// The line to write for `error`, with the number of its reason so far from the second one on;
-  /// none for a repetition. `now`: s, on any clock that does not go back; `count`: of messages that
-  /// have it.
+  /// Returns the line to print for `error`, from the second time on with the count of its reason;
+  /// none for a repetition. `now`: s, on any monotonic clock; `count`: number of affected messages.
   std::optional<std::string> lineOf(const InputError& error, double now, std::uint64_t count = 1);
 
  private:

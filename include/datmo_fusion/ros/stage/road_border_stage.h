@@ -20,9 +20,9 @@ struct RoadBorderStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// RoadBorderDetector between messages: the same one serves the nodelet and the bag runner. Bad
-/// input is dropped through the monitor, never thrown. When the clock jumps back, or the map gives
-/// way to one of another frame, the road is forgotten.
+/// Runs RoadBorderDetector on messages, for both the nodelet and the bag runner. Bad input is
+/// dropped and reported to the monitor, never thrown. The road is forgotten when the clock jumps
+/// back or the map frame changes.
 class RoadBorderStage : public Stage {
  public:
   using Options = RoadBorderStageOptions;
@@ -30,7 +30,7 @@ class RoadBorderStage : public Stage {
   /// `monitor` must outlive the stage. Throws OptionError.
   RoadBorderStage(const Checked<RoadBorderStageOptions>& options, StageMonitor& monitor);
 
-  /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
+  /// Returns the road in the labeled scan's map frame; null if the scan was dropped.
   RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;

@@ -35,8 +35,8 @@ struct MergedScannerOptions {
 };
 
 struct ScanMergeStageOptions {
-  FrameOptions frames;             ///< of all stages
-  MotionOptions motion;            ///< of all stages
+  FrameOptions frames;             ///< shared by all stages
+  MotionOptions motion;            ///< shared by all stages
   double max_tilt = degrees(5.0);  ///< rad
   std::string scan_frame = "merged_scan";
   StreamOptions input;
@@ -51,10 +51,10 @@ struct ScanMergeStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// Scans of several scanners -> one, of a scanner at the vehicle's origin, at the reference's
-/// stamp: each beam is brought there by the vehicle's motion since it was measured. What is
-/// accepted and how a missing scanner is reported: FusionInputs; it goes on with the others. A
-/// scanner that is frozen is left out, too.
+/// Merges the scans of several scanners into one, of a virtual scanner at the vehicle's origin, at
+/// the reference's stamp: each beam is moved there by the vehicle's motion since it was measured.
+/// FusionInputs decides what is accepted and reports missing scanners; merging continues with the
+/// others. A frozen scanner is left out, too.
 class ScanMergeStage : public Stage {
  public:
   using Options = ScanMergeStageOptions;
@@ -63,22 +63,22 @@ class ScanMergeStage : public Stage {
   ScanMergeStage(const Checked<ScanMergeStageOptions>& options, const TransformBuffer& transforms,
                  StageMonitor& monitor);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Sets the newest odometry; ignored if the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
-  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     inputs_.takeMotion(message);
   }
 
-  /// A scan of one scanner. `now`: ROS time.
+  /// Adds a scan of one scanner. `now`: ROS time.
   void takeScan(const std::string& source, const sensor_msgs::LaserScan& message, Stamp now);
 
-  /// The next set of scans that is ready, merged; null if there is none. `now`: ROS time.
+  /// Returns the next set of scans that is ready, merged; null if there is none. `now`: ROS time.
   sensor_msgs::LaserScanPtr next(Stamp now);
 
-  /// base -> the merged scan's frame, at the height of the reference's scanner, if it is not the
-  /// one that was returned last.
+  /// Returns base -> the merged scan's frame, at the height of the reference's scanner, if it has
+  /// changed since it was last returned.
   std::optional<geometry_msgs::TransformStamped> takeMount();
 
   void connect(StagePorts& ports) override;
@@ -90,7 +90,7 @@ class ScanMergeStage : public Stage {
 
   void reset();
   void checkFrozen(const std::string& source, const sensor_msgs::LaserScan& message);
-  /// The scans of the set as measured at its stamp; those whose motion is not known are added to
+  /// The scans of the set as measured at its stamp; those with unknown motion are added to
   /// `missing`.
   std::vector<Scan> movedScans(const Matched& matched, std::vector<MissingSource>& missing) const;
   Scan compensated(const Scan& scan) const;

@@ -9,28 +9,28 @@
 
 namespace datmo {
 
-/// How the stack does, in one sentence.
+/// Health of the stack in one sentence.
 struct StackHealth {
   HealthLevel level = HealthLevel::kOk;
   std::string sentence;
 };
 
-/// Answers "why is nothing there?": when the stage that publishes `result` (a topic, resolved)
-/// makes nothing, the cause is the first fault of the stage that is farthest up the chain and makes
-/// nothing either: "no tracks: grid_slam: no transform base_link -> laser". Else the first fault of
+/// Answers "why is there no output?": if the stage that publishes `result` (a resolved topic)
+/// produces nothing, the cause is the first fault of the most upstream stage that produces nothing
+/// either: "no tracks: grid_slam: no transform base_link -> laser". Otherwise the first fault of
 /// any stage, in the order given: "less than all: stereo_grid: no points2 for 3.0 s".
 ///
-/// Two stages are connected where one's outputs have a topic of the other's inputs.
+/// Two stages are connected if an output of one has the topic of an input of the other.
 StackHealth stackHealth(const std::vector<StageState>& stages, const std::string& result);
 
-/// The stages that report: the newest state of each, until it has not reported for so long that it
-/// has ended.
+/// The latest state of each reporting stage, until it has been silent long enough to be considered
+/// terminated.
 class ReportingStages {
  public:
-  /// `seconds`: on a clock that no message sets.
+  /// `seconds`: on a clock independent of messages.
   void take(const StageState& state, double seconds);
 
-  /// By name. Forgets those that ended.
+  /// By name. Forgets terminated stages.
   std::vector<StageState> at(double seconds);
 
  private:

@@ -25,7 +25,7 @@
 
 namespace datmo {
 
-/// A message whose type only its topic knows.
+/// A message whose type is known only through its topic.
 using AnyMessage = boost::shared_ptr<const void>;
 
 /// One input of a stage, without the type of its messages.
@@ -34,18 +34,18 @@ struct StageInput {
   using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, StageMonitor& monitor,
                                                   const Take& take)>;
 
-  std::string topic;      ///< as the stage calls it, before remapping
+  std::string topic;      ///< the stage's own name for it, before remapping
   std::string data_type;  ///< "sensor_msgs/LaserScan"
-  std::string booked_as;  ///< the input that the monitor counts it for
+  std::string booked_as;  ///< input under which the monitor counts it
   bool required = true;   ///< its silence is a fault
   Take take;
-  Subscribe subscribe;  ///< with plain frames, the arrival booked
+  Subscribe subscribe;  ///< frame ids without slashes; the arrival is recorded
 };
 
-/// A topic as a stage calls it to its name in the graph.
+/// Resolves a stage's topic name to its name in the graph.
 using ResolveTopic = std::function<std::string(const std::string& topic)>;
 
-/// The required inputs with all topics on which they may come.
+/// Returns the required inputs with all topics that may supply them.
 std::vector<WatchedInput> watchedInputs(const std::vector<StageInput>& inputs,
                                         const ResolveTopic& resolve);
 
@@ -56,20 +56,20 @@ StageTopics topicsOf(const std::vector<StageInput>& inputs,
 struct StageOutput {
   using Publish = std::function<void(const AnyMessage& message)>;
 
-  std::string topic;  ///< as the stage calls it, before remapping
+  std::string topic;  ///< the stage's own name for it, before remapping
   std::string data_type;
   std::function<Publish(ros::NodeHandle& node)> advertise;
   std::function<OutputContent(const AnyMessage& message)> content;  ///< for OutputCheck
 };
 
-/// What a stage publishes on one topic; without a host nothing.
+/// Publishes a stage's messages on one topic; does nothing without a host.
 template <typename Message>
 class StagePublisher {
  public:
   StagePublisher() = default;
   explicit StagePublisher(StageOutput::Publish publish) : publish_(std::move(publish)) {}
 
-  /// Null is left out.
+  /// A null message is ignored.
   void publish(const boost::shared_ptr<const Message>& message) const {
     if (message && publish_) {
       publish_(message);
@@ -80,17 +80,17 @@ class StagePublisher {
   StageOutput::Publish publish_;
 };
 
-/// What a stage does when somebody asks for it, without the types of question and answer.
+/// A service of a stage, without the types of request and response.
 struct StageService {
   std::string name;  ///< in the nodelet's private namespace
   std::function<ros::ServiceServer(ros::NodeHandle& private_node)> advertise;
 };
 
-/// Where a stage declares what it takes and what it makes. Its host connects them: to topics
-/// (StageHost), or to other stages (GraphRunner).
+/// Where a stage declares its inputs and outputs. Its host connects them to topics (StageHost) or
+/// to other stages (GraphRunner).
 ///
-/// A host hands the messages of one stage over one after the other. Those that are there at the
-/// same time it hands over in the order in which their inputs were declared.
+/// A host delivers the messages of one stage sequentially. Messages available at the same time are
+/// delivered in the order in which their inputs were declared.
 class StagePorts {
  public:
   virtual ~StagePorts() = default;
@@ -104,19 +104,19 @@ class StagePorts {
     addInput(inputOf<Message>(topic, topic, true, std::move(take)));
   }
 
-  /// One that may be silent.
+  /// An input that may be silent.
   template <typename Message>
   void optionalIn(const std::string& topic, Take<Message> take) {
     addInput(inputOf<Message>(topic, topic, false, std::move(take)));
   }
 
-  /// One whose messages may come instead of those of another input.
+  /// An input whose messages may come instead of those of another input.
   template <typename Message>
   void inInsteadOf(const std::string& other, const std::string& topic, Take<Message> take) {
     addInput(inputOf<Message>(topic, other, false, std::move(take)));
   }
 
-  /// `latched`: who comes late gets the last message.
+  /// `latched`: late subscribers get the last message.
   template <typename Message>
   StagePublisher<Message> out(const std::string& topic, bool latched = false) {
     const auto advertise = [topic, latched](ros::NodeHandle& node) -> StageOutput::Publish {
@@ -133,7 +133,7 @@ class StagePorts {
         addOutput({topic, ros::message_traits::datatype<Message>(), advertise, content}));
   }
 
-  /// A service, where there is a master; `answer` must not throw.
+  /// A service, if there is a ROS master; `answer` must not throw.
   template <typename Service>
   void service(const std::string& name,
                std::function<typename Service::Response(const typename Service::Request&)> answer) {
@@ -196,8 +196,8 @@ class StagePorts {
   }
 };
 
-/// A part of the chain from sensors to tracks: declares once what it takes and what it makes, and
-/// runs live, as a nodelet, and on a bag.
+/// A part of the chain from sensors to tracks: declares its inputs and outputs once, and runs both
+/// live, as a nodelet, and on a bag.
 class Stage {
  public:
   virtual ~Stage() = default;
@@ -205,15 +205,15 @@ class Stage {
   /// Declares inputs and outputs. Called once, before the first message.
   virtual void connect(StagePorts& ports) = 0;
 
-  /// Publishes the next result that is ready; false if there is none. Asked until then after each
-  /// message and each change of tf, and where `maxWait` says so from time to time.
+  /// Publishes the next result that is ready; returns false if there is none. Called until then
+  /// after each message and each change of tf and, if `maxWait` says so, periodically.
   virtual bool publishNext(Stamp /*now*/) { return false; }
 
-  /// The options that may be changed while it runs, as they are.
+  /// Returns the options that may be changed at run time, with their current values.
   virtual std::vector<LiveOption> live() const { return {}; }
 
-  /// Changes some of them, for what is published from now on; nothing is forgotten. Throws
-  /// OptionError, and all stay as they are.
+  /// Changes some of these for subsequent output, without a reset. Throws OptionError and leaves
+  /// all unchanged.
   virtual void change(const OptionValues& values) {
     detail::setLive(values, [](OptionVisitor& /*visitor*/) {});
   }

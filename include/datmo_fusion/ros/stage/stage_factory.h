@@ -12,11 +12,11 @@
 
 namespace datmo {
 
-/// What a host gives a stage besides its options; all of it outlives the stage.
+/// What a host provides to a stage besides its options; all of it outlives the stage.
 struct StageContext {
   const TransformBuffer& transforms;
   StageMonitor& monitor;
-  StepClock clock;  ///< none: the output depends on nothing but the input
+  StepClock clock;  ///< none: the output depends on the input alone
 };
 
 namespace detail {
@@ -33,13 +33,13 @@ inline constexpr bool kTakesClockAlone =
 
 }  // namespace detail
 
-/// Whether a stage asks tf.
+/// Whether a stage uses tf.
 template <typename MadeStage>
 inline constexpr bool kTakesTransforms =
     std::is_constructible_v<MadeStage, const typename MadeStage::Options&, const TransformBuffer&,
                             StageMonitor&>;
 
-/// A stage by what its constructor takes. Throws OptionError.
+/// Creates a stage with the arguments that its constructor takes. Throws OptionError.
 template <typename MadeStage>
 std::unique_ptr<MadeStage> makeStage(const typename MadeStage::Options& options,
                                      const StageContext& context) {

@@ -9,86 +9,86 @@
 
 namespace datmo {
 
-/// What the stereo camera's points come from.
+/// Source of the stereo camera's points.
 enum class StereoPoints { kClouds, kRectifiedImages, kRawImages };
 
-/// What a user switches on and off.
+/// The switches for users.
 struct StackSwitches {
   bool low_level_fusion = false;
-  bool map_fusion = false;  ///< each sensor keeps a map of its own, and these are fused
+  bool map_fusion = false;  ///< each sensor builds its own map, and the maps are fused
   bool road_border = false;
-  bool merge_scans = false;    ///< the scans are made of those of several scanners
-  bool cloud_objects = false;  ///< objects are found in a 3D lidar's clouds
-  bool radar = false;          ///< objects are found in a radar's detections, and fused
-  bool mono = false;           ///< a camera's images name the scanner's objects
-  bool static_points = false;  ///< what stands still comes out, for a navigation stack
-  bool loop_closing = false;   ///< the drive is optimized behind the live SLAM
+  bool merge_scans = false;    ///< the scans are merged from several scanners
+  bool cloud_objects = false;  ///< objects are detected in a 3D lidar's clouds
+  bool radar = false;          ///< objects are detected by a radar, and fused
+  bool mono = false;           ///< a camera's images classify the scanner's objects
+  bool static_points = false;  ///< static points are published for a navigation stack
+  bool loop_closing = false;   ///< the trajectory is optimized in addition to live SLAM
   bool object_fusion = false;
   bool track_fusion = false;
-  bool v2x = false;   ///< tracks of other stations come in, and ours go out
-  bool risk = false;  ///< of contact between the host and tracks or what stands
+  bool v2x = false;   ///< tracks are exchanged with other stations
+  bool risk = false;  ///< risk of contact between the host and tracks or static obstacles
 };
 
-/// A switch by its name in perception.launch, `road_border`; the option of run_bag is the same with
-/// hyphens, --road-border.
+/// A switch by its name in perception.launch, `road_border`; the option of run_bag has hyphens
+/// instead, --road-border.
 struct NamedSwitch {
   std::string name;
   bool StackSwitches::*value;
-  std::string help;  ///< of the option: what it does, and which topics it adds
+  std::string help;  ///< help text of the option: what it does, and which topics it adds
 };
 
 /// All of them, in the order of run_bag's --help.
 const std::vector<NamedSwitch>& stackSwitches();
 
-/// The switches, and what depends on the input.
+/// The switches, and those that depend on the input.
 struct GraphSwitches : StackSwitches {
-  bool scan_from_cloud = false;  ///< the scans are made of a 3D lidar's clouds
+  bool scan_from_cloud = false;  ///< the scans are made from a 3D lidar's clouds
   StereoPoints stereo = StereoPoints::kClouds;
-  bool stereo_objects = false;  ///< objects are found in the stereo camera's points
-  bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
+  bool stereo_objects = false;  ///< objects are detected in the stereo camera's points
+  bool stereo_tracker = false;  ///< the stereo camera's objects are tracked separately
 };
 
-/// With all that may be switched on: each stage that there is is in its graph.
+/// Everything switched on: the graph contains every stage.
 GraphSwitches allSwitches();
 
-/// At which level scanner and stereo camera are fused, as one switch.
+/// The level at which scanner and stereo camera are fused, as one switch.
 enum class FusionLevel {
   kNone,
   kLow,
   kObject,
   kTrack,
-  kRecommended,  ///< what the figures of doc/fusion.md recommend
+  kRecommended,  ///< recommended by the results in doc/fusion.md
 };
 
-/// The switches that a level turns on, for what a user does not turn on alone.
+/// Returns the switches that a level turns on in addition to the user's.
 StackSwitches fusionSwitches(FusionLevel level);
 
-/// The parts of the stack that may run on machines of their own (perception.launch): each has what
-/// is near to its data, so that little has to cross from one machine to another.
+/// The parts of the stack that may run on machines of their own (perception.launch): each is close
+/// to its data, so that little has to be transmitted between machines.
 enum class StackPart {
-  kSensors,     ///< takes what scanners and the motion's sensors send
-  kStereo,      ///< takes images and points of cameras
-  kPerception,  ///< all else: SLAM, detection, tracking, fusion
-  kRisk,        ///< takes what the others have made
+  kSensors,     ///< processes scanners and motion sensors
+  kStereo,      ///< processes images and point clouds of cameras
+  kPerception,  ///< everything else: SLAM, detection, tracking, fusion
+  kRisk,        ///< processes the others' results
 };
 
 /// One stage of the graph.
 struct GraphStage {
-  std::string name;  ///< of the node, and of its section in a sensor set's yaml file
-  std::string type;  ///< of the nodelet: several stages may have one
+  std::string name;  ///< of the node and its section in a sensor set's yaml file
+  std::string type;  ///< of the nodelet; several stages may share one
   std::map<std::string, std::string> remaps;  ///< the stage's topic -> the graph's
-  OptionValues parameters;                    ///< that the switches set, over the section's
+  OptionValues parameters;                    ///< set by the switches, override the section's
   StackPart part = StackPart::kPerception;
 
-  /// The graph's name of one of the stage's topics.
+  /// Returns the graph's name of one of the stage's topics.
   std::string resolved(const std::string& topic) const;
 };
 
-/// The stages and what connects them, each before those that it feeds. perception.launch starts the
-/// same; a test holds the two together.
+/// Returns the stages and their connections, each before those that it feeds. perception.launch
+/// starts the same; a test checks that both agree.
 ///
-/// A stage's topics are its own names for them (Stage::connect); two stages are connected where
-/// the resolved names are equal. doc/development.md says what a new stage takes.
+/// A stage's topics are its own names for them (Stage::connect); two stages are connected if the
+/// resolved names are equal. doc/development.md describes how to add a stage.
 std::vector<GraphStage> stageGraph(const GraphSwitches& switches);
 
 }  // namespace datmo

@@ -11,29 +11,29 @@
 
 namespace datmo {
 
-/// Where an input may come from: a topic (resolved) and the type of its messages.
+/// A possible source of an input: a topic (resolved) and its message type.
 struct InputTopic {
   std::string topic;
   std::string data_type;
 };
 
-/// An input of a stage whose silence is a fault, on one of its topics.
+/// An input of a stage whose silence is a fault, with its possible topics.
 struct WatchedInput {
   std::string name;
   std::vector<InputTopic> topics;
 };
 
-/// Type with which somebody publishes a topic; empty: nobody does.
+/// Returns the type with which a topic is published; empty: it has no publisher.
 using PublishedType = std::function<std::string(const std::string& topic)>;
 
 /// "scan on /scan or /echoes".
 std::string nameAndTopics(const WatchedInput& input);
 
-/// Whether somebody publishes an input with the right type.
+/// Whether an input is published with the right type.
 bool isPublished(const WatchedInput& input, const PublishedType& published_type);
 
-/// Why no message of an input can come: "nobody publishes it", "it is published as A, expected B",
-/// or "it is published, but no message has come".
+/// Returns why no message of an input can be received: "nobody publishes it", "it is published as
+/// A, expected B", or "it is published, but no message has come".
 std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type);
 
 /// Topics of a stage, resolved.
@@ -42,21 +42,21 @@ struct StageTopics {
   std::vector<std::string> outputs;
 };
 
-/// One stage, as a person or the next program asks for it.
+/// State of one stage, for people and other programs.
 struct StageState {
   std::string stage;
   HealthLevel level = HealthLevel::kOk;
-  std::vector<std::string> faults;  ///< what keeps it from working comes first
+  std::vector<std::string> faults;  ///< those that prevent output come first
   StageTopics topics;
 };
 
-/// Judges a stage by its monitor, once in a while.
+/// Judges a stage by its monitor, periodically.
 class StageHealth {
  public:
-  /// `silence_after`: s without message or result that are a fault.
+  /// `silence_after`: s without message or result that count as a fault.
   StageHealth(std::vector<WatchedInput> inputs, double silence_after);
 
-  /// Level and faults since the last call. `now`: ROS time.
+  /// Returns level and faults since the last call. `now`: ROS time.
   StageState judge(const StageMonitor& monitor, Stamp now, const PublishedType& published_type);
 
  private:
@@ -67,7 +67,7 @@ class StageHealth {
   std::vector<WatchedInput> inputs_;
   double silence_after_;
   std::uint64_t drops_ = 0;     ///< judged so far
-  std::uint64_t warnings_ = 0;  ///< the same
+  std::uint64_t warnings_ = 0;  ///< judged so far
 };
 
 }  // namespace datmo

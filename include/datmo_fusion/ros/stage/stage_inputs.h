@@ -20,8 +20,8 @@
 
 namespace datmo {
 
-/// How the vehicle moves, for a stage with takeOdometry and takePose: odometry, or the poses of
-/// the SLAM where no input gives the speed.
+/// Declares the motion input of a stage with takeOdometry and takePose: odometry, or the SLAM poses
+/// if no input has the speed.
 template <typename MovingStage>
 void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& stage) {
   if (motion.hasSpeed()) {
@@ -34,8 +34,8 @@ void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& 
   }
 }
 
-/// The scanner, of one echo or several, behind a check of its clock. `take`: (scan, Stamp now), of
-/// either type; `monitor` must outlive the ports.
+/// Declares the scanner input, with one or several echoes, behind a check of its clock. `take`:
+/// called as (scan, Stamp now), for either type; `monitor` must outlive the ports.
 template <typename Take>
 void connectScan(StagePorts& ports, StageMonitor& monitor, const Take& take) {
   using OneEcho = sensor_msgs::LaserScan;
@@ -44,7 +44,8 @@ void connectScan(StagePorts& ports, StageMonitor& monitor, const Take& take) {
   ports.inInsteadOf<Echoes>("scan", "echoes", withClockCheck<Echoes>("scan", monitor, take));
 }
 
-/// The stereo camera, for a stage with takeCameraInfo and takeCloud, whose result goes to `output`.
+/// Declares the stereo camera for a stage with takeCameraInfo and takeCloud, whose result goes to
+/// `output`.
 template <typename StereoStage, typename Message>
 void connectStereo(StagePorts& ports, StereoStage& stage, const StagePublisher<Message>& output) {
   ports.optionalIn<sensor_msgs::CameraInfo>(
@@ -55,8 +56,8 @@ void connectStereo(StagePorts& ports, StereoStage& stage, const StagePublisher<M
   });
 }
 
-/// How the camera's clouds lie against the scanner's points, for a stage with takeAlignment; before
-/// its clouds.
+/// Declares the alignment of the camera's clouds with the scanner's points, for a stage with
+/// takeAlignment; to be declared before its clouds.
 template <typename StereoStage>
 void connectAlignment(StagePorts& ports, StereoStage& stage) {
   ports.optionalIn<StereoAlignmentMessage>(
@@ -64,8 +65,8 @@ void connectAlignment(StagePorts& ports, StereoStage& stage) {
       [&stage](const auto& alignment, Stamp /*now*/) { stage.takeAlignment(*alignment); });
 }
 
-/// The images of a stereo camera, for a stage with takeImage and takeInfo, whose result goes to
-/// `output`.
+/// Declares the images of a stereo camera, for a stage with takeImage and takeInfo, whose result
+/// goes to `output`.
 template <typename ImageStage>
 void connectImages(StagePorts& ports, ImageStage& stage,
                    const StagePublisher<sensor_msgs::PointCloud2>& output) {

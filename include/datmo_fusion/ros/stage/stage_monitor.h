@@ -19,24 +19,24 @@
 
 namespace datmo {
 
-/// One input of a stage, as its receiver sees it.
+/// One input of a stage, as seen by its receiver.
 struct InputStatus {
   std::uint64_t received = 0;
   double rate = 0.0;              ///< Hz, over the last messages
   std::optional<double> silence;  ///< s since the last message; none before the first
 };
 
-/// One message that has led to a result.
+/// One message that was processed to a result.
 struct Processed {
   Stamp stamp;           ///< of the measurement
-  double seconds = 0.0;  ///< it took
+  double seconds = 0.0;  ///< processing time
 };
 
-/// How well a stage, or the stack, does.
+/// Health of a stage, or of the stack.
 enum class HealthLevel {
   kOk,
-  kDegraded,  ///< something is missing or wrong, but results come
-  kNoOutput,  ///< and no usable result comes
+  kDegraded,  ///< something is missing or wrong, but there are results
+  kNoOutput,  ///< there are no usable results
 };
 
 /// Processing times over the last messages, s; 0 before the first.
@@ -46,66 +46,64 @@ struct TimingStatus {
   double max = 0.0;
 };
 
-/// Counts what a stage receives, drops and needs in time; reports on the console what is
-/// wrong, once for each cause. Not thread safe.
+/// Counts a stage's received and dropped messages and its processing times; reports faults on the
+/// console, once per cause. Not thread safe.
 class StageMonitor {
  public:
-  /// `stage`: the nodelet's name; a slash at its front is left out.
+  /// `stage`: the nodelet's name; a leading slash is stripped.
   explicit StageMonitor(const std::string& stage);
 
   const std::string& stage() const { return stage_; }
 
-  /// What is said from here on happens at this ROS time.
+  /// Sets the ROS time of all further reports.
   void setTime(Stamp now) { now_ = now; }
 
-  /// None where no host has said it.
+  /// None if no host has set it.
   const std::optional<Stamp>& now() const { return now_; }
 
-  /// A message has come. `now`: ROS time, which is set by it.
+  /// Reports the arrival of a message. `now`: ROS time, which is set by this call.
   void received(const std::string& input, Stamp now);
 
-  /// A message of this stamp serves the stage.
+  /// Reports that a message with this stamp is used by the stage.
   void noteInput(Stamp stamp) { newest_input_ = std::max(stamp, newest_input_.value_or(stamp)); }
 
-  /// The newest one since the inputs have begun; none before the first.
+  /// Newest stamp since the inputs were last reset; none before the first message.
   const std::optional<Stamp>& newestInput() const { return newest_input_; }
 
-  /// A message has led to a result.
+  /// Reports that a message was processed to a result.
   void processed(const Processed& message);
 
-  /// So many messages were dropped for one cause.
+  /// Reports that `count` messages were dropped for one cause.
   void dropped(const InputError& error, std::uint64_t count = 1);
 
-  /// Something is wrong with a message or missing, but the stage goes on with it.
+  /// Reports that something is wrong or missing, but the stage continues.
   void warned(const InputError& error);
 
-  /// What the stage made cannot be used: it starts over with the next message (StageRunner).
+  /// Reports unusable output: the stage is reset at the next message (StageRunner).
   void requestReset() { reset_requested_ = true; }
 
-  /// Whether it was requested since the last call.
+  /// Returns whether a reset was requested since the last call.
   bool takeResetRequest() { return std::exchange(reset_requested_, false); }
 
-  /// The clock of the inputs has jumped: they begin anew.
+  /// Reports that the clock of the inputs has jumped: they start over.
   void forgetInputs() { newest_input_.reset(); }
 
-  /// The stage has started over.
+  /// Reports that the stage was reset.
   void noteReset() { ++resets_; }
   std::uint64_t resetCount() const { return resets_; }
 
-  /// A figure of merit of the last result, with its unit:
-  /// "weakest direction [m]".
+  /// Sets a figure of merit of the last result, with its unit in the name: "weakest direction [m]".
   void figure(const std::string& name, double value) { figures_[name] = value; }
 
-  /// How well the stage does its work from now on, and why, for people; a change is said on the
+  /// Sets the stage's health from now on, and the reason, for people; a change is printed on the
   /// console.
   void condition(HealthLevel health, const std::string& why);
 
-  /// What the messages of an input look like, for people: "360 beams to 8.0 m in laser". Asked for
-  /// once alone.
+  /// Describes the messages of an input, for people: "360 beams to 8.0 m in laser". `description`
+  /// is called only once.
   void describe(const std::string& input, const std::function<std::string()>& description);
 
-  /// Something that happens for the first time is worth a line: the first track. Once for each
-  /// `event`.
+  /// Announces an event on its first occurrence (the first track), once per `event`.
   void announce(const std::string& event, const std::string& text);
 
   bool hasReceived(const std::string& input) const { return inputs_.count(input) != 0; }
@@ -113,7 +111,7 @@ class StageMonitor {
   /// Empty if there is none.
   std::string description(const std::string& input) const;
 
-  /// What was announced since the last call.
+  /// Returns the announcements since the last call.
   std::vector<std::string> takeAnnouncements();
 
   InputStatus input(const std::string& name, Stamp now) const;
@@ -131,21 +129,21 @@ class StageMonitor {
 
   HealthLevel health() const { return health_; }
 
-  /// Why it is as it is; empty at the start.
+  /// Reason for the health level; empty at the start.
   const std::string& healthReason() const { return health_reason_; }
 
-  /// The newest of either kind, and of both; empty before the first.
+  /// The newest drop, the newest warning, and the newest of both; empty before the first.
   const std::string& lastDrop() const { return last_drop_; }
   const std::string& lastWarning() const { return last_warning_; }
   const std::string& lastError() const { return last_error_; }
 
-  /// ROS time of the last result; none before the first, and where nobody has said the time.
+  /// ROS time of the last result; none before the first, and if no time was set.
   const std::optional<Stamp>& lastResult() const { return last_result_; }
 
  private:
   struct Input {
     std::uint64_t count = 0;
-    std::deque<Stamp> arrivals;  ///< the last ones
+    std::deque<Stamp> arrivals;  ///< the most recent ones
   };
 
   void say(const InputError& error, std::uint64_t count = 1);
@@ -157,7 +155,7 @@ class StageMonitor {
   std::map<std::string, double> figures_;
   HealthLevel health_ = HealthLevel::kOk;
   std::string health_reason_;
-  std::deque<double> times_;  ///< s, the last ones
+  std::deque<double> times_;  ///< s, the most recent ones
   std::uint64_t processed_ = 0;
   Processed last_processed_;
   std::string last_drop_;

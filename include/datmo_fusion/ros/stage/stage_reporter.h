@@ -14,23 +14,24 @@
 
 namespace datmo {
 
-/// Level of a status: ERROR where nothing comes, WARN where less comes.
+/// Returns the level of a status: ERROR for no output, WARN for reduced output.
 unsigned char diagnosticLevel(HealthLevel level);
 
-/// What the status of a stage says of it, for whoever looks at all of them; none of another status.
+/// Returns the state in a stage's status, for programs that monitor all stages; none for another
+/// kind of status.
 std::optional<StageState> stateOf(const diagnostic_msgs::DiagnosticStatus& status);
 
-/// Publishes what a StageMonitor knows: diagnostics once a second, whether messages come or not,
-/// and a StageTiming on the topic `timing`, which all stages share, for each result. Says on the
-/// console what comes for the first time and what does not come.
+/// Publishes the content of a StageMonitor: diagnostics once a second, with or without messages,
+/// and for each result a StageTiming on the topic `timing`, which all stages share. Prints on the
+/// console what is received for the first time and what is missing.
 ///
-/// The beat of the diagnostics is the computer's, so that they come when the data's clock stands
-/// still too; rates and silences are measured on ROS time, so that a bag played fast or slow shows
-/// the sensor's own.
+/// Diagnostics are timed by the wall clock, so that they are published even when the data's clock
+/// stands still; rates and silences are measured in ROS time, so that a bag played at any rate
+/// shows the sensors' own.
 class StageReporter {
  public:
-  /// `inputs`: those that are missed if they are silent for `silence_after` (s). `topics`: of all
-  /// inputs and outputs, resolved. `monitor` must outlive the reporter; both live in the callback
+  /// `inputs`: those reported missing after a silence of `silence_after` (s). `topics`: all inputs
+  /// and outputs, resolved. `monitor` must outlive the reporter; both must be used in the callback
   /// queue of `node`.
   StageReporter(ros::NodeHandle node, ros::NodeHandle private_node, StageMonitor& monitor,
                 std::vector<WatchedInput> inputs, StageTopics topics, double silence_after);

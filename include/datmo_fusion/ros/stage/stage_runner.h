@@ -13,21 +13,21 @@
 
 namespace datmo {
 
-/// What each stage does with its messages besides converting them: a bad one is dropped and
-/// counted, the stamps of each input go forward, a clock that jumps back (a looped bag) or ahead
-/// resets the stage, and results are timed. Not thread safe.
+/// Common message handling of all stages: bad messages are dropped and counted, the stamps of each
+/// input must rise, a clock that jumps back (a looped bag) or ahead resets the stage, and results
+/// are timed. Not thread safe.
 class StageRunner {
  public:
-  /// `effect`: what a reset does, for people: "forgets the road"; `reset` does it, and may be
-  /// empty. `monitor`, and what `reset` refers to, must outlive the runner.
+  /// `effect`: the effect of a reset, for people: "forgets the road"; `reset` performs it, and may
+  /// be empty. `monitor`, and what `reset` refers to, must outlive the runner.
   StageRunner(StageMonitor& monitor, const StreamOptions& input, std::string effect,
               std::function<void()> reset = {});
   StageRunner(const StageRunner&) = delete;
   StageRunner& operator=(const StageRunner&) = delete;
 
-  /// Runs `handle` on one message and returns its result. When it throws InputError the message is
-  /// dropped through the monitor, and the result is a default one: null, none. Before that the
-  /// stage is reset if its last output was refused (OutputCheck).
+  /// Runs `handle` on one message and returns its result. If it throws InputError the message is
+  /// dropped and reported to the monitor, and the result is default constructed: null, none. If the
+  /// last output was rejected (OutputCheck), the stage is reset first.
   template <typename Handle>
   auto serve(const Handle& handle) -> decltype(handle()) {
     watch_ = Stopwatch();
@@ -42,7 +42,7 @@ class StageRunner {
     return decltype(handle())();
   }
 
-  /// The same for a message of an input that a person reads about when its first one comes.
+  /// The same for an input whose first message is described to the user.
   template <typename Message, typename Handle>
   auto serve(const std::string& input, const Message& message, const Handle& handle)
       -> decltype(handle()) {
@@ -50,17 +50,17 @@ class StageRunner {
     return serve(handle);
   }
 
-  /// How a message's stamp follows the last one of its input. When the clock has jumped, which
-  /// ROS time (StageMonitor::now) has confirmed or a second message, while no other input
-  /// contradicts it, all inputs start over and the stage is reset before this returns. To be called
-  /// when nothing else is wrong with the message.
-  /// Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`, `stray_stamp`).
+  /// Checks a message's stamp against the last one of its input. If the clock has jumped, as
+  /// confirmed by ROS time (StageMonitor::now) or a second message and not contradicted by another
+  /// input, all inputs start over and the stage is reset before this returns. Call it after all
+  /// other checks of the message. Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`,
+  /// `stray_stamp`).
   void check(const std::string& input, const ros::Time& stamp);
 
-  /// Resets the stage and warns of it. `reason`: as of an InputError; `why`: "the map is another".
+  /// Resets the stage with a warning. `reason`: as in InputError; `why`: "the map is another".
   void reset(const std::string& reason, const std::string& why);
 
-  /// The message that is served has led to a result of this stamp.
+  /// Reports that the current message yielded a result with this stamp.
   void processed(Stamp stamp) { monitor_.processed({stamp, watch_.seconds()}); }
 
   StageMonitor& monitor() { return monitor_; }
@@ -68,13 +68,13 @@ class StageRunner {
  private:
   struct Stream {
     StampCheck stamps;
-    Stamp last;                 ///< that passed the other checks, stray ones too
-    std::optional<Stamp> came;  ///< ROS time then
+    Stamp last;                 ///< last stamp that passed the other checks, including stray ones
+    std::optional<Stamp> came;  ///< ROS time of its arrival
   };
 
   Arrival arrivalOf(const std::string& input, const ros::Time& stamp);
 
-  /// The last stamp that came on another input lately; none if there is none.
+  /// Newest recent stamp of any other input; none if there is none.
   std::optional<Stamp> lastOfOthers(const std::string& input) const;
 
   StageMonitor& monitor_;
@@ -82,7 +82,7 @@ class StageRunner {
   std::string effect_;
   std::function<void()> reset_;
   std::map<std::string, Stream> streams_;  ///< by input
-  Stopwatch watch_;                        ///< since the message was taken
+  Stopwatch watch_;                        ///< since the current message was received
 };
 
 }  // namespace datmo

@@ -7,11 +7,11 @@
 
 namespace datmo {
 
-/// Throws InputError (`stamp_out_of_range`) for a stamp after the year 2100: it was not set, or its
-/// bytes are broken. ros::Time ends in 2106, and throws std::runtime_error where a sum goes beyond.
+/// Throws InputError (`stamp_out_of_range`) for a stamp after the year 2100, which is unset or
+/// corrupt. ros::Time ends in 2106 and throws std::runtime_error if a sum exceeds that.
 void checkStampRange(const ros::Time& time);
 
-/// The same of a stamp that was not a ros::Time before; also for one before 1970.
+/// The same for a stamp that did not originate as ros::Time; also rejects times before 1970.
 void checkStampRange(Stamp stamp);
 
 }  // namespace datmo

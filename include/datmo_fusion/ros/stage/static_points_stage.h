@@ -19,7 +19,7 @@
 namespace datmo {
 
 struct StaticPointsStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   std::string scan_frame = "static_scan";
   bool include_unknown = true;
   StreamOptions input;
@@ -27,16 +27,16 @@ struct StaticPointsStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one labeled scan led to.
+/// Result of one labeled scan.
 struct StaticPointsOutput {
   sensor_msgs::PointCloud2ConstPtr points;  ///< x, y, z, m, frame of the labeled scan, z = 0
-  sensor_msgs::LaserScanConstPtr scan;      ///< null where the beams are not known
+  sensor_msgs::LaserScanConstPtr scan;      ///< null if the beams are unknown
   tf2_msgs::TFMessageConstPtr mount;        ///< base -> scan_frame; null if it has not changed
 };
 
-/// What stands still around the vehicle, for a navigation stack: the labeled scan without what
-/// moves, as a cloud and as a planar scan (staticRanges). Bad input is dropped through the monitor,
-/// never thrown.
+/// Publishes the static surroundings of the vehicle for a navigation stack: the labeled scan
+/// without moving points, as a cloud and as a planar scan (staticRanges). Bad input is dropped and
+/// reported to the monitor, never thrown.
 class StaticPointsStage : public Stage {
  public:
   using Options = StaticPointsStageOptions;
@@ -55,7 +55,7 @@ class StaticPointsStage : public Stage {
   StaticPointsStageOptions options_;
   StageMonitor& monitor_;
   StageRunner runner_;
-  std::optional<Pose2> mount_;  ///< of the scanner in the vehicle's frame, that was put out last
+  std::optional<Pose2> mount_;  ///< last published pose of the scanner in the vehicle's frame
 };
 
 }  // namespace datmo

@@ -25,7 +25,7 @@
 namespace datmo {
 
 struct StereoAlignmentStageOptions : StereoInputOptions {
-  MotionOptions motion;  ///< of all stages
+  MotionOptions motion;  ///< shared by all stages
   ScanConversionOptions scan;
   StereoAlignmentOptions alignment;
   SurfacePairOptions pairs;
@@ -35,11 +35,11 @@ struct StereoAlignmentStageOptions : StereoInputOptions {
   static SharedKeys sharedKeys();
 };
 
-/// Scans and clouds of a stereo camera -> how these lie against those (StereoAlignmentFilter), for
-/// the stages that take the clouds, and for people: diagnostics warn of what is beyond the usual.
-/// The same one serves the nodelet and the bag runner. Bad input is dropped through the monitor,
-/// never thrown. Cameras that measure no disparities are not compared. When the clock jumps back
-/// the scans are forgotten, the alignment is not: it is the sensors'.
+/// Estimates the alignment of a stereo camera's clouds with the scans (StereoAlignmentFilter), for
+/// the stages that use the clouds, and for people: diagnostics warn of unusual values. Used by both
+/// the nodelet and the bag runner. Bad input is dropped and reported to the monitor, never thrown.
+/// Cameras that do not measure disparities are not compared. When the clock jumps back the scans
+/// are forgotten, but not the alignment, which is a property of the sensors.
 class StereoAlignmentStage : public Stage {
  public:
   using Options = StereoAlignmentStageOptions;
@@ -55,17 +55,17 @@ class StereoAlignmentStage : public Stage {
   template <typename Message>
   void takeScan(const Message& message);
 
-  /// Of the right camera; the newest one serves.
+  /// Of the right camera; the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
-  /// Null if the cloud was dropped, or no scan is near enough in time.
+  /// Null if the cloud was dropped, or no scan is close enough in time.
   StereoAlignmentMessagePtr takeCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
 
  private:
   void reset();
-  /// The scan whose stamp is the nearest, in the vehicle's frame at `stamp`.
+  /// The scan nearest in time, in the vehicle's frame at `stamp`.
   std::optional<std::vector<Ray>> raysAt(Stamp stamp) const;
   Scan compensated(const Scan& scan) const;
   Twist2 twistAt(Stamp stamp) const;
@@ -80,10 +80,10 @@ class StereoAlignmentStage : public Stage {
   StereoInput input_;
   SurfacePairFinder finder_;
   StereoAlignmentFilter filter_;
-  std::deque<Scan> scans_;  ///< the last ones
+  std::deque<Scan> scans_;  ///< the most recent ones
   FrozenSensor frozen_;
   bool was_usable_ = true;
-  std::set<AlignmentTerm> faults_;  ///< that were warned of
+  std::set<AlignmentTerm> faults_;  ///< already warned about
 };
 
 }  // namespace datmo

@@ -24,9 +24,9 @@ struct StereoGridStageOptions : StereoInputOptions {
   static SharedKeys sharedKeys();
 };
 
-/// StereoGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
-/// is dropped or warned of through the monitor, never thrown. When the clock jumps back the road of
-/// the last clouds is forgotten.
+/// Runs StereoGridModel on messages, for both the nodelet and the bag runner. Bad input is dropped
+/// or warned about, with a report to the monitor, never thrown. When the clock jumps back the road
+/// of the last clouds is forgotten.
 class StereoGridStage : public Stage {
  public:
   using Options = StereoGridStageOptions;
@@ -35,10 +35,10 @@ class StereoGridStage : public Stage {
   StereoGridStage(const Checked<StereoGridStageOptions>& options, const TransformBuffer& transforms,
                   StageMonitor& monitor);
 
-  /// Of the right camera; the newest one serves.
+  /// Of the right camera; the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
-  /// The newest one serves.
+  /// Sets the alignment; the newest one is used.
   void takeAlignment(const StereoAlignmentMessage& message);
 
   /// Null if the cloud was dropped.
@@ -47,7 +47,7 @@ class StereoGridStage : public Stage {
   void connect(StagePorts& ports) override;
 
  private:
-  /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
+  /// Throws InputError (`bad_camera`) for a camera that cannot see the road from its mount.
   StereoGridResult gridOf(const StereoCloud& cloud);
 
   /// Above base_link's origin, m.

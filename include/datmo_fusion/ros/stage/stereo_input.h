@@ -22,66 +22,66 @@
 
 namespace datmo {
 
-/// What the stages of a stereo or depth camera's clouds have in common.
+/// Common options of the stages that use a stereo or depth camera's clouds.
 struct StereoInputOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   StereoCameraOptions camera;
   StreamOptions input;
 
   void visit(OptionVisitor& visitor);
-  /// Of `camera`.
+  /// Keys of `camera`.
   static SharedKeys cameraKeys();
-  /// Of it, and of a stage's own `road` and `effective_range`.
+  /// These, and a stage's own `road` and `effective_range`.
   static SharedKeys sharedKeys();
 };
 
-/// Clouds of a stereo or depth camera as messages -> as the core takes them: with the camera as its
-/// info, or the options until that comes, say, its noise as the options say, and its mount as tf
-/// says. Points out of the camera's range (min_depth, max_depth) are left out.
+/// Converts clouds of a stereo or depth camera for the core: with the camera's geometry from its
+/// info, or from the options until that is received, its noise from the options, and its mount from
+/// tf. Points outside the camera's range (min_depth, max_depth) are dropped.
 class StereoInput {
  public:
-  /// `transforms` must outlive this. Throws OptionError; for an active_stereo without baseline, and
-  /// a min_depth that is not below max_depth, as well.
+  /// `transforms` must outlive this. Throws OptionError, also for an active_stereo without baseline
+  /// and for a min_depth that is not below max_depth.
   StereoInput(const Checked<StereoInputOptions>& options, const TransformBuffer& transforms);
 
-  /// Of the right camera, or of the depth image; the newest one serves. Throws InputError
-  /// (`bad_camera_info`).
+  /// Sets the info of the right camera, or of the depth image; the newest one is used. Throws
+  /// InputError (`bad_camera_info`).
   void take(const sensor_msgs::CameraInfo& message);
 
-  /// How the clouds lie against the scanner's points, from now on: the bias of their disparities is
-  /// taken out of them, as it is the camera's, and while they are not usable they are refused, for
-  /// `camera/alignment_hold` after its stamp. Without effect where `camera/align` is off, and on a
-  /// camera that measures no disparities. Throws InputError (`bad_alignment`).
+  /// Sets the alignment of the clouds with the scanner's points from now on: the disparity bias,
+  /// which is the camera's, is corrected, and clouds are rejected while they are not usable, until
+  /// `camera/alignment_hold` after its stamp. No effect if `camera/align` is off, or for a camera
+  /// that does not measure disparities. Throws InputError (`bad_alignment`).
   void take(const StereoAlignmentMessage& message);
 
-  /// Whether the camera is compared with the scanner: it is to be, and matches disparities.
+  /// Whether the camera is compared with the scanner: this is enabled, and it measures disparities.
   bool isAligned() const {
     const DepthPrinciple principle = options_.camera.principle;
     return options_.camera.align &&
            (principle == DepthPrinciple::kStereo || principle == DepthPrinciple::kActiveStereo);
   }
 
-  /// `points` of a message with this header; they are brought to the camera's frame, and must
-  /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`,
-  /// `no_valid_point` if none is within the camera's range, `camera_disagrees` if the alignment
-  /// says so).
+  /// Returns the cloud with `points` of a message with this header; they are transformed to the
+  /// camera's frame, and must outlive the result. Throws InputError (`missing_camera_info`,
+  /// `missing_transform`, `no_valid_point` if none is within the camera's range, `camera_disagrees`
+  /// if the alignment is not usable).
   StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
 
  private:
-  /// Whether the alignment says, at this stamp, that the clouds are of no use.
+  /// Whether the alignment says that the clouds are unusable at this stamp.
   bool isRefused(Stamp stamp) const;
   /// Throws InputError (`missing_camera_info`).
   StereoCamera camera() const;
-  /// What the options know of it. Throws as camera() does.
+  /// The camera as far as the options define it. Throws like camera().
   StereoCamera configuredCamera() const;
 
   StereoInputOptions options_;
   const TransformBuffer& transforms_;
-  std::optional<StereoCamera> camera_;  ///< as the last camera info says
-  StereoAlignment alignment_;           ///< the newest; at first none: all 0
+  std::optional<StereoCamera> camera_;  ///< from the last camera info
+  StereoAlignment alignment_;           ///< the newest; all 0 before the first
 };
 
-/// The road under a cloud, as figures.
+/// Reports the road under a cloud as figures.
 void showRoad(bool seen, const RoadPlane& road, StageMonitor& monitor);
 
 }  // namespace datmo

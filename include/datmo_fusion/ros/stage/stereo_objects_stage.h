@@ -28,13 +28,13 @@ struct StereoObjectsStageOptions : StereoInputOptions {
   static SharedKeys sharedKeys();
 };
 
-/// StereoObjectDetector between messages: the same one serves the nodelet and the bag runner. Bad
-/// input is dropped through the monitor, never thrown. When the clock jumps back the road of the
+/// Runs StereoObjectDetector on messages, for both the nodelet and the bag runner. Bad input is
+/// dropped and reported to the monitor, never thrown. When the clock jumps back the road of the
 /// last clouds is forgotten.
 ///
-/// Points with velocity (velocity_conversion.h) of the cloud's stamp give the objects their
-/// velocities; without, these are not known. Where somebody publishes them, the objects wait for
-/// them (VelocityWait).
+/// The objects get their velocities from points with velocity (velocity_conversion.h) at the
+/// cloud's stamp; without these, velocities are unknown. If such points are published, the objects
+/// wait for them (VelocityWait).
 class StereoObjectsStage : public Stage {
  public:
   using Options = StereoObjectsStageOptions;
@@ -43,21 +43,22 @@ class StereoObjectsStage : public Stage {
   StereoObjectsStage(const Checked<StereoObjectsStageOptions>& options,
                      const TransformBuffer& transforms, StageMonitor& monitor);
 
-  /// Of the right camera; the newest one serves.
+  /// Of the right camera; the newest one is used.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
-  /// The newest one serves.
+  /// Sets the alignment; the newest one is used.
   void takeAlignment(const StereoAlignmentMessage& message);
 
   /// Points with velocity, in the vehicle's frame.
   void takeVelocities(const sensor_msgs::PointCloud2& message);
 
-  /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped, or its
-  /// objects wait. If those of an earlier cloud do, and need not any more, they come first.
+  /// Returns objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped, or
+  /// its objects wait. Objects of an earlier cloud that need not wait any longer are returned
+  /// first.
   ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
 
-  /// The next objects that have waited; null if there are none. To be called until null, after each
-  /// input and from time to time. `now`: ROS time.
+  /// Returns the next objects that have finished waiting; null if there are none. Call it until
+  /// null, after each input and periodically. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 
   void connect(StagePorts& ports) override;
@@ -66,7 +67,7 @@ class StereoObjectsStage : public Stage {
 
  private:
   void reset();
-  /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
+  /// Throws InputError (`bad_camera`) for a camera that cannot see the road from its mount.
   StereoObjects objectsOf(const StereoCloud& cloud);
   ObjectArrayPtr finish(VelocityWait::Served served);
   void measure(const std::vector<PointVelocity>& points, std::vector<Object>& objects);
@@ -78,7 +79,7 @@ class StereoObjectsStage : public Stage {
   StereoInput input_;
   StereoObjectDetector detector_;
   VelocityWait wait_;
-  std::uint64_t bad_points_ = 0;  ///< with velocity, since the start
+  std::uint64_t bad_points_ = 0;  ///< invalid points with velocity, since construction
   StagePublisher<ObjectArray> published_;
 };
 

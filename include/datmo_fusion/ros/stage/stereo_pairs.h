@@ -29,29 +29,29 @@ struct StereoPair {
   CameraFrame right;
 };
 
-/// Puts together what two cameras send: each image with the calibration of its stamp, and left and
-/// right frames whose stamps differ by no more than a tolerance. Frames of one camera are expected
-/// to be further apart than twice that, so that the first partner is the only one.
+/// Pairs the messages of two cameras: each image with the calibration of its stamp, and left and
+/// right frames whose stamps differ by at most a tolerance. Frames of one camera must be more than
+/// twice that apart, so that the first partner is the only one.
 class StereoPairs {
  public:
   /// `tolerance`: s, 0 or more.
   explicit StereoPairs(double tolerance) : tolerance_(tolerance) {}
 
-  /// The pair that the message completes, if any. Older frames are given up then.
+  /// Returns the pair that the message completes, if any. Older frames are then dropped.
   std::optional<StereoPair> takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
   std::optional<StereoPair> takeInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info);
 
-  /// Forgets all frames: the clock was set back.
+  /// Forgets all frames; call it when the clock was set back.
   void clear();
 
-  /// Frames that were given up for want of a partner, or of a calibration.
+  /// Number of frames dropped without a partner or a calibration.
   std::uint64_t unpaired() const { return unpaired_; }
 
  private:
-  using Frames = std::deque<CameraFrame>;  ///< by rising stamp, some of them not complete
+  using Frames = std::deque<CameraFrame>;  ///< by rising stamp, some incomplete
 
   Frames& framesOf(StereoSide side) { return side == StereoSide::kLeft ? left_ : right_; }
-  /// The frame of this stamp, a new one if there is none; null if the queue is full of newer ones.
+  /// The frame of this stamp, created if necessary; null if the queue is full of newer ones.
   CameraFrame* frameAt(StereoSide side, Stamp stamp);
   std::optional<StereoPair> pairWith(StereoSide side, const CameraFrame& frame);
   void dropUpTo(Frames& frames, Stamp stamp);
@@ -62,7 +62,7 @@ class StereoPairs {
   std::uint64_t unpaired_ = 0;
 };
 
-/// Says that an image found no partner, or no calibration (`unpaired_image`).
+/// Returns the error for an image without partner or calibration (`unpaired_image`).
 InputError unpairedImage();
 
 }  // namespace datmo

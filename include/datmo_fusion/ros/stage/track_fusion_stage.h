@@ -15,25 +15,25 @@
 namespace datmo {
 
 struct TrackFusionStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   TrackFuserOptions fuser;
 
-  /// A track predicts where its object goes, so that a list serves until it is older than any delay
-  /// of a sensor, or a slower sensor's next list has come. So little is gained by waiting for it
-  /// (doc/fusion.md); live, each list of the reference is fused when it comes.
+  /// A track predicts its object's motion, so a list remains useful until it is older than any
+  /// sensor latency, or a slower sensor's next list arrives. So there is little gain in waiting for
+  /// it (doc/fusion.md); live, each list of the reference is fused on arrival.
   TrackFusionStageOptions();
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Matched lists of tracks and TrackFuser between messages: the same ones serve the nodelet and the
-/// bag runner. What is accepted, and how a missing source is reported: FusionInputs. When the
-/// clock jumps back all state is forgotten; ids go on.
+/// Matches track lists and runs TrackFuser on them, for both the nodelet and the bag runner.
+/// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
+/// clock jumps back; ids continue.
 ///
-/// A list serves until there is a nearer one of its source. Tracks that do not name their sensor
-/// are taken for their source's own. Tracks and views that are not valid are left out, and said.
+/// A list is used until there is a nearer one of its source. Tracks that do not name their sensor
+/// count as their source's own. Invalid tracks and views are dropped and reported.
 class TrackFusionStage : public Stage {
  public:
   using Options = TrackFusionStageOptions;
@@ -44,12 +44,12 @@ class TrackFusionStage : public Stage {
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
-  /// The tracks of one source (else they are dropped: `unknown_source`). `now`: ROS time.
+  /// Adds the tracks of a source (else dropped: `unknown_source`). `now`: ROS time.
   void takeTracks(const std::string& source, const TrackArray& message, Stamp now);
 
-  /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
-  /// Call it until null, after each list and from time to time: it is not known before whether one
-  /// that is waited for still comes. `now`: ROS time.
+  /// Fuses the next set of lists that is ready, at the reference's stamp; null if there is none.
+  /// Call it until null, after each list and periodically, because a set may become ready by
+  /// timeout. `now`: ROS time.
   TrackArrayPtr next(Stamp now);
 
   void connect(StagePorts& ports) override;

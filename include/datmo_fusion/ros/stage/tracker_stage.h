@@ -17,7 +17,7 @@
 namespace datmo {
 
 struct TrackerStageOptions {
-  FrameOptions frames;          ///< of all stages
+  FrameOptions frames;          ///< shared by all stages
   double transform_wait = 0.3;  ///< s
   bool scan_view = true;
   StreamOptions input;
@@ -26,40 +26,40 @@ struct TrackerStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Tracker between messages: the same one serves the nodelet and the bag runner.
+/// Runs Tracker on messages, for both the nodelet and the bag runner.
 ///
-/// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the split
-/// scan in which they were found, or else from tf; nothing blocks. Bad input is dropped through the
-/// monitor, never thrown. When the clock jumps back all tracks are forgotten.
+/// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the
+/// labeled scan in which they were detected, or else from tf; nothing blocks. Bad input is dropped
+/// and reported to the monitor, never thrown. All tracks are forgotten when the clock jumps back.
 ///
-/// Tracks of a time come out once: of early objects, if there are any, at once, and what the
-/// complete ones of that time add is in the next tracks (EarlyTracker).
+/// Tracks of a stamp are published once: from the early objects, if any, at once; what the complete
+/// objects of that stamp add is included in the next tracks (EarlyTracker).
 class TrackerStage : public Stage {
  public:
   using Options = TrackerStageOptions;
 
-  /// `transforms` and `monitor` must outlive the stage. With a clock the tracker keeps to its time
-  /// budget; without one its output depends on nothing but its input. Throws OptionError.
+  /// `transforms` and `monitor` must outlive the stage. With a clock the tracker respects its time
+  /// budget; without one its output depends on its input alone. Throws OptionError.
   TrackerStage(const Checked<TrackerStageOptions>& options, const TransformBuffer& transforms,
                StageMonitor& monitor, StepClock clock = {});
 
-  /// Where the vehicle was at this scan, and (`scan_view`) what it saw. It may come before or after
-  /// the scan's objects.
+  /// Sets the vehicle's pose at this scan and, with `scan_view`, what the scanner saw. It may be
+  /// received before or after the scan's objects.
   void takeLabeledScan(const LabeledScanMessage& message);
 
-  /// Puts objects into the queue. `now`: ROS time.
+  /// Adds objects to the queue. `now`: ROS time.
   void takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
     enqueue({message, now, false});
   }
 
-  /// The same with those that are not complete: all objects of that time are still to come.
+  /// The same for incomplete objects: the complete ones of that stamp follow.
   void takeEarlyObjects(const ObjectArrayConstPtr& message, Stamp now) {
     enqueue({message, now, true});
   }
 
-  /// The tracks at the stamp of the next objects in the queue whose pose is known; null if there
-  /// are none. Objects that have waited for longer than transform_wait are dropped. To be called
-  /// until null, after each new input and after new transforms.
+  /// Returns the tracks at the stamp of the next objects in the queue with a known pose; null if
+  /// there are none. Objects that have waited longer than transform_wait are dropped. Call it until
+  /// null, after each new input and after new transforms.
   TrackArrayPtr next(Stamp now);
 
   void connect(StagePorts& ports) override;
@@ -83,7 +83,7 @@ class TrackerStage : public Stage {
   Pose2 baseInFixed(const std_msgs::Header& base) const;
   bool knowsPose(const std_msgs::Header& base) const;
 
-  /// Null if there are tracks of that time already. Throws InputError.
+  /// Null if tracks of that stamp were already published. Throws InputError.
   TrackArrayPtr track(const Waiting& waiting);
   TrackArrayPtr messageOf(const TrackList& list);
   void report(const TrackerCounts& before, const TrackerCounts& after);
@@ -97,7 +97,7 @@ class TrackerStage : public Stage {
   ScanViews scan_views_;
   std::deque<Waiting> queue_;
   std::optional<Stamp> published_;    ///< of the last tracks
-  double unpublished_seconds_ = 0.0;  ///< spent since then on what led to no message
+  double unpublished_seconds_ = 0.0;  ///< time spent since then on input that yielded no message
   StagePublisher<TrackArray> tracks_;
 };
 

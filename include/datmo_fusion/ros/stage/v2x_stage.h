@@ -20,25 +20,27 @@
 namespace datmo {
 
 struct V2xStageOptions {
-  FrameOptions frames;  ///< of all stages
+  FrameOptions frames;  ///< shared by all stages
   StreamOptions input;
   int station = 1;
   double max_frame_age = 5.0;     ///< s
   double own_clock_sigma = 0.02;  ///< s
   StationTrackOptions tracks;
-  HostVehicleOptions vehicle;  ///< of all stages
+  HostVehicleOptions vehicle;  ///< shared by all stages
 
   void visit(OptionVisitor& visitor);
   static SharedKeys sharedKeys();
 };
 
-/// StationTracks between messages: what other stations track, as one more source of track_fusion,
-/// and what our own sensors track, for others. Lists that are old, repeated or of a clock that is
-/// wrong are dropped, and nothing passes in or out where the map's pose on the earth is not known.
+/// Runs StationTracks on messages: tracks of other stations as one more source for track_fusion,
+/// and our own sensors' tracks for others. Lists that are old, repeated or have a wrong clock are
+/// dropped, and nothing is received or sent while the map's pose on the earth is unknown.
 ///
-/// Stations send each at its own times: each list that is the newest makes one of all of them.
+/// Stations send asynchronously: each new list triggers an output that merges those of all
+/// stations.
 ///
-/// Ours go out without what other stations said: it would come back to them as a second opinion.
+/// Our tracks are sent without those of other stations, to whom they would return as a second
+/// opinion.
 class V2xStage : public Stage {
  public:
   using Options = V2xStageOptions;
@@ -52,7 +54,7 @@ class V2xStage : public Stage {
   /// Null if the list was dropped. `now`: ROS time.
   TrackArrayPtr takeStation(const StationTracksMessage& message, Stamp now);
 
-  /// Our sensors' tracks, as others take them.
+  /// Returns our sensors' tracks, in the form that other stations use.
   StationTracksMessagePtr takeTracks(const TrackArray& message);
 
   void connect(StagePorts& ports) override;
@@ -77,7 +79,7 @@ class V2xStage : public Stage {
   StationTracks stations_;
   std::optional<EarthFrame> frame_;
   std::deque<StampedPose> poses_;    ///< of the last second
-  std::optional<Stamp> last_stamp_;  ///< that was published
+  std::optional<Stamp> last_stamp_;  ///< last published stamp
   StationTrackCounts reported_;
 };
 

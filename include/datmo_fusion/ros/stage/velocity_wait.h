@@ -20,41 +20,41 @@ struct VelocityWaitOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Brings the objects of a cloud and the points with velocity of its stamp together, whichever come
-/// first. Objects are waited for by nobody but these points: where none have come for
-/// `silent_after`, or ever, they go on at once.
+/// Matches the objects of a cloud with the points with velocity of its stamp, in either order of
+/// arrival. Objects wait only for these points: if none were received for `silent_after`, or ever,
+/// the objects pass at once.
 ///
-/// Objects wait until the points of their stamp come, or those of a later one, which tell that
-/// there are none; `max_wait` at most, by the stamps of later objects and by the clock of the
-/// caller. A bounded number waits, of both. What goes on without is warned of (`no_velocities`),
-/// what comes too late or has no cloud is dropped through the monitor (`late_velocities`,
-/// `velocities_without_cloud`).
+/// Objects wait until the points of their stamp are received, or those of a later one, which means
+/// that there are none; at most `max_wait`, by the stamps of later objects and by the caller's
+/// clock. The numbers of waiting objects and points are bounded. Objects that pass without points
+/// cause a warning (`no_velocities`); points that are too late or have no cloud are dropped and
+/// reported to the monitor (`late_velocities`, `velocities_without_cloud`).
 ///
-/// What comes out depends on stamps, order and the caller's clock alone.
+/// The output depends only on stamps, order and the caller's clock.
 class VelocityWait {
  public:
   /// Objects of one stamp, with the points of that stamp if there are any.
   struct Served {
     ObjectList list;
-    double seconds = 0.0;  ///< as they were added
+    double seconds = 0.0;  ///< as passed to addObjects
     std::optional<std::vector<PointVelocity>> points;
   };
 
   /// `monitor` must outlive it. Throws OptionError.
   VelocityWait(const Checked<VelocityWaitOptions>& options, StageMonitor& monitor);
 
-  /// By rising stamp.
+  /// Adds points; stamps must rise.
   void addPoints(Stamp stamp, std::vector<PointVelocity> points);
 
-  /// By rising stamp. `seconds`: that they took, which comes out again.
+  /// Adds objects; stamps must rise. `seconds`: their processing time, which is returned with them.
   void addObjects(ObjectList list, double seconds);
 
-  /// The oldest objects if they need not wait, by what has come; none if they do, or there are
-  /// none.
+  /// Returns the oldest objects if they need not wait, according to the received data; none if they
+  /// must wait, or there are none.
   std::optional<Served> next();
 
-  /// The same if they have waited for long enough by a clock: `now`, the same at each call or
-  /// later.
+  /// The same, also if they have waited long enough by a clock: `now` must not decrease from call
+  /// to call.
   std::optional<Served> next(Stamp now);
 
   void clear();
@@ -67,8 +67,8 @@ class VelocityWait {
   struct Waiting {
     ObjectList list;
     double seconds = 0.0;
-    bool waits = false;          ///< somebody publishes points
-    std::optional<Stamp> since;  ///< by the caller's clock
+    bool waits = false;          ///< points are being published
+    std::optional<Stamp> since;  ///< on the caller's clock
   };
 
   bool speaks(Stamp now) const;

@@ -8,18 +8,18 @@
 
 namespace datmo {
 
-/// Scans that wait for the fused grid of their stamp. What is left over is dropped through the
+/// Scans that wait for the fused grid of their stamp. Unused ones are dropped and reported to the
 /// monitor.
 class WaitingScans {
  public:
   /// `monitor` must outlive it.
   explicit WaitingScans(StageMonitor& monitor) : monitor_(monitor) {}
 
-  /// By rising stamp; a bounded number waits (`no_fused_grid`).
+  /// Adds a scan; stamps must rise; a bounded number waits (`no_fused_grid`).
   void add(const Scan& scan);
 
-  /// The scan of this stamp; those before it are dropped (`scan_without_grid`). Without one, a scan
-  /// that has no rays, and the monitor is warned (`no_scan_for_grid`).
+  /// Returns the scan of this stamp; those before it are dropped (`scan_without_grid`). If there is
+  /// none, returns a scan without rays, with a warning to the monitor (`no_scan_for_grid`).
   Scan take(Stamp stamp);
 
   void clear() { scans_.clear(); }
@@ -27,7 +27,7 @@ class WaitingScans {
  private:
   StageMonitor& monitor_;
   std::deque<Scan> scans_;
-  Scan last_field_;  ///< of the last scan: mount and field, without rays
+  Scan last_field_;  ///< mount and field of view of the last scan, without rays
 };
 
 }  // namespace datmo
