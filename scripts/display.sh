@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# What shows a drive in rviz, on the display or on a virtual one; sourced after lib.sh.
+# Functions that show a drive in rviz, on the display or on a virtual one; sourced after lib.sh.
 
 started=() # process ids, to be ended with the script
 
-# start NAME COMMAND...: in the background, what it says to a log.
+# start NAME COMMAND...: runs the command in the background, with its output in a log.
 start() {
   local name=$1
   shift
@@ -21,7 +21,7 @@ end_all() {
   started=()
 }
 
-# wait_for SECONDS WHAT COMMAND...: until the command succeeds.
+# wait_for SECONDS WHAT COMMAND...: waits until the command succeeds.
 wait_for() {
   local seconds=$1 what=$2
   shift 2
@@ -49,7 +49,7 @@ rviz_is_drawn() {
   (($(import -window root png:- | identify -format '%k' -) > 50))
 }
 
-# no_result NAME WHAT: ends the script, with the first errors of what a program said.
+# no_result NAME WHAT: ends the script, with the first errors in a program's output.
 no_result() {
   local log=$log_dir/$1.log
   grep -m 3 -i error "$log" >&2 || true

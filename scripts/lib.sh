@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# Shared by the scripts beside this file; sourced, not run.
+# Functions shared by the scripts in this folder; sourced, not run.
 
 repository=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=${DATMO_FUSION_BUILD_DIR:-$repository/build}
-# rosrun looks nowhere below PACKAGE/build: the devel space of the default folder stands beside it.
+# rosrun does not search below PACKAGE/build, so the devel space of the default folder is next to it.
 if [[ $build_dir == "$repository/build" ]]; then devel_dir=$repository/devel; else devel_dir=$build_dir/devel; fi
 program_dir=$devel_dir/lib/datmo_fusion
 log_dir=$build_dir/log
 
-# job_count: compilers at a time, one a core as far as the memory that is free goes: a file that
+# job_count: number of parallel compilers: one per core, limited by the free memory, as a file that
 # includes roscpp and pluginlib takes about 1.2 GB.
 job_count() {
   local cores jobs_in_memory
@@ -22,7 +22,7 @@ job_count() {
 # Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 
-# Ubuntu's ROS lies in a folder of its own, Debian's does not.
+# Ubuntu's ROS is in a folder of its own, Debian's is not.
 if [[ -f /opt/ros/noetic/setup.bash ]]; then
   set +u # catkin's setup.bash reads unset variables
   # shellcheck disable=SC1091
@@ -30,10 +30,10 @@ if [[ -f /opt/ros/noetic/setup.bash ]]; then
   set -u
 fi
 
-# Objects compiled in one checkout serve another, precompiled headers included.
+# Objects compiled in one checkout are reused in another, including precompiled headers.
 export CCACHE_BASEDIR=${repository%/*} CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
-# What the script that sources this file is for, and how it is called, stands at its head.
+# Prints the purpose and usage of the sourcing script, which are in its header.
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
   sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"
   exit
@@ -46,8 +46,8 @@ fail() {
   exit 1
 }
 
-# run_logged NAME COMMAND...: what the command prints goes to a log; only a failure shows its end.
-# Returns the command's own exit code.
+# run_logged NAME COMMAND...: writes the command's output to a log, the end of which is shown only on
+# failure. Returns the command's own exit code.
 run_logged() {
   local name=$1 log started=$SECONDS code=0
   shift
@@ -65,9 +65,9 @@ run_logged() {
   return "$code"
 }
 
-# configure_tree FOLDER CMAKE_OPTION...: as every tree here is. Files of a folder are compiled together,
-# unless the environment says DATMO_FUSION_UNITY=OFF. Debian 12's compiler is known, so its warnings can
-# be errors.
+# configure_tree FOLDER CMAKE_OPTION...: configures a build tree. Files of a folder are compiled
+# together, unless DATMO_FUSION_UNITY=OFF is set in the environment. Debian 12's compiler is known, so
+# its warnings can be errors.
 configure_tree() {
   local options=(-S "$repository" -B "$1" "-DDATMO_FUSION_UNITY=${DATMO_FUSION_UNITY:-ON}")
   if grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
@@ -76,12 +76,12 @@ configure_tree() {
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
-  # Messages for the languages that something here is written in.
+  # Generates messages only for the languages used here.
   ROS_LANG_DISABLE=geneus:genlisp:gennodejs cmake "${options[@]}" "${@:2}"
 }
 
-# The environment of a built tree, for everything that talks ROS. A master of its own on a free port
-# leaves one that runs already alone.
+# Sets the environment of a built tree, for everything that uses ROS. A separate master on a free port
+# does not interfere with one that is already running.
 use_ros() {
   set +u # catkin's setup.bash reads unset variables
   # shellcheck disable=SC1091

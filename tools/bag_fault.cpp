@@ -21,7 +21,7 @@ constexpr std::string_view kBagMagic = "#ROSBAG";
 
 constexpr std::array<std::string_view, 2> kRos2Magics = {"SQLite format 3\0"sv, "\x89MCAP0\r\n"sv};
 
-/// The first bytes of packed files, and with what they are unpacked.
+/// The first bytes of packed files, and the command that unpacks them.
 struct Packing {
   std::string_view magic;
   std::string_view command;
@@ -35,9 +35,9 @@ constexpr std::array<Packing, 6> kPackings = {{{"PK\x03\x04"sv, "unzip"sv},
                                                {"\x28\xb5\x2f\xfd"sv, "unzstd"sv},
                                                {"7z\xbc\xaf\x27\x1c"sv, "7z x"sv}}};
 
-constexpr std::size_t kHeadSize = 16;  ///< bytes: the longest of them
+constexpr std::size_t kHeadSize = 16;  ///< bytes, of the longest one
 
-/// Of the bags in a folder, in a message.
+/// Lists the bags of a folder, for a message.
 constexpr std::size_t kMaxNames = 3;
 
 bool startsWith(std::string_view text, std::string_view head) {
@@ -56,7 +56,7 @@ std::string ros2Fault(const std::string& path) {
 
 std::vector<std::string> namesIn(const std::string& folder) {
   std::vector<std::string> names;
-  std::error_code unreadable;  // then it holds nothing that helps
+  std::error_code unreadable;  // then there is nothing to list
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, unreadable)) {
     names.push_back(entry.path().filename().string());
   }
@@ -115,7 +115,7 @@ std::string contentFault(const std::string& file) {
 }  // namespace
 
 std::string bagFault(const std::string& file) {
-  std::error_code ignored;  // what cannot be asked is not there
+  std::error_code ignored;  // if this cannot be determined, it does not exist
   const fs::file_status status = fs::status(file, ignored);
   if (!fs::exists(status)) {
     return "no such file";

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// What is wrong with a file before it is opened as a bag of ROS 1, and what to do about it; empty:
-/// nothing. tools/datmo_tools/bag_input.py says the same in the same words.
+/// Returns why a file cannot be opened as a ROS 1 bag, and what to do about it; empty if nothing is
+/// wrong. tools/datmo_tools/bag_input.py has the same messages.
 std::string bagFault(const std::string& file);
 
 }  // namespace datmo

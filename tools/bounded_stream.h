@@ -11,8 +11,9 @@
 
 namespace datmo {
 
-/// The bytes of one message, to be decoded by ros::serialization. Its own IStream takes memory for
-/// as many elements as a broken length says, up to 2^32, before it finds that they are not there.
+/// The bytes of one message, to be decoded by ros::serialization. Its own IStream allocates memory
+/// for as many elements as a corrupt length field states, up to 2^32, before it detects that they
+/// are missing.
 class BoundedStream : public ros::serialization::Stream {
  public:
   static constexpr ros::serialization::StreamType stream_type =

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-const std::string kRequires = " requires ";  // as CLI11 says it
+const std::string kRequires = " requires ";  // wording of CLI11
 
 constexpr std::size_t kHelpColumn = 25;  ///< characters, of the options' names
 
@@ -44,7 +44,7 @@ CommandLine::CommandLine(const std::string& program, const std::string& descript
     : CLI::App(description, program), files_(std::move(files)) {
   option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   get_formatter()->label("Usage", "usage");
-  // Of words that are no options the name says enough.
+  // For words that are not options the name is sufficient.
   get_formatter()->label("TEXT", "");
   get_formatter()->label("REQUIRED", "");
   get_formatter()->column_width(kHelpColumn);
@@ -68,7 +68,7 @@ void CommandLine::addAnswer(const std::string& name, const std::function<std::st
 }
 
 void CommandLine::read(std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  std::reverse(words.begin(), words.end());  // the order that CLI11 expects
   try {
     parse(std::move(words));
   } catch (const CLI::CallForHelp&) {

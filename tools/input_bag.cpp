@@ -18,12 +18,12 @@ void openInput(const std::string& file, rosbag::Bag& bag) {
   }
   try {
     bag.open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException&) {  // whatever of the index cannot be read
+  } catch (const rosbag::BagException&) {  // any part of the index cannot be read
     throw std::runtime_error(file +
                              ": has no index: it was cut short, or is still being written;"
                              " 'rosbag reindex " +
                              file + "' saves what is there");
-  } catch (const std::exception& error) {  // of rosbag, and of ros::Time for a broken stamp
+  } catch (const std::exception& error) {  // from rosbag, and from ros::Time for an invalid stamp
     throw std::runtime_error(file + ": cannot be read as a bag (" + error.what() + ")");
   }
   if (rosbag::View(bag).size() == 0) {

@@ -16,8 +16,8 @@
 
 namespace datmo {
 
-/// Opens a bag for reading. Throws std::runtime_error that says what is wrong with which file, and
-/// what to do: as bagFault(), or cut short, or without messages.
+/// Opens a bag for reading. Throws std::runtime_error that names the file, what is wrong with it,
+/// and what to do: as bagFault(), or if it is truncated or has no messages.
 void openInput(const std::string& file, rosbag::Bag& bag);
 
 /// The topics of a bag and their types, "topic (type)", sorted.
@@ -25,15 +25,15 @@ std::vector<std::string> topicsOf(const rosbag::Bag& bag);
 
 bool holdsTopic(const rosbag::Bag& bag, const std::string& topic);
 
-/// Throws std::runtime_error that names the file, says what is `missing` in it, and lists what it
-/// holds.
+/// Throws std::runtime_error that names the file and what is `missing` in it, and lists its topics.
 [[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing);
 
-/// The bytes of a message as they stand in the bag.
+/// The bytes of a message as recorded in the bag.
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message);
 
-/// The message itself. Throws std::runtime_error that names topic and types if it is none of
-/// `Message`, InputError (`undecodable_message`) that names topic and time if its bytes are broken.
+/// Decodes the message. Throws std::runtime_error that names topic and types if it is not of type
+/// `Message`, InputError (`undecodable_message`) that names topic and time if its bytes are
+/// corrupt.
 template <typename Message>
 boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
   if (!message.isType<Message>()) {

@@ -3,11 +3,11 @@
 
 namespace datmo {
 
-/// From now on SIGINT and SIGTERM (Ctrl-C, kill) do not end the program, but are noted, so that it
-/// can leave by itself and take with it what is half-written. Forgets those noted before.
+/// From now on SIGINT and SIGTERM (Ctrl-C, kill) do not end the program but are recorded, so that
+/// it can exit by itself and remove incomplete output. Clears signals recorded before.
 void noteInterruptions();
 
-/// True once one has been noted.
+/// True once a signal has been recorded.
 bool interrupted();
 
 }  // namespace datmo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the parameters of all nodelets as Markdown, as they stand in doc/parameters.md.
+// Prints the parameters of all nodelets as Markdown (doc/parameters.md).
 #include <cstdlib>
 #include <iostream>
 

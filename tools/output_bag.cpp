@@ -12,7 +12,7 @@
 namespace datmo {
 
 bool isSameFile(const std::string& a, const std::string& b) {
-  std::error_code not_there;  // then they are not the same, unless they are spelled the same
+  std::error_code not_there;  // then they are different files unless the names are equal
   return a == b || std::filesystem::equivalent(a, b, not_there);
 }
 
@@ -21,8 +21,8 @@ void OutputBag::Closing::operator()(rosbag::Bag* bag) const {
     bag->close();
     delete bag;
   } catch (const std::exception&) {
-    // The disk is full: rosbag's destructor would try it again, and end the program. It is held
-    // here, as what nobody refers to is reported as a leak.
+    // The disk is full: rosbag's destructor would try again and end the program. The bag is kept
+    // here, because unreferenced memory would be reported as a leak.
     [[maybe_unused]] static rosbag::Bag* unclosed = nullptr;
     unclosed = bag;
   }
@@ -42,8 +42,7 @@ OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compressio
 }
 
 OutputBag::~OutputBag() {
-  // A bag that is still open closes into a file without a name.
-  // After finish() there is none.
+  // A bag that is still open is closed into a file without a name. After finish() there is none.
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
 }

@@ -13,11 +13,11 @@
 
 namespace datmo {
 
-/// Whether both names lead to one file, which writing the one would then take from the other.
+/// Whether both names refer to the same file, which writing would overwrite.
 bool isSameFile(const std::string& a, const std::string& b);
 
-/// A bag that appears under its name when it is complete, and not at all otherwise: it is written
-/// beside it as `<file>.part`, which goes away unless finish() is reached.
+/// A bag that appears under its name only when it is complete: it is written next to it as
+/// `<file>.part`, which is removed unless finish() is reached.
 class OutputBag {
  public:
   /// Throws std::runtime_error that names the file if it cannot be written: a folder, no rights.
@@ -27,8 +27,8 @@ class OutputBag {
   OutputBag(const OutputBag&) = delete;
   OutputBag& operator=(const OutputBag&) = delete;
 
-  /// Stamps before the first that a bag can hold (ros::TIME_MIN) are raised to it. This and the
-  /// following throw std::runtime_error that names the file when the disk is full.
+  /// Stamps before the earliest that a bag can hold (ros::TIME_MIN) are raised to it. This and the
+  /// following functions throw std::runtime_error that names the file if the disk is full.
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
     guarded([&] { bag_->write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message); });
@@ -45,14 +45,14 @@ class OutputBag {
     guarded([&] { bag_->write(topic, time, message, header); });
   }
 
-  /// A message as it stands in another bag, latched connection and all.
+  /// Copies a message of another bag unchanged, including its latched connection.
   void copy(const rosbag::MessageInstance& message);
 
   /// Closes the bag and gives it its name.
   void finish();
 
  private:
-  /// Deletes a bag if it can be closed: on a full disk it cannot.
+  /// Deletes a bag if it can be closed, which fails on a full disk.
   struct Closing {
     void operator()(rosbag::Bag* bag) const;
   };

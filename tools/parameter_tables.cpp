@@ -34,7 +34,7 @@ struct Section {
   std::string expert_table;
 };
 
-/// What the sections of all nodelets say is listed there alone.
+/// The sections of all nodelets are listed only there.
 template <typename Options>
 Section section(const std::string& nodelets) {
   std::set<std::string> shared;
@@ -75,7 +75,7 @@ std::vector<Section> commonSections() {
           section<VehicleOptions>("`vehicle`, of all nodelets")};
 }
 
-/// Of each stage that has one, in the order of the graph; those of one type share theirs.
+/// Of each stage that has one, in the order of the graph; stages of the same type share it.
 std::vector<Section> stageSections() {
   std::map<std::string, Section> of_type;
   forEachStage([&of_type](auto tag, const std::string& type) {
@@ -102,7 +102,7 @@ std::vector<Section> stageSections() {
   return sections;
 }
 
-/// Of nodelets that are no stages.
+/// Of nodelets that are not stages.
 std::vector<Section> otherSections() {
   return {section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),

@@ -7,17 +7,17 @@
 
 namespace datmo {
 
-/// One line on a terminal that shows how far a job is, drawn over again a few times a second.
+/// A line on a terminal that shows the progress of a job, redrawn a few times a second.
 class ProgressBar {
  public:
-  /// `out` null: draws nothing.
+  /// If `out` is null, nothing is drawn.
   explicit ProgressBar(std::ostream* out);
-  /// Clears the line, so that what is printed next, be it an error, has it for itself.
+  /// Clears the line, so that the next output, such as an error, starts on an empty line.
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `share` of the job that is done, 0 to 1; `note` stands behind the bar.
+  /// `share` of the job that is done, 0 to 1; `note` is shown after the bar.
   void show(double share, const std::string& note);
 
  private:

@@ -35,7 +35,7 @@ void flatten(const std::string& prefix, const YAML::Node& section, OptionValues&
   }
 }
 
-/// yaml-cpp keeps all of several equal keys, and finds the first.
+/// yaml-cpp keeps all duplicates of a key, and returns the first.
 void checkKeysOnce(const std::string& file, const YAML::Node& node) {
   std::set<std::string> names;
   for (const auto& entry : node) {

@@ -70,13 +70,13 @@ class CloudConversion {
   }
 
  private:
-  /// A message with its frames as the stages take them.
+  /// A message with its frames as the stages expect them.
   template <typename Message>
   boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
     return withPlainFrames<Message>(message.getTopic(), read<Message>(message), monitor_);
   }
 
-  /// All of them before the first cloud, wherever they stand in the bag.
+  /// All of them before the first cloud, regardless of their position in the bag.
   void takeMounts() {
     for (const auto& message : rosbag::View(input_, rosbag::TopicQuery(kStaticTransforms))) {
       transforms_.addStatic(*plain<tf2_msgs::TFMessage>(message));

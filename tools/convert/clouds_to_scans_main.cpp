@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds of a 3D lidar in a bag -> planar scans: see clouds_to_scans.h.
+// Converts clouds of a 3D lidar in a bag to planar scans: see clouds_to_scans.h.
 #include <cstdlib>
 #include <iostream>
 

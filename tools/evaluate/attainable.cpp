@@ -14,7 +14,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// Standard deviations of the range that a beam may end out of its object.
+/// Number of standard deviations of the range by which a beam may end outside its object.
 constexpr double kTolerance = 3.0;
 
 double logOdds(double probability) { return std::log(probability / (1.0 - probability)); }
@@ -63,7 +63,7 @@ std::vector<Stamp> stampsOf(const std::vector<Scan>& scans) {
   return stamps;
 }
 
-/// s; 0 for less than two scans.
+/// s; 0 for fewer than two scans.
 double medianPeriod(const std::vector<Stamp>& stamps) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < stamps.size(); ++i) {

@@ -8,8 +8,8 @@
 
 namespace datmo::evaluation {
 
-/// Median and 90 % (nearest rank) of the delays beside the attainable ones, over all objects and by
-/// class. `delays`: of the objects, in their order.
+/// Median and 90 % quantile (nearest rank) of the delays relative to the attainable ones, over all
+/// objects and by class. `delays`: of the objects, in their order.
 nlohmann::json delaysJson(const std::vector<ObjectScore>& objects,
                           const std::vector<ComparedDelay>& delays);
 

@@ -6,7 +6,7 @@
 
 namespace datmo::evaluation {
 
-/// The observer that delays are compared to; unit, range, source of each in visit().
+/// The observer to which delays are compared; unit, range and source of each option in visit().
 struct AttainableOptions {
   double range_noise = 0.2;                                                      ///< m
   double required_probability = MotionLikelihoodOptions().required_probability;  ///< 1

@@ -8,17 +8,18 @@
 
 namespace datmo::evaluation {
 
-// Bags are checked whole while they are read, so that a report is of all or not made at all.
+// Bags are checked completely while they are read, so that a report covers everything or is not
+// made at all.
 //
-// Both throw std::runtime_error that names file, topic and stamp, and says what was expected: a
-// file that is no bag or cut short, a topic that is missing or of another type, a stamp of zero or
-// twice on a topic, an id twice in a message, a number that is not finite, frames that do not fit
-// together; and after an interruption (interruption.h).
+// Both throw std::runtime_error that names file, topic and stamp, and what was expected: for a file
+// that is not a bag or is truncated, a topic that is missing or of another type, a zero or repeated
+// stamp on a topic, a repeated id in a message, a number that is not finite, inconsistent frames;
+// and after an interruption (interruption.h).
 
-/// What a run of the stack left. Poses are needed unless ScoreOptions::align is none.
+/// Loads the results of a run of the stack. Poses are required unless ScoreOptions::align is none.
 RecordedRun loadRun(const std::string& file, const ScoreOptions& options);
 
-/// The ground truth. It must hold objects: one at least.
+/// Loads the ground truth, which must contain at least one object.
 RecordedTruth loadTruth(const std::string& file, const ScoreOptions& options);
 
 }  // namespace datmo::evaluation

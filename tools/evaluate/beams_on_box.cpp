@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Where a line crosses a box, as distances from its start, m.
+/// Where a line intersects a box, as distances from its start, m.
 struct Crossing {
   double entry = -kUnlimited;
   double exit = kUnlimited;
@@ -43,7 +43,7 @@ Crossing crossing(const Point2& start, const Point2& direction, const Point2& ha
 
 double bearingOf(const Point2& vector) { return std::atan2(vector.y(), vector.x()); }
 
-/// Bearings of the box's ends about the scanner, from that of its center, and how near it is.
+/// Bearings of the box's ends about the scanner, relative to that of its center, and its distance.
 struct Silhouette {
   double center = 0.0;
   double first = kUnlimited;
@@ -63,7 +63,7 @@ struct Silhouette {
   }
 };
 
-/// Bearings, from that of the box's center, that limit how far it can turn about the scanner.
+/// Bearings, relative to that of the box's center, that limit its rotation about the scanner.
 class TurnLimits {
  public:
   TurnLimits(const Silhouette& silhouette, double tolerance)

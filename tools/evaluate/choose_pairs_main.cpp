@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The matcher for programs that have candidates of their own: see pair_choice.h.
+// The matcher for programs with their own candidates: see pair_choice.h.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

@@ -13,9 +13,9 @@ namespace datmo::evaluation {
 struct ClassShare {
   std::size_t frames = 0;  ///< of matched tracks, whose object's true class is known
   std::size_t right = 0;   ///< of them, those in which the track's class is that
-  std::size_t silent = 0;  ///< of them, those in which the track is of no known class
+  std::size_t silent = 0;  ///< of them, those in which the track's class is unknown
 
-  /// Of all its frames, 0 to 1; none: no frame.
+  /// Share of all its frames, 0 to 1; none: no frame.
   std::optional<double> share() const;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostlyTracked = 0.8;  // Milan et al. 2016
 constexpr double kMostlyLost = 0.2;     // likewise
 
-/// Goes with each object through the frames that it is required in.
+/// Follows each object through the frames in which it is required.
 class EventCounter {
  public:
   explicit EventCounter(const MatchOptions& options) : options_(options) {}

@@ -10,7 +10,7 @@
 
 namespace datmo::evaluation {
 
-/// An object is matched to another track than last time.
+/// An object is matched to a different track than last time.
 struct IdSwitch {
   std::size_t frame = 0;
   std::uint32_t truth = 0;  ///< ids
@@ -25,20 +25,20 @@ struct ClearMot {
   std::size_t matches = 0;          ///< of them, those with a track
   std::size_t misses = 0;           ///< of them, those without
   std::size_t false_positives = 0;  ///< tracks of no object, summed over the frames
-  std::vector<IdSwitch> switches;   ///< by rising frame
+  std::vector<IdSwitch> switches;   ///< in order of frames
   std::size_t fragmentations = 0;   ///< an object is missed, and later matched again
   /// 1 - (misses + false positives + id switches) / required, at most 1; none: nothing required.
   std::optional<double> mota;
   /// Mean distance of the matches as the gate measures it, m; none: no match.
   std::optional<double> motp;
   /// Share of the objects that are matched in at least 80 %, and in less than 20 %, of the frames
-  /// they are required in (Milan et al., MOT16, 2016); none: nothing required.
+  /// in which they are required (Milan et al., MOT16, 2016); none: nothing required.
   std::optional<double> mostly_tracked;
   std::optional<double> mostly_lost;
 };
 
-/// `matching` is of these frames and options. Frames in which an object is optional are no part of
-/// its life: they neither end a match nor fragment it.
+/// `matching` is of these frames and options. Frames in which an object is optional are ignored:
+/// they neither end a match nor fragment it.
 ClearMot scoreClearMot(const Frames& frames, const Matching& matching, const MatchOptions& options);
 
 }  // namespace datmo::evaluation

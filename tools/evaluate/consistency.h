@@ -10,14 +10,15 @@
 
 namespace datmo::evaluation {
 
-/// Are the covariances honest? The normalized estimation error squared, e^T P^-1 e, of an honest
-/// filter is chi-square distributed with the error's dimension as degrees of freedom (Bar-Shalom,
-/// Li and Kirubarajan, Estimation with Applications to Tracking and Navigation, 2001, section
-/// 5.4). Above the bounds the filter is too sure of itself, below them not sure enough.
+/// Consistency of the covariances. The normalized estimation error squared, e^T P^-1 e, of a
+/// consistent filter is chi-square distributed with the error's dimension as degrees of freedom
+/// (Bar-Shalom, Li and Kirubarajan, Estimation with Applications to Tracking and Navigation, 2001,
+/// section 5.4). Above the bounds the filter is overconfident, below them it is conservative.
 struct Consistency {
   std::optional<double> mean_nees;  ///< none: no sample
-  /// The mean of an honest filter is between them with a probability of 95 %, if its samples are
-  /// independent. Those of one track are not quite: the true interval is somewhat wider.
+  /// The mean of a consistent filter is between them with a probability of 95 %, if its samples are
+  /// independent. Those of one track are not entirely independent: the true interval is somewhat
+  /// wider.
   std::optional<double> lower;
   std::optional<double> upper;
   std::optional<double> inside_share;  ///< samples below the 95 % quantile of a single one
@@ -45,7 +46,7 @@ std::optional<double> normalizedErrorSquared(
   return usable ? std::optional<double>(result) : std::nullopt;
 }
 
-/// Collects the errors of one quantity with so many components.
+/// Collects the errors of one quantity with this number of components.
 class NeesSum {
  public:
   explicit NeesSum(int degrees_of_freedom);

@@ -13,10 +13,10 @@
 
 namespace datmo::evaluation {
 
-/// Does a true object have to be found?
+/// Whether a true object has to be found.
 enum class Duty : std::uint8_t {
-  kRequired,  ///< it moves, is seen, and lies in the region that is scored
-  kOptional,  ///< it is out of these limits: a track on it is neither right nor wrong
+  kRequired,  ///< it moves, is visible, and is in the scored region
+  kOptional,  ///< it is outside these limits: a track on it is neither right nor wrong
 };
 
 /// One true object at one stamp; map frame of the truth.
@@ -28,7 +28,7 @@ struct TrueState {
   Duty duty = Duty::kRequired;
 };
 
-/// One published track at one stamp, brought into the map frame of the truth.
+/// One published track at one stamp, transformed to the map frame of the truth.
 struct TrackState {
   std::uint32_t id = 0;
   ObjectClass classification = ObjectClass::kUnknown;
@@ -45,7 +45,7 @@ struct Frame {
   std::vector<TrackState> tracks;
 };
 
-/// A run, by rising stamp. No id twice in one frame.
+/// A run, in order of stamp. No id occurs twice in one frame.
 using Frames = std::vector<Frame>;
 
 }  // namespace datmo::evaluation

@@ -7,7 +7,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// A position in the map where something static was last seen to move.
+/// A position in the map where something static was last reported as moving.
 struct Episode {
   Stamp last;
   Point2 position;

@@ -15,15 +15,15 @@ namespace datmo::evaluation {
 struct FalseDetections {
   std::size_t frames = 0;      ///< measurements that were scored
   std::size_t detections = 0;  ///< false ones, summed over the frames
-  std::size_t episodes = 0;    ///< the same, each position counted once for as long as it lasts
+  std::size_t episodes = 0;    ///< the same, but each position counted once for as long as it lasts
 
   /// Mean number of false ones in a frame; none: no frame.
   std::optional<double> perFrame() const;
 };
 
-/// A detection is false if it lies in the region and further than the gate from the box (or the
-/// center, as MatchOptions say) of every object that moves or has moved. It goes on as long as the
-/// next one comes within the gate of it and within ScoreOptions::detection_gap.
+/// A detection is false if it is in the region and farther than the gate from the box (or the
+/// center, according to MatchOptions) of every object that moves or has moved. An episode continues
+/// as long as the next one is within the gate of it and within ScoreOptions::detection_gap.
 FalseDetections countFalseDetections(const std::vector<RecordedDetections>& recorded,
                                      const TrueScene& scene, const ScoreOptions& options);
 

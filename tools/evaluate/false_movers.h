@@ -8,7 +8,7 @@
 
 namespace datmo::evaluation {
 
-/// Tracks that say that something moves where nothing is.
+/// Moving tracks where there is no object.
 struct FalseMovers {
   std::size_t frames = 0;  ///< that were scored
   std::size_t tracks = 0;  ///< false ones, summed over the frames

@@ -12,7 +12,7 @@ namespace {
 
 bool isBefore(const Frame& a, const Frame& b) { return a.stamp < b.stamp; }
 
-/// The track, seen from the map that `run_in_truth` leads to.
+/// The track, transformed to the map of the truth by `run_in_truth`.
 TrackState moved(const TrackState& track, const Pose2& run_in_truth) {
   TrackState result = track;
   result.box.center = run_in_truth * track.box.center;
@@ -24,7 +24,7 @@ TrackState moved(const TrackState& track, const Pose2& run_in_truth) {
   return result;
 }
 
-/// Lays the map of the run on that of the truth.
+/// Aligns the map of the run with that of the truth.
 class MapLayer {
  public:
   MapLayer(const Trajectory& estimated, const std::optional<Alignment>& alignment,
@@ -48,7 +48,7 @@ class MapLayer {
   TrackAlignment kind_;
 };
 
-/// Whether a track that is not in the region counts all the same: it is on an object that does.
+/// Whether a track outside the region counts nevertheless, because it is on an object that counts.
 bool isOnRequired(const TrackState& track, const std::vector<TrueState>& objects,
                   const MatchOptions& options) {
   return std::any_of(objects.begin(), objects.end(), [&](const TrueState& object) {
@@ -73,7 +73,7 @@ std::vector<TrackState> tracksThatCount(const RecordedTracks& recorded, const Po
   return tracks;
 }
 
-/// Whether one of the frames, by rising stamp, is within `seconds` of the stamp.
+/// Whether one of the frames, in order of stamp, is within `seconds` of the stamp.
 bool isNear(const Frames& frames, Stamp stamp, double seconds) {
   const auto after = std::lower_bound(frames.begin(), frames.end(), Frame{stamp, {}, {}}, isBefore);
   return (after != frames.end() && secondsBetween(stamp, after->stamp) <= seconds) ||
@@ -93,7 +93,7 @@ Frames silentFrames(const Frames& frames, const TrueScene& scene, double max_sil
   return silent;
 }
 
-/// How long each object has to be found in all, s.
+/// Total time for which each object has to be found, s.
 std::map<std::uint32_t, double> requiredTimes(const Frames& frames, double max_gap) {
   std::map<std::uint32_t, double> times;
   for (std::size_t i = 1; i < frames.size(); ++i) {

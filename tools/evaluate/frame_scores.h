@@ -9,7 +9,7 @@
 
 namespace datmo::evaluation {
 
-/// How one frame went, for plots over time.
+/// Scores of one frame, for plots over time.
 struct FrameScore {
   Stamp stamp;
   std::size_t required = 0;              ///< true objects

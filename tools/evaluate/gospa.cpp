@@ -45,7 +45,7 @@ Gospa gospa(const std::vector<Point2>& truths, const std::vector<Point2>& tracks
   std::vector<PairGain> pairs;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     for (std::size_t j = 0; j < tracks.size(); ++j) {
-      // What is saved against one miss and one false track.
+      // What a pair saves compared with one miss and one false track.
       const double gain = square_of_cutoff - (truths[i] - tracks[j]).squaredNorm();
       if (gain > 0.0) {
         pairs.push_back({i, j, gain});

@@ -16,8 +16,8 @@ struct GospaOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Distance between two sets of points, and what it is made of; all in m. The squares of the parts
-/// sum up to the square of the total.
+/// Distance between two sets of points, and its parts; all in m. The squares of the parts add up to
+/// the square of the total.
 struct Gospa {
   double total = 0.0;
   double localization = 0.0;  ///< of the pairs nearer than the cutoff
@@ -27,17 +27,18 @@ struct Gospa {
 
 /// Generalized optimal sub-pattern assignment metric with p = 2 and alpha = 2 (Rahmathullah,
 /// García-Fernández and Svensson, Generalized optimal sub-pattern assignment metric, FUSION 2017)
-/// over the plane's points, in m.
+/// for points in the plane, in m.
 Gospa gospa(const std::vector<Point2>& truths, const std::vector<Point2>& tracks,
             const GospaOptions& options);
 
 /// GOSPA of each frame, over the centers of the required truths and of the tracks that are not
-/// neutral. Centers, whatever the gate measures: the distance to a box is no metric.
+/// neutral. Centers are used regardless of what the gate measures, because the distance to a box is
+/// not a metric.
 std::vector<Gospa> gospaOfFrames(const Frames& frames, const Matching& matching,
                                  const GospaOptions& options);
 
-/// Mean over the frames, each part by itself; none: no frame. The means do not sum up as the parts
-/// of one frame do.
+/// Mean over the frames, separately for each part; none: no frame. Unlike the parts of one frame,
+/// the means do not add up.
 std::optional<Gospa> meanGospa(const std::vector<Gospa>& frames);
 
 }  // namespace datmo::evaluation

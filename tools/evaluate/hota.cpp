@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kAlphas = 19;  // Luiten et al. 2021
 constexpr double kAlphaStep = 0.05;
-// Similarities are differences of rounded numbers; one that equals alpha must count.
+// Similarities are differences of rounded numbers; one that equals alpha must be accepted.
 constexpr double kRounding = 1e-9;
-// Weights of matching, association and localization in the choice of matches (Luiten et al.
-// 2021), so far apart that what comes first decides.
+// Weights of matching, association and localization in the choice of matches (Luiten et al. 2021),
+// so far apart that the order is lexicographic.
 constexpr double kMatchGain = 1e4;
 constexpr double kLocalizationGain = 1e-6;
 
-/// What the matches of one alpha amount to.
+/// Sums over the matches of one alpha.
 struct Level {
   double matches = 0.0;
   double association = 0.0;  // sum of A(c) over the matches
@@ -49,7 +49,7 @@ class LevelScorer {
   double similarity(const ScoredPair& pair) const { return 1.0 - pair.candidate.distance / gate_; }
   bool mayMatch(const ScoredPair& pair) const { return similarity(pair) >= alpha_ - kRounding; }
 
-  /// Frames in which each encounter could be matched, were there no others.
+  /// Number of frames in which each encounter could be matched if there were no others.
   std::vector<double> potentialMatches() const {
     std::vector<double> result(run_.encounters.size(), 0.0);
     for (const std::vector<ScoredPair>& frame : run_.frames) {

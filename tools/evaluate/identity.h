@@ -15,8 +15,8 @@ struct IdentityScores {
   std::optional<double> idr;   ///< recall, 0 to 1; none: no objects
 };
 
-/// Each object gets at most one track for the whole run, and each track at most one object, so that
-/// most frames agree: both are there, within the gate of each other.
+/// Each object is assigned at most one track for the whole run, and each track at most one object,
+/// such that the number of frames that agree is largest: both exist, within the gate of each other.
 IdentityScores scoreIdentity(const ScoredRun& run);
 
 }  // namespace datmo::evaluation

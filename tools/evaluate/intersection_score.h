@@ -9,15 +9,15 @@
 
 namespace datmo::evaluation {
 
-/// How the detection of intersections went (thesis table 3.5).
+/// Score of the detection of intersections (thesis table 3.5).
 struct IntersectionScore {
   std::size_t intersections = 0;     ///< true ones that the vehicle was at
   std::optional<std::size_t> found;  ///< reported at some time of it; none: the run reports nothing
-  std::optional<std::size_t> wrong;  ///< reported, and at no time of it true
+  std::optional<std::size_t> wrong;  ///< reported, but not true at any time of the report
 };
 
-/// An intersection lasts from the first to the last stamp at which the vehicle is at it; stretches
-/// with at most `merge_gap` (s) between them are one. `reported` none: the run does not look for
+/// An intersection lasts from the first to the last stamp at which the vehicle is at it; intervals
+/// with at most `merge_gap` (s) between them are merged. `reported` none: the run does not look for
 /// intersections.
 IntersectionScore scoreIntersections(
     const std::vector<RecordedIntersection>& truth,

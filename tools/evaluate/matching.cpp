@@ -11,7 +11,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// Matches frame after frame, and remembers who was last seen with whom.
+/// Matches frame after frame, and stores the last match of each object and track.
 class Matcher {
  public:
   explicit Matcher(const MatchOptions& options) : options_(options) {}
@@ -47,7 +47,7 @@ class Matcher {
   }
 
   void assignRest(const Frame& frame, Duty duty, FrameMatching& result) {
-    // Worth more than any sum of distances: one more match always pays.
+    // Greater than any sum of distances: one more match is always better.
     const double match_gain = options_.gate * static_cast<double>(frame.truths.size() + 1);
     std::vector<Candidate> open;
     std::vector<PairGain> gains;
@@ -79,7 +79,7 @@ class Matcher {
            last_truth != truth_of_track_.end() && last_truth->second == truth;
   }
 
-  /// A second track on an optional truth is as little wrong as the first.
+  /// A second track on an optional truth is no more wrong than the first.
   static void spareTracksOfOptional(const Frame& frame, FrameMatching& result) {
     for (const Candidate& candidate : result.candidates) {
       if (frame.truths[candidate.truth].duty == Duty::kOptional &&
@@ -126,7 +126,7 @@ std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& opti
     const double reach = options.gate + 0.5 * std::hypot(truth.box.length, truth.box.width);
     for (std::size_t j = 0; j < frame.tracks.size(); ++j) {
       const TrackState& track = frame.tracks[j];
-      // Spares the distance to the box of nearly all pairs.
+      // Avoids computing the distance to the box for nearly all pairs.
       if ((track.box.center.position() - truth.box.center.position()).squaredNorm() >
           reach * reach) {
         continue;

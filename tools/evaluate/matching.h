@@ -13,10 +13,10 @@
 
 namespace datmo::evaluation {
 
-/// From a track's center to what of the true object.
+/// To which part of the true object the distance from a track's center is measured.
 enum class MatchDistance { kToBox, kToCenter };
 
-/// When a track may be of a true object.
+/// When a track may belong to a true object.
 struct MatchOptions {
   double gate = 2.0;  ///< m
   MatchDistance distance = MatchDistance::kToBox;
@@ -24,7 +24,7 @@ struct MatchOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A track and a true object of one frame, by their indices in it, that are near enough.
+/// A track and a true object of one frame, by their indices in it, that are close enough.
 struct Candidate {
   std::size_t truth = 0;
   std::size_t track = 0;
@@ -35,17 +35,17 @@ struct Candidate {
 /// its box (0 inside), or to its center.
 double matchDistance(const TrueState& truth, const TrackState& track, const MatchOptions& options);
 
-/// All pairs of a frame within the gate, by rising truth, then rising track.
+/// All pairs of a frame within the gate, ordered by truth, then by track.
 std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& options);
 
 /// What a track is at one stamp.
 enum class Verdict : std::uint8_t {
   kHit,      ///< matched to a required truth
-  kNeutral,  ///< within the gate of an optional truth, and no hit: left out of every metric
+  kNeutral,  ///< not a hit, but within the gate of an optional truth: excluded from all metrics
   kFalse,    ///< neither
 };
 
-/// Who is whom in one frame.
+/// The assignment of tracks to true objects in one frame.
 struct FrameMatching {
   std::vector<Candidate> candidates;  ///< all pairs within the gate
   std::vector<int> track_of_truth;    ///< index in Frame::tracks, kUnassigned: none
@@ -58,10 +58,10 @@ struct FrameMatching {
 using Matching = std::vector<FrameMatching>;
 
 /// Gives each true object at most one track, and each track at most one true object, within the
-/// gate (mapping procedure of Bernardin and Stiefelhagen 2008). In each frame first come the pairs
-/// of a truth and a track that were last matched to each other (over a gap as well); of what is
-/// left, as many pairs as possible, and of these the least sum of distances. Equal sums: the
-/// earlier track. Required truths take their tracks before optional ones do.
+/// gate (mapping procedure of Bernardin and Stiefelhagen 2008). In each frame, pairs of a truth and
+/// a track that were last matched to each other are kept first (also over a gap); of the rest, as
+/// many pairs as possible are matched, with the smallest sum of distances. If sums are equal, the
+/// earlier track is used. Required truths are matched before optional ones.
 Matching matchFrames(const Frames& frames, const MatchOptions& options);
 
 /// Calls `use(truth, track)` for each match of a required truth in a frame.

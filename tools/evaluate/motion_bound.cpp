@@ -18,7 +18,7 @@ void MotionBound::addInterval(const Point2& displacement, const Point2& axis, do
 }
 
 double MotionBound::logRatio() const {
-  // Rank-revealing: along a side of which no end is seen nothing is known of the position.
+  // Rank-revealing: the position along a side of which no end is visible is not observed.
   const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix2d> information(information_);
   const Point2 standing = information.solve(weighted_);
   return std::max(0.0, 0.5 * (squared_ - weighted_.dot(standing)));

@@ -11,7 +11,7 @@
 
 namespace datmo::evaluation {
 
-/// How one true object fared, over the frames that it is required in.
+/// Scores of one true object, over the frames in which it is required.
 struct ObjectScore {
   std::uint32_t id = 0;
   ObjectClass classification = ObjectClass::kUnknown;  ///< in its first frame
@@ -20,7 +20,8 @@ struct ObjectScore {
   std::size_t required_frames = 0;                     ///< at least 1
   std::size_t tracked_frames = 0;
   std::optional<double> delay;           ///< from the first frame to the first match, s
-  std::vector<std::uint32_t> track_ids;  ///< that it was matched to, by first match, each once
+  std::vector<std::uint32_t> track_ids;  ///< of the tracks that it was matched to, in order of
+                                         ///< first match, each once
   StateErrors errors;
 
   bool found() const { return tracked_frames > 0; }
@@ -28,7 +29,7 @@ struct ObjectScore {
   double completeness() const;
 };
 
-/// How long objects were there before they were tracked, over those that were found; none: nobody.
+/// Delays until objects were tracked, over those that were found; none: no object.
 struct DelayScore {
   std::optional<double> mean;    ///< s
   std::optional<double> median;  ///< s, nearest rank

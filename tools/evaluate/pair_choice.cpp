@@ -9,7 +9,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// How many of the pairs have each row (or column).
+/// The number of pairs of each row (or column).
 std::vector<std::size_t> counts(const std::vector<PairGain>& pairs, std::size_t PairGain::*side) {
   std::size_t size = 0;
   for (const PairGain& pair : pairs) {
@@ -22,7 +22,7 @@ std::vector<std::size_t> counts(const std::vector<PairGain>& pairs, std::size_t 
   return result;
 }
 
-/// Consecutive numbers from 0 on for the rows (or columns) that some of the chosen pairs have.
+/// Consecutive numbers from 0 on for the rows (or columns) of the chosen pairs.
 class Numbering {
  public:
   explicit Numbering(std::size_t size) : numbers_(size, kUnassigned) {}

@@ -9,11 +9,11 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// m: within a maneuver, and along a street; the errors of the one are the matcher's, those of the
-/// other the drift.
+/// m: within a maneuver, and along a street; the errors of the former are the matcher's, those of
+/// the latter the drift.
 constexpr std::array<double, 2> kRelationDistances = {10.0, 70.0};
 
-/// One estimated pose in the map of the truth, beside the true one.
+/// One estimated pose in the map of the truth, with the true one.
 struct PosePair {
   Stamp stamp;
   Pose2 estimated;
@@ -92,7 +92,7 @@ RelativePoseError relativeError(const PosePairs& pairs, double distance) {
   return result;
 }
 
-/// Without the pose at which run and truth are aligned, where its covariance is zero: a run's map
+/// Excludes the pose at which run and truth are aligned if its covariance is zero: a run's map
 /// begins there, so that it is known exactly, by definition.
 Consistency consistencyOf(const PosePairs& pairs) {
   NeesSum sum(3);

@@ -10,7 +10,7 @@
 
 namespace datmo::evaluation {
 
-/// Mean error of the motion between poses that lie this far apart on the true path.
+/// Mean error of the motion between poses that are this far apart on the true path.
 struct RelativePoseError {
   double distance = 0.0;              ///< m
   std::optional<double> translation;  ///< m; none: the path is shorter
@@ -18,8 +18,8 @@ struct RelativePoseError {
   std::size_t pairs = 0;
 };
 
-/// How good the estimated pose of the vehicle is; the maps are laid on each other at the first
-/// pose. Scored is every estimated pose whose truth is known.
+/// Accuracy of the estimated pose of the vehicle; the maps are aligned at the first pose. Every
+/// estimated pose whose truth is known is scored.
 struct PoseScore {
   double end_error = 0.0;           ///< m, at the last pose
   double end_heading_error = 0.0;   ///< rad, 0 to pi
@@ -32,14 +32,14 @@ struct PoseScore {
   Consistency consistency;  ///< x, y and heading
 };
 
-/// A jump is the error of the estimated motion within this time: short against drift, long against
-/// a match that goes wrong over a few scans.
+/// A jump is the error of the estimated motion within this time, which is short relative to drift,
+/// but long relative to a match that is wrong over a few scans.
 inline constexpr double kJumpTime = 1.0;  // s
 
-/// Scores the estimate against the truth: end point; root mean square errors; the largest jump;
-/// the error of relative poses 10 m and 70 m apart (Kuemmerle et al., On measuring the accuracy of
-/// SLAM algorithms, Autonomous Robots 27(4), 2009, equation 4, with the true poses as relations);
-/// NEES (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). None if the two do not overlap.
+/// Scores the estimate against the truth: end point; root mean square errors; the largest jump; the
+/// error of relative poses 10 m and 70 m apart (Kuemmerle et al., On measuring the accuracy of SLAM
+/// algorithms, Autonomous Robots 27(4), 2009, equation 4, with the true poses as relations); NEES
+/// (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). Returns none if the two do not overlap.
 std::optional<PoseScore> scorePoses(const Trajectory& estimated, const Trajectory& truth);
 
 }  // namespace datmo::evaluation

@@ -13,8 +13,8 @@
 
 namespace datmo::evaluation {
 
-// What bags hold for the evaluation, without ROS. All lists are by rising stamp, none twice, and
-// all numbers finite: whoever fills them has checked that.
+// The contents of bags for the evaluation, without ROS. All lists are in order of stamp, without
+// duplicates, and all numbers are finite: whatever fills them has checked this.
 
 /// Pose of the vehicle (base_link) at one stamp, in the map of the run or of the truth.
 struct StampedPose {
@@ -25,7 +25,7 @@ struct StampedPose {
 /// A published track, in the map of the run.
 struct RecordedTrack {
   TrackState state;
-  bool moving = true;  ///< false: it stands now
+  bool moving = true;  ///< false: stationary now
 };
 
 struct RecordedTracks {
@@ -33,7 +33,7 @@ struct RecordedTracks {
   std::vector<RecordedTrack> tracks;  ///< no id twice
 };
 
-/// Where the detection of one measurement saw moving objects.
+/// Positions of the moving objects detected in one measurement.
 struct RecordedDetections {
   Stamp stamp;
   std::vector<Point2> moving;  ///< m, centers, frame of the vehicle
@@ -44,13 +44,13 @@ struct RecordedIntersection {
   bool at_intersection = false;
 };
 
-/// How long one stage took for its messages.
+/// Processing times of one stage.
 struct StageDurations {
   std::vector<double> processing;  ///< s
   std::vector<double> latency;     ///< s from the measurement to the result, where it is known
 };
 
-/// What a run of the stack left; parts that its bag does not have are empty (std::nullopt).
+/// The results of a run of the stack; parts that are missing in its bag are empty (std::nullopt).
 struct RecordedRun {
   std::vector<RecordedTracks> tracks;
   std::vector<StampedPose> poses;
@@ -59,7 +59,7 @@ struct RecordedRun {
   std::map<std::string, StageDurations> durations;  ///< by stage
 };
 
-/// What is true of an object at one stamp, in the map of the truth.
+/// The true state of an object at one stamp, in the map of the truth.
 struct RecordedObject {
   TrueState state;
   std::string label;                    ///< the source's own name of the class

@@ -26,7 +26,7 @@ void checkFinite(const std::string& what, const Vector& values) {
   }
 }
 
-/// Says the variances alone where it is they that are wrong.
+/// Reports only the variances if these are wrong.
 template <typename Matrix>
 void checkCovariance(const Matrix& covariance) {
   checkFinite("diagonal of the covariance", covariance.diagonal());

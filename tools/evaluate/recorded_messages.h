@@ -11,8 +11,8 @@
 
 namespace datmo::evaluation {
 
-// Messages as the evaluation wants them. All throw InputError for what cannot be scored: a number
-// that is not finite, a pose that is none, a negative size, an id twice in one message.
+// Converts messages for the evaluation. All functions throw InputError for what cannot be scored: a
+// number that is not finite, an invalid pose, a negative size, a repeated id in one message.
 
 RecordedTracks toRecorded(const TrackArray& message);
 RecordedObjects toRecorded(const TrueObjectArray& message);
@@ -22,7 +22,7 @@ RecordedDetections toRecorded(const ObjectArray& message);
 
 StampedPose toRecorded(const geometry_msgs::PoseWithCovarianceStamped& message);
 
-/// Of a true pose: its covariance is not looked at.
+/// For a true pose; its covariance is ignored.
 StampedPose toRecorded(const nav_msgs::Odometry& message);
 
 RecordedIntersection toRecorded(const datmo_fusion::RoadBorders& message);

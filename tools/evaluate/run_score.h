@@ -20,7 +20,8 @@
 
 namespace datmo::evaluation {
 
-/// A run and a truth that cannot be scored together; the message says why, but names no file.
+/// Thrown if a run and a truth cannot be scored together; the message gives the reason, but names
+/// no file.
 class ScoreError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -33,19 +34,19 @@ struct DurationScore {
   double worst = 0.0;
 };
 
-/// How long one stage took.
+/// Durations of one stage.
 struct StageScore {
   DurationScore processing;
   std::optional<DurationScore> latency;  ///< from measurement to result; none: not known
 };
 
-/// The vehicle at the stamp of a frame, in the map of the truth.
+/// The vehicle's poses at the stamp of a frame, in the map of the truth.
 struct EgoPoses {
   Pose2 truth;
-  std::optional<Pose2> estimated;  ///< maps laid on each other at the first pose
+  std::optional<Pose2> estimated;  ///< maps aligned at the first pose
 };
 
-/// Everything that is known about a run.
+/// All scores of a run.
 struct RunScore {
   Frames frames;              ///< at least one
   std::vector<EgoPoses> ego;  ///< of each frame
@@ -56,13 +57,13 @@ struct RunScore {
   std::vector<StandingObject> standing_objects;
   std::optional<PoseScore> pose;                      ///< none: the run has no poses
   std::optional<FalseDetections> false_detections;    ///< none: the run has no detections
-  std::optional<IntersectionScore> intersections;     ///< none: the truth knows of no roads
+  std::optional<IntersectionScore> intersections;     ///< none: the truth has no roads
   std::map<std::string, StageScore> stages;           ///< empty: the run has no timing
   std::map<std::uint32_t, std::string> truth_labels;  ///< by id
 };
 
-/// Scores a run against a truth; with the scans of the recording (by rising stamp, none: not
-/// wanted) also its delays against the least attainable ones. Pure. Throws OptionError, and
+/// Scores a run against a truth; with the scans of the recording (in order of stamp, none: not
+/// requested) also its delays relative to the attainable minimum. Pure. Throws OptionError, and
 /// ScoreError if their stamps do not overlap.
 RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options,
                   const std::optional<std::vector<Scan>>& scans = std::nullopt);

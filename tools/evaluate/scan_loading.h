@@ -10,9 +10,10 @@
 
 namespace datmo::evaluation {
 
-/// The scans of a recording, by rising stamp, in the frame of the vehicle (base_link) by
-/// /tf_static. Of several echoes of a beam the nearest. Throws std::runtime_error that names file,
-/// topic and stamp: as loadTruth(), no scans, a scan that cannot be read, no mount of the scanner.
+/// Loads the scans of a recording, in order of stamp, in the frame of the vehicle (base_link) by
+/// /tf_static. Of several echoes of a beam, the nearest is used. Throws std::runtime_error that
+/// names file, topic and stamp: as loadTruth(), and if there are no scans, a scan cannot be read,
+/// or the mount of the scanner is missing.
 std::vector<Scan> loadScans(const std::string& file, const TopicOptions& topics);
 
 }  // namespace datmo::evaluation

@@ -7,7 +7,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// No sensor of a car sees further.
+/// No sensor of a car sees farther.
 constexpr double kMaxRange = 500.0;  // m
 
 }  // namespace

@@ -27,7 +27,7 @@ struct TopicOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The part of the surroundings that is scored, about the true vehicle (base_link).
+/// The region that is scored, relative to the true vehicle (base_link).
 struct RegionOptions {
   double range = 50.0;      ///< m
   double half_angle = kPi;  ///< rad, to either side of straight ahead
@@ -45,10 +45,10 @@ struct ClassOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Which true objects have to be found, of those that move at the stamp and lie in the region.
+/// Which true objects have to be found, of those that move at the stamp and are in the region.
 struct TruthOptions {
   ClassOptions classes;
-  std::string visible_to = "any";  ///< sensor; "any": one at least; "none": not asked
+  std::string visible_to = "any";  ///< sensor; "any": at least one; "none": not required
   int min_beams = 0;
   double min_speed = 0.0;      ///< m/s
   double min_time_seen = 1.0;  ///< s
@@ -56,15 +56,15 @@ struct TruthOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How tracks are laid on the truth.
+/// How tracks are aligned with the truth.
 enum class TrackAlignment {
   kPoseAtStamp,  ///< as the vehicle sees them: its estimated pose on its true one at each stamp
   kFirstPose,    ///< map on map, once
   kNone,         ///< they are in the map of the truth
 };
 
-/// What counts, and how the two recordings are brought together; unit, range, source of each in
-/// visit().
+/// What is scored, and how the two recordings are combined; unit, range and source of each option
+/// in visit().
 struct ScoreOptions {
   TopicOptions topics;
   TrackAlignment align = TrackAlignment::kPoseAtStamp;

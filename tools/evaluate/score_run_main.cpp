@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bags of tracks and of truth -> a report as JSON: see score_run.h.
+// Scores a bag of tracks against a bag of truth, with a report as JSON: see score_run.h.
 #include <iostream>
 
 #include "command_line.h"
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Whatever prevents a report: bags, options, an interruption.
+/// Anything that prevents a report: bags, options, an interruption.
 constexpr int kNoReport = 2;
 
 }  // namespace

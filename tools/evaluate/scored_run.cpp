@@ -15,7 +15,7 @@ double sum(const std::vector<std::size_t>& counts) {
   return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
 
-/// Numbers ids from 0 on, and counts how often each was asked for.
+/// Numbers ids from 0 on, and counts how often each was requested.
 class IdCounter {
  public:
   std::size_t count(std::uint32_t id) {

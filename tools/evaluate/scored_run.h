@@ -21,8 +21,8 @@ struct ScoredPair {
   Candidate candidate;        ///< the two, by their indices in the frame
 };
 
-/// What the metrics of whole trajectories need of a run: its required truths (the objects) and its
-/// tracks that are not neutral, numbered from 0 on by first appearance.
+/// The data of a run that the metrics of whole trajectories need: its required truths (the objects)
+/// and its tracks that are not neutral, numbered from 0 on by first appearance.
 struct ScoredRun {
   std::vector<std::vector<ScoredPair>> frames;  ///< all pairs within the gate, of each frame
   std::vector<Encounter> encounters;            ///< each object and track once

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Millimeters and milliseconds: the report stays small.
+/// Millimeters and milliseconds, to keep the report small.
 double rounded(double value) { return std::round(1e3 * value) / 1e3; }
 
 template <typename Items, typename Value>

@@ -6,9 +6,8 @@
 
 namespace datmo::evaluation {
 
-/// What plots over time and over the ground are drawn from: one value for each frame, and the paths
-/// of true objects, tracks and the vehicle. PositionsTest and times are rounded to what a plot can
-/// show.
+/// Data for plots over time and over the ground: one value for each frame, and the paths of true
+/// objects, tracks and the vehicle. Positions and times are rounded to the resolution of a plot.
 nlohmann::json seriesJson(const RunScore& score);
 
 }  // namespace datmo::evaluation

@@ -8,7 +8,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// Ids of the objects that a false track of the frame lies on.
+/// Ids of the objects with a false track of the frame on them.
 std::set<std::uint32_t> idsUnderFalseTracks(const std::vector<TrueState>& standing,
                                             const Frame& frame, const FrameMatching& matching,
                                             const MatchOptions& options) {

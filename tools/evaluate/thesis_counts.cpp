@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kConfirmingSensors = 2;  // thesis 3.4.2: lidar and stereo
 
-/// What one track was in its frames.
+/// Verdicts of one track in its frames.
 struct TrackLife {
   std::size_t frames = 0;
   std::size_t neutral_frames = 0;

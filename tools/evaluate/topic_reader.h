@@ -20,7 +20,7 @@
 
 namespace datmo::evaluation {
 
-/// Reads the messages of one topic of an open bag. What it throws (std::runtime_error) names the
+/// Reads the messages of one topic of an open bag. Its exceptions (std::runtime_error) name the
 /// file, the topic and the stamp.
 class TopicReader {
  public:
@@ -28,8 +28,8 @@ class TopicReader {
 
   bool isThere() const { return holdsTopic(bag_, topic_); }
 
-  /// Calls `take` with each message, in the order of their record times; what `take` throws is
-  /// passed on with the location. Throws where there is none, and after an interruption.
+  /// Calls `take` with each message, in the order of their record times; exceptions of `take` are
+  /// rethrown with the location. Throws if there is no message, and after an interruption.
   template <typename Message, typename Take>
   void forEach(const Take& take) {
     if (!isThere()) {
@@ -51,8 +51,8 @@ class TopicReader {
     }
   }
 
-  /// All messages as toRecorded() makes them, by rising stamp. Throws for a stamp of zero, a stamp
-  /// twice, and headers with different frames.
+  /// All messages converted by toRecorded(), in order of stamp. Throws for a zero or repeated
+  /// stamp, and for headers with different frames.
   template <typename Message>
   auto readAll() {
     std::vector<decltype(toRecorded(Message()))> recorded;
@@ -68,7 +68,7 @@ class TopicReader {
     return recorded;
   }
 
-  /// The same, none where the topic is not there.
+  /// The same; none if the topic does not exist.
   template <typename Message>
   auto readIfThere() {
     return isThere() ? std::make_optional(readAll<Message>()) : std::nullopt;

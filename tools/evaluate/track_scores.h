@@ -27,7 +27,7 @@ struct TrackScoreOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Everything that is known about the tracks of a run. What has no sample is none.
+/// All scores of the tracks of a run. Scores without samples are none.
 struct TrackScores {
   Matching matching;                ///< of each frame
   std::vector<FrameScore> frames;   ///< of each frame

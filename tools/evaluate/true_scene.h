@@ -11,10 +11,10 @@
 
 namespace datmo::evaluation {
 
-/// What was true at any stamp of a recording, and what of it has to be found.
+/// The ground truth at any stamp of a recording, and which of its objects have to be found.
 ///
-/// Objects that never move in the whole recording (parked cars, poles) are apart from the others:
-/// who reports them as moving is wrong. Those that stand for a while need not be found.
+/// Objects that never move in the whole recording (parked cars, poles) are kept separately:
+/// reporting them as moving is an error. Those that are stationary for a while need not be found.
 class TrueScene {
  public:
   TrueScene(const RecordedTruth& truth, const ScoreOptions& options);
@@ -24,12 +24,12 @@ class TrueScene {
     std::vector<TrueState> objects;  ///< that move at some time
   };
 
-  /// Objects are interpolated between their two neighboring stamps; what is seen of them is as at
-  /// the nearer one. One that only one neighbor has is carried there with its velocity. None
-  /// outside of the recording, and in a gap of it.
+  /// Objects are interpolated between their two neighboring stamps; their visibility is that of the
+  /// nearer one. An object that exists at only one neighbor is extrapolated with its velocity.
+  /// Returns none outside the recording, and in a gap of it.
   std::optional<View> at(Stamp stamp) const;
 
-  /// The objects that never move, and would have to be found if they did. Interpolated as above.
+  /// The objects that never move, but would have to be found if they did. Interpolated as above.
   std::vector<TrueState> standingAt(Stamp stamp) const;
 
   /// Whether a point (m, map) is in the region that is scored.

@@ -14,9 +14,9 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Corners of what is left of a rectangle while it is cut by the sides of another. A cut of a
-/// convex polygon adds one corner; if rounding makes corners on the line change sides, at most half
-/// as many as there are: 4, 6, 9, 13, 19.
+/// Corners of the remaining polygon while a rectangle is clipped by the sides of another. A cut of
+/// a convex polygon adds one corner; if rounding moves corners on the line to the other side, at
+/// most half as many as there are: 4, 6, 9, 13, 19.
 struct Polygon {
   std::array<Eigen::Vector2d, 19> corners;
   std::size_t size = 0;
@@ -26,7 +26,7 @@ struct Polygon {
 
 Eigen::Vector2d groundCenter(const Box3& box) { return {box.x, box.z}; }
 
-/// Corners on the ground in x and z from `origin`, in the turning direction from x to z.
+/// Corners on the ground in x and z from `origin`, in the rotation from x to z.
 Polygon footprint(const Box3& box, const Eigen::Vector2d& origin) {
   const Eigen::Vector2d ahead(std::cos(box.rotation_y), -std::sin(box.rotation_y));
   const Eigen::Vector2d half_length = 0.5 * box.length * ahead;
@@ -40,7 +40,7 @@ Polygon footprint(const Box3& box, const Eigen::Vector2d& origin) {
   return polygon;
 }
 
-/// What of the polygon lies on the inner side of the line from `from` to `to`; the line counts as
+/// The part of the polygon on the inner side of the line from `from` to `to`; the line counts as
 /// inside (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
 Polygon cut(const Polygon& polygon, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   Polygon rest;

@@ -11,7 +11,7 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Nearer to the camera's plane than this a point has no usable image position, m.
+/// Points closer to the camera's plane than this have no usable image position, m.
 constexpr double kMinDepth = 0.1;
 
 Eigen::Isometry3d isometry(const Projection& matrix) {
@@ -32,7 +32,7 @@ Pose2 cameraInBase(const Calibration& calibration) {
   return {position.x(), position.y(), std::atan2(ahead.y(), ahead.x())};
 }
 
-/// Rotation about an axis that points down is to the right, and begins there.
+/// Rotation about an axis that points down is to the right, and starts there.
 double headingOf(double rotation_y) { return -rotation_y - 0.5 * kPi; }
 double rotationOf(double heading) { return normalizeAngle(-heading - 0.5 * kPi); }
 

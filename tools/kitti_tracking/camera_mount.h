@@ -15,11 +15,11 @@ struct ImageSize {
   double height = 375.0;
 };
 
-/// Between the rectified camera, in which KITTI gives boxes, and the ground plane in the vehicle's
-/// frame (base_link: below the IMU, x forward, y left), and on to the image.
+/// Transforms between the frame of the rectified camera, in which KITTI gives boxes, and the ground
+/// plane in the vehicle's frame (base_link: below the IMU, x forward, y left), and to the image.
 ///
-/// The ground plane is taken to be the camera's x-z plane: pitch and roll are left out, in both
-/// directions alike.
+/// The ground plane is assumed to be the camera's x-z plane: pitch and roll are ignored, in both
+/// directions.
 class CameraMount {
  public:
   CameraMount(const Calibration& calibration, const ImageSize& image);
@@ -29,14 +29,15 @@ class CameraMount {
   /// The box as seen from above, vehicle's frame.
   Box2 onGround(const Box3& box) const;
 
-  /// The other way round: `bottom` and `height` (m) are y of the lower face in the camera's frame
-  /// and how far the box reaches up from there.
+  /// The inverse: `bottom` and `height` (m) are y of the lower face in the camera's frame and the
+  /// extent of the box upward from there.
   Box3 standing(const Box2& box_in_base, double bottom, double height) const;
 
-  /// Around the box in the image, cut at its borders; without area where none of it is seen.
+  /// The rectangle around the box in the image, clipped at its borders; without area if none of it
+  /// is visible.
   ImageBox inImage(const Box3& box) const;
 
-  /// Whether a box of inImage() keeps clear of the left and the right border.
+  /// Whether a rectangle of inImage() does not touch the left and the right border.
   bool isWithinImage(const ImageBox& box) const {
     return box.left > 0.0 && box.right < image_.width - 1.0;
   }

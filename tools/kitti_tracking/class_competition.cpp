@@ -20,7 +20,7 @@ double softPlus(double log_odds) {
                         : std::log1p(std::exp(log_odds));
 }
 
-/// What the objects of the other lists take from the logarithm of the odds of this one.
+/// The amount by which the objects of the other lists reduce the log odds of this one.
 double taken(const Object& object, std::size_t own, const std::vector<ObjectList>& lists) {
   double sum = 0.0;
   for (std::size_t i = 0; i < lists.size(); ++i) {

@@ -7,10 +7,10 @@
 
 namespace datmo::kitti {
 
-/// Detectors of single classes see a cyclist as a pedestrian too. Of several objects of different
-/// lists at one position, at most one is correct: the odds of each are divided by one plus the
-/// odds of the others (Bayes' rule for classes that exclude each other). At one position are those
-/// of which one's box, seen from above, holds the center of the other.
+/// Single-class detectors report a cyclist as a pedestrian, too. Of several objects of different
+/// lists at one position, at most one is correct: the odds of each are divided by one plus the odds
+/// of the others (Bayes' rule for mutually exclusive classes). Two objects are at one position if
+/// the box of one, seen from above, contains the center of the other.
 void compete(std::vector<ObjectList>& lists);
 
 }  // namespace datmo::kitti

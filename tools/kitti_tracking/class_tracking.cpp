@@ -5,10 +5,10 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Existence probability of the tracks that the vehicle's motion is estimated from.
+/// Minimum existence probability of the tracks from which the vehicle's motion is estimated.
 constexpr double kSureOfTrack = 0.8;
 
-/// As the labels say it: what is not detected may be hidden.
+/// As in the labels: an object that is not detected may be hidden.
 constexpr int kUnknownOcclusion = 3;
 
 }  // namespace
@@ -70,7 +70,7 @@ std::vector<TrackedObject> ClassTracking::rows(const ObjectList& objects,
     if (memory == nullptr) {
       continue;
     }
-    // What is not detected any more at the edge of the image has left it.
+    // An object that is no longer detected at the edge of the image has left it.
     const TrackedObject row = rowOf(track, *memory, frame);
     if (!track.objects.empty() || mount_.isWithinImage(row.image_box)) {
       rows.push_back(row);

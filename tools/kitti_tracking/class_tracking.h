@@ -26,30 +26,30 @@ struct ClassTrackingOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Follows the objects of one class through one sequence with the package's tracker, whether they
+/// Tracks the objects of one class through one sequence with the package's tracker, whether they
 /// move or not.
 class ClassTracking {
  public:
   /// Throws OptionError.
   ClassTracking(ObjectType type, const ClassTrackingOptions& options, const CameraMount& mount);
 
-  /// Results for the detections of one frame, vehicle's frame, in their order.
+  /// The objects of the detections of one frame, vehicle's frame, in their order.
   ObjectList objects(const std::vector<Detection>& detections, Stamp stamp) const;
 
-  /// Takes what objects() has made of the next frame's detections, the vehicle's pose, and the
-  /// boxes of all that stands in the view (vehicle's frame), of whatever class.
+  /// Processes the next frame: its detections as converted by objects(), the vehicle's pose, and
+  /// the boxes of all objects in view (vehicle's frame), of any class.
   void track(const ObjectList& objects, const Pose2& base_in_fixed, const std::vector<Box2>& seen);
 
-  /// Where the tracks are that surely exist and are seen now, fixed frame.
+  /// Positions of the tracks that certainly exist and are detected now, fixed frame.
   std::vector<Landmark> landmarks() const;
 
-  /// The present tracks as rows of a result file. `objects` as given to track(), and the detections
-  /// that they were made of.
+  /// The present tracks as rows of a result file. `objects` as given to track(), with the
+  /// detections from which they were made.
   std::vector<TrackedObject> rows(const ObjectList& objects,
                                   const std::vector<Detection>& detections, int frame);
 
  private:
-  /// What the tracker does not know of a track.
+  /// Data of a track that the tracker does not have.
   struct Memory {
     VerticalExtent vertical;
     Stamp stamp;      ///< of its last detection
@@ -57,10 +57,11 @@ class ClassTracking {
     int detections;
   };
 
-  /// How sure it is that a track is no false alarm. The evaluation takes the mean over a track's
-  /// rows, which shall rank true tracks above false ones. A detector's errors go on from frame to
-  /// frame, so that the sum of what it says would be too sure, and the mean forgets how often it
-  /// said so: the mean is drawn to what false tracks have, the less the longer a track is.
+  /// Confidence that a track is not a false alarm. The evaluation uses the mean over a track's
+  /// rows, which should rank true tracks above false ones. A detector's errors are correlated from
+  /// frame to frame, so the sum of its log odds would be overconfident, while the mean ignores
+  /// their number: the mean is therefore drawn toward the value of false tracks, less so for longer
+  /// tracks.
   double scoreOf(const Memory& memory) const;
 
   /// Updates with the track's detection, if it has one now. Null for a track that never had one.

@@ -40,7 +40,7 @@ class DetectionModel {
   /// The detection in the vehicle's frame.
   Object object(const Detection& detection, const CameraMount& mount) const;
 
-  /// What the detector looks at: what is in the image.
+  /// The field of view of the detector: the image.
   FieldOfView view(const CameraMount& mount) const;
 
  private:

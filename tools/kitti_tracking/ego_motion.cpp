@@ -12,21 +12,21 @@ namespace {
 
 using State = Eigen::Vector2d;
 
-/// It has settled long before, unless matches come and go.
+/// It converges long before, unless matches come and go.
 constexpr int kMaxIterations = 10;
-/// Further steps than these are below what a pose is good for.
+/// Smaller steps are below the accuracy of a pose.
 constexpr double kSettledSpeed = 1e-3;    // m/s
 constexpr double kSettledYawRate = 1e-5;  // rad/s
 
-/// Between the motions that are tried when little is known of them, m per step: the matches within
-/// this distance are found from either of two.
+/// Spacing of the motions that are tried when little is known about them, m per step: the matches
+/// within this distance are found from either of two.
 constexpr double kSearchStep = 0.5;
-/// Distance at which a turn makes that step, m.
+/// Distance at which a turn corresponds to this step, m.
 constexpr double kSearchRange = 40.0;
-/// Standard deviations that are searched through.
+/// Number of standard deviations that are searched.
 constexpr double kSearchSigmas = 2.0;
 
-/// A measured position, and what is expected nearest to it.
+/// A measured position, and the expected position nearest to it.
 struct Match {
   Point2 difference;  ///< m, from the expected position to the observed one, vehicle's frame
   Point2 expected;    ///< m, vehicle's frame
@@ -34,7 +34,8 @@ struct Match {
   double distance2() const { return difference.dot(information * difference); }
 };
 
-/// One step of the vehicle: what is expected in its frame before, what is seen in that afterward.
+/// One step of the vehicle: expected positions in its frame before the step, observed ones in its
+/// frame after it.
 struct Step {
   double seconds;
   std::vector<Landmark> expected;
@@ -45,14 +46,14 @@ struct Step {
   std::optional<Match> match(const Landmark& observation, const Pose2& before_in_after) const;
   std::vector<Match> matches(const State& state) const;
 
-  /// What a match counts for: little, where it is off by more than outlier_distance.
+  /// Weight of a match: small if it is off by more than outlier_distance.
   double weightOf(const Match& match) const {
     const double far = match.distance2() / (outlier_distance * outlier_distance);
     return 1.0 / ((1.0 + far) * (1.0 + far));
   }
 
-  /// Minus the logarithm of the likelihood for which these are the weights, up to a constant;
-  /// without a match as at the gate.
+  /// Negative log-likelihood that has these weights, up to a constant; without a match, its value
+  /// at the gate.
   double cost(const State& state) const;
 };
 
@@ -103,7 +104,7 @@ double Step::cost(const State& state) const {
   return 0.5 * scale * sum;
 }
 
-/// How the position of a landmark in the vehicle's frame changes with speed and yaw rate.
+/// Jacobian of a landmark's position in the vehicle's frame with respect to speed and yaw rate.
 Eigen::Matrix2d jacobian(const Point2& point, const State& state, double seconds) {
   const double half_turn = 0.5 * state[1] * seconds;
   const double c = std::cos(half_turn);
@@ -115,13 +116,13 @@ Eigen::Matrix2d jacobian(const Point2& point, const State& state, double seconds
   return result;
 }
 
-/// What is known of speed and yaw rate.
+/// Estimate of speed and yaw rate.
 struct Gaussian {
   State mean;
   Eigen::Matrix2d information;
 };
 
-/// Values to try on either side of the most likely one.
+/// Number of values to try on either side of the most likely one.
 int searchSteps(double sigma, double step) {
   return static_cast<int>(kSearchSigmas * sigma / step);
 }
@@ -147,7 +148,7 @@ State searched(const Step& step, const Gaussian& prior) {
   return best;
 }
 
-/// Gauss-Newton steps from `start` to the most likely state; the prior where too little is seen.
+/// Gauss-Newton steps from `start` to the most likely state; the prior if too little is seen.
 Gaussian correct(const Step& step, const Gaussian& prior, State start, std::size_t min_matches) {
   Gaussian result{start, prior.information};
   for (int i = 0; i < kMaxIterations; ++i) {

@@ -29,22 +29,22 @@ struct Landmark {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2
 };
 
-/// The vehicle's motion from nothing but the objects that it sees: speed and yaw rate, predicted as
-/// constant, are corrected so that what stood around comes to lie on what is seen now. An iterated
-/// extended Kalman filter in which a match counts the less the farther off it is (weights of Geman
-/// and McClure 1985), so that neither wrong matches nor what moves by itself decide.
+/// Estimates the vehicle's motion only from the objects that it sees: speed and yaw rate, predicted
+/// as constant, are corrected so that previously seen objects coincide with those seen now. It is
+/// an iterated extended Kalman filter in which the weight of a match decreases with its error
+/// (weights of Geman and McClure 1985), so that neither wrong matches nor moving objects dominate.
 ///
-/// What most objects do alike, the vehicle is taken to do the other way round: in a column of cars
-/// and nothing else, the fixed frame moves along with them. To follow objects relative to each
-/// other that does not matter.
+/// The common motion of most objects is attributed to the vehicle: in a column of cars and nothing
+/// else, the fixed frame moves with them. This does not matter for tracking objects relative to
+/// each other.
 class EgoMotion {
  public:
   /// Throws OptionError.
   explicit EgoMotion(const EgoMotionOptions& options);
 
-  /// Goes `seconds` (more than 0) ahead. `expected`: where objects were last, in the fixed frame;
-  /// `seen`: where there are some now, in the vehicle's frame. With too few matches the motion goes
-  /// on as it was.
+  /// Advances by `seconds` (greater than 0). `expected`: last positions of objects, in the fixed
+  /// frame; `seen`: present positions of objects, in the vehicle's frame. With too few matches, the
+  /// motion continues unchanged.
   void step(double seconds, const std::vector<Landmark>& expected,
             const std::vector<Landmark>& seen);
 

@@ -10,11 +10,11 @@ namespace {
 
 // Limits of Weng et al. 2020, as in the evaluation of KITTI's own tracking benchmark.
 
-/// px: what is as high or less in the image is no false positive.
+/// px: tracks of this height in the image or less are not false positives.
 constexpr double kMinImageHeight = 25.0;
-/// Share of a track's image in a region where nobody cares from which on it is not looked at.
+/// A track with a larger share of its rectangle in a DontCare region is ignored.
 constexpr double kMaxInDontCare = 0.5;
-/// What is occluded or truncated more need not be found: "largely occluded" still must be.
+/// Objects that are more occluded or truncated need not be found: "largely occluded" ones must be.
 constexpr int kMaxOccluded = 2;
 constexpr int kMaxTruncated = 0;
 
@@ -38,7 +38,7 @@ ImageBox intersection(const ImageBox& a, const ImageBox& b) {
 
 bool isSmall(const ImageBox& box) { return std::abs(box.bottom - box.top) <= kMinImageHeight; }
 
-/// Numbers trajectories in the order in which they turn up.
+/// Numbers trajectories in the order of their first appearance.
 class Numbering {
  public:
   std::size_t of(int id) { return numbers_.emplace(id, numbers_.size()).first->second; }

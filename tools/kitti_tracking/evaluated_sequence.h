@@ -10,7 +10,7 @@
 
 namespace datmo::kitti {
 
-/// What the evaluation looks at: objects of one class, found where the overlap is enough.
+/// What is evaluated: objects of one class, which are found if the overlap is sufficient.
 struct EvaluatedKind {
   ObjectType type = ObjectType::kCar;  ///< car, pedestrian or cyclist
   double min_overlap = 0.25;           ///< 3D, above 0 to 1
@@ -19,19 +19,19 @@ struct EvaluatedKind {
 /// A label of the class, or of a neighbor of it (Van for Car, Person_sitting for Pedestrian).
 struct Truth {
   std::size_t trajectory = 0;
-  /// Whether it must be found. Neighbors, what is truncated and what is hardly to be seen may be.
+  /// Whether it must be found. Neighbors, truncated objects and hardly visible ones are optional.
   bool required = true;
 };
 
 /// A result of the class or of a neighbor of it.
 struct Track {
   std::size_t trajectory = 0;
-  /// Whether it is no false positive where it matches nothing: a neighbor, one whose image is too
-  /// small, one in a region where nobody cares.
+  /// Whether it is not a false positive if it matches nothing: a neighbor, one whose image is too
+  /// small, one in a DontCare region.
   bool optional = false;
 };
 
-/// A truth and a track of one frame, by their indices in it, that overlap enough.
+/// A truth and a track of one frame, by their indices in it, that overlap sufficiently.
 struct Candidate {
   std::size_t truth = 0;
   std::size_t track = 0;

@@ -9,8 +9,8 @@ namespace datmo::kitti {
 
 using Projection = Eigen::Matrix<double, 3, 4>;
 
-/// Where the sensors of a KITTI tracking sequence are. A point is a column, with a 1 below it where
-/// the matrix has four columns; m, px.
+/// Calibration of the sensors of a KITTI tracking sequence. A point is a column vector, homogeneous
+/// if the matrix has four columns; m, px.
 struct Calibration {
   Projection image_from_camera = Projection::Zero();        ///< P2: rectified -> left color image
   Eigen::Matrix3d rectification = Eigen::Matrix3d::Zero();  ///< R0_rect: camera 0 -> rectified
@@ -19,7 +19,7 @@ struct Calibration {
 };
 
 /// Reads `KEY: VALUES` lines, with the names of the object benchmark (above) or those of the
-/// tracking benchmark (R_rect, Tr_velo_cam, Tr_imu_velo); other keys are passed over. Throws
+/// tracking benchmark (R_rect, Tr_velo_cam, Tr_imu_velo); other keys are ignored. Throws
 /// std::runtime_error that names the file, the line, the value and what was expected, and for a key
 /// that is missing.
 Calibration readCalibration(const std::string& file);

@@ -26,7 +26,7 @@ const std::array<std::string, 10> kTypeNames = {
 constexpr std::size_t kLabelColumns = 17;
 constexpr std::size_t kResultColumns = kLabelColumns + 1;
 constexpr std::size_t kDetectionColumns = 15;
-constexpr std::size_t kAlphaColumn = kDetectionColumns - 1;  ///< which some detectors leave out
+constexpr std::size_t kAlphaColumn = kDetectionColumns - 1;  ///< which some detectors omit
 
 constexpr int kGreatest = std::numeric_limits<int>::max();
 constexpr int kNobodysId = -1;
@@ -34,7 +34,7 @@ constexpr int kNobodysId = -1;
 constexpr int kUnknownLevel = -1;
 constexpr int kMaxTruncated = 2;
 constexpr int kMaxOccluded = 3;
-/// As the labels have.
+/// As in the labels.
 constexpr int kDecimals = 6;
 
 ObjectType readType(const TextLine& line, std::size_t column) {

@@ -16,14 +16,14 @@ enum class ObjectType {
   kTruck,
   kPedestrian,
   kPersonSitting,
-  kPerson,  ///< sitting too, in some of the label files; KITTI's evaluation passes over it
+  kPerson,  ///< also sitting ones, in some of the label files; ignored by KITTI's evaluation
   kCyclist,
   kTram,
   kMisc,
   kDontCare,
 };
 
-/// As it stands in the files: "Car", "Person_sitting".
+/// The name in the files: "Car", "Person_sitting".
 std::string nameOf(ObjectType type);
 
 /// A rectangle in the left color image, px.
@@ -38,13 +38,13 @@ struct ImageBox {
 /// `frame id type truncated occluded alpha left top right bottom h w l x y z ry [score]`.
 struct TrackedObject {
   int frame = 0;
-  int id = 0;  ///< at least 0; -1 where nobody cares
+  int id = 0;  ///< at least 0; -1 for DontCare
   ObjectType type = ObjectType::kCar;
   int truncated = 0;   ///< 0 to 2
   int occluded = 0;    ///< 0 to 2, 3: not known
   double alpha = 0.0;  ///< rad, heading as seen from the camera
   ImageBox image_box;
-  Box3 box;            ///< means nothing where nobody cares
+  Box3 box;            ///< meaningless for DontCare
   double score = 0.0;  ///< of a result only
 };
 
@@ -54,21 +54,21 @@ struct Detection {
   int frame = 0;
   ObjectType type = ObjectType::kCar;
   ImageBox image_box;
-  double score = 0.0;  ///< unbounded: greater is surer
+  double score = 0.0;  ///< unbounded; greater means more certain
   Box3 box;
-  double alpha = 0.0;  ///< rad; where the file has none: from ry and the position
+  double alpha = 0.0;  ///< rad; if missing in the file: from ry and the position
 };
 
-/// Labels, in the order of the file. Empty lines are passed over, here and below. Throws
+/// Reads labels, in the order of the file. Empty lines are ignored, here and below. Throws
 /// std::runtime_error that names the file, and for a bad line its number, the value and what was
 /// expected.
 std::vector<TrackedObject> readLabels(const std::string& file);
 
-/// Results of a tracker, in the order of the file; each has a score. Throws as readLabels does, and
-/// for a second row of the same frame and id.
+/// Reads results of a tracker, in the order of the file; each has a score. Throws as readLabels
+/// does, and for a second row of the same frame and id.
 std::vector<TrackedObject> readResults(const std::string& file);
 
-/// Detections, in the order of the file. Throws as readLabels does.
+/// Reads detections, in the order of the file. Throws as readLabels does.
 std::vector<Detection> readDetections(const std::string& file);
 
 /// The line of a result, without its end. Six decimals, as in the labels.

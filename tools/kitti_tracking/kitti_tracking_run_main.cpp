@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detections of KITTI tracking sequences -> tracks in KITTI's format: see run_arguments.cpp.
+// Computes tracks in KITTI's format from detections of KITTI tracking sequences: see
+// run_arguments.cpp.
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 using datmo::kitti::DetectedSequence;
 using datmo::kitti::SequenceRun;
 
-/// Whatever prevents tracks: arguments, files.
+/// Anything that prevents tracks: arguments, files.
 constexpr int kNoTracks = 2;
 
 /// Folders of the detections, in the order of kTrackedTypes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracks and labels in KITTI's tracking format -> a table, and a report as JSON: see
+// Scores tracks against labels in KITTI's tracking format, with a table and a report as JSON: see
 // score_arguments.cpp.
 #include <iostream>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Whatever prevents a score: arguments, files.
+/// Anything that prevents a score: arguments, files.
 constexpr int kNoScore = 2;
 
 void writeScores(const datmo::kitti::ScoreArguments& arguments) {

@@ -8,16 +8,16 @@
 
 namespace datmo::kitti {
 
-/// What `kitti_tracking_run` is asked to do.
+/// The command line of `kitti_tracking_run`.
 struct RunArguments {
   std::string detections;    ///< folder with Car, Pedestrian and Cyclist in it
   std::string calibrations;  ///< folder
-  std::string results;       ///< folder, made where it is missing
+  std::string results;       ///< folder, created if it is missing
   RunOptions options;
 };
 
-/// Reads the words behind the program's name, and the configurations. Throws OptionError that says
-/// what is wrong and what was expected, and Answer for --help.
+/// Parses the words after the program's name, and reads the configurations. Throws OptionError with
+/// the error and what was expected, and Answer for --help.
 RunArguments parseRunArguments(std::vector<std::string> words);
 
 }  // namespace datmo::kitti

@@ -8,7 +8,7 @@
 
 namespace datmo::kitti {
 
-/// What `kitti_tracking_score` is asked to do.
+/// The command line of `kitti_tracking_score`.
 struct ScoreArguments {
   std::string labels;                ///< folder
   std::string results;               ///< folder
@@ -17,8 +17,8 @@ struct ScoreArguments {
   std::string output;  ///< report, empty: none
 };
 
-/// Reads the words behind the program's name. Throws OptionError that says what is wrong and what
-/// was expected, and Answer for --help.
+/// Parses the words after the program's name. Throws OptionError with the error and what was
+/// expected, and Answer for --help.
 ScoreArguments parseScoreArguments(std::vector<std::string> words);
 
 }  // namespace datmo::kitti

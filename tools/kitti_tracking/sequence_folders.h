@@ -12,9 +12,9 @@ namespace datmo::kitti {
 /// The names of the `NAME.txt` in a folder. Throws std::runtime_error if there are none.
 std::set<std::string> sequencesIn(const std::string& folder);
 
-/// Reads the sequences of two folders, each with one `NAME.txt` for a sequence, by rising name.
-/// Throws std::runtime_error as the readers do; for a folder that is not there or has no such file;
-/// for a sequence of one folder that the other one has not (without results: an empty file).
+/// Reads the sequences of two folders, each with one `NAME.txt` per sequence, in order of name.
+/// Throws std::runtime_error as the readers do; for a folder that does not exist or has no such
+/// file; and for a sequence that is missing in one of the folders (without results: an empty file).
 std::vector<Sequence> readSequences(const std::string& labels_folder,
                                     const std::string& results_folder);
 

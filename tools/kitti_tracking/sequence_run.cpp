@@ -12,8 +12,7 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Seconds that this program has been at work since construction; what else the machine does
-/// meanwhile does not count.
+/// Processor time of this program since construction, s; other load of the machine does not count.
 class ProcessorTime {
  public:
   double seconds() const {
@@ -116,7 +115,7 @@ class Runner {
     run_.tracking_seconds += watch.seconds();
   }
 
-  /// Rather true than false, by its detector.
+  /// More likely true than false according to its detector.
   static bool isLikely(const Object& object) { return object.log_odds > 0.0; }
 
   void addRows(std::vector<TrackedObject> rows, std::size_t which) {

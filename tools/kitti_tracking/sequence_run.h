@@ -9,11 +9,11 @@
 
 namespace datmo::kitti {
 
-/// In the order of all arrays of classes.
+/// The order of all arrays of classes.
 inline constexpr std::array<ObjectType, 3> kTrackedTypes = {
     ObjectType::kCar, ObjectType::kPedestrian, ObjectType::kCyclist};
 inline constexpr std::size_t kTrackedClasses = kTrackedTypes.size();
-/// As options and files call them.
+/// Names in options and files.
 inline constexpr std::array<const char*, kTrackedClasses> kClassNames = {"car", "pedestrian",
                                                                          "cyclist"};
 
@@ -34,15 +34,15 @@ struct DetectedSequence {
   std::array<std::vector<Detection>, kTrackedClasses> detections;
 };
 
-/// What became of a sequence.
+/// The result of a sequence.
 struct SequenceRun {
-  std::vector<TrackedObject> rows;  ///< by rising frame; one for each frame and id
+  std::vector<TrackedObject> rows;  ///< in order of frame; one for each frame and id
   std::size_t frames = 0;
   double tracking_seconds = 0.0;  ///< processor time of the trackers alone, all classes
   double ego_motion_seconds = 0.0;
 };
 
-/// Follows the objects of all classes through a sequence. Ids are distinct among the classes.
+/// Tracks the objects of all classes through a sequence. Ids are distinct among the classes.
 SequenceRun runSequence(const DetectedSequence& sequence, const RunOptions& options);
 
 }  // namespace datmo::kitti

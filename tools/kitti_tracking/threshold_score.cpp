@@ -11,14 +11,15 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Of a truth without track. A match costs at most 1: no number of better ones pays for a lost one.
+/// Cost of a truth without a track. A match costs at most 1, so that no number of better matches
+/// outweighs a lost one.
 constexpr double kUnmatchedCost = 1e6;
 
 double share(std::size_t part, std::size_t all) {
   return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Who is whom in one frame: of each truth the index of its track, or kUnassigned.
+/// The assignment in one frame: the index of each truth's track, or kUnassigned.
 using Matching = std::vector<int>;
 
 Matching match(const EvaluatedFrame& frame, const std::vector<bool>& counts) {
@@ -109,7 +110,8 @@ class SequenceScore {
   }
 
   ThresholdScore& score_;
-  std::vector<bool> counts_;  ///< of each trajectory of the tracker, whether its score is enough
+  std::vector<bool> counts_;  ///< of each trajectory of the tracker: whether its score is
+                              ///< sufficient
   std::vector<std::vector<TruthRecord>> histories_;  ///< of each true trajectory
 };
 

@@ -10,16 +10,17 @@
 namespace datmo::kitti {
 
 /// CLEAR-MOT (Bernardin and Stiefelhagen, Evaluating multiple object tracking performance, 2008) of
-/// the tracks whose score is high enough, as KITTI's tracking benchmark and Weng et al. 2020 count.
+/// the tracks with a sufficient score, as counted by KITTI's tracking benchmark and Weng et al.
+/// 2020.
 struct ThresholdScore {
-  double threshold = 0.0;    ///< least mean score of a trajectory
+  double threshold = 0.0;    ///< minimum mean score of a trajectory
   std::size_t required = 0;  ///< truths that must be found, summed over the frames
   std::size_t matches = 0;   ///< truths with a track, also those that need not be found
   std::size_t false_negatives = 0;
   std::size_t false_positives = 0;
   std::size_t id_switches = 0;
   std::size_t fragmentations = 0;
-  std::size_t trajectories = 0;  ///< true ones that must be found in one frame at least
+  std::size_t trajectories = 0;  ///< true ones that must be found in at least one frame
   std::size_t mostly_tracked = 0;
   std::size_t mostly_lost = 0;
   double overlap = 0.0;  ///< 3D, summed over the matches
@@ -32,7 +33,7 @@ struct ThresholdScore {
   std::optional<double> scaledMota(double recall) const;
   /// Mean 3D overlap of the matches; 0: no match.
   double motp() const;
-  /// Share of the truths that are matched, of the tracks that are matches; 0: none there.
+  /// Share of the truths that are matched, and of the tracks that are matches; 0: there are none.
   double recall() const;
   double precision() const;
 };
@@ -42,7 +43,7 @@ struct ThresholdScore {
 /// greatest sum of overlaps.
 ThresholdScore scoreAt(double threshold, const std::vector<EvaluatedSequence>& sequences);
 
-/// The mean score of the matched trajectory for each match of all tracks, unsorted.
+/// The mean score of the matched trajectory for each match, over all tracks, unsorted.
 std::vector<double> matchedScores(const std::vector<EvaluatedSequence>& sequences);
 
 }  // namespace datmo::kitti

@@ -17,7 +17,7 @@ double recallOf(std::size_t matches, std::size_t truths) {
   return static_cast<double>(matches) / static_cast<double>(truths);
 }
 
-/// Mean over all recalls of a value of the levels that are reached.
+/// Mean over all recalls of a value; levels that are not reached count as 0.
 double meanOverRecalls(const std::vector<LevelScore>& levels,
                        const std::function<double(const LevelScore&)>& value) {
   double sum = 0.0;

@@ -10,19 +10,19 @@
 
 namespace datmo::kitti {
 
-/// One of the recalls that the metrics are averaged over.
+/// One of the recalls over which the metrics are averaged.
 struct RecallLevel {
   double recall = 0.0;     ///< above 0 to 1
-  double threshold = 0.0;  ///< score that the tracks must have so that so many truths are matched
+  double threshold = 0.0;  ///< minimum score of the tracks for this share of truths to be matched
 };
 
-/// Recalls that the averages are over: 1/40, 2/40, ... 1.
+/// Recalls over which metrics are averaged: 1/40, 2/40, ... 1.
 inline constexpr std::size_t kRecalls = 40;
 
-/// The levels that are reached, by rising recall. `scores` are those of the matches, in any order;
-/// `truths` is how many there are to match, at least as many. A level takes the score of the match
-/// with which the recall comes nearest to it; the last match ends the list with the level it is on
-/// the way to. With fewer matches than levels each match is a level.
+/// Returns the levels that are reached, in order of recall. `scores` are those of the matches, in
+/// any order; `truths` is the number of truths to match, at least as many. The score of a level is
+/// that of the match at which the recall is closest to it; the last match ends the list with the
+/// next level. With fewer matches than levels, each match is a level.
 std::vector<RecallLevel> recallLevels(std::vector<double> scores, std::size_t truths);
 
 struct LevelScore {
@@ -38,17 +38,19 @@ struct TrackingScore {
   std::optional<double> samota;  ///< mean of the scaled MOTA, 0 to 1
   std::optional<double> amota;   ///< mean of the MOTA
   std::optional<double> amotp;   ///< mean of the MOTP
-  ThresholdScore best;           ///< at the threshold of the greatest MOTA; if none is above 0, all
+  ThresholdScore best;           ///< at the threshold with the greatest MOTA; if none is above 0,
+                                 ///< with all tracks
   std::vector<LevelScore> levels;
 };
 
-/// How the mean score of a trajectory comes about.
+/// How the mean score of a trajectory is computed.
 enum class Averaging {
   kOnce,
-  /// As the published evaluation has it: at each threshold the means of the threshold before are
+  /// As in the published evaluation: at each threshold, the means of the previous threshold are
   /// averaged over the rows once more. Rounding makes some trajectories fall below the threshold
-  /// that is their own score, so that the metrics are lower than their definition says. Scores that
-  /// are the same in all rows and short binary fractions do not suffer. Published figures hold it.
+  /// that equals their own score, so that the metrics are lower than by definition. Scores that are
+  /// equal in all rows and are short binary fractions are not affected. Published figures include
+  /// this effect.
   kRepeated,
 };
 

@@ -9,7 +9,7 @@
 
 namespace datmo::kitti {
 
-/// One line for each score, in percent but for the counts; "-": nothing of the class is required.
+/// One line for each score, in percent except for counts; "-": nothing of the class is required.
 std::string toTable(const std::vector<TrackingScore>& scores);
 
 /// All figures, as fractions, also those of each recall level.

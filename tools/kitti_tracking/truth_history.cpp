@@ -22,8 +22,8 @@ Coverage coverageOf(std::size_t tracked, std::size_t required) {
   return share < kMostlyLost ? Coverage::kMostlyLost : Coverage::kPartly;
 }
 
-/// Whether the match in frame `i`, after frames in which `last_track` was the last one, begins a
-/// new piece of the trajectory.
+/// Whether the match in frame `i`, with `last_track` as the last track before it, begins a new
+/// piece of the trajectory.
 bool isFragmentation(const std::vector<TruthRecord>& records, std::size_t i, int last_track) {
   const bool differs = records[i].track != records[i - 1].track;
   const bool is_last = i + 1 == records.size();

@@ -8,7 +8,7 @@
 
 namespace datmo::kitti {
 
-/// What became of one true trajectory in one of the frames in which it is labeled.
+/// The state of one true trajectory in one of the frames in which it is labeled.
 struct TruthRecord {
   int track = kUnassigned;  ///< trajectory that it is matched to
   bool required = true;
@@ -23,15 +23,14 @@ struct TruthSummary {
   Coverage coverage = Coverage::kNotRequired;
 };
 
-/// Summary of the labeled frames of a trajectory in their order (they may have gaps). As KITTI's
-/// tracking benchmark and Weng et al. 2020 count:
+/// Summarizes the labeled frames of a trajectory in their order (they may have gaps), as counted by
+/// KITTI's tracking benchmark and Weng et al. 2020:
 /// - an id switch is a match to another track than the last one, if the frame before is matched
-/// too:
-///   another track after a gap is a fragmentation only;
+///   too: another track after a gap is only a fragmentation;
 /// - a fragmentation is a match that differs from the frame before (another track, or none) once
 /// the
 ///   trajectory was tracked, if the next frame is matched too; in the last frame always;
-/// - a frame in which it need not be found ends what was: the next match is a new beginning;
+/// - a frame in which it need not be found resets the history: the next match is a new beginning;
 /// - mostly tracked: matched in more than 80 % of the frames in which it must be found; mostly
 /// lost:
 ///   in less than 20 %. A match in the first frame counts even if it need not be found there.

@@ -5,7 +5,7 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Kalman filter of one number.
+/// Scalar Kalman filter.
 void correct(double measured, double sigma, double& mean, double& variance) {
   const double gain = variance / (variance + sigma * sigma);
   mean += gain * (measured - mean);

@@ -13,9 +13,9 @@ struct VerticalExtentOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where a tracked object begins and how high it is, smoothed by itself: the tracker follows it on
-/// the ground only. The lower face goes up and down with the road and with the camera's pitch (a
-/// random walk), the height stays.
+/// Lower face and height of a tracked object, filtered separately, because the tracker works only
+/// on the ground plane. The lower face moves up and down with the road and with the camera's pitch
+/// (a random walk); the height is constant.
 class VerticalExtent {
  public:
   /// From the first detection: y of the lower face and height, m.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a sensor set's yaml file as run_bag does and prints its path; says what is wrong with it
-// and fails otherwise. perception.launch calls it, so that a file with an unknown section does not
-// start.
+// Reads a sensor set's yaml file as run_bag does and prints its path; if it is invalid, prints the
+// error and fails. perception.launch calls it, so that it does not start with an unknown section.
 #include <cstdlib>
 #include <iostream>
 #include <string>

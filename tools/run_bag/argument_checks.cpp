@@ -12,12 +12,12 @@ namespace datmo {
 
 namespace {
 
-/// A stage that runs only if its option is given.
+/// A stage that runs only with its option.
 struct OptionalStage {
   const char* option;
   bool Arguments::*is_given;
   LastStage stage;
-  LastStage earliest_end;  ///< of --until with it
+  LastStage earliest_end;  ///< earliest --until that includes it
 };
 
 constexpr OptionalStage kOptionalStages[] = {

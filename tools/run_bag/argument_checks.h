@@ -5,8 +5,9 @@
 
 namespace datmo {
 
-/// Whether the options of `run_bag` go together: two outputs are not one file, a stage that is
-/// asked for runs, and what an option is for is there. Throws UsageError, which names the option.
+/// Checks that the options of `run_bag` are consistent: no two outputs are the same file, each
+/// requested stage runs, and what an option applies to exists. Throws UsageError, which names the
+/// option.
 void checkArguments(const Arguments& arguments);
 
 }  // namespace datmo

@@ -64,7 +64,7 @@ constexpr char kFooter[] =
     "and when interrupted; 2 when all messages on a topic were rejected, no scan could be used or\n"
     "no tracks were published. After 1 and 2 no output bag is left.";
 
-/// What is on by itself stays on.
+/// Switches that are on by default stay on.
 void switchOn(FusionLevel level, Arguments& arguments) {
   const StackSwitches of_level = fusionSwitches(level);
   for (const NamedSwitch& each : stackSwitches()) {

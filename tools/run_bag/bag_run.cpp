@@ -86,7 +86,7 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const G
   throw NoUsableInput(message);
 }
 
-/// What the command line says alone.
+/// Options that only the command line sets.
 GraphSwitches switchesOf(const Arguments& arguments) {
   GraphSwitches switches;
   static_cast<StackSwitches&>(switches) = arguments;
@@ -100,7 +100,7 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   }
   for (const GraphStage& stage : stageGraph(switchesOf(arguments))) {
     for (const auto& [key, value] : stage.parameters) {
-      if (key.rfind("sources/", 0) == 0) {  // which topics are needed depends on these
+      if (key.rfind("sources/", 0) == 0) {  // the required topics depend on these
         sensors.set(stage.name, key, value);
       }
     }
@@ -137,7 +137,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   return switches;
 }
 
-/// The optimized map where there is one.
+/// The optimized map, if there is one.
 void saveMap(const GraphRunner& graph, const std::string& file) {
   if (graph.has("loop_closing")) {
     graph.stage<LoopClosingStage>("loop_closing").saveMap(file);

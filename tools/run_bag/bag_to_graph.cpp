@@ -110,7 +110,7 @@ void BagToGraph::readStereo(const StereoTopics& topics) {
   on<sensor_msgs::CameraInfo>(topics.right_info, "stereo/right/camera_info");
 }
 
-/// The camera of both may be the same: then a message goes to both.
+/// Both may use the same camera: then a message goes to both.
 void BagToGraph::readMono(const MonoTopics& topics) {
   on<sensor_msgs::Image>(topics.image, "stereo/left/image_rect");
   on<sensor_msgs::CameraInfo>(topics.info, "stereo/left/camera_info");
@@ -131,8 +131,8 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
   }
 }
 
-/// What lies between the stages alone is not written: grids on demand, odometry, clouds and early
-/// objects, of which the complete ones follow, never.
+/// Topics that are internal to the stages are not written: grids only on demand; odometry, clouds
+/// and early objects (the complete ones follow) never.
 bool BagToGraph::isResult(const Publication& publication) const {
   const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
   const bool is_stereo =

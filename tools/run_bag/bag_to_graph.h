@@ -21,21 +21,21 @@
 
 namespace datmo {
 
-/// Carries the messages of a bag to the graph of stages, and what comes of them to another bag, to
-/// the summary and to text files.
+/// Passes the messages of a bag to the graph of stages, and the results to another bag, to the
+/// summary and to text files.
 class BagToGraph {
  public:
   /// All but `topics` and `arguments` must outlive it.
   BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSummary& drive, OutputBag& output,
              const Arguments& arguments);
 
-  /// Of the whole bag, wherever in it they stand.
+  /// Of the whole bag, regardless of their position in it.
   void takeStaticTransforms(const rosbag::Bag& bag);
 
   /// A message on a topic that no stage reads is copied.
   void take(const rosbag::MessageInstance& message);
 
-  /// `end`: of the bag.
+  /// `end`: end of the bag.
   void finish(const ros::Time& end) { write(end, graph_.finish(toStamp(end))); }
 
   const InputRefusals& refusals() const { return refusals_; }
@@ -45,7 +45,7 @@ class BagToGraph {
  private:
   using Reader = std::function<Publications(const rosbag::MessageInstance&, Stamp now)>;
 
-  /// A topic of the bag is one of the graph's; one without name is not read.
+  /// Connects a topic of the bag to one of the graph; a topic without a name is not read.
   template <typename Message>
   void on(const std::string& topic, const std::string& graph_topic) {
     if (!topic.empty()) {
@@ -55,7 +55,7 @@ class BagToGraph {
     }
   }
 
-  /// A message with its frames as the stages take them.
+  /// A message with its frames as the stages expect them.
   template <typename Message>
   boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
     return withPlainFrames<Message>(message.getTopic(), read<Message>(message), graph_.inputs());

@@ -9,7 +9,7 @@ namespace {
 
 const std::string kRectifiedName = "image_rect";
 
-/// A camera's info stands beside its images (image_transport).
+/// A camera's info is in the namespace of its images (image_transport).
 std::string infoBeside(const std::string& image) {
   return image.substr(0, image.find_last_of('/')) + "/camera_info";
 }
@@ -35,7 +35,7 @@ std::string pointsTopic(const Arguments& arguments) {
   return arguments.inputTopic("points2", "/stereo/points2");
 }
 
-/// The clouds; where there are none, or on demand, the images, whether there are any or not.
+/// The clouds; if there are none, or on demand, the images, whether or not they exist.
 StereoTopics stereoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   StereoTopics topics = imageTopics(bag, arguments);
   const std::string points = pointsTopic(arguments);
@@ -49,7 +49,8 @@ StereoTopics stereoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   return topics;
 }
 
-/// The first of the images and their infos that the bag lacks; empty if it has all, or clouds.
+/// The first of the images and their infos that is missing in the bag; empty if it has all, or
+/// clouds.
 std::string missingTopic(const rosbag::Bag& bag, const StereoTopics& topics) {
   if (!topics.points.empty()) {
     return "";

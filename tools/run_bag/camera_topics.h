@@ -10,15 +10,14 @@
 
 namespace datmo {
 
-/// The left camera's rectified images and their info. Throws std::runtime_error for one that is not
-/// there.
+/// The left camera's rectified images and their info. Throws std::runtime_error if one is missing.
 MonoTopics monoTopics(const rosbag::Bag& bag, const Arguments& arguments);
 
-/// Whether the bag holds the stereo camera's clouds, or what they are made of.
+/// Whether the bag has the stereo camera's clouds, or the images to compute them.
 bool holdsPoints(const rosbag::Bag& bag, const Arguments& arguments);
 
-/// The stereo camera's clouds, or the images that they are made of. `fusion`: the section of the
-/// stage that wants them. Throws std::runtime_error if the bag has neither.
+/// The stereo camera's clouds, or the images to compute them. `fusion`: section of the stage that
+/// needs them. Throws std::runtime_error if the bag has neither.
 StereoTopics neededStereoTopics(const rosbag::Bag& bag, const Arguments& arguments,
                                 const std::string& fusion);
 

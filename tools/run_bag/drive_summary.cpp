@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// Of the last stage; those of its sources have names of their own below it.
+/// Of the last stage; those of its sources have their own names below it.
 constexpr char kTracks[] = "tracks";
 
 constexpr int kNameWidth = 34;

@@ -18,10 +18,10 @@
 
 namespace datmo {
 
-/// What a drive came to, scan by scan.
+/// Summarizes a drive, scan by scan.
 class DriveSummary {
  public:
-  /// Takes what a stage has published.
+  /// Adds what a stage has published.
   void add(const Publication& publication);
 
   std::size_t fusedGrids() const { return fused_grids_; }
@@ -51,7 +51,7 @@ class DriveSummary {
 
 struct RunTime {
   double data = 0.0;  ///< s, length of the bag
-  double wall = 0.0;  ///< s, what it took
+  double wall = 0.0;  ///< s, processing
 };
 
 /// The table at the end: the drive, the time of each stage, speed, and what was dropped and why.

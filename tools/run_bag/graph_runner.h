@@ -39,31 +39,32 @@ struct Publication {
 
 using Publications = std::vector<Publication>;
 
-/// Hosts the stages of a graph without a master. Messages go in one after the other, as they came,
-/// and all that follows from one is done before the next; the same messages give the same results,
-/// bit for bit.
+/// Hosts the stages of a graph without a master. Messages are passed in one by one, in their order
+/// of arrival, and everything that follows from one is processed before the next; the same messages
+/// give the same results, bit for bit.
 ///
-/// Of the messages that wait, a stage nearer to the sensors is served first, and of those of one
-/// stage the input that it declared first: the borders of a scan before the scan itself.
+/// Of the waiting messages, those of stages nearer to the sensors are processed first, and within a
+/// stage those of the input that was declared first: the borders of a scan before the scan itself.
 class GraphRunner {
  public:
-  /// `last_stage`: the stages after it are left out; empty: none is. Throws OptionError.
+  /// `last_stage`: the stages after it are omitted; empty: none. Throws OptionError.
   GraphRunner(const SensorSet& sensors, const GraphSwitches& switches,
               const std::string& last_stage = "");
 
-  /// Some stages of a graph alone. Throws OptionError.
+  /// Only some stages of a graph. Throws OptionError.
   GraphRunner(const SensorSet& sensors, const std::vector<GraphStage>& graph);
 
-  /// What stages get from now on in place of a message; of those that some stage takes, also from
-  /// another stage. Asked once for a message; null: it is lost, and no stage gets it. For trials of
-  /// what a fault does.
+  /// Sets a function that replaces messages from now on: each message that some stage reads, also
+  /// those from other stages. It is called once per message; null: the message is lost. For tests
+  /// with faults.
   using Change = std::function<AnyMessage(const Publication& message)>;
   void changeInputs(Change change) { change_ = std::move(change); }
 
   void takeStaticTransforms(const tf2_msgs::TFMessage& message);
 
-  /// What grid_slam publishes itself is left out: a bag of an earlier run may hold it. This and the
-  /// following: what came of it, in the order in which it was made. `now`: when the message came.
+  /// Transforms that grid_slam publishes itself are ignored, as a bag of an earlier run may contain
+  /// them. This and the following functions return the results, in the order in which they were
+  /// published. `now`: arrival time of the message.
   Publications takeTransforms(const tf2_msgs::TFMessage& message, Stamp now);
 
   /// A message on one of the graph's topics.
@@ -74,12 +75,12 @@ class GraphRunner {
   }
   Publications take(const Publication& message, Stamp now);
 
-  /// What is left when the last message came at `now`: nothing waits any longer.
+  /// The remaining results if the last message arrived at `now`: nothing waits any longer.
   Publications finish(Stamp now);
 
   bool has(const std::string& stage) const;
 
-  /// The stage of this name, which there must be, and which must be of this type.
+  /// The stage of this name, which must exist and be of this type.
   template <typename HostedStage>
   const HostedStage& stage(const std::string& name) const {
     return dynamic_cast<const HostedStage&>(stageNamed(name));
@@ -87,20 +88,20 @@ class GraphRunner {
 
   const StageTimes& times() const { return times_; }
 
-  /// The same, and begins anew: they grow with the drive.
+  /// The same, and clears them, as they grow with the drive.
   StageTimes takeTimes() { return std::exchange(times_, {}); }
   std::vector<const StageMonitor*> monitors() const;
 
-  /// Those of them that drop a message when it comes, if at all; a tracker does it when it has
-  /// waited for too long.
+  /// Those that drop a message on arrival, if at all; a tracker drops it when it has waited for too
+  /// long.
   std::vector<const StageMonitor*> inputMonitors() const;
 
-  /// How each stage does (stackHealth tells why there are no tracks). Faults are those since the
-  /// last call; "nobody publishes it" is said of all that is silent. `now`: when the last message
-  /// came.
+  /// The health of each stage (stackHealth tells why there are no tracks). Faults are those since
+  /// the last call; "nobody publishes it" is reported for every silent topic. `now`: arrival time
+  /// of the last message.
   std::vector<StageState> states(Stamp now);
 
-  /// Of what is wrong with messages before a stage has them.
+  /// Of faults of messages before they reach a stage.
   StageMonitor& inputs() { return inputs_monitor_; }
   const StageMonitor& inputs() const { return inputs_monitor_; }
 
@@ -112,7 +113,7 @@ class GraphRunner {
     std::unique_ptr<StageMonitor> monitor;
     std::unique_ptr<Stage> stage;
     std::vector<StageInput> inputs;
-    std::vector<std::string> outputs;  ///< topics, as the stage calls them
+    std::vector<std::string> outputs;  ///< topics, by the stage's names
     std::unique_ptr<StageHealth> health;
     std::uint64_t timed = 0;  ///< results
   };
@@ -124,8 +125,8 @@ class GraphRunner {
   void addStage(const GraphStage& row, const SensorSet& sensors);
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 
-  /// Hands the messages that wait to their stages until none does and no stage from `first` on has
-  /// more.
+  /// Passes the waiting messages to their stages until none is left and no stage from `first` on
+  /// has more.
   Publications settle(Stamp now, std::size_t first = 0);
   void serveNext(Stamp now);
   bool publishNext(Stamp now, std::size_t first);

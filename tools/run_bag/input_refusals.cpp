@@ -25,7 +25,7 @@ std::string describe(const std::string& name, const InputRefusals::Topic& topic)
 void InputRefusals::book(const std::string& topic) {
   Topic& entry = topics_[topic];
   ++entry.received;
-  std::set<std::string> reasons;  // several stages may have taken the same message
+  std::set<std::string> reasons;  // several stages may have received the same message
   for (const StageMonitor* monitor : monitors_) {
     for (const auto& [reason, count] : monitor->drops()) {
       std::uint64_t& seen = seen_[monitor][reason];

@@ -10,10 +10,10 @@
 
 namespace datmo {
 
-/// Which messages of which topic the stages refused, and why.
+/// Counts which messages of which topic the stages rejected, and why.
 class InputRefusals {
  public:
-  /// One reason for which messages of a topic were refused.
+  /// One reason for which messages of a topic were rejected.
   struct Reason {
     std::uint64_t messages = 0;
     std::string last;  ///< message for the last one
@@ -25,16 +25,17 @@ class InputRefusals {
     std::map<std::string, Reason> reasons;
   };
 
-  /// `monitors`: of the stages that messages come to first; they must outlive this.
+  /// `monitors`: of the stages that receive messages first; they must outlive this.
   explicit InputRefusals(std::vector<const StageMonitor*> monitors)
       : monitors_(std::move(monitors)) {}
 
-  /// A message of this topic has been taken; what its stages dropped since the last one was it.
+  /// To be called after a message of this topic has been processed: what its stages have dropped
+  /// since the last call was this message.
   void book(const std::string& topic);
 
   const std::map<std::string, Topic>& topics() const { return topics_; }
 
-  /// Throws NoUsableInput if nothing but refused messages came on a topic.
+  /// Throws NoUsableInput if all messages of a topic were rejected.
   void check() const;
 
  private:

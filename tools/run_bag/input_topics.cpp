@@ -42,7 +42,8 @@ void findGridTopics(const rosbag::Bag& bag, const Arguments& arguments, const st
   }
 }
 
-/// An external system's objects of the stereo camera serve where there is nothing to find them in.
+/// An external system's objects of the stereo camera are used if there are no points or images to
+/// detect them in.
 void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
                       const ObjectFusionStageOptions& fusion, InputTopics& topics) {
   for (const std::string& source : fusion.fuser.sourcesInUse()) {
@@ -57,7 +58,8 @@ void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
 }
 
-/// The same for tracks of the stereo camera: an external system's objects serve before its tracks.
+/// The same for tracks of the stereo camera: an external system's objects are preferred to its
+/// tracks.
 void findTrackTopics(const rosbag::Bag& bag, const Arguments& arguments,
                      const TrackFusionStageOptions& fusion, InputTopics& topics) {
   const std::string objects = "/objects/stereo";
@@ -74,7 +76,7 @@ void findTrackTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
 }
 
-/// The topic, in whatever form the bag has it. Throws std::runtime_error if it lacks it.
+/// The topic, in whichever form the bag has it. Throws std::runtime_error if it is missing.
 std::string neededMotionTopic(const rosbag::Bag& bag, const Arguments& arguments,
                               const std::string& topic, const std::string& type) {
   const std::string name = arguments.inputTopic(topic);
@@ -110,8 +112,8 @@ MotionTopics motionTopics(const rosbag::Bag& bag, const Arguments& arguments,
   return topics;
 }
 
-/// A cloud that the command line names serves in place of scans; otherwise scans, and without any
-/// the cloud on /cloud.
+/// A cloud named on the command line replaces scans; otherwise scans are used, and without any the
+/// cloud on /cloud.
 void findScanTopics(const rosbag::Bag& bag, const Arguments& arguments, InputTopics& topics) {
   const std::string cloud = arguments.inputTopic("cloud");
   const bool asked = arguments.remappings.count("/cloud") > 0;
@@ -145,7 +147,7 @@ void findMergedScans(const rosbag::Bag& bag, const Arguments& arguments,
   }
 }
 
-/// The clouds in which objects are found; without a name those that scans are made of.
+/// The clouds in which objects are detected; without a name, those that are converted to scans.
 std::string objectCloudTopic(const rosbag::Bag& bag, const Arguments& arguments) {
   const std::string topic = arguments.inputTopic("object_cloud", arguments.inputTopic("cloud"));
   if (!holdsTopic(bag, topic)) {
@@ -163,7 +165,7 @@ std::string radarTopic(const rosbag::Bag& bag, const Arguments& arguments) {
   return topic;
 }
 
-/// Stations may be silent, the receiver not: without it nothing passes.
+/// Stations may be silent, but the receiver must not: without it no track is passed on.
 V2xTopics v2xTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   const V2xTopics topics{arguments.inputTopic("gnss"), arguments.inputTopic("stations")};
   if (!holdsTopic(bag, topics.gnss)) {

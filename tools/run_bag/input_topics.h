@@ -17,18 +17,18 @@ namespace datmo {
 /// The names that the stereo camera's messages have in the bag; empty: not read.
 struct StereoTopics {
   std::string points;
-  std::string velocities;  ///< points with velocity, beside the points; may hold nothing
+  std::string velocities;  ///< points with velocity, in addition to the points; may be empty
   std::string left_image;
   std::string right_image;
   std::string left_info;
   std::string right_info;
 
-  /// What there is. Images are rectified if image_proc's naming says so: image_rect,
+  /// The topics that exist. Images are rectified if they are named as by image_proc: image_rect,
   /// image_rect_color.
   StereoPoints input() const;
 };
 
-/// Those of the camera whose images name objects; empty: not read.
+/// Those of the camera whose images are used to classify objects; empty: not read.
 struct MonoTopics {
   std::string image;
   std::string info;
@@ -54,8 +54,8 @@ struct MotionTopics {
 /// The names that our inputs have in the bag.
 struct InputTopics {
   std::string scan;
-  std::string cloud;         ///< of a 3D lidar, that scans are made of; empty: there are scans
-  std::string object_cloud;  ///< of a 3D lidar, that objects are found in; empty: they are not
+  std::string cloud;         ///< of a 3D lidar, converted to scans; empty: there are scans
+  std::string object_cloud;  ///< of a 3D lidar, to detect objects in; empty: none
   std::string echoes;
   std::map<std::string, std::string> scans;  ///< of several scanners, by topic; else there is one
   MotionTopics motion;
@@ -63,7 +63,8 @@ struct InputTopics {
   MonoTopics mono;
   std::string radar;  ///< empty: not read
   V2xTopics v2x;
-  std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
+  std::map<std::string, std::string> grids;    ///< of sources that no stage provides: topic ->
+                                               ///< source
   std::map<std::string, std::string> objects;  ///< the same for objects
   std::map<std::string, std::string> tracks;   ///< and for tracks
   std::vector<std::string> truth;
@@ -71,8 +72,8 @@ struct InputTopics {
   std::vector<std::string> all() const;
 };
 
-/// Looks for what the stages need. Throws std::runtime_error that names what is missing, and what
-/// the bag holds.
+/// Finds the topics that the stages need. Throws std::runtime_error that names what is missing, and
+/// the topics of the bag.
 InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
                        const SensorSet& sensors);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stack on a bag, without a master: see arguments.cpp and bag_run.h.
+// Runs the stack on a bag, without a master: see arguments.cpp and bag_run.h.
 #include <cstdlib>
 #include <iostream>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Risks of a run of run_bag once more: of the same tracks, by another method or other options.
+// Assesses the risks of a run of run_bag again: from the same tracks, with another method or other
+// options.
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -81,7 +82,7 @@ SensorSet sensorsOf(const Arguments& arguments) {
   return sensors;
 }
 
-/// The stage of risks alone.
+/// Only the risk stage.
 std::vector<GraphStage> riskAlone(bool road_borders) {
   GraphSwitches switches;
   switches.risk = true;
@@ -93,13 +94,13 @@ std::vector<GraphStage> riskAlone(bool road_borders) {
   return graph;
 }
 
-/// Hands recorded messages to the stage of risks as run_bag does.
+/// Passes recorded messages to the risk stage in the same way as run_bag.
 class Replay {
  public:
   Replay(const Arguments& arguments, const rosbag::Bag& run)
       : graph_(sensorsOf(arguments), riskAlone(holdsTopic(run, "/road_borders"))),
         output_(arguments.output) {
-    // Of one time, in the order of the stage's inputs; run_bag has odometry before scans.
+    // Messages of one time, in the order of the stage's inputs; in run_bag odometry precedes scans.
     on<nav_msgs::Odometry>(arguments.odometry, "odometry");
     on<RoadBorders>("/road_borders", "road_borders");
     on<LabeledScanMessage>("/labeled_scan", "labeled_scan");

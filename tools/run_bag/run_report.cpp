@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kReportFormat = 1;
 
-/// A topic, or the pose, is silent where nothing comes for so long and for so many of its periods.
+/// A topic, or the pose, is silent if nothing arrives for this time and for this many of its
+/// periods.
 constexpr double kSilence = 1.0;  // s
 constexpr double kSilentPeriods = 5.0;
 
@@ -38,10 +39,10 @@ std::vector<Gap> gapsOf(const std::vector<Stamp>& times) {
   return gaps;
 }
 
-/// What is longer than its like; `end`: of the recording, up to which the last one lasts.
+/// Gaps that are longer than usual; `end`: end of the recording, up to which the last one lasts.
 std::vector<Gap> silencesOf(std::vector<Stamp> times, Stamp end) {
   if (times.size() < 2) {
-    return {};  // once at the start, as calibrations come: no period to be late by
+    return {};  // once at the start, like calibrations: there is no period
   }
   std::vector<double> periods;
   for (const Gap& gap : gapsOf(times)) {
@@ -61,7 +62,7 @@ struct Window {
   std::size_t count = 0;
 };
 
-/// In which most of the times lie.
+/// Contains most of the times.
 Window fullestWindow(const std::vector<Stamp>& times) {
   Window fullest;
   std::size_t first = 0;

@@ -20,17 +20,17 @@
 
 namespace datmo {
 
-/// What became of a bag, and when it went badly, for the program that looks at many of them. Times
-/// are those of the recording, s since its first message.
+/// A report on a run and its worst moments, for the program that summarizes many runs. Times are
+/// those of the recording, s since its first message.
 class RunReport {
  public:
-  /// A message of this topic has been taken, recorded at `now`.
+  /// To be called when a message of this topic, recorded at `now`, has been processed.
   void book(const std::string& topic, Stamp now, const GraphRunner& graph);
 
-  /// A message of the ground truth has been copied.
+  /// To be called when a message of the ground truth has been copied.
   void noteTruth() { has_truth_ = true; }
 
-  /// Takes what a stage has published.
+  /// Adds what a stage has published.
   void add(const Publication& publication);
 
   /// As JSON. `end`: record time of the last message.
@@ -38,7 +38,7 @@ class RunReport {
                    const GraphRunner& graph) const;
 
  private:
-  /// A stage that is not well, and why.
+  /// A stage with a problem, and the reason.
   struct Condition {
     std::string stage;
     HealthLevel level = HealthLevel::kOk;
@@ -52,7 +52,7 @@ class RunReport {
     double sigma = 0.0;  ///< m, of the position, in its worst direction
   };
 
-  /// What happened when, of one kind.
+  /// Times of the events of one kind.
   using Times = std::vector<Stamp>;
   using StageAndReason = std::pair<std::string, std::string>;
 

@@ -15,15 +15,15 @@ namespace datmo {
 
 namespace {
 
-/// Nodes that are no stages: they run live alone.
+/// Nodes that are not stages: they run only live.
 const std::vector<std::string> kLiveNodes = {
     "markers",     "lidar_markers",      "stereo_markers", "grid_views", "camera_view", "device",
     "rear_device", "satellite_receiver", "vehicle_bus",    "v2x_wire",   "stack"};
 
-/// All stages that there may be.
+/// All possible stages.
 std::vector<GraphStage> wholeGraph() { return stageGraph(allSwitches()); }
 
-/// The type of the stage that a section is of; empty for one of no stage.
+/// The type of the stage to which a section belongs; empty if it belongs to none.
 std::string typeOf(const std::string& section) {
   for (const GraphStage& stage : wholeGraph()) {
     // The section `motion` of a sensor set is for all stages.

@@ -12,15 +12,14 @@ namespace datmo {
 /// The options of all stages: the sections of config/<sensor set>.yaml.
 class SensorSet {
  public:
-  /// Reads a yaml file and those of presets, whose values take the place of what stands before
-  /// them, and checks the sections of all stages. Throws OptionError that names file, section and
-  /// key.
+  /// Reads a yaml file and those of presets, whose values override the previous ones, and checks
+  /// the sections of all stages. Throws OptionError that names file, section and key.
   explicit SensorSet(const std::string& file, const std::vector<std::string>& presets = {});
 
-  /// What the sections say that are for all stages.
+  /// The sections that apply to all stages.
   const SharedOptions& shared() const { return shared_; }
 
-  /// What the file says in a section; nothing if it has none of this name.
+  /// The values of a section; empty if there is none of this name.
   OptionValues values(const std::string& section) const;
 
   /// The options of a stage. Throws OptionError.
@@ -29,11 +28,11 @@ class SensorSet {
     return readStageOptions<Options>(values(section), shared_);
   }
 
-  /// A value in place of the file's. Throws OptionError that names the section.
+  /// Overrides a value of the file. Throws OptionError that names the section.
   void set(const std::string& section, const std::string& key, const OptionValue& value);
 
  private:
-  /// Takes the values of a file in place of what there is.
+  /// Overrides the present values by those of a file.
   void read(const std::string& file);
   void readShared();
   void check(const std::string& section) const;

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// How long each stage took for each message: for people to read, never for the stages.
+/// Processing times of each stage for each message: for reports only, never used by the stages.
 class StageTimes {
  public:
   void add(const std::string& stage, double seconds);
@@ -21,7 +21,7 @@ class StageTimes {
     double percentile_99 = 0.0;  ///< s
   };
 
-  /// One for each stage, by their first run.
+  /// One for each stage, in the order of their first run.
   std::vector<Summary> summaries() const;
 
  private:

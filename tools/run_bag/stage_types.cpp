@@ -24,7 +24,7 @@ StageType typeOf() {
 }
 
 std::map<std::string, StageType> allTypes() {
-  // Live it is another package's.
+  // Live, another package provides it.
   std::map<std::string, StageType> types{{"stereo_image_proc", typeOf<StereoImages>()}};
   forEachStage([&types](auto tag, const char* name) {
     types[name] = typeOf<typename decltype(tag)::Stage>();

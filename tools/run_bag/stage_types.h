@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// How a stage of one type is made from values of its section.
+/// Creates a stage of one type from the values of its section.
 struct StageType {
   /// Throws OptionError.
   std::function<void(const OptionValues&, const SharedOptions&)> check;
@@ -20,11 +20,12 @@ struct StageType {
       make;
 };
 
-/// By the type of a stage of the graph. Throws std::logic_error for one that nodelets.xml lacks.
+/// By the type of a stage of the graph. Throws std::logic_error for one that is missing in
+/// nodelets.xml.
 const StageType& stageTypeNamed(const std::string& type);
 
-/// Holds a graph with all switches on against nodelets.xml. Throws std::logic_error that names each
-/// type without an entry there, and each stage there without a row in the graph.
+/// Compares a graph with all switches on to nodelets.xml. Throws std::logic_error that names each
+/// type without an entry in that file, and each stage in it without a row in the graph.
 void checkStageTypes(const std::vector<GraphStage>& graph);
 
 }  // namespace datmo

@@ -19,12 +19,12 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-/// Disparities are searched in blocks of so many (OpenCV).
+/// Disparities are searched in blocks of this many (OpenCV).
 constexpr int kDisparityBlock = 16;
 
 int oddFrom(int size) { return size | 1; }
 
-/// With values made valid as the nodelet does it: odd windows, whole blocks of disparities.
+/// With values made valid as in the nodelet: odd windows, whole blocks of disparities.
 std::unique_ptr<stereo_image_proc::StereoProcessor> makeProcessor(
     const StereoImagesOptions& options) {
   using stereo_image_proc::StereoProcessor;
@@ -89,7 +89,7 @@ sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>&
     return cloud;
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& error) {  // of OpenCV, cv_bridge and image_geometry
+  } catch (const std::exception& error) {  // from OpenCV, cv_bridge and image_geometry
     std::string said = error.what();
     said.erase(said.find_last_not_of('\n') + 1);
     throw InputError("bad_images", "images that stereo_image_proc cannot take: " + said);

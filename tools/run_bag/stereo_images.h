@@ -19,10 +19,11 @@ class StereoProcessor;
 
 namespace datmo {
 
-/// Pairs of images -> clouds, as the nodelets image_proc/rectify, stereo_image_proc/disparity and
-/// stereo_image_proc/point_cloud2 publish them on points2: by their own library, with their
-/// parameters, without a master. Points: x, y, z (m, optical frame of the left camera) and rgb, one
-/// for each pixel; NaN where no disparity was found. Its stamp is the left image's.
+/// Converts pairs of images to clouds, as the nodelets image_proc/rectify,
+/// stereo_image_proc/disparity and stereo_image_proc/point_cloud2 publish them on points2: with
+/// their own library and their parameters, without a master. Points: x, y, z (m, optical frame of
+/// the left camera) and rgb, one for each pixel; NaN where no disparity was found. Its stamp is the
+/// left image's.
 ///
 /// Bad input is dropped through the monitor, never thrown.
 class StereoImages : public Stage {

@@ -5,10 +5,11 @@
 
 namespace datmo {
 
-/// How two images become disparities: the parameters of the nodelet stereo_image_proc/disparity
-/// under its own names and with its defaults and ranges, so that one yaml section serves both.
+/// Options for computing disparities from two images: the parameters of the nodelet
+/// stereo_image_proc/disparity under its own names and with its defaults and ranges, so that one
+/// yaml section serves both.
 struct StereoImagesOptions {
-  bool rectified = true;  ///< the images are; if not, they are rectified by their calibration
+  bool rectified = true;  ///< false: the images are rectified by their calibration
   bool approximate_sync = false;
   double pair_tolerance = 0.01;  ///< s
   int stereo_algorithm = 0;      ///< 0: block matching, 1: semi-global block matching

@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// Where results go as text; empty: nowhere.
+/// Files for results as text; empty: none.
 struct TextFiles {
   std::string tum;    ///< poses of the vehicle
   std::string kitti;  ///< tracks

@@ -13,7 +13,7 @@ namespace datmo {
 
 namespace {
 
-/// Enough for 0.1 mm and 0.1 mrad; stamps have all their nanoseconds.
+/// Sufficient for 0.1 mm and 0.1 mrad; stamps have all their nanoseconds.
 constexpr int kDecimals = 6;
 
 const char* kittiType(std::uint8_t classification) {

@@ -15,29 +15,29 @@
 
 namespace datmo {
 
-/// The results of a drive as text, in forms that other people's tools of evaluation read. A line
-/// ends with a line feed, numbers are parted by a space (MOT: a comma).
+/// Writes the results of a drive as text, in formats of common evaluation tools. Lines end with a
+/// line feed, numbers are separated by a space (MOT: a comma).
 ///
 /// TUM (RGB-D SLAM benchmark, evo): `stamp tx ty tz qx qy qz qw`, s and m, base_link in map, one
 /// line for each scan.
 ///
 /// KITTI tracking label with score: `frame id type truncated occluded alpha left top right bottom
-/// height width length x y z rotation_y score`, m and rad. The camera is one at base_link that
-/// looks ahead: x to the right, y down, z ahead; location is the middle of the box's bottom, on the
+/// height width length x y z rotation_y score`, m and rad. The camera is at base_link and looks
+/// ahead: x to the right, y down, z ahead; the location is the center of the box's bottom, on the
 /// ground. Without an image truncated and occluded are -1, alpha is -10 and the rectangle -1 -1 -1
 /// -1. Type: Car (vehicle), Pedestrian, Cyclist, Misc. Score: probability that it exists.
 ///
 /// MOT Challenge: `frame,id,left,top,width,height,confidence,x,y,z`, frames from 1 on, without an
-/// image -1,-1,-1,-1; x, y, z the middle of the box in map, m.
+/// image -1,-1,-1,-1; x, y, z: center of the box in map, m.
 ///
-/// A frame is a scan, counted from 0 (MOT: 1). Tracks whose scan had no pose are left out.
+/// A frame is a scan, counted from 0 (MOT: 1). Tracks whose scan had no pose are omitted.
 class TextOutputs {
  public:
-  /// Only what has a file is kept. Throws std::runtime_error that names a file that cannot be
+  /// Only results with a file are kept. Throws std::runtime_error that names a file that cannot be
   /// written.
   explicit TextOutputs(TextFiles files);
 
-  /// Takes what a stage has published.
+  /// Adds what a stage has published.
   void add(const Publication& publication);
 
   const std::string& tum() const { return tum_; }

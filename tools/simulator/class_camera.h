@@ -12,8 +12,8 @@
 
 namespace datmo::simulator {
 
-/// A camera whose images a detector has looked at: what it reports, not what it sees. Its mistakes
-/// are those of a stated confusion matrix, so that fusion of classes can be measured over seeds.
+/// A camera with an image detector, simulated by its reports, not by images. Its errors are those
+/// of a given confusion matrix, so that fusion of classes can be measured over seeds.
 struct ClassCameraOptions {
   bool enabled = false;
   double mount_x = 1.8;                  ///< m
@@ -26,7 +26,8 @@ struct ClassCameraOptions {
   double min_visible_share = 0.5;        ///< 0 to 1
   double bearing_sigma = degrees(0.5);   ///< rad
   double range_share = 0.15;             ///< 1
-  /// 0 to 1, shares: rows pedestrian, cyclist, vehicle as they are, columns as they are reported.
+  /// 0 to 1, shares: rows are the true classes pedestrian, cyclist, vehicle, columns the reported
+  /// ones.
   std::vector<double> confusion = {0.85, 0.1, 0.0, 0.1, 0.82, 0.0, 0.0, 0.01, 0.95};
 
   void visit(OptionVisitor& visitor);
@@ -35,21 +36,21 @@ struct ClassCameraOptions {
 };
 
 /// The objects of a world as a detector in a camera's images reports them: bearing and range by
-/// size, with honest covariances, and a class that is as probable as the confusion matrix says, all
-/// classes being as frequent.
+/// size, with consistent covariances, and a class whose probability follows from the confusion
+/// matrix with equal priors.
 class ClassCamera {
  public:
   /// Throws OptionError.
   ClassCamera(const Checked<ClassCameraOptions>& options, RandomStream random)
       : options_(*options), random_(std::move(random)) {}
 
-  /// In the vehicle's frame, without stamp. Poles are not reported.
+  /// Objects in the vehicle's frame, without a stamp. Poles are not reported.
   ObjectList measure(const World& world, double time);
 
   Viewpoint viewpoint() const;
 
  private:
-  /// What an object of this class is reported as; kUnknown: not at all.
+  /// The class reported for an object of this class; kUnknown: not reported.
   ObjectClass reportedClass(ObjectClass object_class);
   double probabilityOf(ObjectClass reported) const;
   Object seen(const ObjectState& object, const Pose2& base, ObjectClass reported);

@@ -9,7 +9,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// s; at 15 m/s an object moves by less than its own length.
+/// s; in this time an object at 15 m/s moves by less than its own length.
 constexpr double kStep = 0.05;
 
 struct Body {
@@ -63,7 +63,7 @@ const Body* firstMet(const Body& body, BodyIterator first, BodyIterator last) {
   return met == last ? nullptr : &*met;
 }
 
-/// One body that the ego vehicle may meet, at one time.
+/// One body that the ego vehicle may collide with, at one time.
 struct Met {
   std::uint32_t object = kNoObject;
   std::string label;
@@ -77,7 +77,7 @@ Met metObject(const ObjectState& object) {
           object.moving ? object.velocity : Point2(Point2::Zero())};
 }
 
-/// What a building is met at: the point of its outline that is nearest to the vehicle.
+/// The contact point of a building: the point of its outline that is nearest to the vehicle.
 Met metFront(const Solid& solid, const Pose2& ego) {
   const auto* line = std::get_if<Segment>(&solid.outline);
   Point2 nearest = boundingCircle(solid.outline).center;
@@ -89,7 +89,7 @@ Met metFront(const Solid& solid, const Pose2& ego) {
   return {kNoObject, "Front", {nearest, 0.0}, BodySize(), Point2::Zero()};
 }
 
-/// What the ego vehicle shares ground with at a time.
+/// The body with which the ego vehicle overlaps at a time.
 std::optional<Met> metAt(const World& world, double time) {
   const Body ego = bodyAt(world.ego(), "ego vehicle", time);
   for (const ObjectState& object : world.at(time).objects) {
@@ -106,7 +106,7 @@ std::optional<Met> metAt(const World& world, double time) {
   return std::nullopt;
 }
 
-/// m/s, of the middle of the ego vehicle.
+/// m/s, of the center of the ego vehicle.
 Point2 egoVelocity(const World& world, double time) {
   constexpr double kShort = 1e-3;  // s
   const Mover& ego = world.ego();

@@ -11,19 +11,19 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Of what the camera's motion is known beforehand, as the stage has it of odometry.
+/// Prior of the camera's motion, as the stage has it from odometry.
 constexpr double kTurnSigma = 0.05;  // rad/s
 constexpr double kSpeedSigma = 0.5;  // m/s
 
-/// px; a wrong match lies anywhere in a window of this half width.
+/// px; a wrong match is anywhere in a window of this half width.
 constexpr double kWrongReach = 20.0;
 
-/// Any time does: only the difference of two counts.
+/// Any time can be used: only the difference of two matters.
 constexpr double kEpoch = 1000.0;
 
 Stamp stampOf(double time) { return Stamp::fromSeconds(kEpoch + time); }
 
-/// Axes of the optical frame in those of the vehicle, which looks `nod` (rad) too high.
+/// Axes of the optical frame in the vehicle's frame; the camera points `nod` (rad) too high.
 Eigen::Isometry3d mountOf(const StereoCameraOptions& options, double nod) {
   Eigen::Matrix3d optical_in_base;
   optical_in_base << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
@@ -33,7 +33,7 @@ Eigen::Isometry3d mountOf(const StereoCameraOptions& options, double nod) {
   return mount;
 }
 
-/// Where tf says that the camera is.
+/// The camera's pose according to tf.
 Eigen::Isometry3d reportedMount(const StereoCameraOptions& options) {
   Eigen::Isometry3d mount = mountOf(options, 0.0);
   mount.linear() =
@@ -48,7 +48,7 @@ Eigen::Isometry3d inSpace(const Pose2& pose) {
   return result;
 }
 
-/// Where the piece of an object that is at `point` now was at another time.
+/// The position at another time of the part of an object that is at `point` now.
 Point2 pointBefore(const Point2& point, std::uint32_t object, const WorldState& now,
                    const WorldState& before) {
   const auto has_id = [object](const ObjectState& state) { return state.id == object; };

@@ -16,9 +16,9 @@
 
 namespace datmo::simulator {
 
-/// Follows corners through the images of a simulated stereo camera, with the faults that the real
-/// matching has: noise, corners that are lost, wrong matches; and makes points with velocity of
-/// them as the real stage does, from a motion of the camera that odometry knows roughly.
+/// Tracks corners through the images of a simulated stereo camera, with the errors of real matching
+/// (noise, lost corners, wrong matches), and computes points with velocity as the real stage does,
+/// with odometry as a prior of the camera's motion.
 class FeatureFlow {
  public:
   /// `seed`: of the run.
@@ -40,7 +40,7 @@ class FeatureFlow {
   std::optional<FeatureQuad> quadAt(const Eigen::Vector2d& pixel, const RayCaster& caster,
                                     const View& before, const View& now);
   Eigen::Isometry3d cameraInWorld(const View& view) const;
-  /// None behind the camera, or outside of its image.
+  /// Returns none behind the camera, or outside its image.
   std::optional<StereoFeature> seen(const Eigen::Vector3d& point, const View& view) const;
   StereoFeature noisy(StereoFeature feature);
   CameraMotion prior(const View& before, const View& now) const;

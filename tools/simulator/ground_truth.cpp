@@ -11,7 +11,7 @@ namespace {
 /// Rays over an object's width: its hidden share is known to a few hundredths.
 constexpr int kRays = 25;
 
-/// Bearings of the object's right and left border about `bearing` of its middle, rad.
+/// Bearings of the object's right and left edge relative to `bearing` of its center, rad.
 struct Extent {
   double middle = 0.0;
   double right = 0.0;

@@ -20,26 +20,26 @@ struct GroundTruthOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What is true of an object at the time of a scan.
+/// Ground truth of an object at the time of a scan.
 struct ObjectTruth {
   ObjectState state;
   std::vector<std::string> visible_to;  ///< names of sensors
-  int lidar_beams = 0;                  ///< whose nearest echo came from it
+  int lidar_beams = 0;                  ///< whose nearest echo is from it
   double occlusion = 0.0;               ///< 0 to 1, hidden share of its width seen from the scanner
 };
 
-/// How much of an object a sensor has before it.
+/// Visibility of an object for a sensor.
 struct LineOfSight {
   double hidden = 0.0;   ///< 0 to 1, share of the object's width behind other bodies
   double visible = 0.0;  ///< 0 to 1, share not hidden, in the field of view and in range
 };
 
-/// Looks from the sensor's position, at its height, at an object of the state.
+/// Computes the visibility of an object of the state from the sensor's position and height.
 LineOfSight lookAt(const ObjectState& object, const Viewpoint& view, const World& world,
                    const WorldState& state);
 
-/// The objects round the ego vehicle. `scan` is the scanner's at the state's time; `views` are all
-/// sensors', the scanner first.
+/// The objects around the ego vehicle. `scan` is the scanner's at the state's time; `views` are
+/// those of all sensors, the scanner first.
 std::vector<ObjectTruth> objectTruths(const World& world, const WorldState& state,
                                       const EchoScan& scan, const std::vector<Viewpoint>& views,
                                       const GroundTruthOptions& options);

@@ -22,7 +22,7 @@ void check(const LaserScannerOptions& options) {
   }
 }
 
-/// Position from -1/2 to 1/2 of the middle of part `index` of `count` equal parts.
+/// Position, from -1/2 to 1/2, of the center of part `index` of `count` equal parts.
 double middleOfPart(int index, int count) { return (index + 0.5) / count - 0.5; }
 
 bool nearer(const Echo& a, const Echo& b) { return a.range < b.range; }

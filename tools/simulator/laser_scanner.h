@@ -49,31 +49,31 @@ struct LaserScannerOptions {
   int beamCount() const;
 };
 
-/// What a beam brought back.
+/// One echo of a beam.
 struct Echo {
   double range = 0.0;                ///< m, measured
-  std::uint32_t object = kNoObject;  ///< what it came from
-  Surface surface = Surface::kBody;  ///< of what it came from
+  std::uint32_t object = kNoObject;  ///< of the object that reflected it
+  Surface surface = Surface::kBody;  ///< that reflected it
   double true_range = 0.0;           ///< m, without noise
 };
 
 /// One measurement of all beams, from right to left.
 struct EchoScan {
   double time = 0.0;                     ///< s, of the first beam
-  std::vector<std::vector<Echo>> beams;  ///< echoes by rising range; none: nothing seen
+  std::vector<std::vector<Echo>> beams;  ///< echoes in order of range; none: no return
 };
 
 /// Scans a world.
 ///
-/// A beam looks twice: in the horizontal plane and in a second plane above it; it lights a band of
-/// heights in each and some width. A target that differs in range from the first one is a second
-/// echo, be it from the other plane or from the beam's other half.
+/// A beam measures in two planes: the horizontal one and a second one above it; in each it
+/// illuminates a band of heights and some width. A target that differs in range from the first one
+/// is a second echo, whether from the other plane or from the beam's other half.
 class LaserScanner {
  public:
   /// Throws OptionError for options that contradict each other.
   LaserScanner(const LaserScannerOptions& options, const RandomStream& random);
 
-  /// The scan that starts at `time` (s); scans must be asked for in the order of time.
+  /// The scan that starts at `time` (s); scans must be requested in order of time.
   EchoScan measure(const World& world, double time);
 
   Viewpoint viewpoint() const;
@@ -89,15 +89,15 @@ class LaserScanner {
 
   std::vector<Echo> measureBeam(const RayCaster& caster, const Pose2& scanner, double bearing,
                                 const BeamFaults& faults);
-  /// Groups the hits of one plane by range into targets, and loses some of the thin ones.
+  /// Groups the hits of one plane by range into targets, and drops some of the thin ones.
   void addTargets(const RayCaster& caster, double heading, double plane_pitch,
                   const BeamFaults& faults, std::vector<Echo>& targets);
-  /// What the sub-rays meet in one plane, by rising range.
+  /// Hits of the sub-rays in one plane, in order of range.
   std::vector<Echo> castBeam(const RayCaster& caster, double heading, double plane_pitch,
                              const BeamFaults& faults) const;
   std::optional<RayHit> castSubRay(const RayCaster& caster, double heading, const HeightBand& band,
                                    const BeamFaults& faults) const;
-  /// The nearest targets that differ enough, with noise and within the ranges.
+  /// The nearest targets that are sufficiently separated, with noise and within the range limits.
   std::vector<Echo> reported(std::vector<Echo> targets);
 
   LaserScannerOptions options_;

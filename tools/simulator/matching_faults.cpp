@@ -8,11 +8,11 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Disparities that differ by more (px) belong to two surfaces: the usual limit of the check of
-/// left against right.
+/// Disparities that differ by more (px) belong to two surfaces: the usual limit of the left-right
+/// check.
 constexpr double kSameSurface = 1.0;
 
-/// What the right camera sees in one row: the greatest disparity in each of its columns.
+/// The right camera's view of one row: the greatest disparity in each of its columns.
 class RightRow {
  public:
   RightRow(int columns, int column_step)
@@ -83,7 +83,7 @@ class SmoothNoise {
   std::vector<double> corners_;
 };
 
-/// The nearest surface within `reach` columns beside a pixel, as far as it is of another surface.
+/// The nearest surface within `reach` columns beside a pixel, if it is another surface.
 double nearerBeside(const DisparityImage& image, int column, int row, int reach) {
   const double own = image.seen[image.slot(column, row)];
   double nearest = own;

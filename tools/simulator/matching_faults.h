@@ -6,11 +6,11 @@
 
 namespace datmo::simulator {
 
-/// Faults of stereo matching, in the order in which they are put on an image. Each changes
-/// `measured` only.
+/// Faults of stereo matching, in the order in which they are applied to an image. Each changes only
+/// `measured`.
 
-/// Takes away what the right camera does not see: background beside the left border of nearer
-/// things, and what lies left of the right image.
+/// Removes what the right camera does not see: background beside the left edge of nearer objects,
+/// and what is left of the right image.
 void removeHidden(DisparityImage& image);
 
 /// At most `width` px beside a nearer object, and with this probability (0 to 1), background gets a
@@ -22,8 +22,8 @@ void mixEdges(DisparityImage& image, int width, double probability, RandomStream
 void addNoise(DisparityImage& image, double sigma, double common_share, int patch,
               RandomStream& random);
 
-/// Wrong matches: a share (0 to 1) of all patches of `patch` px gets one disparity of its own, any
-/// from `min` to `max` px.
+/// Wrong matches: a share (0 to 1) of all patches of `patch` px gets a random disparity from `min`
+/// to `max` px.
 void addOutliers(DisparityImage& image, double share, int patch, double min, double max,
                  RandomStream& random);
 

@@ -23,26 +23,26 @@ struct OdometerOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One measurement, and where the measurements so far have led.
+/// One measurement, and the pose integrated from the measurements so far.
 ///
-/// The variances count scale error and bias as noise, because who reads the odometry does not know
+/// The variances include scale error and bias as noise, because users of the odometry do not know
 /// them.
 struct Odometry {
   double time = 0.0;               ///< s
   Twist2 twist;                    ///< measured
   double speed_variance = 0.0;     ///< (m/s)^2
   double yaw_rate_variance = 0.0;  ///< (rad/s)^2
-  PoseWithCovariance pose;  ///< of the vehicle in the odometry's frame: where it was at first
+  PoseWithCovariance pose;  ///< of the vehicle in the odometry's frame, which is its initial pose
 };
 
-/// Measures the ego vehicle's mean motion since the measurement before, as wheel counts do, and
+/// Measures the ego vehicle's mean motion since the previous measurement, like wheel counters, and
 /// integrates it.
 class Odometer {
  public:
   /// Throws OptionError.
   Odometer(const OdometerOptions& options, const RandomStream& random);
 
-  /// States must be given in the order of time.
+  /// States must be given in order of time.
   Odometry measure(const WorldState& state);
 
  private:

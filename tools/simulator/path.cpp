@@ -12,7 +12,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// A corner sharper than this (rad) has no useful arc: its legs nearly cover each other.
+/// A corner sharper than this (rad) has no useful arc, because its legs nearly coincide.
 constexpr double kSharpest = degrees(175.0);
 
 double headingOf(const Point2& leg) { return std::atan2(leg.y(), leg.x()); }

@@ -18,14 +18,14 @@ struct PathPoint {
 /// A polyline whose corners are rounded by circular arcs, parameterized by arc length.
 class Path {
  public:
-  /// `points`: at least two, m, no two neighbors the same and no turning back on the spot.
-  /// `corner_radius`: m, at least 0; where a leg is too short for it, the arc is made smaller.
-  /// Throws std::invalid_argument on other input.
+  /// `points`: at least two, m, no two neighbors equal and no reversal of direction.
+  /// `corner_radius`: m, at least 0; if a leg is too short for it, the arc is made smaller. Throws
+  /// std::invalid_argument on other input.
   Path(const Polyline& points, double corner_radius);
 
   double length() const { return length_; }
 
-  /// `arc_length`: m from the start; beyond the ends the path goes straight on.
+  /// `arc_length`: m from the start; beyond the ends the path continues straight.
   PathPoint at(double arc_length) const;
 
   /// Points along the path: the ends of the legs, and the arcs in steps of at most `arc_step` (m).

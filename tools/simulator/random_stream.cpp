@@ -9,7 +9,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// FNV-1a: std::hash may differ from one library to the next.
+/// FNV-1a, because std::hash may differ between libraries.
 std::uint64_t hashOf(const std::string& text) {
   constexpr std::uint64_t kOffsetBasis = 14695981039346656037ULL;
   constexpr std::uint64_t kPrime = 1099511628211ULL;

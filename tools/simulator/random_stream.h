@@ -7,16 +7,16 @@
 
 namespace datmo::simulator {
 
-/// Random numbers of one sensor. Each sensor has a stream of its own, seeded from the run's seed
-/// and the sensor's name, so that a further sensor does not change what the others measure.
+/// Random numbers of one sensor. Each sensor has its own stream, seeded from the run's seed and the
+/// sensor's name, so that an additional sensor does not change the measurements of the others.
 ///
-/// The distributions are written out here because the standard fixes the engines only: with those
-/// of the library another compiler would make another bag from the same seed.
+/// The distributions are implemented here because the standard specifies only the engines: with
+/// those of the library, another compiler would generate a different bag from the same seed.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, const std::string& name);
 
-  /// From 0 to below 1.
+  /// Uniform in [0, 1).
   double uniform();
 
   /// Zero mean; `sigma` at least 0, in the unit of the result.

@@ -8,19 +8,19 @@
 
 namespace datmo::simulator {
 
-/// The heights that a beam lights at each range: between two planes through the sensor.
+/// The heights that a beam illuminates at each range: between two planes through the sensor.
 struct HeightBand {
   double sensor_height = 0.0;  ///< m above the road
   double low_slope = 0.0;      ///< tangent of the lower edge's angle above the horizon
   double high_slope = 0.0;     ///< of the upper edge's
 
-  /// Whether an object of this height (m), standing on the road at this range (m), is lit.
+  /// Whether an object of this height (m) on the road at this range (m) is illuminated.
   bool lights(double height, double range) const {
     return sensor_height + low_slope * range <= height && sensor_height + high_slope * range >= 0.0;
   }
 };
 
-/// Where a ray meets a solid.
+/// A hit of a ray on a solid.
 struct RayHit {
   double range = 0.0;  ///< m
   std::uint32_t object = kNoObject;
@@ -33,20 +33,22 @@ struct Passage {
   const Solid* solid = nullptr;  ///< lives as long as the world and its state
 };
 
-/// Sends rays from one position into the world at one time; only what is within reach is looked at.
+/// Casts rays from one position into the world at one time; only solids within reach are
+/// considered.
 class RayCaster {
  public:
-  /// `reach`: m, the longest ray that will be asked for. Keeps references to both: they must live
-  /// as long as the caster.
+  /// `reach`: m, the longest ray that will be requested. Keeps references to both, which must
+  /// outlive the caster.
   RayCaster(const World& world, const WorldState& state, const Point2& origin, double reach);
 
-  /// The nearest lit solid of a surface at a heading (rad, world frame), not farther than `reach`.
+  /// The nearest illuminated solid of a surface at a heading (rad, world frame), not farther than
+  /// `reach`.
   std::optional<RayHit> nearest(double heading, const HeightBand& band, Surface surface,
                                 double reach) const;
 
-  /// All that stands (bodies and curbs, not paint) along a heading (rad, world frame) and begins
-  /// ahead of the origin, not farther than `reach`; the nearest first. Heights are left to the
-  /// caller: a low object hides only a part of what is behind it.
+  /// All solids (bodies and curbs, not paint) along a heading (rad, world frame) that begin ahead
+  /// of the origin, not farther than `reach`; the nearest first. Heights are left to the caller, as
+  /// a low object hides only a part of what is behind it.
   std::vector<Passage> passages(double heading, double reach) const;
 
  private:
@@ -55,7 +57,7 @@ class RayCaster {
     Circle bound;
   };
 
-  /// Whether the ray comes near enough to the solid to meet it.
+  /// Whether the ray passes close enough to the solid to hit it.
   bool mayMeet(const Candidate& candidate, const Point2& direction) const;
   void addWithin(const std::vector<Solid>& solids, double reach);
 

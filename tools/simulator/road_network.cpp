@@ -12,14 +12,14 @@ namespace {
 
 /// Step (m) in which lines along roads are sampled to find where other roads open into them.
 constexpr double kSampleStep = 0.25;
-/// Points nearer than this (m) to the straight line between their neighbors are left out.
+/// Points closer than this (m) to the straight line between their neighbors are omitted.
 constexpr double kStraight = 1e-3;
-/// Pieces of a corner between two curbs.
+/// Number of segments of a corner between two curbs.
 constexpr int kCornerPieces = 6;
 /// Zebra stripes and the gaps between them, m (Richtlinien fuer Fussgaengerueberwege: 0.5 m).
 constexpr double kStripe = 0.5;
 
-/// Whether a point is at most `reach` m beside the road's middle line; a road ends square.
+/// Whether a point is at most `reach` m beside the road's center line; a road has square ends.
 bool covers(const Road& road, const Point2& point, double reach) {
   const Polyline line = road.middle.points(kSampleStep);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -38,7 +38,7 @@ bool covers(const Road& road, const Point2& point, double reach) {
   return false;
 }
 
-/// The same line without points that lie on the straight line between their neighbors.
+/// The same line without points that are on the straight line between their neighbors.
 Polyline simplified(const Polyline& line) {
   Polyline simple{line.front()};
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
@@ -52,8 +52,8 @@ Polyline simplified(const Polyline& line) {
   return simple;
 }
 
-/// Where two lines meet that start at points and go on in directions; the middle of the points for
-/// parallel ones.
+/// The intersection of two lines given by points and directions; for parallel lines, the midpoint
+/// of the points.
 Point2 meetingPoint(const Point2& a, const Point2& a_ahead, const Point2& b,
                     const Point2& b_ahead) {
   const double denominator = a_ahead.x() * b_ahead.y() - a_ahead.y() * b_ahead.x();

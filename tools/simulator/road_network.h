@@ -10,26 +10,26 @@
 
 namespace datmo::simulator {
 
-/// A street: its middle line, its measures and its white paint.
+/// A street: its center line, its dimensions and its white paint.
 struct Road {
   std::string name;
   Path middle;
   double width = 0.0;          ///< m, from curb to curb
-  double corner_radius = 0.0;  ///< m, of the curbs where other roads open into it
-  double dash_length = 0.0;    ///< m, of the dashed middle line; 0: none
+  double corner_radius = 0.0;  ///< m, of the curbs where other roads join it
+  double dash_length = 0.0;    ///< m, of the dashed center line; 0: none
   double dash_gap = 0.0;       ///< m
-  double paint_width = 0.0;    ///< m, of the middle line
+  double paint_width = 0.0;    ///< m, of the center line
 };
 
 /// A zebra crossing.
 struct Crossing {
   std::size_t road = 0;
-  double arc_length = 0.0;  ///< m along the road, of its middle
+  double arc_length = 0.0;  ///< m along the road, of its center
   double length = 0.0;      ///< m along the road
 };
 
-/// The streets of a scene. Where two of them meet, curbs, fronts and paint are left open, and the
-/// curbs are joined by rounded corners.
+/// The streets of a scene. Where two of them meet, curbs, fronts and paint are interrupted, and the
+/// curbs are connected by rounded corners.
 class RoadNetwork {
  public:
   RoadNetwork() = default;
@@ -37,25 +37,25 @@ class RoadNetwork {
 
   const std::vector<Road>& roads() const { return roads_; }
 
-  /// All curbs, the corners of junctions as pieces of their own.
+  /// All curbs, with the corners of junctions as separate lines.
   const std::vector<Polyline>& curbs() const { return curbs_; }
 
   /// White paint: dashes and zebra stripes.
   std::vector<Box2> paint() const;
 
-  /// Pose beside a road, heading along it; `left` in m from the middle line, `arc_length` in m
+  /// Pose beside a road, heading along it; `left` in m from the center line, `arc_length` in m
   /// along it.
   Pose2 beside(std::size_t road, double arc_length, double left) const;
 
-  /// The line along a road at `left` m from its middle line, from one arc length (m) to another,
-  /// without what is on another road or nearer to one than `clearance` (m).
+  /// The line along a road at `left` m from its center line, from one arc length (m) to another,
+  /// except where it is on another road or closer to one than `clearance` (m).
   std::vector<Polyline> sideLines(std::size_t road, double left, double from, double to,
                                   double clearance) const;
 
-  /// Whether a point on `road` is also on another one or nearer to it than `clearance` (m).
+  /// Whether a point on `road` is also on another one or closer to it than `clearance` (m).
   bool onOtherRoad(std::size_t road, const Point2& point, double clearance) const;
 
-  /// Inside a junction, the openings of its curbs included.
+  /// Inside a junction, including the openings of its curbs.
   bool atIntersection(const Point2& point) const;
 
  private:
@@ -63,7 +63,7 @@ class RoadNetwork {
   void addCorners();
   void addDashes(std::size_t road, std::vector<Box2>& boxes) const;
 
-  /// Where a curb stops for a junction.
+  /// The end of a curb at a junction.
   struct CurbEnd {
     std::size_t road = 0;
     Point2 position = Point2::Zero();

@@ -15,7 +15,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// s; more than a contact's time is off.
+/// s; greater than the error of a contact's time.
 constexpr double kContactMargin = 2e-3;
 
 std::size_t findRoad(const std::string& name, const std::vector<Road>& roads) {
@@ -44,7 +44,7 @@ RoadNetwork readRoads(const YAML::Node& scene) {
   return {roads, crossings};
 }
 
-/// m to the left of the road's middle line.
+/// m to the left of the road's center line.
 double leftOf(const Road& road, RoadSide side, double from_curb) {
   const double from_middle = 0.5 * road.width + from_curb;
   return side == RoadSide::kLeft ? from_middle : -from_middle;
@@ -77,7 +77,7 @@ std::set<int> readLeftOut(const YAML::Node& entry) {
   }
 }
 
-/// What stands on another road, or in the bend of its curb, is left out.
+/// Objects on another road, or in the bend of its curb, are omitted.
 void addRow(const YAML::Node& entry, World& world) {
   const auto item = readItem<RowItem>(entry, {"kinds", "leave_out"});
   const std::vector<std::string> kinds = readKinds(entry);
@@ -174,8 +174,8 @@ World readWorld(const YAML::Node& scene, const SimulationOptions& options) {
   return *world;
 }
 
-/// Bodies other than the ego vehicle may not meet, nor may it without `contact`. Up to its contact:
-/// there the drive ends.
+/// Bodies other than the ego vehicle must not collide; the ego vehicle only with `contact`. Checked
+/// up to its contact, at which the drive ends.
 void refuseCollisions(const World& world, double duration) {
   if (const auto collision = firstCollision(world, duration)) {
     std::ostringstream message;
@@ -202,7 +202,7 @@ Scene readScene(const std::string& file, const OptionValues& overrides) {
     if (options.contact) {
       scene->contact = firstEgoContact(scene->world, options.duration);
     }
-    // Its last moment is the contact itself.
+    // The last moment is the contact itself.
     refuseCollisions(scene->world,
                      scene->contact ? scene->contact->time - kContactMargin : options.duration);
   });

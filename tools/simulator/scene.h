@@ -17,7 +17,7 @@
 
 namespace datmo::simulator {
 
-/// All that can be set about a run besides the scene itself.
+/// All settings of a run besides the scene itself.
 struct SimulationOptions {
   int seed = 1;
   double duration = 20.0;  ///< s
@@ -36,15 +36,15 @@ struct SimulationOptions {
 struct Scene {
   SimulationOptions options;
   World world;
-  std::optional<EgoContact> contact;  ///< where the options allow it and it comes to it
+  std::optional<EgoContact> contact;  ///< if the options allow it and it happens
 };
 
-/// Reads a scene file (rosbag_fixtures/README.md says what is in one). `overrides` replace options
-/// of its section `options`, by full key.
+/// Reads a scene file (described in rosbag_fixtures/README.md). `overrides` replace options of its
+/// section `options`, by full key.
 ///
 /// Throws OptionError that names the file, the location in it, the value and what was expected: for
-/// a key that nobody reads, a value out of bounds, a path that is too short for its speeds, and
-/// bodies that run into each other.
+/// an unknown key, a value out of bounds, a path that is too short for its speeds, and bodies that
+/// collide.
 Scene readScene(const std::string& file, const OptionValues& overrides = {});
 
 }  // namespace datmo::simulator

@@ -8,7 +8,7 @@
 
 namespace datmo::simulator {
 
-/// Single values of the entries of a scene file; lists (points, speeds) are read beside them.
+/// Single values of the entries of a scene file; lists (points, speeds) are read separately.
 
 struct RoadItem {
   std::string name;

@@ -15,7 +15,7 @@
 
 namespace datmo::simulator {
 
-/// Runs `read` and puts `location` before the message of what it throws.
+/// Runs `read` and prepends `location` to the message of its exceptions.
 void readAt(const std::string& location, const std::function<void()>& read);
 
 /// Rows of `columns` numbers each. Throws OptionError for anything else.
@@ -28,15 +28,16 @@ Polyline readPoints(const YAML::Node& entry, const std::string& key);
 /// `[[time, speed], ...]` in s and m/s under the key `speed`.
 SpeedProfile readSpeed(const YAML::Node& entry);
 
-/// Calls `read` for each entry of the list under `key`, if there is one; what it throws is put in
-/// its location (`roads[0]: ...`).
+/// Calls `read` for each entry of the list under `key`, if it exists; the location (`roads[0]:
+/// ...`) is prepended to its exceptions.
 void readList(const YAML::Node& scene, const std::string& key,
               const std::function<void(const YAML::Node&)>& read);
 
 /// Throws OptionError unless `node` is a map whose keys are all in `known`.
 void expectKeys(const YAML::Node& node, const std::set<std::string>& known);
 
-/// The single values of an entry; `lists` are the keys that are read otherwise. Throws OptionError.
+/// Reads the single values of an entry; `lists` are the keys that are read separately. Throws
+/// OptionError.
 template <typename Item>
 Item readItem(const YAML::Node& entry, const std::set<std::string>& lists = {}) {
   if (!entry.IsMap()) {

@@ -12,7 +12,8 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Interval of the half line inside the slab |coordinate| <= half, cut with `[enter, leave]`.
+/// Interval of the half line inside the slab |coordinate| <= half, intersected with `[enter,
+/// leave]`.
 void cutWithSlab(double origin, double direction, double half, double& enter, double& leave) {
   if (direction == 0.0) {
     if (std::abs(origin) > half) {
@@ -101,7 +102,7 @@ Interval project(const std::vector<Point2>& points, const Point2& axis) {
   return interval;
 }
 
-/// Whether an edge of `a`, or the normal of one, is a direction in which the two are apart.
+/// Whether an edge of `a`, or the normal of one, is a separating direction of the two.
 bool separatedByEdgesOf(const std::vector<Point2>& a, const std::vector<Point2>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Point2 edge = a[(i + 1) % a.size()] - a[i];

@@ -31,19 +31,19 @@ struct HalfLine {
 /// The half line from a point at a heading (rad).
 HalfLine halfLine(const Point2& origin, double heading);
 
-/// The part of a half line that lies within an outline, m from its origin; negative: behind it.
+/// The part of a half line that is inside an outline, m from its origin; negative: behind it.
 struct RaySpan {
   double enter = 0.0;
   double leave = 0.0;  ///< not less than `enter`; the same on a segment
 };
 
-/// The smallest circle about the shape's middle that holds all of it.
+/// The smallest circle about the shape's center that contains it.
 Circle boundingCircle(const Shape& shape);
 
-/// Where the half line's whole line is within the outline; nothing if it passes by.
+/// The interval in which the half line's full line is inside the outline; none if it misses.
 std::optional<RaySpan> spanAlong(const Shape& shape, const HalfLine& ray);
 
-/// Range (m) at which the half line first meets the outline; from inside, where it leaves.
+/// Range (m) at which the half line first hits the outline; from inside, where it leaves.
 std::optional<double> rangeTo(const Shape& shape, const HalfLine& ray);
 
 /// From the point to the nearest point of the shape, m; 0 inside.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file becomes a bag of the demonstrator's sensors with ground truth.
+// Simulates a scene file to a bag of the demonstrator's sensors with ground truth.
 
 #include <cstdlib>
 #include <iomanip>

@@ -20,11 +20,11 @@ namespace datmo::simulator {
 
 namespace {
 
-/// s of ROS time at the start; well above 0, which ROS takes for "no time".
+/// s of ROS time at the start; well above 0, which means "no time" in ROS.
 constexpr double kEpoch = 1000.0;
 
-/// A sensor that measures at a rate and records what it measures. A further sensor is one more
-/// class that measures a World with a random stream of its own name, and one more source.
+/// A sensor that measures at a rate and records its measurements. To add a sensor, add a class that
+/// measures a World with a random stream of its own name, and a source.
 struct Source {
   double rate = 1.0;                            ///< Hz
   std::function<void(double time, Stamp)> run;  ///< `time` in s since the start
@@ -33,7 +33,7 @@ struct Source {
   double nextTime() const { return runs / rate; }
 };
 
-/// Holds the sensors of a run and the bag they write to.
+/// Holds the sensors of a run and the bag to which they write.
 class Recording {
  public:
   Recording(const Scene& scene, OutputBag& bag)

@@ -8,17 +8,17 @@
 
 namespace datmo::simulator {
 
-/// Called with the simulated time so far, s; returns false to break off.
+/// Called with the simulated time so far, s; returns false to abort.
 using Progress = std::function<bool(double)>;
 
-/// Runs the scene and writes what its sensors measure and what is true into a bag: `/scan` or
-/// `/echoes`, `/stereo/...` if there is such a camera, `/odometry`, `/tf`, `/tf_static`,
+/// Runs the scene and writes the measurements of its sensors and the ground truth to a bag: `/scan`
+/// or `/echoes`, `/stereo/...` if there is a stereo camera, `/odometry`, `/tf`, `/tf_static`,
 /// `/ground_truth/...` (rosbag_fixtures/README.md). The same scene gives the same bytes. The clock
 /// starts at 1000 s of ROS time; messages are recorded at their stamps, scans when their last beam
 /// is measured, points of the stereo camera after its latency.
 ///
-/// Returns false, and leaves no bag, if `progress` breaks it off. Throws std::runtime_error that
-/// names the file if it cannot be written.
+/// Returns false, and leaves no bag, if `progress` aborts it. Throws std::runtime_error that names
+/// the file if it cannot be written.
 bool writeSimulationBag(const Scene& scene, const std::string& file, const Progress& progress);
 
 }  // namespace datmo::simulator

@@ -21,7 +21,7 @@ std_msgs::Header header(Stamp stamp, const std::string& frame) {
   return result;
 }
 
-/// The fields that both kinds of scan have.
+/// The fields common to both kinds of scan.
 template <typename Message>
 Message emptyScan(const LaserScannerOptions& options, Stamp stamp) {
   Message message;

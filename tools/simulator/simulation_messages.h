@@ -27,7 +27,7 @@ sensor_msgs::LaserScan toLaserScan(const EchoScan& scan, const LaserScannerOptio
 sensor_msgs::MultiEchoLaserScan toMultiEchoScan(const EchoScan& scan,
                                                 const LaserScannerOptions& options, Stamp stamp);
 
-/// What the nearest echo of each beam came from.
+/// The origin of the nearest echo of each beam.
 TrueEchoes toTrueEchoes(const EchoScan& scan, Stamp stamp);
 
 nav_msgs::Odometry toMessage(const Odometry& odometry, Stamp stamp);

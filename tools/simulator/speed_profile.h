@@ -5,14 +5,14 @@
 
 namespace datmo::simulator {
 
-/// A speed that is to be reached at a time; in between it changes evenly.
+/// A speed that is reached at a time; in between the speed changes linearly.
 struct SpeedPoint {
   double time = 0.0;   ///< s
   double speed = 0.0;  ///< m/s, at least 0
 };
 
-/// Speed over time by key points: constant before the first and after the last, and a constant
-/// acceleration from each to the next.
+/// Speed over time by key points: constant before the first and after the last, with constant
+/// acceleration between neighbors.
 class SpeedProfile {
  public:
   /// Throws std::invalid_argument without points, for times that do not rise and for a speed that

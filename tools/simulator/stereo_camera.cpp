@@ -19,7 +19,7 @@ void check(const StereoCameraOptions& options) {
   }
 }
 
-/// How many of `pixels` are looked at, the first of each step.
+/// Number of `pixels` that are evaluated, the first of each step.
 int count(int pixels, int step) { return (pixels + step - 1) / step; }
 
 }  // namespace
@@ -69,8 +69,8 @@ DisparityImage StereoCamera::look(const World& world, const WorldState& state, d
   return image;
 }
 
-/// All of a column lies in one upright plane, because the cameras are level: one ray over ground
-/// finds what stands in it, then each row is a line of sight in this plane. A nod moves the rows up
+/// An image column is in one vertical plane, because the cameras are level: one ray over the ground
+/// finds the solids in it, then each row is a line of sight in this plane. A nod shifts the rows up
 /// or down, to first order.
 void StereoCamera::lookAlongColumn(const RayCaster& caster, const Pose2& camera, int column,
                                    double nod, DisparityImage& image) const {

@@ -61,7 +61,7 @@ struct StereoCameraOptions {
   /// Middle of the image, px: of both columns and rows.
   double middleColumn() const { return 0.5 * (image_width - 1); }
   double middleRow() const { return 0.5 * (image_height - 1); }
-  /// Disparity (px) of a point at a depth (m), and the other way round.
+  /// Disparity (px) of a point at a depth (m), and vice versa.
   double disparityAt(double depth) const { return focal_length * baseline / depth; }
   double depthAt(double disparity) const { return focal_length * baseline / disparity; }
 };
@@ -72,8 +72,8 @@ struct StereoPoints {
   std::vector<Eigen::Vector3f> points;  ///< m, row by row
 };
 
-/// Looks into a world with two cameras side by side, level, and gives the points that matching
-/// their images finds. Paint on the road is road to it; a curb is a low solid.
+/// Observes a world with two level cameras side by side, and returns the points found by matching
+/// their images. Paint on the road is treated as road, a curb as a low solid.
 class StereoCamera {
  public:
   /// `seed`: of the run. Throws OptionError for options that contradict each other.

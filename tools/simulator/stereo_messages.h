@@ -11,12 +11,12 @@
 
 namespace datmo::simulator {
 
-/// Where the left camera is said to sit, its error included: base_link -> stereo_left_optical (x
-/// right, y down, z forward).
+/// The mount of the left camera as published, including its error: base_link -> stereo_left_optical
+/// (x right, y down, z forward).
 geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stamp stamp);
 
-/// As stereo_image_proc publishes points, but for the colors and the holes: a list of x, y, z
-/// (float32, m) without those that were not found.
+/// Points as published by stereo_image_proc, but without colors and holes: a list of x, y, z
+/// (float32, m) of the points found.
 sensor_msgs::PointCloud2 toCloud(const StereoPoints& points, Stamp stamp);
 
 /// Of rectified images; the right camera's projection has the baseline (P[3] = -f B).

@@ -7,11 +7,12 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Cubes begin off the middles and borders of solids, where rounding would flicker between two.
+/// Cubes are offset from the centers and edges of solids, where rounding would switch between two
+/// cubes.
 constexpr double kOffset = 0.137;
 
 /// SplitMix64's finalizer (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
-/// 2014): each bit of the result hangs on each bit of the value.
+/// 2014): each bit of the result depends on each bit of the value.
 std::uint64_t mixed(std::uint64_t value) {
   value += 0x9e3779b97f4a7c15ULL;
   value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -19,13 +20,13 @@ std::uint64_t mixed(std::uint64_t value) {
   return value ^ (value >> 31U);
 }
 
-/// From 0 to below 1.
+/// Uniform in [0, 1).
 double toShare(std::uint64_t hash) {
   constexpr unsigned kUnusedBits = 11;  // a double's mantissa holds 53 of the 64 bits
   return std::ldexp(static_cast<double>(hash >> kUnusedBits), -53);
 }
 
-/// The point as the solid itself sees it.
+/// The point in the solid's own frame.
 Point2 inFrameOf(const Solid& solid, const Point2& point) {
   if (const auto* box = std::get_if<Box2>(&solid.outline)) {
     return box->center.inverse() * point;

@@ -7,18 +7,18 @@
 
 namespace datmo::simulator {
 
-/// Which pieces of the world look so even that stereo matching finds nothing on them.
+/// Which parts of the world have so little texture that stereo matching finds nothing on them.
 ///
-/// The world is cut into cubes; whether what lies in one is even is decided by a hash of the cube
-/// and the object, so that it stays the same over time. The cubes of an object are laid in its own
-/// frame and move with it.
+/// The world is divided into cubes; a hash of the cube and the object decides whether the surface
+/// inside has no texture, so that this is constant over time. The cubes of an object are defined in
+/// its own frame and move with it.
 class SurfaceTexture {
  public:
-  /// `patch`: m, edge of the cubes. The shares (0 to 1) of even cubes on what stands, and on the
+  /// `patch`: m, edge of the cubes. Shares (0 to 1) of cubes without texture on solids, and on the
   /// road. `seed`: of the run.
   SurfaceTexture(double patch, double share_on_solids, double share_on_road, std::uint64_t seed);
 
-  /// Whether the point where a ray ends is even. `point`: m, world frame.
+  /// Whether the end point of a ray has no texture. `point`: m, world frame.
   bool isEven(const RayEnd& end, const Point2& point) const;
 
  private:

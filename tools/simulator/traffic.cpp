@@ -9,9 +9,9 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Draws after which a mover is given up; lanes that are not full need a few.
+/// Maximum number of draws for a mover; lanes that are not full need only a few.
 constexpr int kMaxDraws = 1000;
-/// m; how finely a lane is searched for the arc length beside the ego vehicle.
+/// m; step of the search for the arc length of a lane beside the ego vehicle.
 constexpr double kSearchStep = 1.0;
 
 double between(double min, double max, double share) { return min + share * (max - min); }
@@ -21,7 +21,7 @@ const Item& oneOf(const std::vector<Item>& items, RandomStream& random) {
   return items[static_cast<std::size_t>(random.uniform() * static_cast<double>(items.size()))];
 }
 
-/// arc length of the path nearest to a point, m.
+/// Arc length of the path's nearest point to a point, m.
 double arcLengthBeside(const Path& path, const Point2& point) {
   double nearest = 0.0;
   for (double arc_length = 0.0; arc_length <= path.length(); arc_length += kSearchStep) {

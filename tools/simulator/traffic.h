@@ -11,8 +11,8 @@
 
 namespace datmo::simulator {
 
-/// How much random traffic there is. With the same seed, more of it leaves the first movers and the
-/// ego vehicle's odometry as they are.
+/// The amount of random traffic. With the same seed, more traffic leaves the first movers and the
+/// ego vehicle's odometry unchanged.
 struct TrafficOptions {
   int movers = 0;
   double gap = 3.0;  ///< m
@@ -20,7 +20,7 @@ struct TrafficOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where random traffic drives, and how.
+/// A lane of random traffic, and its speeds.
 struct Lane {
   Path path;
   std::vector<ObjectKind> kinds;  ///< at least one
@@ -32,10 +32,10 @@ struct Lane {
 
 /// Adds movers to the world, each drawn from the stream: its lane, kind and constant speed, the
 /// time at which it meets the ego vehicle, from 0 to `duration` (s), and how far ahead of it in the
-/// lane it is then; so all of them come near. What would come nearer than the gap to a body ahead
-/// or behind is drawn again.
+/// lane it is then; so all of them come near. A mover that would come closer than the gap to a body
+/// ahead or behind is drawn again.
 ///
-/// Throws OptionError where there is no lane, or where no free lane is found for a mover.
+/// Throws OptionError if there is no lane, or if no free lane is found for a mover.
 void addTraffic(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
                 RandomStream random, World& world);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Risks of a scene from what is true in it: how good the risk is without the errors of the tracks.
+// Assesses the risks of a scene from the ground truth, without the errors of the tracks.
 
 #include <cstdlib>
 #include <string>

@@ -9,7 +9,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// s, over which true accelerations and yaw rates are taken.
+/// s, over which true accelerations and yaw rates are averaged.
 constexpr double kShort = 0.1;
 
 /// s, the same of the host (HostInputOptions::acceleration_time).
@@ -21,13 +21,13 @@ constexpr double kVelocitySigma = 0.1;
 constexpr double kAccelerationSigma = 0.2;
 constexpr double kHeadingSigma = 0.02;
 
-/// m, between points on the outline of what stands.
+/// m, between points on the outlines of stationary solids.
 constexpr double kPointSpacing = 0.2;
 
-/// Probability of the mode that the true motion is of; the others share the rest.
+/// Probability of the mode of the true motion; the others share the rest.
 constexpr double kSureMode = 0.9;
 
-/// m/s, m/s^2, rad/s; more is motion, acceleration, a turn.
+/// m/s, m/s^2, rad/s; above these: motion, acceleration, a turn.
 constexpr double kMoving = 0.1;
 constexpr double kAccelerating = 0.5;
 constexpr double kTurning = 0.1;

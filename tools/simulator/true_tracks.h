@@ -12,25 +12,25 @@
 
 namespace datmo::simulator {
 
-/// The ego vehicle at a time (s) as its sensors would know it, in the world's frame: speed and yaw
-/// rate of now, acceleration over the last half second.
+/// The ego vehicle at a time (s) as its sensors would measure it, in the world's frame: present
+/// speed and yaw rate, acceleration over the last half second.
 HostState trueHost(const World& world, double time, const HostVehicleOptions& vehicle);
 
-/// What an ideal perception would make of a scene, in the world's frame.
+/// The output of an ideal perception for a scene, in the world's frame.
 struct TruePerception {
   std::vector<Track> tracks;
-  std::vector<Point2> standing;  ///< m, on the outlines of what was not seen to move yet
+  std::vector<Point2> standing;  ///< m, on the outlines of solids that have not been seen moving
+                                 ///< yet
 };
 
-/// Tracks as an ideal tracker would make them: of all objects that a sensor has seen once and that
-/// have moved since, with the true state, a small covariance, and the mode of motion that the true
-/// motion is of.
+/// Tracks of an ideal tracker: of all objects that a sensor has seen once and that have moved
+/// since, with the true state, a small covariance, and the mode of the true motion.
 class IdealTracker {
  public:
   /// `world` must outlive this.
   explicit IdealTracker(const World& world) : world_(world) {}
 
-  /// `truths`: at that time (s). Times rise.
+  /// `truths`: at that time (s). Times must increase.
   TruePerception at(double time, const std::vector<ObjectTruth>& truths);
 
  private:

@@ -7,8 +7,8 @@
 
 namespace datmo::simulator {
 
-/// Where a sensor sits and how far round it looks: what the ground truth must know of each sensor
-/// to say which objects it can see.
+/// Mount and field of view of a sensor, from which the ground truth determines which objects it can
+/// see.
 struct Viewpoint {
   std::string sensor;          ///< name, as in visible_to
   Pose2 sensor_in_base;        ///< m, rad

@@ -11,7 +11,7 @@ namespace {
 
 /// Curb stones of German city streets stand 10 to 15 cm above the road.
 constexpr double kCurbHeight = 0.12;
-/// Slower than this (m/s) is standing in the ground truth.
+/// Objects slower than this (m/s) are stationary in the ground truth.
 constexpr double kStandstill = 0.1;
 
 }  // namespace

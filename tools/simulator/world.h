@@ -15,14 +15,14 @@
 
 namespace datmo::simulator {
 
-/// How a solid answers a beam of light.
+/// How a solid responds to a beam.
 enum class Surface {
   kBody,   ///< reflects, and hides what is behind it
   kCurb,   ///< an edge so low that it reflects only sometimes, and hides nothing
-  kPaint,  ///< white paint on the road, flat; reflects by mistake (thesis 1.3.3)
+  kPaint,  ///< white paint on the road, flat; a false return (thesis 1.3.3)
 };
 
-/// No object of the ground truth: buildings, fences, curbs.
+/// Not an object of the ground truth: buildings, fences, curbs.
 inline constexpr std::uint32_t kNoObject = 0;
 
 /// An object on the road, as an upright prism.
@@ -33,7 +33,7 @@ struct Solid {
   std::uint32_t object = kNoObject;  ///< id in the ground truth
 };
 
-/// Measures and class of a kind of object.
+/// Dimensions and class of a kind of object.
 struct ObjectKind {
   std::string key;    ///< in scene files
   std::string label;  ///< in the ground truth
@@ -45,13 +45,13 @@ struct ObjectKind {
   double axle_to_center = 0.0;  ///< m, from the point that follows the path (the rear axle)
 };
 
-/// All kinds that scenes are made of: car, van, truck, cyclist, pedestrian, pole, tree.
+/// All kinds of objects in scenes: car, van, truck, cyclist, pedestrian, pole, tree.
 const std::vector<ObjectKind>& objectKinds();
 
 /// The keys of objectKinds().
 std::vector<std::string> objectKindKeys();
 
-/// Throws std::out_of_range for a key that there is not.
+/// Throws std::out_of_range for an unknown key.
 const ObjectKind& objectKind(const std::string& key);
 
 /// An object of the ground truth at one time.
@@ -76,20 +76,20 @@ struct Mover {
   /// The point that follows the path (`axle`) and its motion, without slip, at a time (s).
   Pose2 axle(double time) const;
   Twist2 twist(double time) const;
-  /// Pose of the box's middle.
+  /// Pose of the box's center.
   Pose2 center(double time) const;
 };
 
-/// What is there at one time; the sensors measure this.
+/// The state of the world at one time, which the sensors measure.
 struct WorldState {
   double time = 0.0;  ///< s since the start
   Pose2 base;         ///< of the ego vehicle, in the world's frame
   Twist2 twist;       ///< of the ego vehicle
   std::vector<ObjectState> objects;
-  std::vector<Solid> moving_solids;  ///< of the objects that do not stand all the time
+  std::vector<Solid> moving_solids;  ///< of the objects that move at some time
 };
 
-/// A scene over time: what stands, what moves, and the ego vehicle, which is not among the solids
+/// A scene over time: stationary solids, movers, and the ego vehicle, which is not among the solids
 /// because its sensors do not see it.
 class World {
  public:
@@ -103,11 +103,11 @@ class World {
   const RoadNetwork& roads() const { return roads_; }
   const Mover& ego() const { return ego_; }
   const std::vector<Mover>& movers() const { return movers_; }
-  /// All that never moves, curbs, paint and standing objects included.
+  /// All solids that never move, including curbs, paint and stationary objects.
   const std::vector<Solid>& fixedSolids() const { return fixed_solids_; }
 
-  /// `time`: s since the start. Ids of objects are the same at all times: first what stands, then
-  /// the movers.
+  /// `time`: s since the start. Ids of objects are the same at all times: first the stationary
+  /// ones, then the movers.
   WorldState at(double time) const;
 
  private:
