@@ -26,6 +26,7 @@ class StageHost : private StagePorts {
             TransformBuffer* transforms, double silence_after);
 
  private:
+  bool hasSimulatedTime() const override { return ros::Time::isSimTime(); }
   void addInput(StageInput input) override;
   StageOutput::Publish addOutput(StageOutput output) override;
   void addService(StageService service) override;

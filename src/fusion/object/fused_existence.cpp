@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Even a certain tracker may be wrong: its probabilities are limited to 1 - this up to this.
+/// Even a certain tracker may be wrong: its probabilities stay between 1 - this and this.
 constexpr double kMaxExistence = 0.999;
 
 double logOdds(double probability) {

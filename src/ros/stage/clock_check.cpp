@@ -41,7 +41,7 @@ bool isTime(Stamp stamp) { return stamp > Stamp{} && stamp <= toStamp(ros::TIME_
 }  // namespace
 
 ros::Time ClockCheck::corrected(const ros::Time& stamp, Stamp now) {
-  if (stamp.isZero() || ros::Time::isSimTime()) {
+  if (stamp.isZero()) {
     return stamp;
   }
   const double before = clock_.ahead();

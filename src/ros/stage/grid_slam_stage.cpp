@@ -232,7 +232,7 @@ void GridSlamStage::connect(StagePorts& ports) {
     };
     ports.in<nav_msgs::Odometry>(
         options_.motion.odometryTopic(),
-        withClockCheck<nav_msgs::Odometry>("odometry", monitor_, take_odometry));
+        withClockCheck<nav_msgs::Odometry>(ports, "odometry", monitor_, take_odometry));
   }
   const auto take_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,

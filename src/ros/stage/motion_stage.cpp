@@ -158,8 +158,8 @@ void MotionStage::connect(StagePorts& ports) {
     const auto take = [this, odometry](const auto& imu, Stamp /*now*/) {
       odometry.publish(takeImu(*imu));
     };
-    ports.in<sensor_msgs::Imu>("imu",
-                               withClockCheck<sensor_msgs::Imu>("imu", runner_.monitor(), take));
+    ports.in<sensor_msgs::Imu>(
+        "imu", withClockCheck<sensor_msgs::Imu>(ports, "imu", runner_.monitor(), take));
   }
   if (motion.usesTwist()) {
     using Twist = geometry_msgs::TwistStamped;
@@ -167,16 +167,18 @@ void MotionStage::connect(StagePorts& ports) {
     const auto take = [this, odometry](const auto& twist, Stamp /*now*/) {
       odometry.publish(takeTwist(*twist));
     };
-    ports.in<Twist>("twist", withClockCheck<Twist>("twist", runner_.monitor(), take));
-    ports.inInsteadOf<Covariant>("twist", "twist_with_covariance",
-                                 withClockCheck<Covariant>("twist", runner_.monitor(), take));
+    ports.in<Twist>("twist", withClockCheck<Twist>(ports, "twist", runner_.monitor(), take));
+    ports.inInsteadOf<Covariant>(
+        "twist", "twist_with_covariance",
+        withClockCheck<Covariant>(ports, "twist", runner_.monitor(), take));
   }
   if (motion.usesWheels()) {
     const auto take = [this, odometry](const auto& wheels, Stamp /*now*/) {
       odometry.publish(takeWheels(*wheels));
     };
-    ports.in<sensor_msgs::JointState>("joint_states", withClockCheck<sensor_msgs::JointState>(
-                                                          "joint_states", runner_.monitor(), take));
+    ports.in<sensor_msgs::JointState>(
+        "joint_states",
+        withClockCheck<sensor_msgs::JointState>(ports, "joint_states", runner_.monitor(), take));
   }
 }
 

@@ -203,8 +203,8 @@ void ScanMergeStage::connect(StagePorts& ports) {
   for (const std::string& source : options_.sourcesInUse()) {
     const std::string topic = "scans/" + source;
     const auto take = [this, source](const auto& scan, Stamp now) { takeScan(source, *scan, now); };
-    ports.in<sensor_msgs::LaserScan>(topic,
-                                     withClockCheck<sensor_msgs::LaserScan>(topic, monitor_, take));
+    ports.in<sensor_msgs::LaserScan>(
+        topic, withClockCheck<sensor_msgs::LaserScan>(ports, topic, monitor_, take));
   }
 }
 

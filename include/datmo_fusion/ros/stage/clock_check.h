@@ -9,6 +9,7 @@
 #include <boost/shared_ptr.hpp>
 
 #include "datmo_fusion/common/sensor_clock.h"
+#include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
@@ -20,9 +21,6 @@ namespace datmo {
 /// ours.
 ///
 /// A clock that was set and is then taken for the right one is said (`clock_set`).
-///
-/// Nothing is judged in simulated time: /clock goes in steps, and which of a step and a message
-/// comes first is left to chance, so that arrivals tell nothing of the sensor's clock.
 ///
 /// Each stage has a check of its own: the offset is a difference of stamps, which are the same for
 /// all of them, but one that was started later, or that gets the messages at other times, may have
@@ -43,10 +41,14 @@ class ClockCheck {
   SensorClock clock_;
 };
 
-/// What an input takes, behind a check of its sensor's clock: the message itself, or a copy with
-/// another stamp. `monitor` must outlive it.
+/// Returns `take` behind a check of the clock of the input's sensor: it gets the message itself, or
+/// a copy with a corrected stamp. Nothing is checked in simulated time. `monitor` must outlive it.
 template <typename Message, typename Take>
-auto withClockCheck(const std::string& input, StageMonitor& monitor, Take take) {
+StagePorts::Take<Message> withClockCheck(const StagePorts& ports, const std::string& input,
+                                         StageMonitor& monitor, Take take) {
+  if (ports.hasSimulatedTime()) {
+    return take;
+  }
   const auto check = std::make_shared<ClockCheck>(input, monitor);
   return [check, take](const boost::shared_ptr<const Message>& message, Stamp now) {
     const ros::Time stamp = check->corrected(message->header.stamp, now);

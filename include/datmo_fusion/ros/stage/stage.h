@@ -95,6 +95,10 @@ class StagePorts {
  public:
   virtual ~StagePorts() = default;
 
+  /// Whether `now` is simulated time: /clock advances in steps, and a message may overtake one, so
+  /// that times of arrival carry no information about a sensor's clock.
+  virtual bool hasSimulatedTime() const { return false; }
+
   template <typename Message>
   using Take = std::function<void(const boost::shared_ptr<const Message>& message, Stamp now)>;
 

@@ -40,8 +40,8 @@ template <typename Take>
 void connectScan(StagePorts& ports, StageMonitor& monitor, const Take& take) {
   using OneEcho = sensor_msgs::LaserScan;
   using Echoes = sensor_msgs::MultiEchoLaserScan;
-  ports.in<OneEcho>("scan", withClockCheck<OneEcho>("scan", monitor, take));
-  ports.inInsteadOf<Echoes>("scan", "echoes", withClockCheck<Echoes>("scan", monitor, take));
+  ports.in<OneEcho>("scan", withClockCheck<OneEcho>(ports, "scan", monitor, take));
+  ports.inInsteadOf<Echoes>("scan", "echoes", withClockCheck<Echoes>(ports, "scan", monitor, take));
 }
 
 /// Declares the stereo camera for a stage with takeCameraInfo and takeCloud, whose result goes to
