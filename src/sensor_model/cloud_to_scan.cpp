@@ -74,7 +74,7 @@ void setTimes(const std::optional<SweepTiming>& sweep, const Beams& beams, Plana
 }
 
 /// Marks beams without points as seen if one with points is at most `max_gap` beams away: such gaps
-/// are between the lidar's own columns. `seen`: by beam; in a full turn gaps wrap around.
+/// lie between the lidar's own columns. `seen`: by beam; in a full turn gaps wrap around.
 std::vector<bool> withoutGaps(std::vector<bool> seen, int max_gap, bool whole_turn) {
   const auto count = static_cast<int>(seen.size());
   const std::vector<bool> points = seen;

@@ -15,7 +15,7 @@ namespace datmo {
 /// How the points of one cloud are counted.
 struct EvidenceLimits {
   double cell_size = 0.0;        ///< m, of the requested grid
-  double min_depth = 0.0;        ///< m, obstacles beyond are ignored
+  double min_depth = 0.0;        ///< m, nearer points are mismatches
   double max_depth = 0.0;        ///< m, obstacles beyond are not of interest
   double layer_bottom = 0.0;     ///< m above the road
   double layer_top = 0.0;        ///< m above the road

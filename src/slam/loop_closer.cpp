@@ -15,7 +15,7 @@ namespace datmo {
 
 namespace {
 
-/// m; minimum motion for which drift is assumed between keyframes: a turn in place is not exact,
+/// m; drift between keyframes is that of at least this distance: a turn in place is not exact,
 /// either.
 constexpr double kMinMotion = 0.2;
 

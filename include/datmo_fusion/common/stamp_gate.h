@@ -26,7 +26,7 @@ enum class StampVerdict {
 /// contradict it: if they are further from the new stamps than from the old ones, the sensor's own
 /// clock is wrong.
 ///
-/// After a silence, time has passed, and state is that much older. After a jump of the clock it
+/// After a silence, time has passed, and state is that much older. If the clock jumped ahead, it
 /// has not, and nobody can tell how far things moved in between.
 class StampGate {
  public:

@@ -108,7 +108,7 @@ class Target {
     return existence_.probability(options.existence);
   }
 
-  /// Sets the id for publishing, from 1; before it is confirmed.
+  /// Sets the id under which it is published once it is confirmed, from 1.
   void setId(std::uint32_t id) { id_ = id; }
   /// Makes it a track, the `order`th of all, from 1; `moves`: as far as is known now.
   void confirm(std::uint64_t order, bool moves);

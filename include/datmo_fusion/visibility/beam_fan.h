@@ -31,8 +31,8 @@ class BeamFan {
   /// less than a turn later. NaN for NaN.
   double positionAt(double bearing) const { return wrapped(shifted(bearing)) - 0.5; }
 
-  /// Returns the one of `beams` beams that covers this bearing (rad); none if there is none, or
-  /// NaN.
+  /// Returns the index of the beam, out of `beams`, that covers this bearing (rad); none if no beam
+  /// does, or for NaN.
   std::optional<std::size_t> indexAt(double bearing, std::size_t beams) const {
     return among(wrapped(shifted(bearing)), beams);
   }
