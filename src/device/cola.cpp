@@ -7,8 +7,6 @@
 #include <cstring>
 #include <limits>
 
-#include "datmo_fusion/device/device_error.h"
-
 namespace datmo {
 
 namespace {
@@ -17,12 +15,10 @@ constexpr char kStart = '\x02';
 constexpr char kEnd = '\x03';
 constexpr std::string_view kBinaryStart = "\x02\x02\x02\x02";
 constexpr std::size_t kLengthSize = 4;
-constexpr std::size_t kByte = 8;  // bits
+constexpr std::size_t kColaByteBits = 8;
 
 /// No telegram is longer: five echoes and their remission in 1,141 beams, six characters each.
 constexpr std::size_t kLongestTelegram = 131072;
-
-DeviceError badAnswer(const std::string& text) { return {"bad_answer", text}; }
 
 DeviceError endsBefore(const char* name) {
   return badAnswer(std::string("a telegram that ends before ") + name + ": expected a whole one");
@@ -36,7 +32,7 @@ DeviceError wrongDialect(ColaDialect expected) {
 std::uint32_t numberOf(std::string_view bytes) {
   std::uint32_t value = 0;
   for (const char byte : bytes) {
-    value = value << kByte | static_cast<unsigned char>(byte);
+    value = value << kColaByteBits | static_cast<unsigned char>(byte);
   }
   return value;
 }
@@ -45,7 +41,7 @@ std::string bytesOf(std::uint32_t value, std::size_t size) {
   std::string bytes(size, '\0');
   for (auto byte = bytes.rbegin(); byte != bytes.rend(); ++byte) {
     *byte = static_cast<char>(value & std::numeric_limits<unsigned char>::max());
-    value >>= kByte;
+    value >>= kColaByteBits;
   }
   return bytes;
 }
@@ -81,6 +77,8 @@ std::size_t nameLength(std::string_view telegram) {
 }
 
 }  // namespace
+
+DeviceError badAnswer(const std::string& text) { return {"bad_answer", text}; }
 
 const char* nameOf(ColaDialect dialect) {
   return dialect == ColaDialect::kBinary ? "CoLa B" : "CoLa A";

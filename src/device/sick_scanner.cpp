@@ -96,8 +96,8 @@ ColaTelegram SickScanner::ask(std::string_view command, std::string_view expecte
       throw wrongAnswer(answer, command, expected);
     }
   }
-  throw DeviceError("bad_answer", "no answer to '" + std::string(command) + "' among " +
-                                      std::to_string(kOldScans) + " scans: expected one");
+  throw badAnswer("no answer to '" + std::string(command) + "' among " + std::to_string(kOldScans) +
+                  " scans: expected one");
 }
 
 void SickScanner::command(std::string_view command, std::string_view expected, std::uint32_t result,

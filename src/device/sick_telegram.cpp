@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo {
 
@@ -48,8 +47,6 @@ constexpr std::uint32_t kFirstRange = 16;
 constexpr std::size_t kOne = 1;
 constexpr std::size_t kTwo = 2;
 constexpr std::size_t kFour = 4;
-
-DeviceError badAnswer(const std::string& text) { return {"bad_answer", text}; }
 
 /// The values of one channel, and what they mean.
 struct Channel {

@@ -46,12 +46,13 @@ std::vector<VelodyneLaser> lasersOf(const LaserTable& table) {
   for (std::size_t i = 0; i < table.elevations.size(); ++i) {
     const double elevation = degrees(table.elevations[i]);
     const double offset = degrees(valueAt(table.offsets, i));
+    const std::size_t firing = i / table.per_firing;
     VelodyneLaser laser;
     laser.cos_elevation = static_cast<float>(std::cos(elevation));
     laser.sin_elevation = static_cast<float>(std::sin(elevation));
     laser.cos_offset = static_cast<float>(std::cos(offset));
     laser.sin_offset = static_cast<float>(std::sin(offset));
-    laser.time = static_cast<float>(table.firing_time * static_cast<double>(i / table.per_firing));
+    laser.time = static_cast<float>(table.firing_time * static_cast<double>(firing));
     laser.height = static_cast<float>(valueAt(table.heights, i) * kMillimeter);
     laser.ring = static_cast<std::uint16_t>(
         std::count_if(table.elevations.begin(), table.elevations.end(),

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "datmo_fusion/device/device_error.h"
+
 namespace datmo {
 
 /// The dialects of CoLa, the command language of SICK's sensors (SICK, Telegram listing LMS1xx,
@@ -25,6 +27,9 @@ ColaDialect otherThan(ColaDialect dialect);
 
 /// The reason of a DeviceError: bytes of the other dialect were received.
 inline constexpr const char* kWrongDialect = "wrong_dialect";
+
+/// The error of bytes or a telegram that cannot be right (`bad_answer`).
+DeviceError badAnswer(const std::string& text);
 
 /// A telegram without its frame: its name, which is the same in both dialects, and its fields.
 struct ColaTelegram {
