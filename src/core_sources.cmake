@@ -49,6 +49,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/scip.cpp
   device/serial_line.cpp
   device/sick_scanner.cpp
+  device/sick_telegram.cpp
   device/stream_opener.cpp
   device/velodyne_lidar.cpp
   device/velodyne_model.cpp

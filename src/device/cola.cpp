@@ -2,15 +2,10 @@
 #include "datmo_fusion/device/cola.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
-
-#include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo {
 
@@ -18,122 +13,145 @@ namespace {
 
 constexpr char kStart = '\x02';
 constexpr char kEnd = '\x03';
+constexpr std::string_view kBinaryStart = "\x02\x02\x02\x02";
+constexpr std::size_t kLengthSize = 4;
+constexpr std::size_t kColaByteBits = 8;
 
 /// No telegram is longer: five echoes and their remission in 1,141 beams, six characters each.
 constexpr std::size_t kLongestTelegram = 131072;
 
-/// Scanners by the beginning of their names, with the range of their data sheets (m). All look
-/// straight ahead at 90 degrees of their own, unlike LMS1000 and TiM2xx.
-struct Family {
-  std::string_view prefix;
-  double max_range;
-};
-constexpr std::array<Family, 11> kFamilies = {{{"LMS10", 20.0},
-                                               {"LMS11", 20.0},
-                                               {"LMS12", 20.0},
-                                               {"LMS13", 20.0},
-                                               {"LMS14", 50.0},
-                                               {"LMS15", 50.0},
-                                               {"LMS5", 80.0},
-                                               {"TiM55", 10.0},
-                                               {"TiM56", 10.0},
-                                               {"TiM57", 25.0},
-                                               {"TiM7", 25.0}}};
-constexpr double kAhead = 90.0;  // deg
-/// "LMS111": what has a digit more is of another family.
-constexpr std::size_t kModelCharacters = 6;
-
-constexpr double kAngleUnit = 1e-4;  // deg
-
-constexpr std::uint32_t kLongestScan = 1000000;  // us, until it is sent
-
-/// Values below stand for why there is no range; 0 of them for an echo that did not come.
-constexpr std::uint32_t kFirstRange = 16;
-
-DeviceError badAnswer(const std::string& text) { return {"bad_answer", text}; }
-
-/// The values of one channel, and what they mean.
-struct Channel {
-  std::string_view content;
-  float factor = 1.0F;
-  float offset = 0.0F;
-  double first_angle = 0.0;  ///< deg
-  double spacing = 0.0;      ///< deg
-  std::vector<std::uint32_t> values;
-};
-
-Channel readChannel(ColaWords& words) {
-  Channel channel;
-  channel.content = words.text("a channel's name");
-  channel.factor = words.real("its factor");
-  channel.offset = words.real("its offset");
-  channel.first_angle = words.signedNumber("its first angle") * kAngleUnit;
-  channel.spacing = words.number("its angle from beam to beam") * kAngleUnit;
-  const std::uint32_t count = words.number("its number of beams");
-  if (channel.spacing <= 0.0 || channel.spacing * count > toDegrees(kTurn) + channel.spacing) {
-    throw badAnswer(std::to_string(count) + " beams " + std::to_string(channel.spacing) +
-                    " deg apart: expected a turn at most");
-  }
-  channel.values.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    channel.values.push_back(words.number("a beam"));
-  }
-  return channel;
+DeviceError endsBefore(const char* name) {
+  return badAnswer(std::string("a telegram that ends before ") + name + ": expected a whole one");
 }
 
-float rangeOf(std::uint32_t value, const Channel& channel) {
-  constexpr float kMeter = 1000.0F;  // mm
-  if (value == 0) {
-    return std::numeric_limits<float>::infinity();
-  }
-  if (value < kFirstRange) {
-    return std::numeric_limits<float>::quiet_NaN();
-  }
-  return (static_cast<float>(value) * channel.factor + channel.offset) / kMeter;
+DeviceError wrongDialect(ColaDialect expected) {
+  return {kWrongDialect, std::string("the scanner speaks ") + nameOf(otherThan(expected)) +
+                             ": expected " + nameOf(expected) + ", which it was asked in"};
 }
 
-/// The ranges and all that is said of them.
-void takeDistances(const Channel& channel, double frequency, DeviceScan& scan) {
-  constexpr double kMillimeter = 1e-3;  // m
-  scan.first_bearing = degrees(channel.first_angle - kAhead);
-  scan.beam_spacing = degrees(channel.spacing);
-  scan.scan_time = 1.0 / frequency;
-  scan.beam_time = scan.scan_time * scan.beam_spacing / kTurn;
-  scan.min_range = kFirstRange * static_cast<double>(channel.factor) * kMillimeter;
-  for (const std::uint32_t value : channel.values) {
-    scan.ranges.push_back(rangeOf(value, channel));
+std::uint32_t numberOf(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes) {
+    value = value << kColaByteBits | static_cast<unsigned char>(byte);
   }
+  return value;
 }
 
-void takeChannels(ColaWords& words, double frequency, DeviceScan& scan) {
-  const std::uint32_t count = words.number("the number of channels");
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Channel channel = readChannel(words);
-    if (channel.content == "DIST1") {
-      takeDistances(channel, frequency, scan);
-    } else if (channel.content == "RSSI1") {
-      for (const std::uint32_t value : channel.values) {
-        scan.intensities.push_back(static_cast<float>(value) * channel.factor + channel.offset);
-      }
-    }
+std::string bytesOf(std::uint32_t value, std::size_t size) {
+  std::string bytes(size, '\0');
+  for (auto byte = bytes.rbegin(); byte != bytes.rend(); ++byte) {
+    *byte = static_cast<char>(value & std::numeric_limits<unsigned char>::max());
+    value >>= kColaByteBits;
   }
+  return bytes;
 }
 
-SickState stateOf(std::uint32_t status) {
-  constexpr std::uint32_t kErrorBit = 1;
-  return status == 0                 ? SickState::kGood
-         : (status & kErrorBit) != 0 ? SickState::kFault
-                                     : SickState::kDirty;
+std::uint32_t numberOfWord(std::string_view word, const char* name) {
+  constexpr int kHexadecimal = 16;
+  constexpr int kDecimal = 10;
+  const bool has_sign = word[0] == '+' || word[0] == '-';
+  const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
+  const char* const last = word.data() + word.size();
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(first, last, value, has_sign ? kDecimal : kHexadecimal);
+  if (error != std::errc() || end != last || value < std::numeric_limits<std::int32_t>::min() ||
+      value > std::numeric_limits<std::uint32_t>::max()) {
+    throw badAnswer(shownBytes(word) + " as " + name + ": expected a number of 32 bits");
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
+char checksumOf(std::string_view bytes) {
+  char sum = 0;
+  for (const char byte : bytes) {
+    sum = static_cast<char>(sum ^ byte);
+  }
+  return sum;
+}
+
+/// The length of a telegram's name, which is two words.
+std::size_t nameLength(std::string_view telegram) {
+  const std::size_t kind = telegram.find(' ');
+  return kind == std::string_view::npos ? telegram.size()
+                                        : std::min(telegram.find(' ', kind + 1), telegram.size());
 }
 
 }  // namespace
 
-std::string colaTelegram(std::string_view text) { return kStart + std::string(text) + kEnd; }
+DeviceError badAnswer(const std::string& text) { return {"bad_answer", text}; }
 
-std::optional<std::string> ColaReader::next() {
-  if (waiting_.rfind(std::string(4, kStart), 0) == 0) {
-    throw DeviceError("wrong_device",
-                      std::string("the scanner speaks CoLa B: expected ") + kColaDialect);
+const char* nameOf(ColaDialect dialect) {
+  return dialect == ColaDialect::kBinary ? "CoLa B" : "CoLa A";
+}
+
+ColaDialect otherThan(ColaDialect dialect) {
+  return dialect == ColaDialect::kBinary ? ColaDialect::kText : ColaDialect::kBinary;
+}
+
+bool ColaTelegram::isCalled(std::string_view name) const {
+  return std::string_view(bytes).substr(0, nameLength(bytes)) == name;
+}
+
+ColaTelegram colaCommand(ColaDialect dialect, std::string_view name,
+                         const std::vector<ColaParameter>& parameters) {
+  ColaTelegram telegram{dialect, std::string(name)};
+  const bool is_binary = dialect == ColaDialect::kBinary;
+  if (is_binary && !parameters.empty()) {
+    telegram.bytes += ' ';
+  }
+  for (const ColaParameter& parameter : parameters) {
+    telegram.bytes += is_binary
+                          ? bytesOf(numberOfWord(parameter.text, "a parameter"), parameter.size)
+                          : ' ' + std::string(parameter.text);
+  }
+  return telegram;
+}
+
+std::string colaFrame(const ColaTelegram& telegram) {
+  if (telegram.dialect == ColaDialect::kText) {
+    return kStart + telegram.bytes + kEnd;
+  }
+  const auto length = static_cast<std::uint32_t>(telegram.bytes.size());
+  return std::string(kBinaryStart) + bytesOf(length, kLengthSize) + telegram.bytes +
+         checksumOf(telegram.bytes);
+}
+
+std::optional<ColaTelegram> ColaReader::next() {
+  return dialect_ == ColaDialect::kBinary ? nextBinary() : nextText();
+}
+
+std::optional<ColaTelegram> ColaReader::nextBinary() {
+  constexpr std::size_t kHead = kBinaryStart.size() + kLengthSize;
+  const std::string_view waiting = waiting_;
+  const std::size_t known = std::min(waiting.size(), kBinaryStart.size());
+  if (waiting.substr(0, known) != kBinaryStart.substr(0, known)) {
+    if (waiting[0] == kStart) {
+      throw wrongDialect(dialect_);
+    }
+    throw badAnswer(shownBytes(waiting) + ": expected a telegram of CoLa B, which begins by STX");
+  }
+  if (waiting.size() < kHead) {
+    return std::nullopt;
+  }
+  const std::size_t length = numberOf(waiting.substr(kBinaryStart.size(), kLengthSize));
+  if (length > kLongestTelegram) {
+    throw badAnswer("a telegram of " + std::to_string(length) + " bytes: expected at most " +
+                    std::to_string(kLongestTelegram));
+  }
+  if (waiting.size() < kHead + length + 1) {
+    return std::nullopt;
+  }
+  ColaTelegram telegram{dialect_, std::string(waiting.substr(kHead, length))};
+  if (checksumOf(telegram.bytes) != waiting[kHead + length]) {
+    throw badAnswer(shownBytes(telegram.bytes) + " with a wrong checksum: expected that of CoLa B");
+  }
+  waiting_.erase(0, kHead + length + 1);
+  return telegram;
+}
+
+std::optional<ColaTelegram> ColaReader::nextText() {
+  if (waiting_.rfind(kBinaryStart, 0) == 0) {
+    throw wrongDialect(dialect_);
   }
   const std::size_t end = waiting_.find(kEnd);
   if (end == std::string::npos) {
@@ -148,43 +166,51 @@ std::optional<std::string> ColaReader::next() {
   if (start == std::string::npos) {
     throw badAnswer(shownBytes(waiting_) + ": expected a telegram of CoLa A, which begins by STX");
   }
-  std::string telegram = waiting_.substr(start + 1, end - start - 1);
+  ColaTelegram telegram{dialect_, waiting_.substr(start + 1, end - start - 1)};
   waiting_.erase(0, end + 1);
   return telegram;
 }
 
-std::string_view ColaWords::text(const char* name) {
+ColaFields::ColaFields(const ColaTelegram& telegram)
+    : dialect_(telegram.dialect), rest_(telegram.bytes) {
+  rest_.remove_prefix(nameLength(rest_));
+  if (dialect_ == ColaDialect::kBinary && !rest_.empty()) {
+    rest_.remove_prefix(1);  // the space between the name and the fields
+  }
+}
+
+std::string_view ColaFields::take(std::size_t count, const char* name) {
+  if (rest_.size() < count) {
+    throw endsBefore(name);
+  }
+  const std::string_view taken = rest_.substr(0, count);
+  rest_.remove_prefix(count);
+  return taken;
+}
+
+std::string_view ColaFields::word(const char* name) {
   rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
-  const std::string_view word = rest_.substr(0, rest_.find(' '));
-  if (word.empty()) {
-    throw badAnswer(std::string("a telegram that ends before ") + name + ": expected a whole one");
+  if (rest_.empty()) {
+    throw endsBefore(name);
   }
-  rest_.remove_prefix(word.size());
-  return word;
+  return take(std::min(rest_.find(' '), rest_.size()), name);
 }
 
-std::uint32_t ColaWords::number(const char* name) {
-  constexpr int kHexadecimal = 16;
-  constexpr int kDecimal = 10;
-  const std::string_view word = text(name);
-  const bool has_sign = word[0] == '+' || word[0] == '-';
-  const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
-  const char* const last = word.data() + word.size();
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(first, last, value, has_sign ? kDecimal : kHexadecimal);
-  if (error != std::errc() || end != last || value < std::numeric_limits<std::int32_t>::min() ||
-      value > std::numeric_limits<std::uint32_t>::max()) {
-    throw badAnswer(shownBytes(word) + " as " + name + ": expected a number of 32 bits");
-  }
-  return static_cast<std::uint32_t>(value);
+void ColaFields::skip(std::size_t size, const char* name) {
+  dialect_ == ColaDialect::kBinary ? take(size, name) : word(name);
 }
 
-std::int32_t ColaWords::signedNumber(const char* name) {
-  return static_cast<std::int32_t>(number(name));
+std::uint32_t ColaFields::number(std::size_t size, const char* name) {
+  return dialect_ == ColaDialect::kBinary ? numberOf(take(size, name))
+                                          : numberOfWord(word(name), name);
 }
 
-float ColaWords::real(const char* name) {
-  const std::uint32_t bits = number(name);
+std::int32_t ColaFields::signedNumber(const char* name) {
+  return static_cast<std::int32_t>(number(sizeof(std::int32_t), name));
+}
+
+float ColaFields::real(const char* name) {
+  const std::uint32_t bits = number(sizeof(float), name);
   float value = 0.0F;
   static_assert(sizeof value == sizeof bits);
   std::memcpy(&value, &bits, sizeof value);
@@ -194,74 +220,18 @@ float ColaWords::real(const char* name) {
   return value;
 }
 
-std::string_view ColaWords::characters(std::size_t count, const char* name) {
-  if (rest_.size() < count + 1) {
-    throw badAnswer(std::string("a telegram that ends within ") + name + ": expected a whole one");
+std::string_view ColaFields::characters(std::size_t count, const char* name) {
+  if (dialect_ == ColaDialect::kText) {
+    take(1, name);  // the space before them
   }
-  const std::string_view found = rest_.substr(1, count);
-  rest_.remove_prefix(count + 1);
-  return found;
+  return take(count, name);
 }
 
-SickModel sickModel(std::string_view answer) {
-  ColaWords words(answer);
-  words.text("the kind of answer");
-  words.text("the name of what was asked for");
-  const std::uint32_t length = words.number("the length of the scanner's name");
-  const std::string name(words.characters(length, "the scanner's name"));
-  const bool is_longer = name.size() > kModelCharacters &&
-                         std::isdigit(static_cast<unsigned char>(name[kModelCharacters])) != 0;
-  const auto* const family = std::find_if(
-      kFamilies.begin(), kFamilies.end(),
-      [&name](const Family& one) { return name.compare(0, one.prefix.size(), one.prefix) == 0; });
-  if (is_longer || family == kFamilies.end()) {
-    throw DeviceError("wrong_device", "the device is a " + shownBytes(name) +
-                                          ": expected an LMS1xx, LMS5xx, TiM5xx or TiM7xx");
+void ColaFields::require(std::size_t count, std::size_t size, const char* name) const {
+  constexpr std::size_t kShortestWord = 2;  // a space and a digit
+  if (count > rest_.size() / (dialect_ == ColaDialect::kBinary ? size : kShortestWord)) {
+    throw endsBefore(name);
   }
-  return {name, family->max_range};
-}
-
-SickScan sickScan(std::string_view telegram, const SickModel& model) {
-  constexpr double kFrequencyUnit = 0.01;  // Hz
-  ColaWords words(telegram);
-  SickScan scan;
-  for (const char* name : {"the kind of telegram", "its name", "its version", "the device's number",
-                           "its serial number", "the first half of its state"}) {
-    words.text(name);
-  }
-  scan.state = stateOf(words.number("its state"));
-  words.number("the counter of telegrams");
-  scan.counter = static_cast<std::uint16_t>(words.number("the counter of scans"));
-  scan.begun = words.number("the time of the scan");
-  scan.sent = words.number("the time of its transmission");
-  if (scan.sent - scan.begun > kLongestScan) {
-    throw badAnswer("a scan that began at " + std::to_string(scan.begun) + " us and was sent at " +
-                    std::to_string(scan.sent) + " us: expected a second between at most");
-  }
-  for (const char* name : {"the inputs", "the inputs", "the outputs", "the outputs", "the layer"}) {
-    words.text(name);
-  }
-  const double frequency = words.number("the scans' frequency") * kFrequencyUnit;
-  if (frequency <= 0.0) {
-    throw badAnswer("a scan at a frequency of 0 Hz: expected more");
-  }
-  words.number("the beams' frequency");
-  const std::uint32_t encoders = words.number("the number of encoders");
-  for (std::uint32_t i = 0; i < encoders; ++i) {
-    words.text("an encoder's position");
-    words.text("its speed");
-  }
-  takeChannels(words, frequency, scan.scan);  // of 16 bits
-  takeChannels(words, frequency, scan.scan);  // of 8 bits
-  scan.scan.max_range = model.max_range;
-  if (scan.scan.ranges.size() < 2) {
-    throw badAnswer("a scan of " + std::to_string(scan.scan.ranges.size()) +
-                    " distances (DIST1): expected two or more");
-  }
-  if (scan.scan.intensities.size() != scan.scan.ranges.size()) {
-    scan.scan.intensities.clear();
-  }
-  return scan;
 }
 
 }  // namespace datmo

@@ -28,8 +28,9 @@ DeviceMaker hokuyoMaker(const DeviceSetup& setup) {
 }
 
 DeviceMaker sickMaker(const DeviceSetup& setup) {
-  return [address = addressOf(setup, SickScanner::kPort)](const DeviceHost& host) {
-    return std::make_unique<SickScanner>(address, host);
+  return [address = addressOf(setup, SickScanner::kPort),
+          dialect = std::make_shared<ColaDialect>(ColaDialect::kBinary)](const DeviceHost& host) {
+    return std::make_unique<SickScanner>(address, dialect, host);
   };
 }
 

@@ -2,7 +2,6 @@
 #include "datmo_fusion/device/sick_scanner.h"
 
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace datmo {
@@ -13,72 +12,105 @@ constexpr TickFormat kSickTicks{1e-6, std::uint64_t{1} << 32U};
 constexpr double kMicrosecond = 1e-6;  // s
 
 constexpr std::string_view kScanTelegram = "sSN LMDscandata";
-constexpr std::string_view kStateAnswer = "sRA STlms";
-
-/// The first word of the answer on its state.
-constexpr std::uint32_t kUndefined = 0;
-constexpr std::uint32_t kIdle = 3;
-constexpr std::uint32_t kMeasuring = 7;
 
 constexpr const char* kSilent = "silent_device";
+constexpr const char* kLost = "lost_connection";
 
 /// So many scans may still come of what was asked before.
 constexpr int kOldScans = 100;
 
-bool startsWith(std::string_view text, std::string_view prefix) {
-  return text.substr(0, prefix.size()) == prefix;
+DeviceError wrongAnswer(const ColaTelegram& answer, std::string_view command,
+                        std::string_view expected) {
+  return {"device_fault", "the device answers " + shownBytes(answer.bytes) + " to '" +
+                              std::string(command) + "': expected '" + std::string(expected) +
+                              "'; is it a scanner of SICK's with the password that it left the "
+                              "factory with?"};
 }
 
 }  // namespace
 
-SickScanner::SickScanner(DeviceAddress address, const DeviceHost& host)
-    : address_(std::move(address)), host_(host) {}
+SickScanner::SickScanner(DeviceAddress address, std::shared_ptr<ColaDialect> dialect,
+                         const DeviceHost& host)
+    : address_(std::move(address)), dialect_(std::move(dialect)), host_(host), reader_(*dialect_) {}
 
 std::string SickScanner::connect() {
-  connection_ = std::make_unique<Connection>(address_, host_.stop);
   host_.clock.restart(kSickTicks);
+  identify();
+  // As user 3, authorized client, by the hash of the password that all scanners leave the factory
+  // with.
+  command("sMN SetAccessMode", "sAN SetAccessMode", 1, {{"03"}, {"F4724744", 4}});
+  // First echoes with remission, both of 16 bits; neither encoder, position, name, comment nor
+  // date; each scan. It is not kept when the scanner is switched off.
+  ask("sWN LMDscandatacfg", "sWA LMDscandatacfg",
+      {{"01"}, {"00"}, {"1"}, {"1"}, {"0"}, {"00"}, {"00"}, {"0"}, {"0"}, {"0"}, {"0"}, {"+1", 2}});
+  command("sMN LMCstartmeas", "sAN LMCstartmeas", 0);
+  ask("sMN Run", "sAN Run");  // manuals differ in what follows; that scans come shows it
+  command("sEN LMDscandata", "sEA LMDscandata", 1, {{"1"}});
+  return model_.name + " at " + address_.host + ", " + nameOf(*dialect_);
+}
+
+void SickScanner::identify() {
+  const ColaDialect first = *dialect_;
   try {
-    model_ = sickModel(ask("sRN DeviceIdent", "sRA DeviceIdent"));
+    identifyIn(first);
+    return;
+  } catch (const DeviceError& error) {
+    // In the other dialect most scanners do not answer at all.
+    if (error.reason() != kSilent && error.reason() != kLost && error.reason() != kWrongDialect) {
+      throw;
+    }
+  }
+  try {
+    identifyIn(otherThan(first));
   } catch (const DeviceError& error) {
     if (error.reason() != kSilent) {
       throw;
     }
-    // In the other dialect it does not answer at all.
-    throw DeviceError(kSilent, std::string(error.what()) + "; does it speak " + kColaDialect + "?");
+    throw DeviceError(kSilent, std::string(error.what()) + "; it was asked in " + nameOf(first) +
+                                   " and in " + nameOf(otherThan(first)) +
+                                   ": is it a scanner of SICK's?");
   }
-  // As user 3, authorized client, by the hash of the password that all scanners leave the factory
-  // with.
-  ask("sMN SetAccessMode 03 F4724744", "sAN SetAccessMode 1");
-  // First echoes with remission, both of 16 bits; neither encoder, position, name, comment nor
-  // date; each scan. It is not kept when the scanner is switched off.
-  ask("sWN LMDscandatacfg 01 00 1 1 0 00 00 0 0 0 0 +1", "sWA LMDscandatacfg");
-  ask("sMN LMCstartmeas", "sAN LMCstartmeas 0");
-  ask("sMN Run", "sAN Run");  // manuals differ in what follows; that scans come shows it
-  ask("sEN LMDscandata 1", "sEA LMDscandata 1");
-  return model_.name + " at " + address_.host;
 }
 
-std::string SickScanner::ask(const std::string& command, const std::string& expected) {
-  connection_->send(colaTelegram(command));
+void SickScanner::identifyIn(ColaDialect dialect) {
+  *dialect_ = dialect;
+  reader_ = ColaReader(dialect);
+  connection_.reset();  // some scanners serve only one connection
+  connection_ = std::make_unique<Connection>(address_, host_.stop);
+  model_ = sickModel(ask("sRN DeviceIdent", "sRA DeviceIdent"));
+}
+
+void SickScanner::send(std::string_view command, const std::vector<ColaParameter>& parameters) {
+  connection_->send(colaFrame(colaCommand(*dialect_, command, parameters)));
+}
+
+ColaTelegram SickScanner::ask(std::string_view command, std::string_view expected,
+                              const std::vector<ColaParameter>& parameters) {
+  send(command, parameters);
   for (int i = 0; i < kOldScans; ++i) {
-    std::string answer = nextTelegram();
-    if (startsWith(answer, expected)) {
+    ColaTelegram answer = nextTelegram();
+    if (answer.isCalled(expected)) {
       return answer;
     }
-    if (!startsWith(answer, kScanTelegram)) {
-      throw DeviceError("device_fault", "the device answers " + shownBytes(answer) + " to '" +
-                                            command + "': expected '" + expected +
-                                            "'; is it a scanner of SICK's with the password that "
-                                            "it left the factory with?");
+    if (!answer.isCalled(kScanTelegram)) {
+      throw wrongAnswer(answer, command, expected);
     }
   }
-  throw DeviceError("bad_answer", "no answer to '" + command + "' among " +
-                                      std::to_string(kOldScans) + " scans: expected one");
+  throw badAnswer("no answer to '" + std::string(command) + "' among " + std::to_string(kOldScans) +
+                  " scans: expected one");
 }
 
-std::string SickScanner::nextTelegram() {
+void SickScanner::command(std::string_view command, std::string_view expected, std::uint32_t result,
+                          const std::vector<ColaParameter>& parameters) {
+  const ColaTelegram answer = ask(command, expected, parameters);
+  if (ColaFields(answer).number(1, "the result of a command") != result) {
+    throw wrongAnswer(answer, command, std::string(expected) + ' ' + std::to_string(result));
+  }
+}
+
+ColaTelegram SickScanner::nextTelegram() {
   while (true) {
-    if (std::optional<std::string> telegram = reader_.next()) {
+    if (std::optional<ColaTelegram> telegram = reader_.next()) {
       return *std::move(telegram);
     }
     reader_.feed(connection_->receive());
@@ -86,23 +118,15 @@ std::string SickScanner::nextTelegram() {
 }
 
 bool SickScanner::isWarmingUp() {
-  connection_->send(colaTelegram("sRN STlms"));
-  const std::string answer = nextTelegram();
-  if (startsWith(answer, kScanTelegram)) {
+  send("sRN STlms");
+  const ColaTelegram answer = nextTelegram();
+  if (answer.isCalled(kScanTelegram)) {
     return true;  // it has just begun: the next telegram is a scan's, too
   }
-  if (!startsWith(answer, kStateAnswer)) {
-    return false;
-  }
-  ColaWords words(answer);
-  words.text("the kind of answer");
-  words.text("its name");
-  const auto state = words.number("the scanner's state");
-  // One that was stopped has to be started again, by a new connection.
-  return state > kUndefined && state < kMeasuring && state != kIdle;
+  return answer.isCalled("sRA STlms") && isSickWarmingUp(answer);
 }
 
-std::string SickScanner::nextTelegramOnceWarm() {
+ColaTelegram SickScanner::nextTelegramOnceWarm() {
   while (true) {
     try {
       return nextTelegram();
@@ -116,10 +140,10 @@ std::string SickScanner::nextTelegramOnceWarm() {
 }
 
 DeviceMeasurement SickScanner::next() {
-  std::string telegram = nextTelegramOnceWarm();
-  while (!startsWith(telegram, kScanTelegram)) {
-    if (startsWith(telegram, "sFA")) {
-      throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram) +
+  ColaTelegram telegram = nextTelegramOnceWarm();
+  while (!telegram.isCalled(kScanTelegram)) {
+    if (telegram.bytes.rfind("sFA", 0) == 0) {
+      throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram.bytes) +
                                             ": expected scans; its manual has the error");
     }
     telegram = nextTelegramOnceWarm();

@@ -102,10 +102,14 @@ const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const 
     return (options_.model == kAuto || options_.model == model.name) && isOf(model, packet);
   });
   if (found == models.end()) {
-    throw DeviceError("wrong_device",
-                      "a lidar of product " + std::to_string(packet.product()) +
-                          ": expected 34 (VLP-16), 36 (Puck Hi-Res) or 33 (HDL-32E), and that of "
-                          "velodyne/model if it names one; name it only for old firmware");
+    std::string known;
+    for (const VelodyneModel& model : models) {
+      known += std::to_string(model.product) + " (" + model.name + "), ";
+    }
+    throw DeviceError("wrong_device", "a lidar of product " + std::to_string(packet.product()) +
+                                          ": expected one of " + known +
+                                          "and that of velodyne/model if it names "
+                                          "one; name it only for old firmware");
   }
   return *found;
 }

@@ -22,8 +22,7 @@ constexpr unsigned kLowerBlock = 0xDDFF;
 constexpr unsigned char kDualReturn = 0x39;
 constexpr unsigned kByte = 8;
 
-constexpr double kAzimuthUnit = 0.01;       // deg
-constexpr float kVelodyneDistance = 2e-3F;  // m
+constexpr double kAzimuthUnit = 0.01;  // deg
 
 }  // namespace
 
@@ -39,7 +38,7 @@ VelodynePacket::VelodynePacket(std::string_view bytes) : bytes_(bytes) {
       throw DeviceError(
           "wrong_device",
           "the lidar has two kinds of blocks, as an HDL-64E, whose calibration is its "
-          "own: expected a VLP-16, Puck LITE, Puck Hi-Res or HDL-32E");
+          "own: expected a VLP-16, Puck LITE, Puck Hi-Res, VLP-32C or HDL-32E");
     }
     if (flag != kUpperBlock || azimuth(block) >= kFullTurn) {
       throw DeviceError("bad_packet", "block " + std::to_string(block) + " of a packet begins by " +
@@ -92,7 +91,7 @@ double blockOffset(const VelodyneModel& model, bool is_dual, std::size_t block) 
 
 double packetSpan(const VelodyneModel& model, bool is_dual) {
   return blockOffset(model, is_dual, VelodynePacket::kBlocks) - model.sequence_time +
-         model.firing_time * static_cast<double>(model.lasers.size() - 1);
+         static_cast<double>(model.lasers.back().time);
 }
 
 void appendPoints(const VelodynePacket& packet, std::size_t block, const VelodyneModel& model,
@@ -108,22 +107,23 @@ void appendPoints(const VelodynePacket& packet, std::size_t block, const Velodyn
   const std::size_t lasers = model.lasers.size();
   for (std::size_t channel = 0; channel < VelodyneModel::kChannels; ++channel) {
     const unsigned distance = packet.distance(block, channel);
-    const float range = static_cast<float>(distance) * kVelodyneDistance;
+    const float range = static_cast<float>(distance) * model.distance_unit;
     if (range < min_range || range > max_range || distance == 0 ||
         (is_second && distance == packet.distance(block - 1, channel))) {
       continue;
     }
     const std::size_t sequence = channel / lasers;
-    const std::size_t firing = channel % lasers;
-    const double offset = model.sequence_time * static_cast<double>(sequence) +
-                          model.firing_time * static_cast<double>(firing);
-    const VelodyneLaser& laser = model.lasers[firing];
+    const VelodyneLaser& laser = model.lasers[channel % lasers];
+    const double offset =
+        model.sequence_time * static_cast<double>(sequence) + static_cast<double>(laser.time);
     // A block turns by less than half a degree: of the second order, 1e-7 remains.
     const auto angle = static_cast<float>(turning * offset);
-    const float half_square = 0.5F * angle * angle;
+    const float cos_angle = 1.0F - 0.5F * angle * angle;
+    const float cos_turned = laser.cos_offset * cos_angle - laser.sin_offset * angle;
+    const float sin_turned = laser.sin_offset * cos_angle + laser.cos_offset * angle;
     const float horizontal = range * laser.cos_elevation;
-    points.push_back({horizontal * (cosine - sine * angle - cosine * half_square),
-                      -horizontal * (sine + cosine * angle - sine * half_square),
+    points.push_back({horizontal * (cosine * cos_turned - sine * sin_turned),
+                      -horizontal * (sine * cos_turned + cosine * sin_turned),
                       range * laser.sin_elevation + laser.height,
                       static_cast<float>(packet.intensity(block, channel)),
                       static_cast<float>(time + offset), laser.ring});

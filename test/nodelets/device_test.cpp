@@ -109,7 +109,7 @@ TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsReported) {
   EXPECT_NEAR(scan.angle_min, -2.356194, 1e-6);
   EXPECT_FLOAT_EQ(scan.range_max, 20.0F);
 
-  telegram.state = "0 2";
+  telegram.state = 2;
   telegram.counter += 3;
   telegram.begun += 120000;
   telegram.sent += 120000;

@@ -269,7 +269,9 @@ datmo_fusion_add_core_test(device
   device/nmea_receiver_test.cpp
   device/nmea_test.cpp
   device/scip_test.cpp
+  device/sick_dialect_test.cpp
   device/sick_scanner_test.cpp
+  device/sick_telegram_test.cpp
   device/velodyne_faults_test.cpp
   device/velodyne_lidar_test.cpp
   device/velodyne_loopback_test.cpp

@@ -6,84 +6,106 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "datmo_fusion/device/device_data.h"
+#include "datmo_fusion/device/device_error.h"
 
 namespace datmo {
 
-/// What a scanner is to speak, and how it is set.
-inline constexpr const char* kColaDialect =
-    "CoLa A; set it by SICK's SOPAS ET (network, Ethernet, CoLa dialect: ASCII)";
+/// The dialects of CoLa, the command language of SICK's sensors (SICK, Telegram listing LMS1xx,
+/// LMS5xx, TiM5xx, TiM7xx, 8014631, 2020, sections 2.1 to 2.3).
+enum class ColaDialect {
+  kBinary,  ///< CoLa B: four STX, length, name, big-endian fields, XOR checksum
+  kText     ///< CoLa A: STX, name, fields as words, ETX
+};
 
-/// A telegram between the control characters that SICK's scanners put around it (CoLa A: SICK,
-/// Telegram listing LMS1xx, LMS5xx, TiM5xx, TiM7xx, 8014631, 2020).
-std::string colaTelegram(std::string_view text);
+/// "CoLa B" or "CoLa A".
+const char* nameOf(ColaDialect dialect);
 
-/// Cuts what comes from the device into telegrams.
+ColaDialect otherThan(ColaDialect dialect);
+
+/// The reason of a DeviceError: bytes of the other dialect were received.
+inline constexpr const char* kWrongDialect = "wrong_dialect";
+
+/// The error of bytes or a telegram that cannot be right (`bad_answer`).
+DeviceError badAnswer(const std::string& text);
+
+/// A telegram without its frame: its name, which is the same in both dialects, and its fields.
+struct ColaTelegram {
+  ColaDialect dialect = ColaDialect::kBinary;
+  std::string bytes;
+
+  /// Whether this is its name: "sSN LMDscandata".
+  bool isCalled(std::string_view name) const;
+};
+
+/// A field of a command: as CoLa A writes it, and its bytes in CoLa B.
+struct ColaParameter {
+  std::string_view text;
+  std::size_t size = 1;
+};
+
+/// Throws DeviceError (`bad_answer`) for a parameter that is not a number.
+ColaTelegram colaCommand(ColaDialect dialect, std::string_view name,
+                         const std::vector<ColaParameter>& parameters = {});
+
+/// A telegram as it is sent.
+std::string colaFrame(const ColaTelegram& telegram);
+
+/// Cuts the bytes of a connection into telegrams of one dialect.
 class ColaReader {
  public:
+  explicit ColaReader(ColaDialect dialect) : dialect_(dialect) {}
+
   void feed(std::string_view bytes) { waiting_ += bytes; }
 
-  /// The next whole telegram, without its control characters; none if it has not come. Throws
-  /// DeviceError: `wrong_device` for the binary protocol (CoLa B), `bad_answer` for what does not
-  /// end.
-  std::optional<std::string> next();
+  /// The next whole telegram; none if it has not arrived yet. Throws DeviceError: `wrong_dialect`
+  /// for the other dialect, `bad_answer` for bytes that are no telegram, for one that is too long
+  /// and for a wrong checksum.
+  std::optional<ColaTelegram> next();
 
  private:
+  std::optional<ColaTelegram> nextBinary();
+  std::optional<ColaTelegram> nextText();
+
+  ColaDialect dialect_;
   std::string waiting_;
 };
 
-/// The words of a telegram, from the front.
-class ColaWords {
+/// The fields of a telegram, from the first one on. `name` is what a field is, for messages. All
+/// throw DeviceError (`bad_answer`) if the telegram ends before.
+class ColaFields {
  public:
-  explicit ColaWords(std::string_view telegram) : rest_(telegram) {}
+  /// `telegram` must outlive it.
+  explicit ColaFields(const ColaTelegram& telegram);
 
-  /// Throws DeviceError (`bad_answer`) if there is none. `name`: what it is, for the message.
-  std::string_view text(const char* name);
+  /// A field of `size` bytes in CoLa B, whatever it is.
+  void skip(std::size_t size, const char* name);
 
-  /// Hexadecimal, or decimal after a sign. Throws DeviceError (`bad_answer`) unless it is such a
-  /// number of 32 bits.
-  std::uint32_t number(const char* name);
+  /// An unsigned number of `size` bytes (1 to 4) in CoLa B; in CoLa A hexadecimal, or decimal after
+  /// a sign. Throws DeviceError (`bad_answer`) unless it is a number of 32 bits.
+  std::uint32_t number(std::size_t size, const char* name);
 
-  /// The same, of the two's complement: FFF92230 is -450000.
+  /// The two's complement of 4 bytes: FFF92230 is -450000.
   std::int32_t signedNumber(const char* name);
 
-  /// The bits of a float (IEEE 754): 3F800000 is 1.
+  /// A float of 4 bytes (IEEE 754): 3F800000 is 1. Throws DeviceError (`bad_answer`) unless finite.
   float real(const char* name);
 
-  /// The next `count` characters after a space, which may be spaces, too. Throws DeviceError
-  /// (`bad_answer`) if there are fewer.
+  /// `count` characters, among them spaces.
   std::string_view characters(std::size_t count, const char* name);
 
+  /// Throws DeviceError (`bad_answer`) unless there can be `count` fields of `size` bytes: to be
+  /// called before memory is taken for them.
+  void require(std::size_t count, std::size_t size, const char* name) const;
+
  private:
+  std::string_view word(const char* name);
+  std::string_view take(std::size_t count, const char* name);
+
+  ColaDialect dialect_;
   std::string_view rest_;
 };
-
-/// A scanner that this protocol has, and that has been looked up.
-struct SickModel {
-  std::string name;
-  double max_range = 0.0;  ///< m
-};
-
-/// What the scanner says of itself (sRA DeviceIdent). Throws DeviceError (`wrong_device`) for one
-/// whose ranges and bearings are not known here.
-SickModel sickModel(std::string_view answer);
-
-/// What a scanner says of its own state.
-enum class SickState { kGood, kFault, kDirty };
-
-struct SickScan {
-  SickState state = SickState::kGood;
-  std::uint16_t counter = 0;  ///< of all scans
-  std::uint32_t begun = 0;    ///< us since it was switched on, when the scan began
-  std::uint32_t sent = 0;     ///< the same, when it was sent
-  DeviceScan scan;
-};
-
-/// A scan (sSN LMDscandata): the first echoes (DIST1), and their remission (RSSI1) where it is
-/// there. No echo is +inf; the values that stand for errors, and what is nearer than them, are NaN.
-/// Throws DeviceError (`bad_answer`) for one that is not whole, or has no such channel.
-SickScan sickScan(std::string_view telegram, const SickModel& model);
 
 }  // namespace datmo

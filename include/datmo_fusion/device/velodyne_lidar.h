@@ -26,8 +26,8 @@ struct VelodyneOptions {
 /// Throws DeviceError.
 using PacketOpener = std::function<std::unique_ptr<PacketSource>()>;
 
-/// A rotating lidar of Velodyne's (VLP-16, Puck LITE, Puck Hi-Res, HDL-32E): a cloud each turn, of
-/// one or two returns. The first turn, which is not whole, is left out.
+/// A rotating lidar of Velodyne's (VLP-16, Puck LITE, Puck Hi-Res, VLP-32C, HDL-32E): a cloud each
+/// turn, of one or two returns. The first turn, which is not whole, is left out.
 ///
 /// The stamp of a cloud is that of its first firing. Packets carry the lidar's time, and arrive
 /// when their last firing is done.

@@ -11,6 +11,9 @@ namespace datmo {
 struct VelodyneLaser {
   float cos_elevation = 1.0F;
   float sin_elevation = 0.0F;
+  float cos_offset = 1.0F;  ///< of its azimuth from that of the block, clockwise
+  float sin_offset = 0.0F;
+  float time = 0.0F;       ///< s, since the first laser of the sequence fired
   float height = 0.0F;     ///< m, of where it leaves above the lidar's origin
   std::uint16_t ring = 0;  ///< from the lowest, 0
 };
@@ -20,9 +23,9 @@ struct VelodyneModel {
   std::string name;
   std::uint8_t product = 0;  ///< in its packets
   std::vector<VelodyneLaser> lasers;
-  double firing_time = 0.0;    ///< s, from a laser to the next
-  double sequence_time = 0.0;  ///< s, from the first laser to the first one again
-  bool stamped_last = false;   ///< a packet's time is of its last firing, not of its first
+  double sequence_time = 0.0;   ///< s, from the first laser to the first one again
+  bool stamped_last = false;    ///< a packet's time is of its last firing, not of its first
+  float distance_unit = 2e-3F;  ///< m
 
   /// Of all lasers in one block of a packet.
   std::size_t sequences() const { return kChannels / lasers.size(); }

@@ -33,7 +33,7 @@ class VelodynePacket {
   /// The same from a block's first firing to that of the next one, at most a half turn.
   unsigned azimuthStep(std::size_t block) const;
 
-  /// 2 mm; 0: no return.
+  /// In the model's unit; 0: no return.
   unsigned distance(std::size_t block, std::size_t channel) const;
   std::uint8_t intensity(std::size_t block, std::size_t channel) const;
 
@@ -56,7 +56,8 @@ struct RangeLimits {
 };
 
 /// Appends the points of a block, in the lidar's frame (REP 103), with times from `time` (s) on.
-/// The azimuth of each firing is interpolated to the next block's. Of two equal returns one counts.
+/// The azimuth of each firing is interpolated to the next block's, and that of each laser has its
+/// offset. Of two equal returns one counts.
 void appendPoints(const VelodynePacket& packet, std::size_t block, const VelodyneModel& model,
                   const RangeLimits& limits, double time, std::vector<CloudPoint>& points);
 

@@ -1,132 +1,151 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The protocol of SICK's scanners: telegrams out of bytes, and what a scan says.
+// The language of SICK's scanners in its two dialects: frames, and the fields of telegrams.
 #include "datmo_fusion/device/cola.h"
-
-#include <cmath>
 
 #include "device/device_reason.h"
 #include "device/fake_sick.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/angle.h"
-
 namespace datmo::cola_test {
 namespace {
 
+using samples::bytesOf;
 using samples::reasonOf;
-using samples::SickTelegram;
 
-const SickModel kModel{"LMS111", 20.0};
+ColaTelegram text(const std::string& bytes) { return {ColaDialect::kText, bytes}; }
+ColaTelegram binary(const std::string& bytes) { return {ColaDialect::kBinary, bytes}; }
+
+/// The manual's example (LMS4000, 8023198, 12.1).
+const std::string kManualsFrame = bytesOf("\x02\x02\x02\x02\0\0\0\x11sEN LMDscandata \x01\x33");
+
+std::string nextOf(ColaReader& reader) {
+  const std::optional<ColaTelegram> telegram = reader.next();
+  return telegram ? telegram->bytes : "none";
+}
+
+/// Why bytes are refused in a dialect.
+std::string reasonOfBytes(ColaDialect dialect, const std::string& bytes) {
+  ColaReader reader(dialect);
+  reader.feed(bytes);
+  return reasonOf([&] { reader.next(); });
+}
+
+TEST(ColaTest, ACommandIsFramedAsTheManualHasIt) {
+  const std::vector<ColaParameter> start{{"1"}};
+  EXPECT_EQ(colaFrame(colaCommand(ColaDialect::kBinary, "sEN LMDscandata", start)), kManualsFrame);
+  EXPECT_EQ(colaFrame(colaCommand(ColaDialect::kText, "sEN LMDscandata", start)),
+            "\x02sEN LMDscandata 1\x03");
+  EXPECT_EQ(colaCommand(ColaDialect::kBinary, "sRN STlms").bytes, "sRN STlms");
+  EXPECT_EQ(colaCommand(ColaDialect::kBinary, "sMN It", {{"F4724744", 4}, {"+300", 2}}).bytes,
+            bytesOf("sMN It \xF4\x72\x47\x44\x01\x2C"));
+}
 
 TEST(ColaTest, BytesBecomeTelegrams) {
-  ColaReader reader;
+  ColaReader reader(ColaDialect::kText);
   reader.feed("half of an old one\x02sAN Ru");
-  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_EQ(nextOf(reader), "none");
   reader.feed("n 1\x03\x02sEA\x03\x02");
-  EXPECT_EQ(reader.next(), "sAN Run 1");
-  EXPECT_EQ(reader.next(), "sEA");
-  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_EQ(nextOf(reader), "sAN Run 1");
+  EXPECT_EQ(nextOf(reader), "sEA");
+  EXPECT_EQ(nextOf(reader), "none");
 }
 
-TEST(ColaTest, ATelegramThatWasCutOffDoesNotCostTheNext) {
-  ColaReader reader;
+TEST(ColaTest, BinaryBytesBecomeTelegramsOneByOne) {
+  ColaReader reader(ColaDialect::kBinary);
+  for (const char byte : kManualsFrame) {
+    EXPECT_EQ(nextOf(reader), "none");
+    reader.feed(std::string(1, byte));
+  }
+  reader.feed(kManualsFrame.substr(0, 9));
+  EXPECT_EQ(nextOf(reader), "sEN LMDscandata \x01");
+  EXPECT_EQ(nextOf(reader), "none");
+  reader.feed(kManualsFrame.substr(9));
+  EXPECT_EQ(nextOf(reader), "sEN LMDscandata \x01");
+}
+
+TEST(ColaTest, ATextTelegramThatWasCutOffDoesNotCostTheNext) {
+  ColaReader reader(ColaDialect::kText);
   reader.feed("\x02sSN LMDscandata 1 1 A0\x02sAN Run 1\x03");
-  EXPECT_EQ(reader.next(), "sAN Run 1");
+  EXPECT_EQ(nextOf(reader), "sAN Run 1");
 }
 
-TEST(ColaTest, OtherProtocolsAreRefused) {
-  ColaReader binary;
-  binary.feed(std::string("\x02\x02\x02\x02\x00\x00\x00\x05", 8));
-  EXPECT_EQ(reasonOf([&] { binary.next(); }), "wrong_device");
-  ColaReader endless;
-  endless.feed(std::string(200000, 'x'));
-  EXPECT_EQ(reasonOf([&] { endless.next(); }), "bad_answer");
-  ColaReader web;
-  web.feed("HTTP/1.1 400\x03");
-  EXPECT_EQ(reasonOf([&] { web.next(); }), "bad_answer");
+TEST(ColaTest, BytesThatAreNoTelegramAreRefused) {
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kText, std::string(200000, 'x')), "bad_answer");
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kText, "HTTP/1.1 400\x03"), "bad_answer");
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, "H"), "bad_answer");
 }
 
-TEST(ColaTest, NumbersAreHexadecimalOrHaveASign) {
-  ColaWords words("FF +10 -10 FFF92230 3F000000 100000000 1x");
-  EXPECT_EQ(words.number("it"), 255U);
-  EXPECT_EQ(words.number("it"), 10U);
-  EXPECT_EQ(words.signedNumber("it"), -10);
-  EXPECT_EQ(words.signedNumber("it"), -450000);
-  EXPECT_FLOAT_EQ(words.real("it"), 0.5F);
-  EXPECT_EQ(reasonOf([&] { words.number("it"); }), "bad_answer");
-  EXPECT_EQ(reasonOf([&] { words.number("it"); }), "bad_answer");
-  EXPECT_EQ(reasonOf([&] { words.number("it"); }), "bad_answer");  // there is none
+TEST(ColaTest, TheOtherDialectIsRecognized) {
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kText, kManualsFrame.substr(0, 4)), "wrong_dialect");
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, "\x02s"), "wrong_dialect");
 }
 
-TEST(ColaTest, AScanIsReadAsTheListingHasIt) {
-  const SickScan scan = sickScan(SickTelegram().text(), kModel);
-  EXPECT_EQ(scan.state, SickState::kGood);
-  EXPECT_EQ(scan.counter, 1U);
-  EXPECT_EQ(scan.begun, 1000000U);
-  EXPECT_EQ(scan.sent, 1020000U);
-  EXPECT_NEAR(scan.scan.first_bearing, degrees(-135.0), 1e-9);
-  EXPECT_NEAR(scan.scan.beam_spacing, degrees(0.5), 1e-9);
-  EXPECT_NEAR(scan.scan.scan_time, 0.04, 1e-9);
-  EXPECT_NEAR(scan.scan.beam_time, 0.04 / 720.0, 1e-9);
-  EXPECT_DOUBLE_EQ(scan.scan.max_range, 20.0);
-  ASSERT_EQ(scan.scan.ranges.size(), 4U);
-  EXPECT_FLOAT_EQ(scan.scan.ranges[0], 1.0F);
-  EXPECT_TRUE(std::isinf(scan.scan.ranges[1]));  // no echo
-  EXPECT_TRUE(std::isnan(scan.scan.ranges[2]));  // a code
-  EXPECT_FLOAT_EQ(scan.scan.ranges[3], 4.0F);
-  EXPECT_EQ(scan.scan.intensities, (std::vector<float>{10.0F, 0.0F, 0.0F, 254.0F}));
-}
-
-TEST(ColaTest, TheFactorCountsAndRemissionMayBeMissing) {
-  SickTelegram telegram;
-  telegram.factor = "40000000";  // an LMS5xx beyond 65 m
-  telegram.intensities.clear();
-  const SickScan scan = sickScan(telegram.text(), kModel);
-  EXPECT_FLOAT_EQ(scan.scan.ranges[3], 8.0F);
-  EXPECT_TRUE(scan.scan.intensities.empty());
-}
-
-TEST(ColaTest, WhatTheScannerSaysOfItselfIsRead) {
-  SickTelegram telegram;
-  telegram.state = "0 2";
-  EXPECT_EQ(sickScan(telegram.text(), kModel).state, SickState::kDirty);
-  telegram.state = "0 5";
-  EXPECT_EQ(sickScan(telegram.text(), kModel).state, SickState::kFault);
-}
-
-TEST(ColaTest, AScanCutAnywhereBeforeItsLastBeamIsRefused) {
-  const std::string whole = SickTelegram().text();
-  const std::size_t tail = std::string(" 0 0 0 0 0").size();
-  for (std::size_t length = 0; length + tail < whole.size(); ++length) {
-    EXPECT_EQ(reasonOf([&] { sickScan(whole.substr(0, length), kModel); }), "bad_answer")
-        << whole.substr(0, length);
+TEST(ColaTest, AWrongChecksumIsRefusedWhereverTheErrorIs) {
+  for (std::size_t at = 8; at < kManualsFrame.size(); ++at) {
+    std::string bytes = kManualsFrame;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+    EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, bytes), "bad_answer") << at;
   }
 }
 
-TEST(ColaTest, ScansThatCannotBeAreRefused) {
-  SickTelegram telegram;
-  telegram.ranges = {1000};
-  EXPECT_EQ(reasonOf([&] { sickScan(telegram.text(), kModel); }), "bad_answer");
-  telegram.ranges.assign(1000, 1000);  // 500 degrees
-  EXPECT_EQ(reasonOf([&] { sickScan(telegram.text(), kModel); }), "bad_answer");
-  telegram = SickTelegram();
-  telegram.begun = telegram.sent + 1;
-  EXPECT_EQ(reasonOf([&] { sickScan(telegram.text(), kModel); }), "bad_answer");
-  telegram = SickTelegram();
-  telegram.factor = "7F800000";  // infinity
-  EXPECT_EQ(reasonOf([&] { sickScan(telegram.text(), kModel); }), "bad_answer");
+TEST(ColaTest, HalfABinaryTelegramBeforeAnotherIsRefused) {
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, kManualsFrame.substr(0, 15) + kManualsFrame),
+            "bad_answer");
 }
 
-TEST(ColaTest, ModelsAreKnownByName) {
-  EXPECT_DOUBLE_EQ(sickModel("sRA DeviceIdent 10 LMS10x_FieldEval 10 V1.36-21.10.2010").max_range,
-                   20.0);
-  EXPECT_EQ(sickModel("sRA DeviceIdent E TiM571-2050101 4 V2.5").name, "TiM571-2050101");
-  EXPECT_DOUBLE_EQ(sickModel("sRA DeviceIdent 6 LMS5xx 4 V1.1").max_range, 80.0);
-  for (const char* answer : {"sRA DeviceIdent 8 LMS1104C 4 V1.1", "sRA DeviceIdent 6 TiM240 4 V1.1",
-                             "sRA DeviceIdent 6 NAV310 4 V1.1"}) {
-    EXPECT_EQ(reasonOf([answer] { sickModel(answer); }), "wrong_device") << answer;
+TEST(ColaTest, ALengthBeyondTheBoundIsRefusedBeforeItIsWaitedFor) {
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, bytesOf("\x02\x02\x02\x02\xFF\xFF\xFF\xFF")),
+            "bad_answer");
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, bytesOf("\x02\x02\x02\x02\0\x02\0\x01")),
+            "bad_answer");
+  EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, bytesOf("\x02\x02\x02\x02\0\x02\0\0")), "none");
+}
+
+TEST(ColaTest, ATelegramIsCalledByItsWholeName) {
+  for (const ColaTelegram& one : {text("sSN LMDscandata 1"), binary("sSN LMDscandata \x01")}) {
+    EXPECT_TRUE(one.isCalled("sSN LMDscandata"));
+    EXPECT_FALSE(one.isCalled("sSN LMDscan"));
+    EXPECT_FALSE(one.isCalled("sSN"));
   }
-  EXPECT_EQ(reasonOf([] { sickModel("sRA DeviceIdent FF LMS111"); }), "bad_answer");
+  EXPECT_FALSE(text("sSN LMDscandatamon 1").isCalled("sSN LMDscandata"));
+  EXPECT_TRUE(text("sFA").isCalled("sFA"));
+}
+
+TEST(ColaTest, NumbersInTextAreHexadecimalOrHaveASign) {
+  const ColaTelegram telegram = text("sRA It FF +10 -10 FFF92230 3F000000 100000000 1x");
+  ColaFields fields(telegram);
+  EXPECT_EQ(fields.number(1, "it"), 255U);
+  EXPECT_EQ(fields.number(1, "it"), 10U);
+  EXPECT_EQ(fields.signedNumber("it"), -10);
+  EXPECT_EQ(fields.signedNumber("it"), -450000);
+  EXPECT_FLOAT_EQ(fields.real("it"), 0.5F);
+  EXPECT_EQ(reasonOf([&] { fields.number(4, "it"); }), "bad_answer");
+  EXPECT_EQ(reasonOf([&] { fields.number(4, "it"); }), "bad_answer");
+  EXPECT_EQ(reasonOf([&] { fields.number(4, "it"); }), "bad_answer");  // there is none
+}
+
+TEST(ColaTest, BinaryNumbersAreBigEndian) {
+  const ColaTelegram telegram =
+      binary(bytesOf("sRA It \xFF\x01\x02\xFF\xF9\x22\x30\x3F\0\0\0 a b\x20"));
+  ColaFields fields(telegram);
+  EXPECT_EQ(fields.number(1, "it"), 255U);
+  EXPECT_EQ(fields.number(2, "it"), 0x102U);
+  EXPECT_EQ(fields.signedNumber("it"), -450000);
+  EXPECT_FLOAT_EQ(fields.real("it"), 0.5F);
+  EXPECT_EQ(fields.characters(4, "it"), " a b");
+  EXPECT_EQ(reasonOf([&] { fields.number(2, "it"); }), "bad_answer");
+  EXPECT_EQ(fields.number(1, "it"), 0x20U);
+  EXPECT_EQ(reasonOf([&] { fields.skip(1, "it"); }), "bad_answer");
+}
+
+TEST(ColaTest, MoreFieldsThanBytesAreRefused) {
+  const ColaTelegram short_binary = binary("sRA It abcdef");
+  const ColaFields fields(short_binary);
+  EXPECT_EQ(reasonOf([&] { fields.require(3, 2, "it"); }), "none");
+  EXPECT_EQ(reasonOf([&] { fields.require(4, 2, "it"); }), "bad_answer");
+  const ColaTelegram short_text = text("sRA It a b");
+  EXPECT_EQ(reasonOf([&] { ColaFields(short_text).require(2, 2, "it"); }), "none");
+  EXPECT_EQ(reasonOf([&] { ColaFields(short_text).require(3, 2, "it"); }), "bad_answer");
 }
 
 }  // namespace

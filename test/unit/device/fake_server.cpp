@@ -66,19 +66,33 @@ void FakeServer::accept() {
   bePatient(client_);
 }
 
-std::string FakeServer::receive(char end) {
+bool FakeServer::receiveMore() {
   std::array<char, 256> bytes;
+  const ssize_t count = recv(client_, bytes.data(), bytes.size(), 0);
+  received_.append(bytes.data(), static_cast<std::size_t>(count > 0 ? count : 0));
+  return count > 0;
+}
+
+std::string FakeServer::receive(char end) {
   while (received_.find(end) == std::string::npos) {
-    const ssize_t count = recv(client_, bytes.data(), bytes.size(), 0);
-    if (count <= 0) {
+    if (!receiveMore()) {
       return "";
     }
-    received_.append(bytes.data(), static_cast<std::size_t>(count));
   }
-  const std::size_t length = received_.find(end);
-  const std::string line = received_.substr(0, length);
-  received_.erase(0, length + 1);
+  const std::string line = received_.substr(0, received_.find(end));
+  received_.erase(0, line.size() + 1);
   return line;
+}
+
+std::string FakeServer::receiveBytes(std::size_t count) {
+  while (received_.size() < count) {
+    if (!receiveMore()) {
+      return "";
+    }
+  }
+  const std::string bytes = received_.substr(0, count);
+  received_.erase(0, count);
+  return bytes;
 }
 
 void FakeServer::send(const std::string& bytes) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace datmo::samples {
@@ -39,12 +40,18 @@ class FakeServer {
   /// What comes up to `end`, without it; empty if the other side has gone.
   std::string receive(char end);
 
+  /// The next `count` bytes; empty if the other side has gone.
+  std::string receiveBytes(std::size_t count);
+
   void send(const std::string& bytes) const;
 
   /// Hangs up.
   void close();
 
  private:
+  /// Waits for more; false if the other side has gone.
+  bool receiveMore();
+
   int listener_ = -1;
   int client_ = -1;
   int port_ = 0;

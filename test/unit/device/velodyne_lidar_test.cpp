@@ -11,6 +11,7 @@ namespace {
 
 using samples::kDual;
 using samples::kHdl32e;
+using samples::kVlp32c;
 using samples::VelodyneLidarTest;
 using samples::VelodyneSample;
 using samples::VelodyneStream;
@@ -74,6 +75,22 @@ TEST_F(VelodyneLidarTest, TheLidarsWithTheirPacketsTimeAtTheEndAndTwoReturnsAreR
   EXPECT_EQ(turns[1].missed, 0U);
   // Sent at the last firing, which is 9.2 us before the next packet's first one.
   EXPECT_NEAR(seconds(turns[0].stamp), 1125 * 46.08e-6, 3e-5);
+}
+
+TEST_F(VelodyneLidarTest, ALidarWhoseLasersLookAsideIsReadWithTwoReturns) {
+  VelodyneSample sample;
+  sample.product = kVlp32c;
+  sample.returns = kDual;
+  sample.step = 20;
+  VelodyneStream stream{sample};
+  sendTurns(stream, 2.6);
+  connect();
+  EXPECT_EQ(name_, "VLP-32C, two returns");
+  const auto turns = clouds();
+  ASSERT_EQ(turns.size(), 2U);
+  EXPECT_EQ(points(turns[0]).size(), 2U * 1800U * VelodyneModel::kChannels);
+  EXPECT_EQ(turns[1].missed, 0U);
+  EXPECT_NEAR(secondsBetween(turns[0].stamp, turns[1].stamp), 1800 * 55.296e-6, 2e-6);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace {
 using samples::kDual;
 using samples::kHdl32e;
 using samples::kVlp16;
+using samples::kVlp32c;
 using samples::reasonOf;
 using samples::VelodyneSample;
 
@@ -46,6 +47,9 @@ TEST(VelodyneModelTest, ElevationsAreThoseOfTheManuals) {
   EXPECT_NEAR(elevation(model(kVlp16), 15), 15.0, 1e-4);
   EXPECT_NEAR(elevation(model(0x24), 0), -10.0, 1e-4);
   EXPECT_NEAR(elevation(model(0x24), 15), 10.0, 1e-4);
+  EXPECT_NEAR(elevation(model(kVlp32c), 0), -25.0, 1e-4);
+  EXPECT_NEAR(elevation(model(kVlp32c), 13), 1.333, 1e-4);
+  EXPECT_NEAR(elevation(model(kVlp32c), 29), 15.0, 1e-4);
   EXPECT_NEAR(elevation(model(kHdl32e), 0), -30.67, 5e-3);
   EXPECT_NEAR(elevation(model(kHdl32e), 15), 0.0, 1e-4);
   EXPECT_NEAR(elevation(model(kHdl32e), 30), -10.67, 5e-3);
@@ -78,6 +82,46 @@ TEST(VelodynePacketTest, APointIsWhereTheManualHasIt) {
   EXPECT_EQ(points[0].ring, 0U);
   EXPECT_EQ(points[15].ring, 15U);
   EXPECT_FLOAT_EQ(points[0].intensity, 77.0F);
+}
+
+TEST(VelodynePacketTest, LasersThatLookAsideAreTurned) {
+  VelodyneSample sample;
+  sample.product = kVlp32c;
+  sample.azimuth = 9000;  // to the right
+  sample.step = 0;
+  sample.distances = {2500};  // 10 m
+  const std::vector<CloudPoint> points = pointsOf(sample, 0);
+  ASSERT_EQ(points.size(), VelodyneModel::kChannels);
+  // 10 cos(-25 deg) at 91.4 deg clockwise.
+  EXPECT_NEAR(points[0].x, -0.221431, 1e-5);
+  EXPECT_NEAR(points[0].y, -9.060372, 1e-5);
+  EXPECT_NEAR(points[0].z, -4.226183, 1e-5);
+  EXPECT_EQ(points[0].ring, 0U);
+  // 10 cos(-1 deg) at 85.8 deg.
+  EXPECT_NEAR(points[1].x, 0.732270, 1e-5);
+  EXPECT_NEAR(points[1].y, -9.971626, 1e-5);
+  EXPECT_NEAR(points[1].z, -0.174524, 1e-5);
+  // 10 cos(15 deg) at 88.6 deg.
+  EXPECT_NEAR(points[29].x, 0.235997, 1e-5);
+  EXPECT_NEAR(points[29].y, -9.656375, 1e-5);
+  EXPECT_NEAR(points[29].z, 2.588190, 1e-5);
+  EXPECT_EQ(points[29].ring, 31U);
+}
+
+TEST(VelodynePacketTest, LasersThatFireTogetherHaveOneTime) {
+  VelodyneSample sample;
+  sample.product = kVlp32c;
+  sample.step = 20;
+  const std::vector<CloudPoint> points = pointsOf(sample, 0);
+  ASSERT_EQ(points.size(), VelodyneModel::kChannels);
+  EXPECT_FLOAT_EQ(points[1].time, 0.0F);
+  EXPECT_NEAR(points[2].time, 2.304e-6, 1e-9);
+  EXPECT_NEAR(points[3].time, 2.304e-6, 1e-9);
+  EXPECT_NEAR(points[31].time, 15 * 2.304e-6, 1e-9);
+  EXPECT_NEAR(toDegrees(std::atan2(-points[31].y, points[31].x)), -1.4 + 0.2 * 34.56 / 55.296,
+              1e-4);
+  EXPECT_NEAR(packetSpan(model(kVlp32c), false), 642.816e-6, 1e-9);
+  EXPECT_NEAR(packetSpan(model(kVlp32c), true), 311.04e-6, 1e-9);
 }
 
 TEST(VelodynePacketTest, EachFiringHasItsOwnTimeAndAzimuth) {

@@ -9,6 +9,7 @@ namespace datmo::samples {
 
 constexpr std::uint8_t kVlp16 = 0x22;
 constexpr std::uint8_t kHdl32e = 0x21;
+constexpr std::uint8_t kVlp32c = 0x28;
 constexpr std::uint8_t kStrongest = 0x37;
 constexpr std::uint8_t kDual = 0x39;
 
@@ -16,10 +17,11 @@ constexpr std::uint8_t kDual = 0x39;
 struct VelodyneSample {
   std::uint8_t product = kVlp16;
   std::uint8_t returns = kStrongest;
-  std::uint32_t time = 0;                      ///< us past the hour
-  unsigned azimuth = 0;                        ///< hundredths of a degree, of the first block
-  unsigned step = 40;                          ///< the same, from a firing to the next block's
-  std::vector<std::uint16_t> distances{5000};  ///< 2 mm, by channel, again and again
+  std::uint32_t time = 0;  ///< us past the hour
+  unsigned azimuth = 0;    ///< hundredths of a degree, of the first block
+  unsigned step = 40;      ///< the same, from a firing to the next block's
+  std::vector<std::uint16_t> distances{
+      5000};  ///< 2 mm (VLP-32C: 4 mm), by channel, again and again
   std::vector<std::uint16_t> second_distances{4000};  ///< of the other blocks of two returns
   std::uint8_t intensity = 77;
 
