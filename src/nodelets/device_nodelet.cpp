@@ -24,7 +24,7 @@ namespace datmo {
 namespace {
 
 /// Maximum number of waiting measurements: at least a tenth of a second for scanners (10 Hz to 100
-/// Hz) and receivers, up to a second for a bus at 100 Hz.
+/// Hz) and receivers (kQueue), a second for a bus at 100 Hz (kCanQueue).
 constexpr std::uint32_t kQueue = 10;
 constexpr std::uint32_t kCanQueue = 100;
 

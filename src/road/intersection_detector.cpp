@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// Distance constant with which a road's earlier borders are forgotten, m.
+/// Distance after which a road's earlier borders count for 37 % of their length, m.
 constexpr double kRoadMemory = 60.0;
 
 /// Mean distance between two intersections in a town, m.

@@ -91,7 +91,7 @@ class FollowedBorder {
   std::vector<ArcLengthInterval> reach_;  ///< m from the anchor, where the line may continue
   std::vector<CurvePoint> curve_points_;  ///< of the beams' ends of the scan
   std::vector<BorderHit> taken_;          ///< of one scan; a member to avoid reallocation
-  double age_ = 0.0;                      ///< s of prediction included in the state
+  double age_ = 0.0;  ///< s since the state (trial, confirmed, refuted) was entered
   double unseen_for_ = 0.0;
 };
 

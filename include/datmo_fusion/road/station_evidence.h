@@ -58,7 +58,7 @@ class StationEvidence {
   double saturation() const { return options_.saturation; }
 
   /// Sections where the line is a border, each from its first to its last observed station; gaps
-  /// between stations longer than `bridged_gap` separate sections, shorter ones are included.
+  /// of `bridged_gap` or more between stations separate sections, shorter ones are included.
   std::vector<ArcLengthInterval> pieces() const;
 
   /// Number of observed stations.

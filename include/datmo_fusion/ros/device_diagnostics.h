@@ -41,7 +41,7 @@ class DeviceDiagnostics {
   std::uint64_t missed_ = 0;
   std::uint64_t clock_steps_ = 0;
   std::optional<double> first_offset_;  ///< s, of this connection
-  std::optional<Stamp> last_twist_;     ///< s, of this connection
+  std::optional<Stamp> last_twist_;     ///< of this connection
   double longest_gap_ = 0.0;            ///< s, of this connection, between two twists
 };
 

@@ -193,7 +193,7 @@ void walkObjects(Uper& uper, Cpm& cpm, ItsDictionary dictionary) {
   }
 }
 
-/// Everything before the containers. Returns whether additions follow them.
+/// Everything before the containers.
 void walkHead(Uper& uper, Cpm& cpm) {
   walk(uper, cpm.header);
   uper.extended();  // additions come after all that is read

@@ -107,7 +107,7 @@ std::optional<Eigen::Matrix2d> setPosition(const CpmObject& object,
   return covariance;
 }
 
-/// Returns none without id or position. At the reference time.
+/// The track at the reference time; none without id or position.
 std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix2d& reference,
                                     const StationMessageOptions& options) {
   StationTrack track;

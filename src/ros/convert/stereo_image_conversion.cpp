@@ -47,8 +47,8 @@ void checkInfo(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& im
   }
 }
 
-/// Returns the model of both cameras. Throws InputError unless they are a rectified stereo pair,
-/// for which the library would end the process.
+/// Returns the model of both cameras. Throws InputError unless they are a rectified stereo pair:
+/// for any others the library would end the process.
 image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
                                           const sensor_msgs::CameraInfo& right) {
   constexpr std::size_t kFx = 0;

@@ -22,7 +22,7 @@ constexpr double kContactHeight = 0.06;
 constexpr float kTubeOpacity = 0.35F;
 constexpr float kContactOpacity = 0.8F;
 
-/// m, diameter of the disc of a certain contact, and the share of it for any contact.
+/// m, diameter of the disc of a certain contact, and the minimum share of it for a less likely one.
 constexpr double kContactSize = 2.5;
 constexpr double kMinContactShare = 0.35;
 

@@ -113,7 +113,7 @@ Marker groundOutline(const std_msgs::Header& header, const std::string& name,
   return outline;
 }
 
-/// The class as a shape, and on the ground its outline and the outline of the sensors.
+/// The class as a shape, and on the ground its outline, and one in the color of the sensors.
 void addBody(const std_msgs::Header& header, const TrackMessage& track, const TrackStyle& style,
              MarkerArray& markers) {
   const MarkersOptions& options = style.sizes;

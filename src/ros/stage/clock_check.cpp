@@ -35,7 +35,7 @@ std::string leadSentence(const std::string& input, double lead) {
          "or of the recording is behind: synchronize them";
 }
 
-/// Whether ros::Time has it; 0 is none.
+/// Whether ros::Time can represent it; 0 is not a valid time.
 bool isTime(Stamp stamp) { return stamp > Stamp{} && stamp <= toStamp(ros::TIME_MAX); }
 
 }  // namespace

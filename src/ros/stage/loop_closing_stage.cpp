@@ -18,7 +18,7 @@ namespace {
 /// Maximum number of scans that wait for the thread: a minute.
 constexpr std::size_t kMaxQueuedScans = 1000;
 
-/// Maximum batch: results are used, and the thread can stop, after each one.
+/// Maximum number of scans per batch: after each batch results are used, and the thread can stop.
 constexpr std::size_t kMaxScansAtATime = 100;
 
 constexpr double kBytesPerMegabyte = 1e6;

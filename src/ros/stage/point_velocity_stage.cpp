@@ -103,7 +103,8 @@ sensor_msgs::PointCloud2Ptr PointVelocityStage::takeImage(StereoSide side,
 sensor_msgs::PointCloud2Ptr PointVelocityStage::takeInfo(
     StereoSide side, const sensor_msgs::CameraInfoConstPtr& info) {
   return runner_.serve([&] {
-    // Whichever message comes first detects a jump back of the clock, before newer ones are stored.
+    // Whichever message comes first detects that the clock has jumped back; it is stored only after
+    // the reset, which so drops nothing of the new run.
     runner_.check(side == StereoSide::kLeft ? "left/camera_info" : "right/camera_info",
                   info->header.stamp);
     return serve(pairs_.takeInfo(side, info));

@@ -17,7 +17,7 @@ namespace {
 /// Averaging period of the own velocity from poses, s: shorter ones are noisy.
 constexpr double kVelocityTime = 0.3;
 
-/// Maximum time between the own pose and the scan's stamp, s.
+/// Maximum time between the last own pose and another stamp that it is used for, s.
 constexpr double kMaxPoseAge = 1.0;
 
 /// Variances of our own speed and acceleration, as sent to others, (m/s)^2 and (m/s^2)^2.

@@ -50,7 +50,7 @@ struct EarthFrameCounts {
 ///
 /// It starts with weighted least squares over all fixes that fit together (Arun, Huang, Blostein
 /// 1987, in the plane; consistentPairs), until the vehicle has driven far enough for the heading to
-/// be observable, and goes on with an extended Kalman filter. Its state includes the receiver's
+/// be observable, and continues with an extended Kalman filter. Its state includes the receiver's
 /// error that successive fixes share (atmosphere, multipath), as a Gauss-Markov process: without it
 /// the covariance would shrink with each fix as if they were independent. The map drifts with the
 /// distance driven, turning about the vehicle.

@@ -15,7 +15,7 @@ constexpr double kEver = std::numeric_limits<double>::infinity();
 /// s; how far a mark may lie in the past if the later of its possible times is meant (message
 /// latency).
 constexpr double kLatePast = 2.0;
-/// s; the same if the earlier time is meant: the mark then takes the nearest hour.
+/// s; the same if the earlier time is meant: of its possible times the mark then has the nearest.
 constexpr double kLongPast = 1800.0;
 
 /// The first and the last possible time, s after the host's stamp.

@@ -18,8 +18,8 @@ struct GridFuserOptions {
   std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar, stereo, mono
 
   /// Vision has priority where it sees, since a planar scanner takes road paint for obstacles and
-  /// misses thin poles (thesis 3.2.3). A single camera is used only on request and has a lower
-  /// weight: color is not depth.
+  /// misses thin poles (thesis 3.2.3). A single camera is used only on request and counts as less
+  /// reliable: color is not depth.
   GridFuserOptions();
 
   void visit(OptionVisitor& visitor);

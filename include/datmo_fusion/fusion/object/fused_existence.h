@@ -9,7 +9,7 @@ namespace datmo {
 struct ExistenceReport {
   bool has_track = false;
   double existence = 0.0;              ///< 0 to 1, by its own tracker; unused without a track
-  double looked = 0.0;                 ///< 0 to 1, probability that it looked at the object
+  double looked = 0.0;                 ///< 0 to 1, that it looked at the object's position
   double detection_probability = 0.0;  ///< 0 to 1, that it has a track of an object it looks at
   double false_agreement_probability =
       1.0;  ///< above 0, up to 1, that it has a track of a ghost there

@@ -81,8 +81,8 @@ class SourceMatcher {
   std::optional<Matched> next(Stamp now);
 
   /// Returns the first waiting set after a stamp (or of all, without one), with the samples
-  /// received so far; none if nothing waits. The set keeps waiting: next() returns it later,
-  /// complete.
+  /// received so far; none if nothing waits. The set keeps waiting: next() returns it later, with
+  /// the samples received by then.
   std::optional<Matched> early(std::optional<Stamp> after, Stamp now) const;
 
   /// Number of samples of a source that were never used in a set and never will be. Throws

@@ -28,7 +28,7 @@ struct FusedTarget {
   double lost = 0.0;              ///< s, since no source had one
   bool confirmed = false;  ///< once had tracks of all sources that could see it, and of two sensors
   bool wanted = false;     ///< to be published, unless a more certain one is at the same position
-  bool published = false;  ///< has been published
+  bool published = false;  ///< published in the last step
   /// By number of the source: probability that it would have detected it lately; none: not
   /// evaluated.
   std::vector<std::optional<double>> looked;

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Omits the common covariance of the terms' errors, and what was rejected.
+/// Omits the covariances between the terms, and what was rejected.
 StereoAlignmentMessagePtr toMessage(const StereoAlignment& alignment, const std::string& frame);
 
 /// Throws InputError (`bad_alignment`) for non-finite numbers and negative variances.

@@ -15,24 +15,24 @@
 
 namespace datmo {
 
-/// Watches the clock of one input's sensor (SensorClock). While it is off, each message is warned
-/// of (`clock_off`) and served with the stamp that it would have had. Messages that come before
-/// their stamps are warned of (`clock_ahead`) and served as they are: the clock that is off may be
-/// ours.
+/// Monitors the clock of one input's sensor (SensorClock). While it is off, each message causes a
+/// warning (`clock_off`) and is processed with the stamp that it would have had. Messages that
+/// arrive before their stamps cause a warning (`clock_ahead`) and are processed unchanged: the
+/// clock that is off may be ours.
 ///
-/// A clock that was set and is then taken for the right one is said (`clock_set`).
+/// A clock that was set and is accepted from then on is reported (`clock_set`).
 ///
-/// Each stage has a check of its own: the offset is a difference of stamps, which are the same for
-/// all of them, but one that was started later, or that gets the messages at other times, may have
-/// another clock for the right one, or find a step up to SensorClock::kRemembered messages later.
+/// Each stage has its own check: the offset is a difference of stamps, which are the same for all
+/// stages, but one that was started later, or receives the messages at other times, may consider
+/// another clock right, or detect a step up to SensorClock::kRemembered messages later.
 class ClockCheck {
  public:
   /// `monitor` must outlive it.
   ClockCheck(std::string input, StageMonitor& monitor)
       : input_(std::move(input)), monitor_(monitor) {}
 
-  /// A message's stamp, put right; one that is none, or would not be a time then, as it is. `now`:
-  /// ROS time at which it came.
+  /// Returns a message's corrected stamp; unchanged if it is zero, or if the result would not be a
+  /// valid time. `now`: ROS time of its arrival.
   ros::Time corrected(const ros::Time& stamp, Stamp now);
 
  private:

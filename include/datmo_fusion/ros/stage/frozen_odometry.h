@@ -21,7 +21,8 @@ class FrozenOdometry {
   /// `max_hold`: s.
   explicit FrozenOdometry(double max_hold) : max_hold_(max_hold) {}
 
-  /// Stamps must rise. Returns whether the message carries no information about its stamp.
+  /// Stamps must rise. Returns whether the message repeats an earlier measurement, and so tells
+  /// nothing about the motion at its stamp.
   bool take(const nav_msgs::Odometry& message);
 
   void reset() { *this = FrozenOdometry(max_hold_); }

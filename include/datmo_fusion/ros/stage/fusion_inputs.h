@@ -47,8 +47,8 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 /// Input check of a stage that fuses several sources: accepts or rejects messages, keeps the data
 /// time and the vehicle's motion, and reports missing sources.
 ///
-/// A source that falls silent is reported once until it is fused again; so is one that for as long
-/// is always too late or lacks motion.
+/// A source that falls silent is reported once until it is fused again; so is one that is too late,
+/// or whose motion is unknown, for as long.
 ///
 /// The reference's stamps are authoritative: while it publishes, a message of another source that
 /// is ahead of them by more than `silent_after` is rejected (`stamp_ahead`), because a clock that

@@ -21,8 +21,8 @@ namespace datmo {
 /// Input check for the vehicle's odometry: its frames, rising stamps and plausible twists.
 class OdometryReader {
  public:
-  /// `stream`: its name at the runner, which belongs to the stage, must call reset() here when
-  /// reset itself, and must outlive the reader. Throws OptionError.
+  /// `stream`: its name at `runner`, the runner of the stage, which must call reset() when it is
+  /// reset itself; the runner must outlive the reader. Throws OptionError.
   OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames, std::string stream,
                  StageRunner& runner);
 

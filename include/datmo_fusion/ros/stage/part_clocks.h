@@ -32,8 +32,8 @@ class PartClocks {
   /// Descriptions for people, by process: "1.2 +- 0.3 ms ahead", "no answer for 12 s".
   std::map<std::string, std::string> descriptions(Stamp now) const;
 
-  /// Adds to `health` the first clock that is certainly off by more than `max_offset`, or whose
-  /// machine no longer answers.
+  /// Returns `health`, extended by the first clock that is certainly off by more than `max_offset`,
+  /// or whose machine no longer answers.
   StackHealth judged(StackHealth health, Stamp now) const;
 
  private:

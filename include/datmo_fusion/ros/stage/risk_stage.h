@@ -20,8 +20,8 @@
 namespace datmo {
 
 struct RiskStageOptions {
-  FrameOptions frames;   ///< of all stages
-  MotionOptions motion;  ///< of all stages
+  FrameOptions frames;   ///< shared by all stages
+  MotionOptions motion;  ///< shared by all stages
   StreamOptions input;
   bool road_borders = false;
   double border_age = 0.5;  ///< s
@@ -32,12 +32,12 @@ struct RiskStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// RiskAssessor between messages: the same one serves the nodelet and the bag runner. Each list of
-/// tracks makes one list of risks at its stamp, with the newest labeled scan, odometry and borders.
+/// Runs RiskAssessor on messages, for both the nodelet and the bag runner. Each list of tracks
+/// yields one list of risks at its stamp, with the newest labeled scan, odometry and borders.
 ///
-/// Without odometry the host's motion is that of its poses, which is said. Tracks that are not
-/// valid, not seen for too long or too many are left out, and said. When the clock jumps back all
-/// state is forgotten.
+/// Without odometry the host's motion is from its poses, which is reported. Tracks that are
+/// invalid, unseen for too long or too many are dropped and reported. The state is reset when the
+/// clock jumps back.
 class RiskStage : public Stage {
  public:
   using Options = RiskStageOptions;

@@ -74,7 +74,7 @@ class StageRunner {
 
   Arrival arrivalOf(const std::string& input, const ros::Time& stamp);
 
-  /// Newest recent stamp of any other input; none if there is none.
+  /// Stamp of the message that arrived last on any other input; none if none arrived lately.
   std::optional<Stamp> lastOfOthers(const std::string& input) const;
 
   StageMonitor& monitor_;
