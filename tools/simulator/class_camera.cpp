@@ -123,8 +123,8 @@ ObjectList ClassCamera::measure(const World& world, double time) {
   const WorldState state = world.at(time);
   ObjectList list;
   for (const ObjectState& object : state.objects) {
-    // Drawn before the visibility is tested, so that one object's does not change the others'
-    // draws.
+    // Drawn before the visibility is tested, so that whether one object is visible does not change
+    // the draws of the others.
     const ObjectClass reported = reportedClass(object.kind.object_class);
     if (reported != ObjectClass::kUnknown &&
         lookAt(object, viewpoint(), world, state).visible >= options_.min_visible_share) {
