@@ -97,8 +97,8 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   result.searches_prior_map = maps_.isSearchingPriorMap();
   result.kidnapped = maps_.isSearchingKidnapped();
   tracker_.keepScan(stamp, !scan.rays.empty(), !maps_.isSearching());
-  search(stamp);
   result.maps_begun = maps_.mapsBegun();
+  search(stamp);
   return result;
 }
 

@@ -40,9 +40,10 @@ std::string reasonOf(const SlamResult& result) {
     return "carried elsewhere, as the map contradicts what is seen: searches all of its window, "
            "and keeps the map as it was";
   }
-  return is_lost ? "lost after a gap: the map fits nowhere that the vehicle can be, or that is too "
-                   "much of it"
-                 : "uncertain where in the map after a gap: searches, and keeps the map as it was";
+  return is_lost
+             ? "lost after a gap: the scan fits the map nowhere within reach of the vehicle, or "
+               "that area is too large to search"
+             : "uncertain where in the map after a gap: searches, and keeps the map as it was";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class ClockCheckTest : public testing::Test {
     return check_.corrected(ros::Time(stamp), Stamp::fromSeconds(measured + kDelay)).toSec();
   }
 
-  /// A drive of 100 messages, in simulated time, whose scanner's clock is set by `step` (s).
+  /// A drive of 100 messages, at made-up times, whose scanner's clock is set by `step` (s).
   void drive(double step, double start = 0.0) {
     for (int i = 1; i <= 100; ++i) {
       const double measured = start + kPeriod * i;
@@ -109,6 +109,7 @@ TEST_F(ClockCheckTest, InSimulatedTimeStampsStayAsTheyAre) {
       take(scan, Stamp::fromSeconds(measured + kDelay));
       EXPECT_NEAR(last.toSec(), is_simulated ? scan->header.stamp.toSec() : measured, 1e-6) << i;
     }
+    EXPECT_EQ(samples::warnings(monitor_, "clock_off"), is_simulated ? 0U : 41U);
   }
 }
 

@@ -45,7 +45,7 @@ class GridSlamLocalizationTest : public testing::Test {
 
 TEST_F(GridSlamLocalizationTest, LocatedIsSaidWithoutAReason) {
   const GridSlamOutput output = stand(20, 20.0F);
-  ASSERT_TRUE(output.localization);
+  ASSERT_TRUE(output.localization && output.pose);
   EXPECT_EQ(output.localization->header.stamp, output.pose->header.stamp);
   EXPECT_EQ(output.localization->header.frame_id, "map");
   EXPECT_EQ(output.localization->state, LocalizationState::LOCATED);
@@ -56,13 +56,18 @@ TEST_F(GridSlamLocalizationTest, LocatedIsSaidWithoutAReason) {
 TEST_F(GridSlamLocalizationTest, CarriedElsewhereItIsUncertainThenLostThenInANewMap) {
   stand(40, 20.0F);
   const GridSlamOutput suspected = stand(1, 10.0F);
+  ASSERT_TRUE(suspected.localization);
   EXPECT_EQ(suspected.localization->state, LocalizationState::UNCERTAIN);
   EXPECT_NE(suspected.localization->reason.find("contradicts"), std::string::npos);
   EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
   const GridSlamOutput kidnapped = stand(15, 10.0F);
-  EXPECT_NE(kidnapped.localization->state, LocalizationState::LOCATED);
+  ASSERT_TRUE(kidnapped.localization);
+  EXPECT_EQ(kidnapped.localization->state, LocalizationState::LOST);
+  EXPECT_EQ(kidnapped.localization->maps_started, 0U);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNoOutput);
   EXPECT_NE(kidnapped.localization->reason.find("carried elsewhere"), std::string::npos);
   const GridSlamOutput found = stand(100, 10.0F);
+  ASSERT_TRUE(found.localization);
   EXPECT_EQ(found.localization->state, LocalizationState::LOCATED);
   EXPECT_EQ(found.localization->maps_started, 1U);
   EXPECT_EQ(monitor_.health(), HealthLevel::kOk);

@@ -42,7 +42,8 @@ class ClockCheck {
 };
 
 /// Returns `take` behind a check of the clock of the input's sensor: it gets the message itself, or
-/// a copy with a corrected stamp. Nothing is checked in simulated time. `monitor` must outlive it.
+/// a copy with a corrected stamp. Nothing is checked in simulated time, as the host says
+/// when the input is declared. `monitor` must outlive it.
 template <typename Message, typename Take>
 StagePorts::Take<Message> withClockCheck(const StagePorts& ports, const std::string& input,
                                          StageMonitor& monitor, Take take) {
