@@ -144,6 +144,7 @@ set(DATMO_FUSION_CORE_SOURCES
   risk/criticality.cpp
   risk/host_futures.cpp
   risk/host_motion.cpp
+  risk/object_future_options.cpp
   risk/object_futures.cpp
   risk/object_start.cpp
   risk/random_draws.cpp

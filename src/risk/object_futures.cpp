@@ -72,51 +72,6 @@ MotionMode modeAt(const Cumulated& cumulated, double uniform) {
 
 }  // namespace
 
-void HorizonOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"horizon", "s",
-                  "how far the futures reach: contact within 1, 2, 3 and 4 s is reported; the "
-                  "thesis's h (5.3.5), which it leaves open"},
-                 horizon, {4.0, 10.0});
-  visitor.number({"step", "s",
-                  "of the futures; between two steps bodies move evenly, and no contact is missed"},
-                 step, {0.02, 0.5});
-  visitor.integer({"futures", "1",
-                   "joint futures of host and objects; the standard deviation of a probability of "
-                   "one half is 0.03 with 256"},
-                  futures, {16, 4096});
-  visitor.integer({"seed", "1", "of the random numbers: the same seed gives the same risks"}, seed,
-                  {0, 1000000});
-}
-
-std::size_t HorizonOptions::steps() const {
-  return static_cast<std::size_t>(std::llround(std::ceil(horizon / step - 1e-9)));
-}
-
-void ObjectFutureOptions::visit(OptionVisitor& visitor) {
-  constexpr Bounds kTurning{0.0, 3.0};
-  visitor.number({"vehicle_turning", "rad/sqrt(s)",
-                  "random walk of the course of a vehicle between turns: 0.4 m/s to the side after "
-                  "1 s at 14 m/s, as drivers sway in their lane"},
-                 vehicle_turning, kTurning);
-  visitor.number({"cyclist_turning", "rad/sqrt(s)", "the same of cyclists and of unknown objects"},
-                 cyclist_turning, kTurning);
-  visitor.number({"pedestrian_turning", "rad/sqrt(s)",
-                  "the same of pedestrians, who change direction easily (thesis 5.3.5)"},
-                 pedestrian_turning, kTurning);
-  visitor.number({"turning_time", "s",
-                  "time constant with which who drives or rides comes back to his course"},
-                 turning_time, {0.1, 100.0});
-  visitor.number({"start_acceleration", "m/s^2",
-                  "standard deviation of the acceleration of what begins to accelerate or brake"},
-                 start_acceleration, {0.0, 10.0});
-  visitor.number({"stop_deceleration", "m/s^2", "with which an object comes to stand"},
-                 stop_deceleration, {0.1, 10.0});
-  visitor.number({"max_acceleration", "m/s^2", "no road user accelerates or brakes harder"},
-                 max_acceleration, {0.1, 15.0});
-  visitor.number({"max_lateral", "m/s^2", "no road user turns harder"}, max_lateral, {0.1, 12.0});
-  visitor.group("road_following", [&] { road_following.visit(visitor); });
-}
-
 ObjectClass likeliestClass(const Track& track) {
   const auto& shares = track.class_probabilities;
   return static_cast<ObjectClass>(std::max_element(shares.begin(), shares.end()) - shares.begin());
@@ -127,7 +82,7 @@ MotionMode likeliestMode(const Track& track) {
   return static_cast<MotionMode>(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
-ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
+ObjectFutures::ObjectFutures(const Track& track, const std::optional<RoadCourse>& road,
                              const ObjectFutureOptions& options, const HorizonOptions& horizon,
                              const RandomDraws& draws)
     : track_(track),
@@ -150,9 +105,17 @@ ObjectFutures::ObjectFutures(const Track& track, std::optional<double> road,
     const ModeVector prior = priorModeProbabilities(options.transitions);
     const double turn_share = prior[static_cast<int>(MotionMode::kLeftTurn)] +
                               prior[static_cast<int>(MotionMode::kRightTurn)];
-    follower_ = roadFollower(track, start_, *road, turn_share, options.road_following)
+    road_ = *road;
+    follower_ = roadFollower(track, start_, road->direction, turn_share, options.road_following)
                     .value_or(RoadFollower());
   }
+}
+
+/// From here on along the road, whichever way it goes.
+void ObjectFutures::followRoad(State& state) const {
+  const Point2 along(std::cos(road_.direction), std::sin(road_.direction));
+  state.follows_road = true;
+  state.curvature = state.course.dot(along) < 0.0 ? -road_.curvature : road_.curvature;
 }
 
 /// `mode` standing: at rest, whatever the velocity.
@@ -185,15 +148,22 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
     cumulated[mode] += cumulated[mode - 1];
   }
   key.kind = kDrawRoad;
-  const bool follows_road = draws_.uniform(key) < follower_.probability;
+  const double drawn = draws_.uniform(key);
+  const bool along_road = drawn < follower_.probability;
+  const bool joins = !along_road && drawn < follower_.probability + follower_.joining;
   key.kind = kDrawFirstMode;
   const MotionMode mode =
-      modeIn(follows_road, modeAt(cumulated, draws_.uniform(key) * cumulated.back()));
-  const ObjectStart& start = follows_road ? follower_.start : start_;
+      modeIn(along_road || joins, modeAt(cumulated, draws_.uniform(key) * cumulated.back()));
+  const ObjectStart& start = along_road ? follower_.start : start_;
   key.kind = kDrawHeading;
   const double heading = start.heading + start.heading_sigma * draws_.normal(key);
   State state = stateOf(start.state + start.root * normals, heading, mode);
-  state.follows_road = follows_road;
+  if (along_road || joins) {
+    followRoad(state);
+  }
+  if (joins) {
+    state.into_road = turnIntoRoad(std::atan2(state.course.y(), state.course.x()), road_.direction);
+  }
   return state;
 }
 
@@ -213,11 +183,15 @@ void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) con
 }
 
 double ObjectFutures::turnRate(const State& state) const {
+  const double most = options_.max_lateral / std::max(kRest, state.speed);
+  const double rate = std::min(class_turn_rate_, most);
+  if (state.follows_road) {
+    const double into = std::clamp(state.into_road / horizon_.step, -rate, rate);
+    return std::clamp(into + state.curvature * state.speed, -most, most);
+  }
   if (!isTurn(state.mode)) {
     return 0.0;
   }
-  const double rate =
-      std::min(class_turn_rate_, options_.max_lateral / std::max(kRest, state.speed));
   return state.mode == MotionMode::kLeftTurn ? rate : -rate;
 }
 
@@ -260,7 +234,11 @@ ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
     after.speed = std::max(0.0, after.speed + speed_noise_ * drawn.second);
   }
   after.sway = sway_kept_ * state.sway + turning_ * drawn.first;
-  advance(after, turnRate(after) * horizon_.step + after.sway - state.sway);
+  const double turn = turnRate(after) * horizon_.step;
+  if (after.follows_road && after.speed > kRest) {
+    after.into_road += after.curvature * after.speed * horizon_.step - turn;
+  }
+  advance(after, turn + after.sway - state.sway);
   return after;
 }
 
@@ -281,6 +259,9 @@ BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
   const ObjectStart& start =
       !isTurn(mode) && follower_.probability > 0.5 ? follower_.start : start_;
   State state = stateOf(start.state, start.heading, mode);
+  if (&start == &follower_.start) {
+    followRoad(state);
+  }
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
     advance(state, turnRate(state) * horizon_.step);

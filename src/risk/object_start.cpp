@@ -23,12 +23,13 @@ double normalDensity(double value, double variance) {
   return std::exp(-0.5 * square(value) / variance) / std::sqrt(kTurn * variance);
 }
 
-/// Of who drives or rides, of what may be anything.
+/// Of who drives or rides, of what moves: that is no pole, and if its class is unknown, any other.
 double shareOfDrivers(const Track& track) {
   const auto share = [&](ObjectClass kind) {
     return track.class_probabilities[static_cast<std::size_t>(kind)];
   };
-  return std::min(1.0, share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist));
+  const double drivers = share(ObjectClass::kVehicle) + share(ObjectClass::kCyclist);
+  return drivers > 0.0 ? drivers / (drivers + share(ObjectClass::kPedestrian)) : 0.0;
 }
 
 /// A smaller share of the modes cannot be told from none: messages have each in single precision
@@ -49,19 +50,53 @@ double turnEvidence(const Track& track, double turn_share) {
   return (1.0 - turn_share) / std::max(straight, kMinStraight);
 }
 
-/// The direction along the road that is nearer to the heading, rad.
-double alongRoad(double road, double heading) {
-  const double off = angleBetween(road, heading);
-  return std::abs(off) <= kQuarterTurn ? road : normalizeAngle(road + kPi);
+/// How much likelier the measurements are of what turns to one side than of what turns as often as
+/// others do. 1: the modes are not known.
+double sideEvidence(const Track& track, MotionMode side, double turn_share) {
+  const auto& modes = track.mode_probabilities;
+  return std::accumulate(modes.begin(), modes.end(), 0.0) <= 0.0
+             ? 1.0
+             : modes[static_cast<std::size_t>(side)] / (0.5 * turn_share);
+}
+
+/// Of who drives and does not follow the road, the share that turns into it: Bayes over who crosses
+/// it, about a right angle and straight on, and who turns into it or off it, at any angle, by the
+/// side to which the modes say that it turns.
+double shareOfJoining(const Track& track, double road, double turn_share,
+                      const RoadFollowingOptions& options) {
+  const double into = turnIntoRoad(std::atan2(track.state[3], track.state[2]), road);
+  const double left = sideEvidence(track, MotionMode::kLeftTurn, turn_share);
+  const double right = sideEvidence(track, MotionMode::kRightTurn, turn_share);
+  const double each = 0.5 * options.turning / kQuarterTurn;  // of all angles up to a right one
+  const double joins = each * (into > 0.0 ? left : right);
+  const double leaves = each * (into > 0.0 ? right : left);
+  const double from_right_angle = kQuarterTurn - std::abs(into);  // one half of a Gaussian
+  const double crosses = (1.0 - options.turning) * 2.0 *
+                         normalDensity(from_right_angle, square(options.crossing_sigma)) /
+                         turnEvidence(track, turn_share);
+  const double all = joins + leaves + crosses;
+  return all > 0.0 ? joins / all : 0.0;
 }
 
 }  // namespace
+
+double turnIntoRoad(double course, double road) {
+  const double turn = angleBetween(course, road);
+  return std::abs(turn) <= kQuarterTurn ? turn : angleBetween(course, road + kPi);
+}
 
 void RoadFollowingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"probability", "1",
                   "prior probability that who drives or rides keeps to the direction of the road; "
                   "0: the track's velocity alone"},
                  probability, {0.0, 0.999});
+  visitor.number({"turning", "1",
+                  "of who drives and does not follow the road, the share that turns into it or off "
+                  "it; the others cross it"},
+                 turning, {0.0, 1.0});
+  visitor.number({"crossing_sigma", "rad",
+                  "standard deviation of the angle at which roads cross about a right angle"},
+                 crossing_sigma, {0.05, 1.0});
   visitor.number({"direction_sigma", "rad",
                   "standard deviation of his course about it: swaying, and bends beyond what is "
                   "known of the road"},
@@ -101,10 +136,12 @@ std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& 
   RoadFollower follower;
   follower.start.state = start.state - gain * off;
   follower.start.root = conditioned.llt().matrixL();
-  follower.start.heading =
-      start.heading + heading_share * angleBetween(start.heading, alongRoad(road, start.heading));
+  follower.start.heading = start.heading + heading_share * turnIntoRoad(start.heading, road);
   follower.start.heading_sigma = start.heading_sigma * std::sqrt(1.0 - heading_share);
   follower.probability = follows / (follows + other);
+  const double drives = (shareOfDrivers(track) - prior) / (1.0 - prior);  // of who does not follow
+  follower.joining =
+      (1.0 - follower.probability) * drives * shareOfJoining(track, road, turn_share, options);
   return follower;
 }
 

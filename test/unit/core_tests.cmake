@@ -84,6 +84,7 @@ datmo_fusion_add_core_test(risk
   risk/host_futures_test.cpp
   risk/host_motion_test.cpp
   risk/object_futures_test.cpp
+  risk/object_start_test.cpp
   risk/risk_assessor_test.cpp
   risk/rule_methods_test.cpp
   risk/warning_level_test.cpp

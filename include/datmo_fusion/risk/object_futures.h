@@ -53,15 +53,17 @@ MotionMode likeliestMode(const Track& track);
 /// switch by their sojourn times (Markov jumps, as the tracker's IMM has them). In a mode the
 /// object goes as that mode says, with the tracker's noise on its speed, and turns at random as its
 /// class does: pedestrians freely, who drives or rides about his course, to which he comes back.
-/// Who drives or rides may follow the road (RoadFollowingOptions): then he does not turn off it.
+/// Who drives or rides may follow the road (RoadFollowingOptions): then he bends with it, and does
+/// not turn off it; or he may turn into it, and follows it once his course leads along it.
 /// Beyond the tracker's models an object that brakes comes to rest and does not reverse, one that
 /// comes to stand brakes until it does, and no turn is sharper than tires hold.
 class ObjectFutures {
  public:
-  /// `track`: valid (isValid), at the time at which the futures begin. `road`: direction of the
-  /// road beside it, rad; none: not known. All must outlive this.
-  ObjectFutures(const Track& track, std::optional<double> road, const ObjectFutureOptions& options,
-                const HorizonOptions& horizon, const RandomDraws& draws);
+  /// `track`: valid (isValid), at the time at which the futures begin. `road`: beside it;
+  /// none: not known. All must outlive this.
+  ObjectFutures(const Track& track, const std::optional<RoadCourse>& road,
+                const ObjectFutureOptions& options, const HorizonOptions& horizon,
+                const RandomDraws& draws);
 
   /// One object at one time of one future.
   struct State {
@@ -73,6 +75,8 @@ class ObjectFutures {
     double sway = 0.0;                 ///< rad, of the course from where the mode leads
     MotionMode mode = MotionMode::kConstantVelocity;
     bool follows_road = false;  ///< it does not turn off
+    double into_road = 0.0;     ///< rad, by which it has still to turn until it is along the road
+    double curvature = 0.0;     ///< 1/m, of the road, in its direction
   };
 
   /// Where a future begins.
@@ -88,6 +92,7 @@ class ObjectFutures {
   BodyPath nominalPath(MotionMode mode) const;
 
  private:
+  void followRoad(State& state) const;
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
   void advance(State& state, double turn) const;
   void enter(State& state, MotionMode mode, const DrawKey& key) const;
@@ -99,6 +104,7 @@ class ObjectFutures {
   const RandomDraws& draws_;
   ObjectClass class_;
   ObjectStart start_;
+  RoadCourse road_;
   RoadFollower follower_;
   ModeMatrix cumulated_;          ///< rows: sums of the transition probabilities
   double turning_ = 0.0;          ///< rad, standard deviation of a step

@@ -148,83 +148,8 @@ TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {
   EXPECT_EQ(options.steps(), 14U);
 }
 
-/// An oncoming car in its lane whose velocity is little known, and seems to lead across the road.
-Track vagueOncoming(double across) {
-  Track track = knownTrack(1, {40, 3.5}, {-10.0, -across});
-  track.covariance.diagonal() << 1.0, 0.25, 1.0, 1.0, 1e-4, 1e-4;
-  track.heading_variance = 0.04;
-  return track;
-}
-
-/// rad; the road is along x.
-constexpr double kRoad = 0.0;
-
-/// Turns among the modes of an object of which nothing is known.
-constexpr double kTurnShare = 0.2;
-
-std::optional<RoadFollower> followerOf(const Track& track) {
-  return roadFollower(track, startOf(track, 0.3), kRoad, kTurnShare, RoadFollowingOptions());
-}
-
-TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
-  const Track track = vagueOncoming(1.5);
-  const auto follower = followerOf(track);
-  ASSERT_TRUE(follower);
-  EXPECT_GT(follower->probability, 0.9);
-  // Kalman: of 1.5 m/s with a variance of 1, and (0.05 10.1)^2 of the road's.
-  const double variance = std::pow(0.05 * std::hypot(10.0, 1.5), 2);
-  EXPECT_NEAR(follower->start.state[3], -1.5 * variance / (1.0 + variance), 1e-9);
-  EXPECT_EQ(follower->start.state[2], -10.0);
-  // The box's heading has a standard deviation of 0.2 rad: its share of the way to the road is
-  // 0.04 / (0.04 + 0.0025), whose other end it points to.
-  const double share = 0.04 / 0.0425;
-  const double off = angleBetween(kPi, track.box.center.heading());
-  EXPECT_NEAR(angleBetween(kPi, follower->start.heading), (1.0 - share) * off, 1e-9);
-  EXPECT_NEAR(follower->start.heading_sigma, 0.2 * std::sqrt(1.0 - share), 1e-9);
-}
-
-TEST(RoadFollower, WhoLeavesItForSureDoes) {
-  Track track = vagueOncoming(4.0);
-  track.covariance(3, 3) = 0.04;
-  const auto follower = followerOf(track);
-  ASSERT_TRUE(follower);
-  EXPECT_LT(follower->probability, 1e-6);
-}
-
-TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
-  const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
-  EXPECT_FALSE(followerOf(walks));
-  const Track stands = knownTrack(2, {20, 3}, {0, 0});
-  EXPECT_FALSE(followerOf(stands));
-}
-
-TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
-  Track track = vagueOncoming(1.5);
-  const double driver = followerOf(track)->probability;
-  track.class_probabilities.fill(1.0);  // each a share of 1: more than all
-  EXPECT_LE(followerOf(track)->probability, 1.0);
-  track.class_probabilities.fill(0.2);
-  EXPECT_LT(followerOf(track)->probability, driver);
-}
-
-// Bayes: that the track turns is as likely by the wrong velocity as by a turn; the odds change by
-// no more than the modes' own evidence.
-TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
-  Track track = vagueOncoming(1.5);
-  const double straight = followerOf(track)->probability;
-  track.mode_probabilities = {0.3, 0.0, 0.7, 0.0, 0.0};
-  const double turns = followerOf(track)->probability;
-  EXPECT_GT(turns, 0.8);
-  EXPECT_NEAR(turns / (1.0 - turns), 0.3 * straight / (1.0 - straight), 1e-9);
-}
-
-TEST(RoadFollower, ModesThatAreNotKnownAreNoEvidence) {
-  Track track = vagueOncoming(1.5);
-  track.mode_probabilities = {1.0 - kTurnShare, 0.0, kTurnShare, 0.0, 0.0};  // as of any object
-  const double usual = followerOf(track)->probability;
-  track.mode_probabilities.fill(0.0);
-  EXPECT_NEAR(followerOf(track)->probability, usual, 1e-12);
-}
+/// Straight along x.
+constexpr RoadCourse kRoad{};
 
 TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
   const Track car = knownTrack(1, {40, 3.5}, {-10, 0});
@@ -253,6 +178,31 @@ TEST(ObjectFutures, AlongTheRoadStayInTheirLane) {
   const double along = endsOf(ObjectFutures(track, kRoad, options, kHorizon, kDraws)).mean.y();
   EXPECT_LT(free, -2.0);
   EXPECT_NEAR(along, 3.5, 1.5);
+}
+
+TEST(ObjectFutures, WhoJoinsTheRoadEndsItsTurnAlongIt) {
+  const Track track = joiningCar(0.45);
+  ObjectFutureOptions options = withoutSwitching();
+  options.road_following.turning = 1.0;
+  int along = 0;
+  const ObjectFutures futures(track, kRoad, options, kHorizon, kDraws);
+  for (std::size_t i = 0; i < 100; ++i) {
+    along += std::abs(turnIntoRoad(futures.path(i).poses.back().heading, 0.0)) < 0.2 ? 1 : 0;
+  }
+  EXPECT_GT(along, 70);
+}
+
+// On an arc of 100 m: after 4 s at 10 m/s 0.4 rad, whichever way it goes.
+TEST(ObjectFutures, WhoFollowsTheRoadBendsWithIt) {
+  ObjectFutureOptions options = withoutSwitching();
+  options.road_following.probability = 0.999;
+  const RoadCourse bend{0.0, 0.01};
+  for (const double speed : {10.0, -10.0}) {
+    const Track car = knownTrack(1, {40, 3.5}, {speed, 0});
+    const BodyPath path = ObjectFutures(car, bend, options, kHorizon, kDraws).nominalPath();
+    EXPECT_NEAR(path.poses.back().heading - path.poses.front().heading, std::copysign(0.4, speed),
+                0.01);
+  }
 }
 
 }  // namespace

@@ -51,6 +51,20 @@ TEST(RiskAssessor, OncomingTrafficOfVagueVelocityKeepsToTheRoadOfTheHost) {
   EXPECT_LT(of(RoadFollowingOptions().probability), 0.5 * of(0.0));
 }
 
+// Both on a bend of 150 m of radius, their lanes 3.5 m apart: straight on, the other one would
+// cross.
+TEST(RiskAssessor, OncomingTrafficInABendKeepsToTheBend) {
+  constexpr double kRadius = 150.0;
+  constexpr double kAngle = 0.24;
+  const Point2 position =
+      Point2(0.0, kRadius) + (kRadius - 3.5) * Point2(std::sin(kAngle), -std::cos(kAngle));
+  Track track = knownTrack(1, position, -9.0 * Point2(std::cos(kAngle), std::sin(kAngle)));
+  track.covariance.diagonal() << 0.25, 0.25, 0.25, 0.25, 1e-4, 1e-4;
+  RiskInput input = inputAt(9.0, {track});
+  input.host.steering = std::atan(HostVehicleOptions().wheelbase / kRadius);
+  EXPECT_LT(riskOfFirst(input).probability(), 0.3);
+}
+
 TEST(RiskAssessor, ProbabilitiesRiseWithTimeAndCarryExistence) {
   RiskInput input = inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})});
   const ObjectRisk sure = riskOfFirst(input);

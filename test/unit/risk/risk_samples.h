@@ -31,6 +31,22 @@ inline Track knownTrack(std::uint32_t id, const Point2& position, const Point2& 
   return track;
 }
 
+/// An oncoming car in its lane whose velocity is little known, and seems to lead across the road.
+inline Track vagueOncoming(double across) {
+  Track track = knownTrack(1, {40, 3.5}, {-10.0, -across});
+  track.covariance.diagonal() << 1.0, 0.25, 1.0, 1.0, 1e-4, 1e-4;
+  track.heading_variance = 0.04;
+  return track;
+}
+
+/// A car that comes out of a side street on the left, ahead, and turns right into the road.
+inline Track joiningCar(double off) {
+  const Point2 velocity(-6.0 * std::cos(off), -6.0 * std::sin(off));
+  Track track = knownTrack(1, {30.0, 6.0}, velocity);
+  track.mode_probabilities = {0.4, 0.4, 0.02, 0.18, 0.0};
+  return track;
+}
+
 /// A host at the origin that goes along x.
 inline RiskInput inputAt(double speed, const std::vector<Track>& tracks = {}) {
   RiskInput input;
