@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo {
@@ -92,6 +93,17 @@ Curvature curvatureBetween(const BorderPoint& here, const BorderPoint& there) {
           square(per_offset) * (square(here.sigma) + square(there.sigma) + square(kMinSigma))};
 }
 
+double curvatureOf(const BodyPath& path) {
+  constexpr double kShortPath = 1.0;  // m; a vehicle that hardly moves shows no curvature
+  double length = 0.0;
+  double turn = 0.0;
+  for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
+    length += (path.poses[i + 1].center - path.poses[i].center).norm();
+    turn += angleBetween(path.poses[i].heading, path.poses[i + 1].heading);
+  }
+  return length > kShortPath ? turn / length : 0.0;
+}
+
 }  // namespace
 
 void HostFutureOptions::visit(OptionVisitor& visitor) {
@@ -170,6 +182,7 @@ HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteeri
                           options.steering_spread * vehicle.wheelbase / squared_speed),
                  course ? course->sigma : 0.0);
   nominal_ = nominalPath(steering);
+  curvature_ = curvatureOf(nominal_);
   paths_.reserve(static_cast<std::size_t>(horizon.futures));
   for (int i = 0; i < horizon.futures; ++i) {
     const auto future = static_cast<std::uint32_t>(i);

@@ -256,10 +256,10 @@ BodyPath ObjectFutures::path(std::size_t future) const {
 BodyPath ObjectFutures::nominalPath() const { return nominalPath(likeliestMode(track_)); }
 
 BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
-  const ObjectStart& start =
-      !isTurn(mode) && follower_.probability > 0.5 ? follower_.start : start_;
+  const bool along_road = !isTurn(mode) && follower_.probability > 0.5;
+  const ObjectStart& start = along_road ? follower_.start : start_;
   State state = stateOf(start.state, start.heading, mode);
-  if (&start == &follower_.start) {
+  if (along_road) {
     followRoad(state);
   }
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};

@@ -6,7 +6,6 @@
 
 #include "contact_futures.h"
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -22,9 +21,6 @@ constexpr std::size_t kFirstFutures = 64;
 /// Standard deviations by which a state may be off for an object to be within reach.
 constexpr double kReachSigmas = 4.0;
 
-/// m; a shorter path of the host shows no curvature of the road.
-constexpr double kShortPath = 1.0;
-
 /// A track without a measured extent is as large as a pedestrian.
 BodySize sizeOf(const Track& track, double least) {
   return {0.5 * std::max(least, track.box.length), 0.5 * std::max(least, track.box.width)};
@@ -34,19 +30,15 @@ double largestDeviation(const TrackCovariance& covariance, int first) {
   return std::sqrt(covariance(first, first) + covariance(first + 1, first + 1));
 }
 
-/// The road beside a point: that along which the host passes, which drives along the road, too; as
-/// its borders lead it, or else as it steers.
-RoadCourse roadBeside(const Point2& point, const BodyPath& host) {
-  const auto nearest = std::min_element(
-      host.poses.begin(), host.poses.end(), [&](const BodyPose& a, const BodyPose& b) {
+/// Returns the road beside a point: the host is assumed to drive along it, led by its borders or as
+/// it steers.
+RoadCourse roadBeside(const Point2& point, const HostFutures& host) {
+  const std::vector<BodyPose>& poses = host.nominal().poses;
+  const auto nearest =
+      std::min_element(poses.begin(), poses.end(), [&](const BodyPose& a, const BodyPose& b) {
         return (a.center - point).squaredNorm() < (b.center - point).squaredNorm();
       });
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < host.poses.size(); ++i) {
-    length += host.velocity(i).norm() * host.step;
-  }
-  const double turn = angleBetween(host.poses.front().heading, host.poses.back().heading);
-  return {nearest->heading, length > kShortPath ? turn / length : 0.0};
+  return {nearest->heading, host.curvature()};
 }
 
 /// The points without those of tracks, which have a risk of their own.
@@ -187,7 +179,7 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   risk.mode = likeliestMode(track);
   const BodySize host_size = options_.vehicle.size();
   const BodySize size = sizeOf(track, options_.default_size);
-  const RoadCourse road = roadBeside(track.state.head<2>(), host.nominal());
+  const RoadCourse road = roadBeside(track.state.head<2>(), host);
   const ObjectFutures object(track, road, options_.objects, options_.horizon, draws_);
   const BodyPath nominal = object.nominalPath();
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});

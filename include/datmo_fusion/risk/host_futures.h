@@ -59,6 +59,8 @@ class HostFutures {
   const std::vector<BodyPath>& paths() const { return paths_; }
   /// Without spread.
   const BodyPath& nominal() const { return nominal_; }
+  /// Mean curvature of the nominal path, 1/m, positive to the left; 0 if the path is too short.
+  double curvature() const { return curvature_; }
 
  private:
   BodyPath nominalPath(double steering) const;
@@ -70,6 +72,7 @@ class HostFutures {
   const HostFutureOptions& options_;
   const HorizonOptions& horizon_;
   BodyPath nominal_;
+  double curvature_ = 0.0;  ///< 1/m
   std::vector<BodyPath> paths_;
 };
 

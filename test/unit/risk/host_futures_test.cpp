@@ -67,6 +67,19 @@ TEST(HostFutures, AnAccelerationThatVariesLeadsLessFarThanOneThatStays) {
   EXPECT_NEAR(spreadAt(20, options).along, 3.2, 0.35);
 }
 
+// More than half a turn within the horizon, to either side.
+TEST(HostFutures, CurvatureIsThatOfTheCircleDriven) {
+  constexpr double kRadius = 5.5;  // m, at 4.5 m/s^2, less than what tires hold
+  const HostVehicleOptions vehicle;
+  for (const double side : {1.0, -1.0}) {
+    HostState host;
+    host.speed = 5.0;
+    host.steering = side * std::atan(vehicle.wheelbase / kRadius);
+    const HostFutures futures(host, std::nullopt, vehicle, {}, {}, RandomDraws(1));
+    EXPECT_NEAR(futures.curvature(), side / kRadius, 0.01);
+  }
+}
+
 TEST(HostFutures, WhoStandsDoesNotSway) {
   const Spread spread = spreadAt(20, onlyLane(), 0.0);
   EXPECT_EQ(spread.aside, 0.0);
