@@ -28,7 +28,8 @@ namespace {
 
 TEST_F(RunBag, EveryScanLeadsToResults) {
   const std::string table = run();
-  for (const char* topic : {"/pose", "/labeled_scan", "/objects", "/tracks", "/tf"}) {
+  for (const char* topic :
+       {"/pose", "/localization", "/labeled_scan", "/objects", "/tracks", "/tf"}) {
     EXPECT_EQ(count(arguments_.output, topic), static_cast<std::size_t>(kScans)) << topic;
   }
   EXPECT_EQ(count(arguments_.output, "/map"), 4U);  // 1.74 s, one every 0.5 s

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag_to_graph.h"
 
+#include <stdexcept>
+
 #include "command_line.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -124,34 +126,39 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
     if (isResult(publication)) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    nav_msgs::Path, sensor_msgs::LaserScan, sensor_msgs::PointCloud2,
-                   tf2_msgs::TFMessage, LabeledScanMessage, RoadBorders, ObjectArray,
-                   DroppedObjects, TrackArray, RiskArray, StereoAlignmentMessage, EarthFrameMessage,
-                   StationTracksMessage>(time, publication);
+                   tf2_msgs::TFMessage, LabeledScanMessage, LocalizationState, RoadBorders,
+                   ObjectArray, DroppedObjects, TrackArray, RiskArray, StereoAlignmentMessage,
+                   EarthFrameMessage, StationTracksMessage>(time, publication);
     }
   }
 }
 
-/// Topics that are internal to the stages are not written: grids only on demand; odometry, clouds
-/// and early objects (the complete ones follow) never.
+/// Topics that are internal to the stages are not written: grids only on demand; odometry made of
+/// other sensors, clouds and early objects (the complete ones follow) never.
 bool BagToGraph::isResult(const Publication& publication) const {
   const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
   const bool is_stereo =
       publication.topic.rfind("stereo/", 0) == 0 && publication.topic != "stereo/alignment";
   const bool is_early = publication.topic == "objects/early";
-  return is_grid ? write_grids_ : !is_stereo && !is_early;
+  const bool is_odometry = publication.as<nav_msgs::Odometry>() != nullptr;
+  return is_grid ? write_grids_ : !is_stereo && !is_early && !is_odometry;
 }
 
 template <typename... Messages>
 void BagToGraph::writeAsOneOf(const ros::Time& time, const Publication& publication) {
-  (writeIf(time, publication.topic, publication.as<Messages>()), ...);
+  if (!(writeIf(time, publication.topic, publication.as<Messages>()) || ...)) {
+    throw std::logic_error(publication.topic + " has the type " + publication.data_type +
+                           ": expected one of those that BagToGraph::write lists");
+  }
 }
 
 template <typename Message>
-void BagToGraph::writeIf(const ros::Time& time, const std::string& topic,
+bool BagToGraph::writeIf(const ros::Time& time, const std::string& topic,
                          const boost::shared_ptr<const Message>& message) {
   if (message) {
     output_.write(withSlash(topic), time, *message);
   }
+  return message != nullptr;
 }
 
 }  // namespace datmo

@@ -70,10 +70,12 @@ class BagToGraph {
   void write(const ros::Time& time, const Publications& published);
   bool isResult(const Publication& publication) const;
 
+  /// Throws std::logic_error for a message of none of these types.
   template <typename... Messages>
   void writeAsOneOf(const ros::Time& time, const Publication& publication);
+  /// Whether there was a message of this type.
   template <typename Message>
-  void writeIf(const ros::Time& time, const std::string& topic,
+  bool writeIf(const ros::Time& time, const std::string& topic,
                const boost::shared_ptr<const Message>& message);
 
   GraphRunner& graph_;
