@@ -11,8 +11,8 @@ import rosbag
 import yaml
 
 from datmo_tools import programs
-from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, MEETING, STOPS, Encounter,
-                                                       encounters, scene)
+from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, HOST_Y, MEETING, STOPS,
+                                                        Encounter, encounters, scene)
 from datmo_tools.experiments.encounters import main
 from datmo_tools.experiments.random_encounters import random_scenes
 
@@ -41,6 +41,14 @@ class Scenes(unittest.TestCase):
         for each in first:
             times = [point[0] for point in each["actors"][0]["speed"]]
             self.assertEqual(times, sorted(set(times)))
+
+    def test_random_hosts_catch_up_with_who_is_ahead(self):
+        for each in random_scenes(400, 5):
+            times = [time for time, _ in each["ego"]["speed"]]
+            self.assertEqual(times, sorted(set(times)), each)
+            actor = each["actors"][0]
+            if actor["path"][0][1] == HOST_Y:
+                self.assertGreater(actor["path"][0][0], each["ego"]["path"][0][0], each)
 
     def test_names_of_no_scene_are_refused(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -5,6 +5,9 @@ import numpy as np
 
 from datmo_tools.experiments.encounter_scenes import ENDINGS, MEETING, PROTOCOLS, Encounter, scene
 
+SLOWER = 5.0  # km/h, below a protocol's lowest speed of the host; it still catches up with who is ahead
+FASTEST = 60.0  # km/h, of the host
+
 
 def random_scenes(count, seed):
     """`count` scenes (dicts) with speeds, times and places drawn at random about those of the
@@ -14,7 +17,8 @@ def random_scenes(count, seed):
     protocols = [name for name in PROTOCOLS if not name.startswith("turn")]
     for number in range(count):
         protocol = protocols[number % len(protocols)]
-        host = random.uniform(15.0, 60.0) if protocol[:11] != "car_braking" else 50.0
+        host = random.uniform(min(PROTOCOLS[protocol]) - SLOWER, FASTEST)
+        host = 50.0 if protocol.startswith("car_braking") else host
         drawn = scene(Encounter(protocol, host, str(random.choice(ENDINGS))), int(number + 1))
         # Neighbors in time say the same: more encounters in place of more frames of each.
         drawn["options"]["scanner"] = {"scan_rate": 5.0, "beam_spacing": 1.0}

@@ -12,28 +12,32 @@ from datmo_tools.figures.step import Job, read_json
 OURS = METHODS[0]
 RELIABILITY = "4"  # s within which contact is said, for the diagram
 TRAFFIC = "traffic"  # the simulated data sets, one seed
+RANDOM = "random"  # encounters drawn at random, the true objects
+RANDOM_DRIVES = 2000
 
 
 def jobs(bench):
-    """A job for the encounters by each kind of tracks, and one for each data set."""
+    """A job for each kind of encounters, and one for each data set."""
     drives = [Job(f"{TRAFFIC}_{number}", partial(_traffic, bench, number))
               for number in range(len(PUBLISHED), 0, -1)]  # fmt: skip
-    return [*drives, *(Job(tracks, partial(_encounters, bench, tracks)) for tracks in (OWN, TRUE))]
+    random = Job(RANDOM, partial(_encounters, bench, RANDOM, TRUE, ("--random", RANDOM_DRIVES)))
+    protocols = [Job(tracks, partial(_encounters, bench, tracks, tracks, ())) for tracks in (OWN, TRUE)]
+    return [random, *drives, *protocols]
 
 
 def figures(results):
-    """By kind of tracks and method; of the data sets together the warnings and their duration."""
+    """By kind of encounters and method; of the data sets together the warnings and their duration."""
     found = {name: figure for name, figure in results if name != TRAFFIC}
     drives = [figure for name, figure in results if name == TRAFFIC]
     found[TRAFFIC] = {key: sum(drive[key] for drive in drives) for key in ("warnings", "seconds")}
     return found
 
 
-def _encounters(bench, tracks, folder):
+def _encounters(bench, name, tracks, words, folder):
     bench.experiment("encounters", folder, "--programs", bench.programs, "--tracks", tracks,
-                     "--config", bench.config("demonstrator"))  # fmt: skip
+                     "--config", bench.config("demonstrator"), *words)  # fmt: skip
     scored = read_json(folder / RESULT)[tracks]
-    return tracks, {method: _of_method(scored[method], method == OURS) for method in METHODS}
+    return name, {method: _of_method(scored[method], method == OURS) for method in METHODS}
 
 
 def _of_method(scored, with_reliability):
