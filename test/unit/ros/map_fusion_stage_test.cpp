@@ -192,7 +192,7 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   EXPECT_EQ(
       monitor_.lastError(),
       "grid of stereo of 20 x 10 cells of 0.5 m from cell (-10, -5): expected 20 x 10 cells of "
-      "1 m from cell (-10, -5), as the first grid has them");
+      "1 m from cell (-10, -5), as in the first grid");
   take("stereo", gridMessage(100.15, kFree, {1.0, 30, 10, {-15, -5}}));
   EXPECT_EQ(drops("wrong_window"), 2U) << "of another size";
   auto elsewhere = gridMessage(100.2, kFree);
