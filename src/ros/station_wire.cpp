@@ -56,7 +56,7 @@ StationWire::StationWire(const Checked<StationWireOptions>& options, StageMonito
 StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now) {
   monitor_.received("datagrams", now);
   if (std::find(recent_.begin(), recent_.end(), bytes) != recent_.end()) {
-    monitor_.figure("messages of ours that came back", static_cast<double>(++own_));
+    monitor_.figure("own messages received back", static_cast<double>(++own_));
     return nullptr;
   }
   try {

@@ -84,7 +84,7 @@ void CloudToScanStage::show(const ConvertedCloud& converted, const PlanarScan& s
   monitor_.figure("points that are not finite", static_cast<double>(converted.holes));
   monitor_.figure("points of the own vehicle", static_cast<double>(scan.own_points));
   monitor_.figure("points in the band", static_cast<double>(scan.band_points));
-  monitor_.figure("beams that see nothing at all", static_cast<double>(scan.blind_beams));
+  monitor_.figure("blind beams", static_cast<double>(scan.blind_beams));
   monitor_.figure("ground seen, 0 or 1", scan.ground.seen ? 1.0 : 0.0);
   monitor_.figure("ground's height [m]", scan.ground.plane.height);
   monitor_.figure("ground's slope ahead [m/m]", scan.ground.plane.slope_x);

@@ -88,7 +88,7 @@ void GridSlamStage::showLocalization(const LocalizationState& state) {
 void GridSlamStage::showForgottenTiles() {
   const OccupancyMap& map = slam_.lastingMap();
   const std::size_t forgotten = map.forgottenTiles();
-  monitor_.figure("tiles of the map that were forgotten", static_cast<double>(forgotten));
+  monitor_.figure("forgotten tiles of the map", static_cast<double>(forgotten));
   if (forgotten > forgotten_tiles_) {
     forgotten_tiles_ = forgotten;
     monitor_.warned(InputError("forgotten_tile",
@@ -104,8 +104,7 @@ void GridSlamStage::showMatch(const SlamResult& result) {
   monitor_.figure("points matched", match.matched_points);
   monitor_.figure("match score, 0 to 1", match.score);
   monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
-  monitor_.figure("scans with a direction left to the odometry",
-                  static_cast<double>(degenerate_scans_));
+  monitor_.figure("scans with a degenerate direction", static_cast<double>(degenerate_scans_));
   monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
   monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
 }

@@ -156,16 +156,15 @@ void LoopClosingStage::takeResults() {
 }
 
 void LoopClosingStage::show(const LoopResult& result) {
-  monitor_.figure("trajectories begun", static_cast<double>(drive_));
+  monitor_.figure("trajectories started", static_cast<double>(drive_));
   monitor_.figure("keyframes", static_cast<double>(result.keyframes));
   monitor_.figure("scans kept for submaps", static_cast<double>(result.scans));
   monitor_.figure("memory of the trajectory [MB]", result.memory / kBytesPerMegabyte);
   monitor_.figure("loops closed", static_cast<double>(result.counts.closed));
-  monitor_.figure("loops refused: none confirmed them",
-                  static_cast<double>(result.counts.unconfirmed));
-  monitor_.figure("loops refused: ambiguous", static_cast<double>(result.counts.ambiguous));
-  monitor_.figure("loops refused: nothing alike", static_cast<double>(result.counts.unlike));
-  monitor_.figure("loops taken out: others refuted them",
+  monitor_.figure("loops rejected: not confirmed", static_cast<double>(result.counts.unconfirmed));
+  monitor_.figure("loops rejected: ambiguous", static_cast<double>(result.counts.ambiguous));
+  monitor_.figure("loops rejected: no match", static_cast<double>(result.counts.unlike));
+  monitor_.figure("loops removed: contradicted by others",
                   static_cast<double>(result.counts.refuted));
   monitor_.figure("residual of the loops, in standard deviations", result.residual);
   monitor_.figure("search and optimization [s]", result.seconds);

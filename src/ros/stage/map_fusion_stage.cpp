@@ -170,7 +170,8 @@ std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const 
   std::vector<MissingSource> missing = matched.missing;
   if (fuser_.isLessCertain(scan.base_in_map) && last_pose_ &&
       secondsBetween(*last_pose_, scan.stamp) < KeyframeOptions().new_map_after) {
-    monitor_.figure("scans left out, their pose being uncertain", static_cast<double>(++left_out_));
+    monitor_.figure("scans left out because of an uncertain pose",
+                    static_cast<double>(++left_out_));
     return missing;
   }
   const std::vector<Point2> movers = moversOf(scan);
@@ -210,7 +211,7 @@ MapFusionOutput MapFusionStage::outputAt(Stamp stamp) {
 
 void MapFusionStage::show(const FusedMaps& maps) {
   monitor_.figure("cells in conflict", maps.cells_in_conflict);
-  monitor_.figure("maps begun anew", fuser_.mapsBegun());
+  monitor_.figure("maps started over", fuser_.mapsBegun());
   if (maps.changes) {
     monitor_.figure("cells new since the prior map", maps.changes->appeared);
     monitor_.figure("cells vanished since the prior map", maps.changes->vanished);

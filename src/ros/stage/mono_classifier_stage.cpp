@@ -235,7 +235,7 @@ ObjectArrayPtr MonoClassifierStage::show(const Result& result) {
   monitor_.figure("objects in view", static_cast<double>(found.in_view));
   monitor_.figure("detections", static_cast<double>(found.detections));
   monitor_.figure("objects classified", static_cast<double>(found.classified));
-  monitor_.figure("objects of the image alone", static_cast<double>(found.alone));
+  monitor_.figure("objects from the image alone", static_cast<double>(found.alone));
   monitor_.figure("detector's time [s]", result.seconds);
   monitor_.processed({found.list.stamp, result.seconds});
   return boost::make_shared<ObjectArray>(toMessage(found.list, options_.frames.base));

@@ -196,8 +196,8 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
   names_of_gone_ += counts.names_of_gone;
   monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
   monitor_.figure("bad objects", static_cast<double>(bad_objects_));
-  monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
-  monitor_.figure("classes of objects that are gone", static_cast<double>(names_of_gone_));
+  monitor_.figure("objects beyond max_objects", static_cast<double>(objects_too_many_));
+  monitor_.figure("classes for missing objects", static_cast<double>(names_of_gone_));
   monitor_.figure("fused without a labeled scan", static_cast<double>(times_without_scan_));
   inputs_.reportUnserved(matcher_);
 }

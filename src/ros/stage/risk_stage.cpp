@@ -132,7 +132,7 @@ void RiskStage::report(const RiskReport& report) {
   };
   warn(report.counts.rejected, "bad_track",
        "bad tracks: expected finite numbers in range, a covariance that is positive definite, and "
-       "an id from 1 on; they have no risk");
+       "an id of at least 1; no risk is assessed for them");
   warn(report.counts.over_budget, "many_tracks",
        "tracks too many: expected at most max_objects; only the most certain ones have a risk");
   monitor_.figure("level, 0 (none) to 3 (imminent)", static_cast<double>(report.level));

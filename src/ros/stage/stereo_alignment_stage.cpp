@@ -187,7 +187,7 @@ void StereoAlignmentStage::show() {
   if (alignment.usable != std::exchange(was_usable_, alignment.usable) && !alignment.usable) {
     monitor_.warned(InputError(
         "camera_disagrees",
-        "scanner and stereo camera do not see the same: " + std::to_string(alignment.agreement) +
+        "scanner and stereo camera disagree: " + std::to_string(alignment.agreement) +
             " of the surfaces agree (expected: at least " +
             std::to_string(options_.alignment.min_agreement) +
             "), or its mount or clock is wrong; its clouds are ignored until they agree"));

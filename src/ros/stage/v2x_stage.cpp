@@ -207,7 +207,7 @@ void V2xStage::report() {
   monitor_.figure("our own vehicle, as others see it", static_cast<double>(counts.own));
   monitor_.figure("tracks left out: too fast", static_cast<double>(counts.fast));
   monitor_.figure("tracks left out: jumped", static_cast<double>(counts.jumped));
-  monitor_.figure("tracks left out: new numbers", static_cast<double>(counts.sudden));
+  monitor_.figure("tracks left out: new ids", static_cast<double>(counts.sudden));
 }
 
 void V2xStage::connect(StagePorts& ports) {

@@ -233,7 +233,7 @@ TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
   allAt(100.1, kOccupied, kOccupied, Pose2(2.0, 0.0, 0.0));
   allAt(100.2, kOccupied, kOccupied, Pose2(12.0, 0.0, 0.0));
   ASSERT_TRUE(allAt(101.0, kFree, kFree, Pose2(14.0, 0.0, 0.0))->fused);
-  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0);
+  EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0);
 }
 
 TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
@@ -245,11 +245,11 @@ TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
   const auto output = allAt(101.0, kOccupied, kOccupied);
   ASSERT_TRUE(output && output->fused);
   EXPECT_GT(percentAt(*output->fused, kCell), 80) << "nothing was taken";
-  EXPECT_EQ(monitor_.figures().at("scans left out, their pose being uncertain"), 9.0);
+  EXPECT_EQ(monitor_.figures().at("scans left out because of an uncertain pose"), 9.0);
   for (int i = 1; i <= 82; ++i) {
     allAt(101.0 + 0.1 * i, kFree, kFree, Pose2(), kUncertain);
   }
-  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0) << "it is in a new map";
+  EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0) << "it is in a new map";
 }
 
 TEST_F(MapFusionStageTest, GridsThatNoPoseTakesInAreCounted) {
