@@ -30,7 +30,7 @@ LidarGridStage::LidarGridStage(const Checked<LidarGridStageOptions>& options,
       transforms_(transforms),
       monitor_(monitor),
       model_(options->grid),
-      runner_(monitor, options->input, "forgets how the vehicle moved",
+      runner_(monitor, options->input, "forgets the vehicle's motion",
               [this] {
                 motion_.reset();
                 frozen_.reset();

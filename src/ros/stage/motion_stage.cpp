@@ -35,7 +35,7 @@ MotionStage::MotionStage(const MotionStageOptions& options, const TransformBuffe
                          StageMonitor& monitor)
     : options_(options),
       transforms_(transforms),
-      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { reset(); }) {
+      runner_(monitor, options.input, "forgets the vehicle's motion", [this] { reset(); }) {
   checkOptions(options.motion);
   checkFrames(options.frames);
 }
