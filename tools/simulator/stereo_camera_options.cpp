@@ -19,7 +19,7 @@ void visitMount(StereoCameraOptions& o, OptionVisitor& visitor) {
                   "rotation of the cameras to the left that is not on tf: a wrong mount"},
                  o.mount_heading_error, {-20.0, 20.0});
   visitor.number(
-      {"stamp_error", "s", "stamps of clouds are later than the images by this, as are the clouds"},
+      {"stamp_error", "s", "delay of the stamps of clouds after their images, and of the clouds"},
       o.stamp_error, {0.0, 2.0});
   visitor.number({"baseline", "m", "from the left camera to the right one; thesis 1.3.3: 340 mm"},
                  o.baseline, {0.01, 5.0});
