@@ -82,7 +82,7 @@ std::string folderFault(const std::string& folder) {
   }
   if (bags > 1) {
     fault += std::string(bags > kMaxNames ? ", ..." : "") +
-             "; 'rosrun datmo_fusion merge_bags' makes one bag of a recording's parts";
+             "; 'rosrun datmo_fusion merge_bags' merges a recording's parts into one bag";
   }
   return fault;
 }
@@ -105,11 +105,11 @@ std::string contentFault(const std::string& file) {
   }
   for (const Packing& packing : kPackings) {
     if (startsWith(head, packing.magic)) {
-      return "is packed, expected a bag; '" + std::string(packing.command) + " " + file +
+      return "is compressed, expected a bag; '" + std::string(packing.command) + " " + file +
              "' unpacks it";
     }
   }
-  return "is no bag, expected a file that begins with " + std::string(kBagMagic);
+  return "is not a bag, expected a file that begins with " + std::string(kBagMagic);
 }
 
 }  // namespace
@@ -124,10 +124,10 @@ std::string bagFault(const std::string& file) {
     return folderFault(file);
   }
   if (!fs::is_regular_file(status)) {
-    return "is a pipe or a device, expected a file: the index stands at a bag's end";
+    return "is a pipe or a device, expected a file: a bag's index is at its end";
   }
   if (access(file.c_str(), R_OK) != 0) {
-    return "no permission to read it; 'chmod u+r " + file + "' by its owner gives it";
+    return "no permission to read it; 'chmod u+r " + file + "' by its owner grants it";
   }
   return contentFault(file);
 }

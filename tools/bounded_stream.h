@@ -38,7 +38,7 @@ class BoundedStream : public ros::serialization::Stream {
     static const std::uint32_t min_size =
         std::max(1U, ros::serialization::serializationLength(Element()));
     if (count > peek.getLength() / min_size) {
-      throw std::runtime_error("an array of " + std::to_string(count) + " elements, of which " +
+      throw std::runtime_error("an array of " + std::to_string(count) + " elements, but only " +
                                std::to_string(peek.getLength()) + " bytes are left");
     }
     ros::serialization::deserialize(*this, elements);

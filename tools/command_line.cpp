@@ -34,7 +34,7 @@ Remapping remappingOf(const std::string& word, std::size_t separator,
     }
     names += (names.empty() ? "" : ", ") + topic;
   }
-  throw UsageError("'" + word + "': expected one of " + names + " and := and a topic");
+  throw UsageError("'" + word + "': expected one of " + names + ", followed by := and a topic");
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ UsageError CommandLine::wrongWords() const {
     }
     ++files;
   }
-  return UsageError(std::to_string(files) + " " + files_ + " are named: expected" +
+  return UsageError(std::to_string(files) + " " + files_ + " are given: expected" +
                     (expected.empty() ? " none" : expected));
 }
 
@@ -120,7 +120,7 @@ UsageError CommandLine::usageError(const CLI::ParseError& error) const {
     return wrongWords();
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    return UsageError(option + ": expected a value behind it");
+    return UsageError(option + ": expected a value after it");
   }
   if (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr) {
     return UsageError(option + what.substr(option.size() + 1));

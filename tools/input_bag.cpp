@@ -22,7 +22,7 @@ void openInput(const std::string& file, rosbag::Bag& bag) {
     throw std::runtime_error(file +
                              ": has no index: it was cut short, or is still being written;"
                              " 'rosbag reindex " +
-                             file + "' saves what is there");
+                             file + "' recovers its messages");
   } catch (const std::exception& error) {  // from rosbag, and from ros::Time for an invalid stamp
     throw std::runtime_error(file + ": cannot be read as a bag (" + error.what() + ")");
   }

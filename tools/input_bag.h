@@ -49,7 +49,7 @@ boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
   } catch (const std::exception& error) {
     throw InputError("undecodable_message", message.getTopic() + " at " +
                                                 std::to_string(message.getTime().toSec()) +
-                                                " s: expected a whole " + message.getDataType() +
+                                                " s: expected a complete " + message.getDataType() +
                                                 " (" + error.what() + "); skips it");
   }
 }

@@ -65,7 +65,7 @@ void OutputBag::guarded(const std::function<void()>& write) const {
     write();
   } catch (const std::exception& error) {
     throw std::runtime_error(file_ + ": cannot be written (" + error.what() +
-                             "): expected room on its disk");
+                             "): expected free space on its disk");
   }
 }
 

@@ -47,20 +47,17 @@ Section section(const std::string& nodelets) {
 constexpr const char* kHead =
     "# Parameters\n\n"
     "<!-- Made by list_parameters; do not edit. -->\n\n"
-    "Keys of the sections of `config/*.yaml`, one section a nodelet. Live they are the nodelet's "
-    "private\n"
-    "parameters (`/grid_slam/map/cell_size`). What a sensor set does not name has the default. A "
-    "misspelled key,\n"
-    "or a value out of range, is refused with a message that names it.\n\n"
-    "*Public* ones depend on sensor, vehicle or city; those that say *live* may be changed while "
-    "the nodelet runs\n"
-    "(`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with rqt_reconfigure, "
-    "which "
-    "Debian 12 does\n"
-    "not have). *Expert* ones, below, belong to the method: each default has a source, which "
-    "should "
-    "be read before\n"
-    "the value is changed.\n\n";
+    "Keys of the sections of `config/*.yaml`, one section per nodelet. In the live system they "
+    "are\n"
+    "the nodelet's private parameters (`/grid_slam/map/cell_size`). A key that a sensor set does\n"
+    "not give has its default value. A misspelled key, or a value out of range, is rejected with "
+    "a\n"
+    "message that names it.\n\n"
+    "*Public* ones depend on the sensor, vehicle or city; those marked *live* may be changed "
+    "while\n"
+    "the nodelet runs (`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with\n"
+    "rqt_reconfigure, which Debian 12 does not have). *Expert* ones, below, belong to the method:\n"
+    "each default has a source, which should be read before the value is changed.\n\n";
 
 constexpr const char* kPublicHead = "# Public parameters\n\n";
 constexpr const char* kExpertHead = "# Expert parameters\n\n";

@@ -17,7 +17,8 @@ std::vector<double> numbersIn(const std::string& key, const YAML::Node& list) {
   for (const YAML::Node& node : list) {
     double number = 0.0;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, number)) {
-      throw OptionError(key + " has an entry that is no number: expected numbers alone in a list");
+      throw OptionError(key +
+                        " has an entry that is not a number: expected only numbers in a list");
     }
     numbers.push_back(number);
   }
@@ -67,7 +68,7 @@ YAML::Node loadYaml(const std::string& file) {
 std::string keyOf(const YAML::Node& node) {
   if (!node.IsScalar()) {
     throw OptionError("a key in line " + std::to_string(node.Mark().line + 1) +
-                      " is no plain text: expected a name");
+                      " is not plain text: expected a name");
   }
   return node.Scalar();
 }

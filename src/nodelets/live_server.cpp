@@ -24,7 +24,7 @@ bool LiveServer::take(dynamic_reconfigure::Reconfigure::Request& request,
   try {
     change_(valuesOf(request.config));
   } catch (const OptionError& error) {
-    ROS_ERROR("%s: %s; goes on as before", node_.getNamespace().c_str(), error.what());
+    ROS_ERROR("%s: %s; keeps the previous values", node_.getNamespace().c_str(), error.what());
   }
   const std::vector<LiveOption> options = present_();
   response.config = configOf(options);

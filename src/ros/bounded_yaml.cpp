@@ -59,7 +59,7 @@ class SizeCheck : public YAML::EventHandler {
     nodes_ += nodes;
     if (nodes_ > kMaxNodes) {
       throw YAML::ParserException(mark, "there are more than " + std::to_string(kMaxNodes) +
-                                            " values, with what aliases stand for");
+                                            " values, including those of aliases");
     }
   }
 
@@ -71,7 +71,7 @@ class SizeCheck : public YAML::EventHandler {
   void open(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (open_.size() == kMaxDepth) {
       throw YAML::ParserException(
-          mark, "lists and maps are more than " + std::to_string(kMaxDepth) + " deep");
+          mark, "lists and maps are nested more than " + std::to_string(kMaxDepth) + " deep");
     }
     open_.push_back({anchor, nodes_});
     add(mark, 1);

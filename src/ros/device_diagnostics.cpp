@@ -35,7 +35,7 @@ void DeviceDiagnostics::connected(const std::string& device, Stamp now) {
   first_offset_.reset();
   last_twist_.reset();
   longest_gap_ = 0.0;
-  monitor_.condition(HealthLevel::kOk, "connected with " + device);
+  monitor_.condition(HealthLevel::kOk, "connected to " + device);
 }
 
 void DeviceDiagnostics::fault(const DeviceError& error, Stamp now) {
@@ -76,8 +76,8 @@ void DeviceDiagnostics::noteMissed(const DeviceMeasurement& measurement) {
   missed_ += measurement.missed;
   if (measurement.missed > 0) {
     monitor_.warned(InputError("missed_" + part, std::to_string(measurement.missed) + " " + part +
-                                                     " are missing before this: expected all; is "
-                                                     "the network or the computer too busy?"));
+                                                     " were lost before this one: expected none; "
+                                                     "is the network or the computer overloaded?"));
   }
   monitor_.figure(part + " missed", static_cast<double>(missed_));
 }
@@ -96,7 +96,7 @@ void DeviceDiagnostics::noteClock(const ClockState& clock) {
   constexpr double kMilliseconds = 1e3;
   if (clock.steps > clock_steps_) {
     monitor_.warned(InputError("clock_step",
-                               "the device's clock or the computer's was set: stamps begin anew"));
+                               "the device's clock or the computer's was set: stamps start over"));
   }
   clock_steps_ = clock.steps;
   // The device's clock has an arbitrary origin: only its drift is informative.

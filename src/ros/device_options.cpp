@@ -4,7 +4,7 @@
 namespace datmo {
 
 void DeviceOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"frame", "", "frame of what the device measures: the device's"}, frame, {});
+  visitor.text({"frame", "", "frame of the device's measurements: its own"}, frame, {});
   visitor.group("input", [&] { input.visit(visitor); });
   device.visit(visitor);
 }

@@ -13,10 +13,10 @@ void noteSlash(const std::string& input, const std::string& slashed, StageMonito
   const auto counted = monitor.figures().find(name);
   const double before = counted == monitor.figures().end() ? 0.0 : counted->second;
   if (before == 0.0) {
-    monitor.warned(InputError("leading_slash", "frame '" + slashed + "' on " + input +
-                                                   ": expected no slash at its front (tf2); strips "
-                                                   "it from all messages on " +
-                                                   input));
+    monitor.warned(InputError(
+        "leading_slash", "frame '" + slashed + "' on " + input +
+                             ": expected no leading slash (tf2); strips it from all messages on " +
+                             input));
   }
   monitor.figure(name, before + 1.0);
 }

@@ -8,19 +8,20 @@ void FrameOptions::visit(OptionVisitor& visitor) {
                {});
   visitor.text({"odom", "", "frame of the odometry", Tier::kPublic}, odom, {});
   visitor.text({"base", "", "frame of the vehicle", Tier::kPublic}, base, {});
-  visitor.text({"scanner", "",
-                "frame of the planar scanner, whose height is where the layer of obstacles begins "
-                "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height gives it",
-                Tier::kPublic},
-               scanner, {});
+  visitor.text(
+      {"scanner", "",
+       "frame of the planar scanner, whose height is the lower bound of stereo_grid's layer of "
+       "obstacles (thesis 3.2.2); empty: stereo_grid/scanner_height gives the height",
+       Tier::kPublic},
+      scanner, {});
   visitor.text({"camera", "",
                 "optical frame of the stereo camera's left camera (x to the right, y down, z "
-                "ahead); empty: its clouds are in it",
+                "forward); empty: the frame of its clouds",
                 Tier::kPublic},
                camera, {});
   visitor.text({"prefix", "",
-                "stands before the names of all frames here, in `mounts` and in the stages: "
-                "`car1/` where several vehicles share one tf"},
+                "prefix of the names of all frames here, in `mounts` and in the stages: `car1/` if "
+                "several vehicles share one tf"},
                prefix, {});
 }
 

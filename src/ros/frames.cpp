@@ -42,9 +42,9 @@ geometry_msgs::Transform lookUpMount(const tf2::BufferCore& transforms,
                                      const std::string& base_frame,
                                      const std::string& sensor_frame) {
   if (sensor_frame.empty()) {
-    throw InputError("missing_frame",
-                     "a message without frame_id: expected its sensor's frame; set the frame_id of "
-                     "its driver");
+    throw InputError(
+        "missing_frame",
+        "a message without frame_id: expected its sensor's frame; set frame_id in its driver");
   }
   geometry_msgs::Transform mount;
   try {

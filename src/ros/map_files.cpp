@@ -153,8 +153,8 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
   std::string format;
   std::getline(in, format);
   if (format != kMapFormat) {
-    throw MapFileError(file + ": no map of this version: expected '" + kMapFormat +
-                       "' at its start, or a name that ends in .yaml for one of map_server");
+    throw MapFileError(file + ": not a map of this version: expected '" + kMapFormat +
+                       "' at its start, or a name that ends in .yaml for a map of map_server");
   }
   MapHeader header;
   std::string cell_size;
@@ -162,8 +162,8 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
   std::string crc;
   in >> cell_size >> header.cell_size >> cells >> header.cells >> crc >> header.checksum;
   if (!in || in.get() != '\n' || cell_size != "cell_size" || cells != "cells" || crc != "crc32") {
-    throw MapFileError(file +
-                       ": is cut or changed: expected cell_size, cells and crc32 at its start");
+    throw MapFileError(
+        file + ": is truncated or modified: expected cell_size, cells and crc32 at its start");
   }
   return header;
 }
@@ -171,7 +171,7 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
 MapEvidence readOwn(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    throw MapFileError(file + ": cannot be opened, expected the right to read it");
+    throw MapFileError(file + ": cannot be opened, expected permission to read it");
   }
   const MapHeader header = readMapHeader(in, file);
   std::ostringstream rest;
@@ -179,12 +179,12 @@ MapEvidence readOwn(const std::string& file) {
   const std::string bytes = rest.str();
   constexpr std::size_t kBytesPerCell = kWordsPerCell * kBytesPerWord;
   if (bytes.size() % kBytesPerCell != 0 || bytes.size() / kBytesPerCell != header.cells) {
-    throw MapFileError(file + ": is cut or changed: " + std::to_string(bytes.size()) +
+    throw MapFileError(file + ": is truncated or modified: " + std::to_string(bytes.size()) +
                        " bytes of cells, expected " + std::to_string(kBytesPerCell) +
                        " for each of " + std::to_string(header.cells));
   }
   if (checksumOf(bytes) != header.checksum) {
-    throw MapFileError(file + ": was changed: its checksum is " +
+    throw MapFileError(file + ": was modified: its checksum is " +
                        std::to_string(checksumOf(bytes)) + ", expected " +
                        std::to_string(header.checksum));
   }
@@ -195,7 +195,7 @@ MapEvidence readOwn(const std::string& file) {
     evidence.cells.push_back(readCell(words));
     if (!isSound(evidence.cells.back())) {
       throw MapFileError(file + ": cell " + std::to_string(i) +
-                         " holds what is no evidence: expected finite numbers");
+                         " holds invalid evidence: expected finite numbers");
     }
   }
   return evidence;
@@ -235,8 +235,8 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   const auto [yaml, image] = mapServerNames(file);
   if (!isAbsentOrMapServers(yaml)) {
     throw MapFileError(file + ": " + yaml +
-                       " would be written beside it, and is there, but of no map: expected "
-                       "another name");
+                       " would be written beside it, but exists and does not belong to a map: "
+                       "expected another name");
   }
   try {
     checkWritable(file);
@@ -255,8 +255,8 @@ OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>
   std::error_code unusable;
   if (!std::filesystem::is_regular_file(file, unusable)) {
     throw MapFileError(file +
-                       ": no such file, expected a map that was saved, or a yaml file of "
-                       "map_server, by its absolute path");
+                       ": no such file, expected the absolute path of a saved map or of a yaml "
+                       "file of map_server");
   }
   const MapEvidence evidence =
       isMapServers(file) ? readMapServerFiles(file, *options) : readOwn(file);
@@ -266,7 +266,7 @@ OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>
                        " m (grid_slam's map/cell_size)");
   }
   if (evidence.cells.empty()) {
-    throw MapFileError(file + ": nothing is known in it, expected occupied and free cells");
+    throw MapFileError(file + ": has only unknown cells, expected occupied and free ones");
   }
   return OccupancyMap::restored(options, evidence);
 }

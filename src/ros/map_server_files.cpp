@@ -97,7 +97,7 @@ MapDescription readDescription(const std::string& file) {
     takeIfThere(yaml["free_thresh"], description.free_below);
     takeIfThere(yaml["mode"], description.mode);
   } catch (const std::exception& error) {
-    throw MapFileError(file + ": no yaml file of map_server (" + error.what() +
+    throw MapFileError(file + ": not a yaml file of map_server (" + error.what() +
                        "): expected image, resolution and origin");
   }
   check(description, file);
@@ -138,8 +138,8 @@ PixelImage readImage(const std::string& file) {
   image.pixels.resize(size);
   in.read(image.pixels.data(), static_cast<std::streamsize>(size));
   if (static_cast<std::size_t>(in.gcount()) != size) {
-    throw MapFileError(file + ": is cut: " + std::to_string(in.gcount()) + " pixels, expected " +
-                       std::to_string(size));
+    throw MapFileError(file + ": is truncated: " + std::to_string(in.gcount()) +
+                       " pixels, expected " + std::to_string(size));
   }
   return image;
 }

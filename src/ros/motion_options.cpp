@@ -4,28 +4,27 @@
 namespace datmo {
 
 void MotionOptions::visit(OptionVisitor& visitor) {
-  visitor.choice(
-      {"source", "",
-       "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
-       "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
-       "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
-       "wheels (JointState); or none: all from the scans",
-       Tier::kPublic},
-      source,
-      {{"odometry", MotionSource::kOdometry},
-       {"twist", MotionSource::kTwist},
-       {"imu", MotionSource::kImu},
-       {"imu_and_twist", MotionSource::kImuAndTwist},
-       {"imu_and_wheels", MotionSource::kImuAndWheels},
-       {"none", MotionSource::kNone}});
+  visitor.choice({"source", "",
+                  "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
+                  "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu, with the "
+                  "speed from the scans; that yaw rate and the speed of a twist or of the wheels "
+                  "(JointState); or none: all from the scans",
+                  Tier::kPublic},
+                 source,
+                 {{"odometry", MotionSource::kOdometry},
+                  {"twist", MotionSource::kTwist},
+                  {"imu", MotionSource::kImu},
+                  {"imu_and_twist", MotionSource::kImuAndTwist},
+                  {"imu_and_wheels", MotionSource::kImuAndWheels},
+                  {"none", MotionSource::kNone}});
   visitor.toggle({"odometry_pose", "",
-                  "take the motion from the odometry's poses, for a robot's wheel encoders; "
-                  "false: its speed and yaw rate do",
+                  "take the motion from the odometry's poses, for a robot's wheel encoders; false: "
+                  "from its speed and yaw rate",
                   Tier::kPublic},
                  odometry_pose);
   visitor.number({"hold", "s",
-                  "how long the last odometry, or speed beside an Imu, serves when no newer one "
-                  "comes; after that the pose is predicted with the last estimated velocity",
+                  "how long the last odometry, or speed used with an Imu, is held when no newer "
+                  "one arrives; after that the pose is predicted with the last estimated velocity",
                   Tier::kPublic},
                  hold, {0.0, 10.0});
   visitor.number({"wheel_radius", "m",

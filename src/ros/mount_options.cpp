@@ -31,16 +31,16 @@ geometry_msgs::TransformStamped toMessage(const std::string& base_frame, const s
 }  // namespace
 
 void MountOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"x", "m", "the sensor's origin in the vehicle's frame, ahead", Tier::kPublic}, x,
-                 {-kMaxMountDistance, kMaxMountDistance});
+  visitor.number({"x", "m", "the sensor's origin in the vehicle's frame, forward", Tier::kPublic},
+                 x, {-kMaxMountDistance, kMaxMountDistance});
   visitor.number({"y", "m", "to the left", Tier::kPublic}, y,
                  {-kMaxMountDistance, kMaxMountDistance});
   visitor.number({"z", "m", "up", Tier::kPublic}, z, {-kMaxMountDistance, kMaxMountDistance});
   visitor.number({"yaw", "rad", "about the vehicle's z axis, after pitch and roll", Tier::kPublic},
                  yaw, {-kPi, kPi});
   visitor.number(
-      {"pitch", "rad", "about its y axis, after roll; positive looks down", Tier::kPublic}, pitch,
-      {-kPi, kPi});
+      {"pitch", "rad", "about its y axis, after roll; positive: looking down", Tier::kPublic},
+      pitch, {-kPi, kPi});
   visitor.number({"roll", "rad", "about its x axis", Tier::kPublic}, roll, {-kPi, kPi});
 }
 

@@ -17,7 +17,7 @@ std::vector<double> numbersIn(XmlRpcValue& list, const std::string& key) {
     } else if (list[i].getType() == XmlRpcValue::TypeDouble) {
       numbers.push_back(static_cast<double>(list[i]));
     } else {
-      throw OptionError(key + " = " + list.toXml() + ": expected numbers alone in a list");
+      throw OptionError(key + " = " + list.toXml() + ": expected only numbers in a list");
     }
   }
   return numbers;

@@ -5,15 +5,15 @@ namespace datmo {
 
 void PriorMapOptions::visit(OptionVisitor& visitor) {
   visitor.text({"file", "",
-                "absolute path of a map to start in: one that save_map has written, or a yaml file "
-                "of map_server; empty: a new map is made",
+                "absolute path of a map to start in: one written by save_map, or a yaml file of "
+                "map_server; empty: start a new map",
                 Tier::kPublic},
                file, {});
-  visitor.toggle(
-      {"anywhere", "", "search all of the map; false: about x, y, heading", Tier::kPublic},
-      anywhere);
-  visitor.number({"x", "m", "where the vehicle about starts, in the map's frame", Tier::kPublic}, x,
-                 {-1e6, 1e6});
+  visitor.toggle({"anywhere", "", "search the whole map; false: near x, y, heading", Tier::kPublic},
+                 anywhere);
+  visitor.number(
+      {"x", "m", "approximate start position of the vehicle in the map's frame", Tier::kPublic}, x,
+      {-1e6, 1e6});
   visitor.number({"y", "m", "the same", Tier::kPublic}, y, {-1e6, 1e6});
   visitor.number({"heading", "rad", "the same", Tier::kPublic}, heading, {-kTurn, kTurn});
   visitor.number({"position_sigma", "m", "standard deviation of x and y"}, position_sigma,

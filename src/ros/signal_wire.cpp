@@ -79,11 +79,12 @@ std::optional<ApproachingHost> hostOf(const StationTrack& track, Stamp stamp) {
 
 void SignalWireOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"max_ahead", "s", "traffic lights that are farther ahead of our clock are refused"},
+      {"max_ahead", "s", "traffic lights with stamps farther ahead of our clock are rejected"},
       max_ahead, {0.0, 10.0});
-  visitor.number({"map_age", "s",
-                  "so long the map of an intersection holds (ETSI TS 103 301: sent once a second)"},
-                 map_age, {1.0, 86400.0});
+  visitor.number(
+      {"map_age", "s",
+       "how long the map of an intersection is valid (ETSI TS 103 301: sent once a second)"},
+      map_age, {1.0, 86400.0});
   advice.visit(visitor);
 }
 
@@ -139,7 +140,7 @@ void SignalWire::keep(const Spatem& message, const SpatIntersection& intersectio
   }
   if (age < -options_.max_ahead) {
     throw InputError("future_signals",
-                     who + ": " + std::to_string(-age) + " s ahead, expected clocks that agree");
+                     who + ": " + std::to_string(-age) + " s ahead, expected synchronized clocks");
   }
   const auto known = signals_.find(intersection.id);
   if (known != signals_.end() && stamp <= known->second.stamp) {
@@ -197,11 +198,10 @@ std::optional<SignalAdvice> SignalWire::adviseAt(const MapIntersection& intersec
     if (advice && approach.left_out > 0) {  // the vehicle may be on one of these
       advice->verdict = SignalVerdict::kUnknown;
       advice->reason = "lanes_left_out";
-      monitor_.warned(InputError("lanes_left_out",
-                                 "intersection " + toText(intersection.id) + " has " +
-                                     std::to_string(approach.left_out) +
-                                     " lanes into it whose geometry cannot be used: expected none; "
-                                     "there is no verdict"));
+      monitor_.warned(InputError(
+          "lanes_left_out",
+          "intersection " + toText(intersection.id) + " has " + std::to_string(approach.left_out) +
+              " approach lanes whose geometry cannot be used: expected none; there is no verdict"));
     }
   } catch (const WireError& error) {
     monitor_.warned(InputError(error.reason(), error.what()));

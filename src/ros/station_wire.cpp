@@ -34,18 +34,18 @@ constexpr std::size_t kMaxRecent = 90;
 void StationWireOptions::visit(OptionVisitor& visitor) {
   constexpr double kPorts = 65535.0;
   visitor.integer(
-      {"port", "1", "UDP port of this computer to which CAM, CPM, SPATEM and MAPEM come"}, port,
-      {1.0, kPorts});
-  visitor.text({"source", "", "name or address of who sends them; empty: anybody"}, source, {});
+      {"port", "1", "UDP port of this computer on which CAM, CPM, SPATEM and MAPEM are received"},
+      port, {1.0, kPorts});
+  visitor.text({"source", "", "host name or address of their sender; empty: any"}, source, {});
   visitor.text({"destination", "",
-                "name or address to which ours go, a broadcast address too; empty: to nobody"},
+                "host name or address to which ours are sent, also a broadcast address; empty: "
+                "none are sent"},
                destination, {});
   visitor.integer({"destination_port", "1", "UDP port there"}, destination_port, {1.0, kPorts});
-  visitor.number(
-      {"interval", "s",
-       "from a CAM and its CPMs to the next, on average at least; one may be a fifth of it early "
-       "(EN 302 637-2: 0.1 s to 1 s; its rules by motion are not used)"},
-      interval, {0.1, 1.0});
+  visitor.number({"interval", "s",
+                  "minimum mean time from a CAM and its CPMs to the next; one may be early by a "
+                  "fifth of it (EN 302 637-2: 0.1 s to 1 s; its motion rules are not used)"},
+                 interval, {0.1, 1.0});
   messages.visit(visitor);
   visitor.group("signals", [&] { signals.visit(visitor); });
 }
@@ -56,7 +56,7 @@ StationWire::StationWire(const Checked<StationWireOptions>& options, StageMonito
 StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now) {
   monitor_.received("datagrams", now);
   if (std::find(recent_.begin(), recent_.end(), bytes) != recent_.end()) {
-    monitor_.figure("messages of ours that came back", static_cast<double>(++own_));
+    monitor_.figure("own messages received back", static_cast<double>(++own_));
     return nullptr;
   }
   try {
@@ -65,9 +65,9 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
     left_out_ += message.left_out;
     monitor_.figure("objects without number or position", static_cast<double>(left_out_));
     if (message.list.station == own_station_) {
-      throw InputError("own_number", "a message from elsewhere has our own station number " +
+      throw InputError("own_number", "another station sends with our own station number " +
                                          std::to_string(*own_station_) +
-                                         ": every station needs a v2x/station of its own");
+                                         ": every station needs its own v2x/station");
     }
     return boost::make_shared<StationTracksMessage>(toMessage(message.list, message.plane));
   } catch (const InputError& error) {

@@ -7,32 +7,33 @@ namespace datmo {
 
 void StereoCameraOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"focal_length", "px", "until a camera info has come; 0: not known", Tier::kPublic},
+      {"focal_length", "px", "until a camera info is received; 0: unknown", Tier::kPublic},
       focal_length, {0.0, kMaxFocalLength});
   visitor.number({"baseline", "m",
-                  "stereo: until a camera info has come, 0: not known; active_stereo: between its "
-                  "two cameras; structured_light: from the camera to the projector at its right",
+                  "stereo: until a camera info is received, 0: unknown; active_stereo: between its "
+                  "two cameras; structured_light: from the camera to the projector on its right",
                   Tier::kPublic},
                  baseline, {0.0, kMaxBaseline});
-  visitor.number(
-      {"field_of_view", "rad", "from left to right, until a camera info has come", Tier::kPublic},
-      field_of_view, {degrees(5.0), degrees(150.0)});
+  visitor.number({"field_of_view", "rad", "from left to right, until a camera info is received",
+                  Tier::kPublic},
+                 field_of_view, {degrees(5.0), degrees(150.0)});
   visitor.number({"min_depth", "m",
-                  "nearer points are left out: the camera's data sheet; 0: not known, and nearer "
-                  "than 0.5 m are mismatches",
+                  "nearer points are left out: the camera's data sheet; 0: unknown, and those "
+                  "nearer than 0.5 m are mismatches",
                   Tier::kPublic},
                  min_depth, {0.0, 10.0});
-  visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
-                 max_depth, {0.0, 1000.0});
+  visitor.number(
+      {"max_depth", "m", "farther points are left out: the camera's data sheet; 0: none are"},
+      max_depth, {0.0, 1000.0});
   visitor.toggle({"align", "",
-                  "the bias of disparities that stereo_alignment measures against the scanner is "
-                  "taken out of the points; they are left out while mount or clock are surely "
-                  "wrong, or the two do not see the same"},
+                  "corrects the points for the bias of disparities that stereo_alignment measures "
+                  "against the scanner; they are left out while the mount or clock is certainly "
+                  "wrong, or camera and scanner do not agree"},
                  align);
   visitor.number(
       {"alignment_hold", "s",
-       "how long after its stamp it is believed that the two do not see the same: with a "
-       "silent scanner nobody says so any more; the time over which agreement is judged"},
+       "how long after its stamp a disagreement of camera and scanner is assumed to last, since a "
+       "silent scanner cannot confirm it; the time over which agreement is judged"},
       alignment_hold, {0.1, 3600.0});
   DepthNoiseOptions::visit(visitor);
 }

@@ -80,9 +80,10 @@ void TransformBuffer::set(const geometry_msgs::TransformStamped& transform, bool
   const auto mount = mounts_.find(transform.child_frame_id);
   if (mount != mounts_.end()) {
     if (!isSame(mount->second, transform)) {
-      monitor_->warned(InputError(
-          "mount_from_tf", "mounts has another " + mount->first + " than tf, which has it in " +
-                               transform.header.frame_id + ": expected one of them; tf holds"));
+      monitor_->warned(InputError("mount_from_tf", "mounts gives another pose of " + mount->first +
+                                                       " than tf, which gives it in " +
+                                                       transform.header.frame_id +
+                                                       ": expected one of them; uses tf"));
     }
     mounts_.erase(mount);
   }

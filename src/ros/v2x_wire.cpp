@@ -19,11 +19,11 @@ V2xWire::V2xWire(const Checked<StationWireOptions>& options, StageMonitor& monit
       stations_(options, monitor),
       signals_(options->signals, monitor),
       destination_(options->destination, options->destination_port, kLookUpPause) {
-  monitor_.condition(HealthLevel::kNoOutput, "does not listen yet");
+  monitor_.condition(HealthLevel::kNoOutput, "not listening yet");
 }
 
 void V2xWire::listening() {
-  monitor_.condition(HealthLevel::kOk, "listens to UDP port " + std::to_string(options_.port));
+  monitor_.condition(HealthLevel::kOk, "listens on UDP port " + std::to_string(options_.port));
 }
 
 void V2xWire::failed(const DeviceError& error, Stamp now) {

@@ -5,7 +5,7 @@ namespace datmo {
 
 void VehicleOptions::visit(OptionVisitor& visitor) {
   body.visit(visitor);
-  visitor.number({"height", "m", "of its roof over the ground, as it is drawn", Tier::kPublic},
+  visitor.number({"height", "m", "height of its roof above the ground, as drawn", Tier::kPublic},
                  height, {0.05, 10.0});
   visitor.group("own_points", [&] { own_points.visit(visitor); });
 }

@@ -51,8 +51,9 @@ void MessageStatus::addReceived() {
 void MessageStatus::setDrawn(std::size_t left_out) {
   newest_ = {StatusProperty::Ok, "OK"};
   if (left_out > 0) {
-    newest_ = {StatusProperty::Warn, std::to_string(left_out) +
-                                         " shapes are not drawn: a number of theirs is not finite"};
+    newest_ = {
+        StatusProperty::Warn,
+        std::to_string(left_out) + " shapes are not drawn: they have numbers that are not finite"};
   }
 }
 

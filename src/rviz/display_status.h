@@ -50,7 +50,7 @@ class MessageStatus {
   StatusLine refused() const;
 
  private:
-  StatusLine newest_{rviz::StatusProperty::Warn, "no message to draw has come"};
+  StatusLine newest_{rviz::StatusProperty::Warn, "no message to draw received"};
   bool is_newest_refused_ = false;
   std::size_t received_ = 0;
   std::size_t refused_ = 0;

@@ -16,9 +16,9 @@ namespace datmo {
 class ObjectsDisplay : public DrawingDisplay<ObjectArray> {
  public:
   ObjectsDisplay() {
-    bodies_ = toggle("Bodies", true, "Shapes of those whose class is known.");
+    bodies_ = toggle("Bodies", true, "Shapes of objects whose class is known.");
     line_width_ = number("Line width [m]", MarkersOptions().line_width, {0.01F, 2.0F},
-                         "Of outlines: violet lidar, cyan stereo, yellow both, gray others.");
+                         "Width of outlines: violet lidar, cyan stereo, yellow both, gray others.");
   }
 
  private:
@@ -39,8 +39,9 @@ class RoadBordersDisplay : public DrawingDisplay<RoadBorders> {
  public:
   RoadBordersDisplay() {
     deviations_ = toggle("Deviations", true, "Lines at two standard deviations to both sides.");
-    line_width_ = number("Line width [m]", MarkersOptions().line_width, {0.01F, 2.0F},
-                         "Of a border that hardly is one; of a sure one three times as much.");
+    line_width_ =
+        number("Line width [m]", MarkersOptions().line_width, {0.01F, 2.0F},
+               "Width of the least certain borders; certain ones are three times as wide.");
   }
 
  private:
@@ -63,15 +64,14 @@ class RiskDisplay : public DrawingDisplay<RiskArray> {
   RiskDisplay() {
     const RiskStyle style;
     tube_ = toggle("Host tube", true,
-                   "The ground that the host is expected to cover, red now, "
-                   "green at the end of the prediction.");
-    contacts_ =
-        toggle("Contacts", true, "Where objects are at contact, in the colors of its time.");
+                   "The ground that the host is expected to cover: red now, green at the end of "
+                   "the prediction.");
+    contacts_ = toggle("Contacts", true, "Where objects are at contact, colored by its time.");
     labels_ =
         toggle("Labels", true, "Time, probability and speed of contacts; the level's reason.");
     min_probability_ = number("Min probability [1]", style.min_probability, {0.0F, 1.0F},
                               "Contacts less likely within 4 s are not drawn.");
-    text_height_ = number("Text height [m]", style.text_height, {0.1F, 10.0F}, "Of labels.");
+    text_height_ = number("Text height [m]", style.text_height, {0.1F, 10.0F}, "Height of labels.");
   }
 
  private:

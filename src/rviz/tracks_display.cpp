@@ -15,29 +15,29 @@ namespace datmo {
 class TracksDisplay : public DrawingDisplay<TrackArray> {
  public:
   TracksDisplay() {
-    color_by_ =
-        watched(new rviz::EnumProperty("Color by", "class", "What colors stand for.", this));
+    color_by_ = watched(new rviz::EnumProperty("Color by", "class", "What the colors mean.", this));
     color_by_->addOption("class", static_cast<int>(TrackColor::kClass));
     color_by_->addOption("id", static_cast<int>(TrackColor::kId));
     color_by_->addOption("speed", static_cast<int>(TrackColor::kSpeed));
     color_by_->addOption("sensors", static_cast<int>(TrackColor::kSensors));
     addParts();
     const TrackStyle style;
-    fade_ =
-        toggle("Fade by existence", true, "The less sure a track exists, the more transparent.");
-    min_existence_ =
-        number("Min existence [1]", 0.0, {0.0F, 1.0F}, "Tracks less sure to exist are not drawn.");
+    fade_ = toggle("Fade by existence", true,
+                   "The less certain a track's existence, the more transparent it is.");
+    min_existence_ = number("Min existence [1]", 0.0, {0.0F, 1.0F},
+                            "Tracks with a lower existence probability are not drawn.");
     min_mode_ = number("Min mode probability [1]", style.min_mode, {0.0F, 1.0F},
-                       "Modes of motion less likely have no predicted path.");
+                       "Less likely modes of motion have no predicted path.");
     prediction_time_ = number("Prediction [s]", style.prediction_time, {0.2F, 10.0F},
                               "How far ahead the predicted paths reach.");
     path_time_ = number("History [s]", style.sizes.path_time, {0.0F, 600.0F},
-                        "How far back the path behind reaches.");
+                        "How far back the drawn path reaches.");
     arrow_time_ = number("Velocity arrow [s]", style.sizes.arrow_time, {0.0F, 10.0F},
-                         "An arrow is the distance in this time.");
-    text_height_ = number("Text height [m]", style.sizes.text_height, {0.1F, 10.0F}, "Of labels.");
+                         "An arrow is the distance traveled in this time.");
+    text_height_ =
+        number("Text height [m]", style.sizes.text_height, {0.1F, 10.0F}, "Height of labels.");
     line_width_ = number("Line width [m]", style.sizes.line_width, {0.01F, 2.0F},
-                         "Of outlines and paths; arrows go by it.");
+                         "Width of outlines and paths; arrows scale with it.");
   }
 
  private:
@@ -46,16 +46,18 @@ class TracksDisplay : public DrawingDisplay<TrackArray> {
     rviz::Property* bodies = toggle("Bodies", true, "Boxes, and shapes of people, by class.");
     parts_["track bodies"] = bodies;
     parts_["track heads"] = bodies;
-    parts_["track outlines"] = toggle("Outlines", true, "Of the box, on the ground.");
+    parts_["track outlines"] = toggle("Outlines", true, "The outline of the box on the ground.");
     parts_["track sensors"] =
-        toggle("Sensors", false, "Outlines by who saw it: violet lidar, cyan stereo, yellow both.");
+        toggle("Sensors", false,
+               "Outlines by the sensors that saw it: violet lidar, cyan stereo, yellow both.");
     parts_["track labels"] = toggle("Labels", true, "Id, class and speed [m/s].");
-    parts_["track velocities"] = toggle("Velocities", true, "As arrows, of what moves.");
+    parts_["track velocities"] = toggle("Velocities", true, "Arrows of moving tracks.");
     parts_["track covariances"] =
-        toggle("Covariances", false, "The ellipse that holds the true position with 95 %.");
-    parts_["track paths"] = toggle("History", true, "The path behind.");
+        toggle("Covariances", false,
+               "The ellipse that contains the true position with a probability of 95 %.");
+    parts_["track paths"] = toggle("History", true, "The path so far.");
     parts_["track predictions"] =
-        toggle("Predicted paths", true, "The path ahead by each likely mode of motion.");
+        toggle("Predicted paths", true, "The predicted path of each likely mode of motion.");
   }
 
   TrackStyle style() const {

@@ -44,7 +44,7 @@ TEST(LoopClosingTest, TwoLapsWithADriftingPoseComeOutWithoutDrift) {
     harness.setClock(seconds);
     harness.send(scan);
     ASSERT_TRUE(harness.waitFor([&] {
-      return harness.diagnostic("trajectories begun") >= 0.0 &&
+      return harness.diagnostic("trajectories started") >= 0.0 &&
              harness.transforms.core().canTransform("map", "global_map", toTime(scan.stamp));
     })) << i
         << ": " << harness.diagnosticMessage();

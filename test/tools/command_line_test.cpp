@@ -70,11 +70,11 @@ TEST(CommandLineTest, OfAnOptionGivenTwiceTheLastOneHolds) {
 }
 
 TEST(CommandLineTest, ErrorsNameTheValueAndWhatWasExpected) {
-  EXPECT_EQ(errorOf({}), "0 bags are named: expected IN.bag [OUT.bag]");
-  EXPECT_EQ(errorOf({"a", "b", "c"}), "3 bags are named: expected IN.bag [OUT.bag]");
+  EXPECT_EQ(errorOf({}), "0 bags are given: expected IN.bag [OUT.bag]");
+  EXPECT_EQ(errorOf({"a", "b", "c"}), "3 bags are given: expected IN.bag [OUT.bag]");
   EXPECT_EQ(errorOf({"a", "--fast"}),
             "'--fast': expected --report, --set, --speed, --options, --quiet or --silent");
-  EXPECT_EQ(errorOf({"a", "--report"}), "--report: expected a value behind it");
+  EXPECT_EQ(errorOf({"a", "--report"}), "--report: expected a value after it");
   EXPECT_EQ(errorOf({"a", "--report", ""}), "--report '': expected the name of a file");
   EXPECT_EQ(errorOf({"a", "--speed", "warp"}), "--speed 'warp': expected slow or fast");
   EXPECT_EQ(errorOf({"a", "--silent"}), "--silent: expected --quiet with it");
@@ -105,7 +105,8 @@ TEST(CommandLineTest, RemappingsOfOtherTopicsAreRefused) {
       takeRemappings(words, {"scan", "cloud"});
       FAIL() << word;
     } catch (const UsageError& error) {
-      EXPECT_EQ(error.what(), "'" + word + "': expected one of scan, cloud and := and a topic");
+      EXPECT_EQ(error.what(),
+                "'" + word + "': expected one of scan, cloud, followed by := and a topic");
     }
   }
 }

@@ -106,16 +106,16 @@ TEST_F(InputBag, BagsInAFolderAreNamed) {
   }
   EXPECT_EQ(refusal(folder_),
             "is a folder, expected a bag; it holds drive_0.bag, drive_1.bag, drive_2.bag, ...; "
-            "'rosrun datmo_fusion merge_bags' makes one bag of a recording's parts");
+            "'rosrun datmo_fusion merge_bags' merges a recording's parts into one bag");
 }
 
 TEST_F(InputBag, WhatIsNoBag) {
   writeBytes("");
   expectRefused("is empty (0 bytes)");
   writeBytes("not a bag");
-  expectRefused("is no bag, expected a file that begins with #ROSBAG");
+  expectRefused("is not a bag, expected a file that begins with #ROSBAG");
   writeBytes("PK\x03\x04 and so on");
-  expectRefused("is packed, expected a bag; 'unzip " + file_.string() + "' unpacks it");
+  expectRefused("is compressed, expected a bag; 'unzip " + file_.string() + "' unpacks it");
   writeBag(rosbag::compression::Uncompressed, 0);
   expectRefused("holds no message");
 }
@@ -230,9 +230,10 @@ TEST_F(InputBag, AMessageThatIsCutShortIsNamedByTopicAndTime) {
   auto raw = toRaw(map);
   raw.bytes.resize(40);
   const std::string reading = readingOf(file_, raw);
-  EXPECT_EQ(reading.find("undecodable_message: /map at 7.500000 s: expected a whole "
-                         "nav_msgs/OccupancyGrid"),
-            0U)
+  EXPECT_EQ(
+      reading.find(
+          "undecodable_message: /map at 7.500000 s: expected a complete nav_msgs/OccupancyGrid"),
+      0U)
       << reading;
 }
 
@@ -243,7 +244,7 @@ TEST_F(InputBag, ABrokenLengthIsFoundBeforeMemoryIsTaken) {
   const std::size_t length_at = raw.bytes.size() - 9 - 4;
   std::fill_n(raw.bytes.begin() + static_cast<std::ptrdiff_t>(length_at), 4, 0xFF);
   const std::string reading = readingOf(file_, raw);
-  EXPECT_NE(reading.find("an array of 4294967295 elements, of which 9 bytes are left"),
+  EXPECT_NE(reading.find("an array of 4294967295 elements, but only 9 bytes are left"),
             std::string::npos)
       << reading;
 }

@@ -103,22 +103,22 @@ std::vector<Cause> causes() {
       {"no range", scan([](auto& each) { each.range_max = kNan; }),
        "no tracks: grid_slam: scan with an angle or range limit of nan"},
       {"odometry of a trailer", [](Sent& sent) { sent.odometry->child_frame_id = "trailer"; },
-       "less than all: grid_slam: odometry of 'trailer' in 'odom': expected 'base_link' in 'odom'"},
+       "degraded: grid_slam: odometry of 'trailer' in 'odom': expected 'base_link' in 'odom'"},
       {"odometry without frame", [](Sent& sent) { sent.odometry->header.frame_id = ""; },
-       "less than all: grid_slam: odometry of 'base_link' in ''"},
+       "degraded: grid_slam: odometry of 'base_link' in ''"},
       {"odometry that is not finite",
        [](Sent& sent) { sent.odometry->twist.twist.linear.x = kNan; },
-       "less than all: grid_slam: odometry with speed nan m/s"},
+       "degraded: grid_slam: odometry with speed nan m/s"},
       {"odometry too fast", [](Sent& sent) { sent.odometry->twist.twist.linear.x = 300.0; },
-       "less than all: grid_slam: odometry with speed 300.000000 m/s"},
+       "degraded: grid_slam: odometry with speed 300.000000 m/s"},
       {"no odometry", [](Sent& sent) { sent.odometry.reset(); },
-       "less than all: grid_slam: no odometry yet"},
-      {"no twist", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no twist yet",
+       "degraded: grid_slam: no odometry yet"},
+      {"no twist", [](Sent& sent) { sent.odometry.reset(); }, "degraded: motion: no twist yet",
        true, "motion: {source: twist}\n"},
-      {"no Imu", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no imu yet",
-       true, "motion: {source: imu}\n"},
-      {"no wheels", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no imu yet",
-       true, "motion: {source: imu_and_wheels}\n"},
+      {"no Imu", [](Sent& sent) { sent.odometry.reset(); }, "degraded: motion: no imu yet", true,
+       "motion: {source: imu}\n"},
+      {"no wheels", [](Sent& sent) { sent.odometry.reset(); }, "degraded: motion: no imu yet", true,
+       "motion: {source: imu_and_wheels}\n"},
   };
 }
 
@@ -138,41 +138,41 @@ std::vector<Cause> furtherCauses() {
        "no tracks: grid_slam: scan with"},
       {"beams without a number",
        scan([](auto& each) { std::fill(each.ranges.begin(), each.ranges.end(), kNan); }),
-       "less than all: grid_slam: "},
+       "degraded: grid_slam: "},
       {"beam times that fall", scan([](auto& each) { each.time_increment = -1.0F; }),
-       "less than all: grid_slam: "},
-      {"a tilted scanner", nothing, "less than all: grid_slam: ", false,
+       "degraded: grid_slam: "},
+      {"a tilted scanner", nothing, "degraded: grid_slam: ", false,
        "mounts: {scanner: {x: 2.0, pitch: 0.2}}\n"},
       {"odometry's stamps of zero", odometry([](auto& each) { each.header.stamp = ros::Time(); }),
-       "less than all: grid_slam: stamp 0"},
+       "degraded: grid_slam: stamp 0"},
       {"odometry's one stamp", odometry([](auto& each) { each.header.stamp = toTime(kStart); }),
-       "less than all: grid_slam: stamp 1000.000000 s twice"},
+       "degraded: grid_slam: stamp 1000.000000 s twice"},
       {"odometry that turns by no rotation",
        odometry([](auto& each) { each.pose.pose.orientation.w = 2.0; }),
-       "less than all: grid_slam: ", true, "motion: {odometry_pose: true}\n"},
+       "degraded: grid_slam: ", true, "motion: {odometry_pose: true}\n"},
       {"odometry that no vehicle can have", odometry([](auto& each) {
          const bool odd = (each.header.stamp - toTime(kStart)).toNSec() / 60000000 % 2 == 1;
          each.twist.twist.linear.x = odd ? 40.0 : kSpeed;
        }),
-       "less than all: grid_slam: odometry with speed 40.000000 m/s"},
+       "degraded: grid_slam: odometry with speed 40.000000 m/s"},
       {"a scanner's clock that was set", scan([](auto& each) {
          const bool is_set = each.header.stamp >= toTime(kStart + 24 * kPeriod);
          each.header.stamp += ros::Duration(is_set ? 0.1 : 0.0);
        }),
-       "less than all: grid_slam: stamps of scan that are 0.100 s ahead of the sensor's clock"},
+       "degraded: grid_slam: stamps of scan are 0.100 s ahead of the sensor's previous clock"},
       {"odometry's clock that was set", odometry([](auto& each) {
          const bool is_set = each.header.stamp >= toTime(kStart + 24 * kPeriod);
          each.header.stamp -= ros::Duration(is_set ? 0.04 : 0.0);
        }),
-       "less than all: grid_slam: stamps of odometry that are 0.040 s behind the sensor's clock"},
-      {"no stereo points", nothing, "less than all: stereo_alignment: no points2 yet", true, "",
+       "degraded: grid_slam: stamps of odometry are 0.040 s behind the sensor's previous clock"},
+      {"no stereo points", nothing, "degraded: stereo_alignment: no points2 yet", true, "",
        with(&GraphSwitches::low_level_fusion)},
       {"no clouds of a 3D lidar", nothing, "no tracks: cloud_to_scan: no cloud yet", true, "",
        with(&GraphSwitches::scan_from_cloud)},
-      {"no images", nothing, "less than all: mono_classifier: no image yet", true, "",
+      {"no images", nothing, "degraded: mono_classifier: no image yet", true, "",
        with(&GraphSwitches::mono)},
-      {"no stereo points for objects", nothing, "less than all: stereo_alignment: no points2 yet",
-       true, "", with(&GraphSwitches::stereo_objects)},
+      {"no stereo points for objects", nothing, "degraded: stereo_alignment: no points2 yet", true,
+       "", with(&GraphSwitches::stereo_objects)},
   };
 }
 

@@ -149,7 +149,7 @@ TEST_F(RunBagInput, APartThatIsRefusedIsSummedUp) {
   });
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   const std::string table = run();
-  EXPECT_TRUE(holds(table, "refused of /odometry, bad_odometry")) << table;
+  EXPECT_TRUE(holds(table, "refused on /odometry, bad_odometry")) << table;
   EXPECT_TRUE(holds(table, "3 of 30")) << table;
 }
 

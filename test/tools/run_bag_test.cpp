@@ -120,7 +120,7 @@ TEST_F(RunBag, BagThatIsCutShortIsNamed) {
 
 TEST_F(RunBag, FileThatIsNoBagIsNamed) {
   std::ofstream(arguments_.input) << "not a bag";
-  EXPECT_TRUE(holds(failure(), arguments_.input + ": is no bag"));
+  EXPECT_TRUE(holds(failure(), arguments_.input + ": is not a bag"));
 }
 
 TEST_F(RunBag, MissingScanIsNamedBesideWhatThereIs) {

@@ -61,7 +61,7 @@ class Unreadable(BagInput):
 
     def test_no_bag(self):
         self.bag.write_text("not a bag")
-        self.assert_refused("is no bag, expected a file that begins with #ROSBAG")
+        self.assert_refused("is not a bag, expected a file that begins with #ROSBAG")
 
     def test_empty(self):
         self.bag.write_bytes(b"")
@@ -84,9 +84,9 @@ class Unreadable(BagInput):
     def test_packed(self):
         with zipfile.ZipFile(self.bag, "w") as archive:
             archive.writestr("drive.bag", "#ROSBAG V2.0\n")
-        self.assert_refused("is packed", f"'unzip {self.bag}'")
+        self.assert_refused("is compressed", f"'unzip {self.bag}'")
         self.bag.write_bytes(bz2.compress(b"#ROSBAG V2.0\n"))
-        self.assert_refused("is packed", f"'bunzip2 {self.bag}'")
+        self.assert_refused("is compressed", f"'bunzip2 {self.bag}'")
 
     def test_cut(self):
         self.write()

@@ -34,7 +34,7 @@ here=$(dirname "$0")
 echo "$(basename "$1")" >> "$here/starts"
 echo "$@" > "$here/words"
 case $(cat "$1") in
-  broken) echo "$1: is no bag" >&2; exit 1 ;;
+  broken) echo "$1: is not a bag" >&2; exit 1 ;;
   kills_itself) kill -9 $$ ;;
   kills_once) if [ ! -e "$here/killed" ]; then touch "$here/killed"; kill -9 $$; fi ;;
   kills_snakemake)
@@ -111,8 +111,8 @@ class Batch(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertEqual([one["name"] for one in report["recordings"]], ["a.bag", "b.bag", "c.bag"])
         self.assertEqual([one["name"] for one in report["failed"]], ["d.bag"])
-        self.assertIn("is no bag", report["failed"][0]["error"])
-        self.assertEqual(said.count("d.bag: is no bag") >= 1, True, said)
+        self.assertIn("is not a bag", report["failed"][0]["error"])
+        self.assertEqual(said.count("d.bag: is not a bag") >= 1, True, said)
         self.assertAlmostEqual(report["totals"]["mota"], 1.0 - 6.0 / 30.0)
         self.assertEqual(report["totals"]["dropped"], {"tracker: old": 6})
         self.assertEqual(self.starts(), ["a.bag", "b.bag", "c.bag", "d.bag"])

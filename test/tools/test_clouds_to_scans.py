@@ -145,9 +145,9 @@ class CloudsToScans(unittest.TestCase):
         self.write()
         good = [str(self.input), str(self.output), "--config", str(self.config)]
         for words, said in (
-            (good[:2], "2 bags are named: expected IN.bag OUT.bag --config"),
+            (good[:2], "2 bags are given: expected IN.bag OUT.bag --config"),
             ([*good, "--fast"], "--fast"),
-            ([good[0], good[0], *good[2:]], "expected another bag"),
+            ([good[0], good[0], *good[2:]], "the output must not be the input"),
             ([str(self.folder / "no.bag"), *good[1:]], "no.bag"),
             ([*good[:3], str(self.folder / "no.yaml")], "no.yaml"),
         ):

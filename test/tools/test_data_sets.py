@@ -155,7 +155,7 @@ class Runs(unittest.TestCase):
                                 "echo '{}' > \"$2\"")
         code, out, _ = self.run_tool("--low-level-fusion")
         self.assertEqual(code, 1)
-        self.assertIn("drive.bag: is no bag", out)
+        self.assertIn("drive.bag: is not a bag", out)
         self.assertIn("Low-level fusion", out)
 
     def test_run_without_borders_is_reported(self):
@@ -163,7 +163,7 @@ class Runs(unittest.TestCase):
         code, out, _ = self.run_tool("--road-border")
         self.assertEqual(code, 1)
         self.assertIn("data_set_1: ", out)
-        self.assertIn("result.bag: is no bag", out)
+        self.assertIn("result.bag: is not a bag", out)
         self.assertIn("Borders of the road", out)
 
     def test_missing_scene_is_named(self):

@@ -288,7 +288,7 @@ class Tool(EvaluateCase):
         self.assertIn("expected nav_msgs/OccupancyGrid", self.score(code=1)[1])
         self.assertIn("--effective-range is -1", self.score("--effective-range", "-1", code=1)[1])
         self.run_bag.write_text("no bag")
-        self.assertIn("is no bag", self.score(code=1)[1])
+        self.assertIn("is not a bag", self.score(code=1)[1])
 
 
 if __name__ == "__main__":

@@ -178,7 +178,7 @@ class Tool(Files):
         ):
             self.assertIn(text, self.run_tool(*options, expected_code=1)[1])
         self.bag.write_text("no bag")
-        self.assertIn("is no bag", self.run_tool(expected_code=1)[1])
+        self.assertIn("is not a bag", self.run_tool(expected_code=1)[1])
         self.bag.unlink()
         self.assertIn("no such file", self.run_tool(expected_code=1)[1])
 

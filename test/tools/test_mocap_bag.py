@@ -236,7 +236,7 @@ class Errors(Conversion):
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
             self.assertEqual(main([str(self.bag), str(self.root / "new.bag")]), 1)
-        self.assertIn("is no bag", said.getvalue())
+        self.assertIn("is not a bag", said.getvalue())
 
 
 class Determinism(Conversion):

@@ -163,7 +163,7 @@ class BadBags(ScoreRunCase):
     def test_files_that_are_no_bags(self):
         self.write_bags()
         self.truth_bag.write_text("not a bag")
-        self.assert_no_report(f"{self.truth_bag}: is no bag")
+        self.assert_no_report(f"{self.truth_bag}: is not a bag")
         self.truth_bag.unlink()
         self.assert_no_report(f"{self.truth_bag}: no such file")
 

@@ -91,7 +91,7 @@ class Simulate(unittest.TestCase):
         self.assert_refused(scene, self.bag, expected=["bad.yaml: a key in line 2"])
 
     def test_wrong_usage(self):
-        self.assert_refused(SCENE, expected=["1 files are named: expected SCENE.yaml OUT.bag"])
+        self.assert_refused(SCENE, expected=["1 files are given: expected SCENE.yaml OUT.bag"])
         self.assert_refused(SCENE, self.bag, "--fast", expected=["--fast"])
 
 

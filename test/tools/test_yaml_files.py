@@ -32,10 +32,10 @@ class YamlFiles(unittest.TestCase):
         lines = ["a0: &a0 [1, 1]"]
         lines += [f"a{n}: &a{n} [*a{n - 1}, *a{n - 1}]" for n in range(1, LEVELS + 1)]
         self.refused("\n".join(lines),
-                     ":15: expected yaml, but there are more than 100000 values, with what aliases stand for")  # fmt: skip
+                     ":15: expected yaml, but there are more than 100000 values, including those of aliases")  # fmt: skip
 
     def test_depth(self):
-        self.refused("a: " + 20000 * "[", ":1: expected yaml, but lists and maps are more than 100 deep")
+        self.refused("a: " + 20000 * "[", ":1: expected yaml, but lists and maps are nested more than 100 deep")
         self.assertEqual(len(parse_yaml("a", 90 * "[" + 90 * "]")), 1)
 
     def test_values_that_are_not_what_their_tags_say(self):

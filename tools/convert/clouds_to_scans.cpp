@@ -27,12 +27,12 @@ constexpr char kStaticTransforms[] = "/tf_static";
 constexpr char kTransforms[] = "/tf";
 
 constexpr char kDescription[] =
-    "Copies a bag with a planar scan on /scan in place of each cloud of a 3D lidar on /cloud, as\n"
-    "the nodelet cloud_to_scan makes it.";
+    "Copies a bag, and replaces each cloud of a 3D lidar on /cloud by a planar scan on /scan, as\n"
+    "the nodelet cloud_to_scan does.";
 
 constexpr char kFooter[] =
     "cloud:=TOPIC and scan:=TOPIC name other topics.\n"
-    "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong, and when\n"
+    "Exit code: 0 on success; 1 for an invalid command line, yaml file or bag, and when\n"
     "interrupted; 2 when no cloud could be used. After 1 and 2 no output bag is left.";
 
 /// When the last beam of a scan has been measured.
@@ -138,10 +138,10 @@ CloudsToScansArguments parseCloudsToScans(std::vector<std::string> words) {
   line.addFile("--config", arguments.config,
                "the sensor set, with a section cloud_to_scan; required", "CONFIG.yaml")
       ->required();
-  line.add_flag("--keep-clouds", arguments.keep_clouds, "copies the clouds, too");
+  line.add_flag("--keep-clouds", arguments.keep_clouds, "also copies the clouds");
   line.read(std::move(words));
   if (isSameFile(arguments.input, arguments.output)) {
-    throw UsageError(arguments.output + ": expected another bag than the input");
+    throw UsageError(arguments.output + ": the output must not be the input");
   }
   return arguments;
 }

@@ -48,7 +48,7 @@ def opened(path):
     except rosbag.ROSBagUnindexedException as error:
         raise InputError(
             f"{path}: has no index: it was cut short, or is still being written;"
-            f" 'rosbag reindex {path}' saves what is there"
+            f" 'rosbag reindex {path}' recovers its messages"
         ) from error
     except (
         OSError,
@@ -68,9 +68,9 @@ def fault_of(path):
     if path.is_dir():
         return _fault_of_folder(path)
     if not path.is_file():
-        return "is a pipe or a device, expected a file: the index stands at a bag's end"
+        return "is a pipe or a device, expected a file: a bag's index is at its end"
     if not os.access(path, os.R_OK):
-        return f"no permission to read it; 'chmod u+r {path}' by its owner gives it"
+        return f"no permission to read it; 'chmod u+r {path}' by its owner grants it"
     return _fault_of_content(path)
 
 
@@ -82,7 +82,7 @@ def _fault_of_folder(path):
     more = ", ..." if len(bags) > MAX_NAMES else ""
     held = f"; it holds {', '.join(bags[:MAX_NAMES])}{more}" if bags else ""
     advice = (
-        "; 'rosrun datmo_fusion merge_bags' makes one bag of a recording's parts"
+        "; 'rosrun datmo_fusion merge_bags' merges a recording's parts into one bag"
         if len(bags) > 1
         else ""
     )
@@ -100,8 +100,8 @@ def _fault_of_content(path):
         return _ros2_fault(path)
     for magic, command in PACKED.items():
         if head.startswith(magic):
-            return f"is packed, expected a bag; '{command} {path}' unpacks it"
-    return f"is no bag, expected a file that begins with {BAG_MAGIC.decode()}"
+            return f"is compressed, expected a bag; '{command} {path}' unpacks it"
+    return f"is not a bag, expected a file that begins with {BAG_MAGIC.decode()}"
 
 
 def _ros2_fault(path):

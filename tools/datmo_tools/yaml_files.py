@@ -78,6 +78,6 @@ def _check_size(name, text):
             anchor, before = opened.pop()
             nodes_of[anchor] = nodes - before
         if len(opened) > MAX_DEPTH:
-            raise InputError(f"{where} lists and maps are more than {MAX_DEPTH} deep")
+            raise InputError(f"{where} lists and maps are nested more than {MAX_DEPTH} deep")
         if nodes > MAX_NODES:
-            raise InputError(f"{where} there are more than {MAX_NODES} values, with what aliases stand for")
+            raise InputError(f"{where} there are more than {MAX_NODES} values, including those of aliases")

@@ -88,12 +88,12 @@ ComparedDelay compared(const ObjectScore& object, const AttainableMotion& motion
 
 void AttainableOptions::visit(OptionVisitor& visitor) {
   visitor.number({"range_noise", "m",
-                  "standard deviation of the scanner's ranges, from its datasheet or the simulated "
-                  "scene; KITTI's Velodyne: 0.02"},
+                  "standard deviation of the scanner's ranges, from its data sheet or the "
+                  "simulated scene; KITTI's Velodyne: 0.02"},
                  range_noise, {1e-4, 5.0});
-  visitor.number({"required_probability", "1", "that the object moves; as the tracker's"},
+  visitor.number({"required_probability", "1", "that the object moves; as in the tracker"},
                  required_probability, {0.5, 0.999999});
-  visitor.number({"moving_prior", "1", "the same before any beam; as the tracker's"}, moving_prior,
+  visitor.number({"moving_prior", "1", "the same before any beam; as in the tracker"}, moving_prior,
                  {0.01, 0.99});
 }
 

@@ -33,9 +33,9 @@ std::vector<Point2> scoredCenters(const Frame& frame, const FrameMatching& match
 
 void GospaOptions::visit(OptionVisitor& visitor) {
   visitor.number({"cutoff", "m",
-                  "distance of centers from which a track is no estimate of an object (c of "
+                  "distance of centers beyond which a track is not an estimate of an object (c of "
                   "Rahmathullah et al. 2017): about a car's length; a miss or a false track costs "
-                  "it over the square root of 2"},
+                  "this divided by the square root of 2"},
                  cutoff, {0.01, 1000.0});
 }
 

@@ -98,8 +98,8 @@ class Matcher {
 
 void MatchOptions::visit(OptionVisitor& visitor) {
   visitor.number({"gate", "m",
-                  "largest distance at which a track may be of a true object (Bernardin and "
-                  "Stiefelhagen 2008, threshold T); about a car's width"},
+                  "largest distance at which a track may be matched to a true object (Bernardin "
+                  "and Stiefelhagen 2008, threshold T); about a car's width"},
                  gate, {0.01, 100.0});
   visitor.choice(
       {"distance", "",

@@ -26,7 +26,7 @@ std::string span(const std::string& what, const std::vector<Recorded>& recorded)
   std::string spans = span("tracks", run.tracks);
   spans += run.poses.empty() ? "" : ", " + span("poses", run.poses);
   spans += ", " + span("true objects", truth.objects) + ", " + span("true poses", truth.poses);
-  throw ScoreError("no stamp at which all is known: " + spans);
+  throw ScoreError("no stamp that all data cover: " + spans);
 }
 
 DurationScore scoreDurations(const std::vector<double>& seconds) {

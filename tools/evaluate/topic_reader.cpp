@@ -25,13 +25,13 @@ void TopicReader::takeHeader(const std_msgs::Header& header) {
 void TopicReader::checkOnce(Stamp before, Stamp stamp) const {
   if (before == stamp) {
     fail(topic_, "two messages at " + std::to_string(stamp.seconds()) +
-                     " s: expected one (a bag that was played in a loop cannot be scored)");
+                     " s: expected one (a bag played in a loop cannot be scored)");
   }
 }
 
 void TopicReader::failIfInterrupted() const {
   if (interrupted()) {
-    throw std::runtime_error("interrupted, so that no report is written");
+    throw std::runtime_error("interrupted, no report written");
   }
 }
 

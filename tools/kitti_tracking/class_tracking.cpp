@@ -17,12 +17,12 @@ void ClassTrackingOptions::visit(OptionVisitor& visitor) {
   visitor.group("detections", [&] { detections.visit(visitor); });
   visitor.group("tracker", [&] { tracker.visit(visitor); });
   visitor.group("vertical", [&] { vertical.visit(visitor); });
-  visitor.number({"prior_log_odds", "1",
-                  "logarithm of the odds of a detection that false tracks have on average"},
+  visitor.number({"prior_log_odds", "1", "mean log odds of the detections of false tracks"},
                  prior_log_odds, {-100.0, 100.0});
-  visitor.number({"prior_weight", "1",
-                  "in the score of a track this counts as much as so many of its detections"},
-                 prior_weight, {0.0, 1000.0});
+  visitor.number(
+      {"prior_weight", "1",
+       "weight of prior_log_odds in the score of a track, as a number of its detections"},
+      prior_weight, {0.0, 1000.0});
 }
 
 ClassTracking::ClassTracking(ObjectType type, const ClassTrackingOptions& options,

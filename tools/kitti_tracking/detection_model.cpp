@@ -34,28 +34,33 @@ Eigen::Matrix2d covarianceOf(double direction, double along, double across) {
 void DetectionModelOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kSigma{0.001, 5.0};
   constexpr Bounds kPerMeter{0.0, 0.1};
-  visitor.number({"score_slope", "1",
-                  "how the logarithm of the odds that a detection is true rises with its score"},
-                 score_slope, {0.01, 100.0});
+  visitor.number(
+      {"score_slope", "1", "increase of the log odds that a detection is true with its score"},
+      score_slope, {0.01, 100.0});
   visitor.number({"score_even", "1", "score at which a detection is as often true as false"},
                  score_even, {-100.0, 100.0});
-  visitor.number({"along_sigma", "m", "of the center along the line of sight, at the sensor"},
+  visitor.number({"along_sigma", "m",
+                  "standard deviation of the center along the line of sight, at the sensor"},
                  along_sigma, kSigma);
-  visitor.number({"along_per_meter", "1", "what a meter of range adds to along_sigma"},
+  visitor.number({"along_per_meter", "1", "increase of along_sigma per meter of range"},
                  along_per_meter, kPerMeter);
-  visitor.number({"across_sigma", "m", "of the center across the line of sight, at the sensor"},
+  visitor.number({"across_sigma", "m",
+                  "standard deviation of the center across the line of sight, at the sensor"},
                  across_sigma, kSigma);
-  visitor.number({"across_per_meter", "1", "what a meter of range adds to across_sigma"},
+  visitor.number({"across_per_meter", "1", "increase of across_sigma per meter of range"},
                  across_per_meter, kPerMeter);
-  visitor.number({"length_sigma", "m", "of the length, beside what moves the box as a whole"},
+  visitor.number({"length_sigma", "m",
+                  "standard deviation of the length, in addition to errors of the whole box"},
                  length_sigma, kSigma);
   visitor.number({"width_sigma", "m", "the same of the width"}, width_sigma, kSigma);
-  visitor.number({"heading_sigma", "rad", "of the heading modulo pi"}, heading_sigma, {0.001, 1.5});
+  visitor.number({"heading_sigma", "rad", "standard deviation of the heading modulo pi"},
+                 heading_sigma, {0.001, 1.5});
   visitor.number({"sure_range", "m",
-                  "up to here the detector finds all that is not hidden, from there on less and "
-                  "less"},
+                  "up to this range the detector finds everything that is not hidden, beyond it "
+                  "less and less"},
                  sure_range, {1.0, 500.0});
-  visitor.number({"range", "m", "the detector finds nothing farther away"}, range, {1.0, 500.0});
+  visitor.number({"range", "m", "the detector finds nothing beyond this range"}, range,
+                 {1.0, 500.0});
 }
 
 DetectionModel::DetectionModel(const DetectionModelOptions& options) : options_(options) {

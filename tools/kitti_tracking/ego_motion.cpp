@@ -186,13 +186,13 @@ void EgoMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"first_yaw_rate_std", "rad/s", "standard deviation of the yaw rate at the beginning"},
       first_yaw_rate_std, {0.001, 2.0});
-  visitor.number({"gate", "m", "what is seen farther from all that is expected is new, or lost"},
+  visitor.number({"gate", "m", "an object farther than this from every prediction is new, or lost"},
                  gate, {0.1, 20.0});
-  visitor.number(
-      {"outlier_distance", "1", "a match that is off by so many standard deviations counts half"},
-      outlier_distance, {0.5, 10.0});
-  visitor.integer({"min_matches", "1", "with fewer, speed and yaw rate stay as they were"},
-                  min_matches, {1, 100});
+  visitor.number({"outlier_distance", "1",
+                  "a match with an error of this many standard deviations counts half"},
+                 outlier_distance, {0.5, 10.0});
+  visitor.integer({"min_matches", "1", "with fewer, speed and yaw rate are kept"}, min_matches,
+                  {1, 100});
 }
 
 EgoMotion::EgoMotion(const EgoMotionOptions& options) : options_(options) {

@@ -12,8 +12,8 @@ namespace datmo::kitti {
 namespace {
 
 constexpr char kDescription[] =
-    "Tracks the objects that a 3D detector has found in KITTI tracking sequences with the\n"
-    "package's tracker, and writes RESULTS_DIR/NAME.txt in KITTI's format for each\n"
+    "Tracks the detections of a 3D detector in KITTI tracking sequences with the package's\n"
+    "tracker, and writes RESULTS_DIR/NAME.txt in KITTI's format for each\n"
     "CALIBRATIONS_DIR/NAME.txt. The vehicle's motion is estimated from the detections.";
 
 /// The values of a class's file, under the name of the class.

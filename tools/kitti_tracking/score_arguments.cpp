@@ -36,7 +36,7 @@ std::vector<double> parseOverlaps(const std::string& text) {
   std::istringstream stream(text);
   double overlap = 0.0;
   if (!(stream >> overlap) || !stream.eof() || !(overlap > 0.0 && overlap <= 1.0)) {
-    throw UsageError("--iou '" + text + "': expected a number above 0 to 1, or all");
+    throw UsageError("--iou '" + text + "': expected a number above 0 and up to 1, or all");
   }
   return {overlap};
 }
@@ -54,14 +54,15 @@ ScoreArguments parseScoreArguments(std::vector<std::string> words) {
                  "CLASS");
   line.add_option_function<std::string>(
           "--iou", [&overlaps](const std::string& text) { overlaps = parseOverlaps(text); },
-          "3D overlap of a match, above 0 to 1, or all (default): 0.25, 0.5 and 0.7")
+          "3D overlap of a match, above 0 and up to 1, or all (default): 0.25, 0.5 and 0.7")
       ->option_text("OVERLAP");
   line.addChoice(
       "--averaging", arguments.averaging, kAveragings,
       "averaging of a trajectory's scores: once (default), or repeated, with the rounding of\n"
       "the published evaluation",
       "HOW");
-  line.addFile("--out", arguments.output, "writes all figures, of each recall too", "REPORT.json");
+  line.addFile("--out", arguments.output, "writes all figures, also those of each recall",
+               "REPORT.json");
   line.read(std::move(words));
   for (const ObjectType type : classes) {
     for (const double overlap : overlaps) {

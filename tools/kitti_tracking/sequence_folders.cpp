@@ -22,7 +22,7 @@ void expectAll(const std::set<std::string>& names, const std::string& folder,
                const std::set<std::string>& others, const std::string& other) {
   for (const std::string& name : names) {
     if (others.count(name) == 0) {
-      throw std::runtime_error(fileOf(other, name) + ": is not there, expected it beside " +
+      throw std::runtime_error(fileOf(other, name) + ": no such file, expected it along with " +
                                fileOf(folder, name));
     }
   }
@@ -32,7 +32,7 @@ void expectAll(const std::set<std::string>& names, const std::string& folder,
 
 std::set<std::string> sequencesIn(const std::string& folder) {
   if (!fs::is_directory(folder)) {
-    throw std::runtime_error(folder + ": is no folder, expected one with a NAME.txt a sequence");
+    throw std::runtime_error(folder + ": not a folder, expected one with a NAME.txt per sequence");
   }
   std::set<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -41,7 +41,7 @@ std::set<std::string> sequencesIn(const std::string& folder) {
     }
   }
   if (names.empty()) {
-    throw std::runtime_error(folder + ": has no NAME.txt, expected one a sequence");
+    throw std::runtime_error(folder + ": has no NAME.txt, expected one per sequence");
   }
   return names;
 }

@@ -139,8 +139,8 @@ void RunOptions::visit(OptionVisitor& visitor) {
     visitor.group(kClassNames.at(i), [&] { classes.at(i).visit(visitor); });
   }
   visitor.toggle({"estimate_ego_motion", "",
-                  "the vehicle's motion from the detections; off: the vehicle's frame is taken for "
-                  "the fixed one"},
+                  "estimate the vehicle's motion from the detections; off: the vehicle's frame is "
+                  "used as the fixed frame"},
                  estimate_ego_motion);
   visitor.group("ego_motion", [&] { ego_motion.visit(visitor); });
   visitor.number({"frame_period", "s", "from a frame to the next one"}, frame_period,

@@ -19,7 +19,7 @@ void VerticalExtentOptions::visit(OptionVisitor& visitor) {
   visitor.number({"bottom_sigma", "m", "standard deviation of the lower face of a detection"},
                  bottom_sigma, kSigma);
   visitor.number({"bottom_drift", "m/sqrt(s)",
-                  "by which the lower face moves, as the road and the camera's pitch make it"},
+                  "random walk of the lower face, due to the road and the camera's pitch"},
                  bottom_drift, {0.0, 10.0});
   visitor.number({"height_sigma", "m", "standard deviation of the height of a detection"},
                  height_sigma, kSigma);

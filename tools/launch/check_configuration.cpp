@@ -17,7 +17,7 @@ int main(int count, char** words) {
         datmo::CommandLine line("check_configuration", "Reads a sensor set and prints its path.",
                                 "files");
         line.addFile("CONFIG.yaml", file, "the sensor set")->required();
-        line.addRepeated("--preset", presets, "laid over the sensor set", "PRESET.yaml");
+        line.addRepeated("--preset", presets, "overrides the sensor set", "PRESET.yaml");
         line.read(given);
         datmo::SensorSet(file, presets);
         std::cout << file << '\n';

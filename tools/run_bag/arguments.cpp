@@ -56,7 +56,7 @@ constexpr char kDescription[] =
 
 constexpr char kFooter[] =
     "A topic with another name in the bag is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
-    "scan, cloud (of a 3D lidar, instead of scans), object_cloud (for --cloud-objects, beside\n"
+    "scan, cloud (of a 3D lidar, instead of scans), object_cloud (for --cloud-objects, with\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
     "point_velocities, left_image, right_image, left_camera_info, right_camera_info, radar, gnss,\n"
     "stations, front_scan or rear_scan.\n"
@@ -111,7 +111,7 @@ void addMaps(CommandLine& line, Arguments& arguments) {
       ->expected(3)
       ->needs(map);
   line.addFile("--save-map", arguments.save_map,
-               "the final map, and beside it .yaml and .pgm files for map_server", "MAP");
+               "the final map, with .yaml and .pgm files for map_server next to it", "MAP");
 }
 
 void addStages(CommandLine& line, Arguments& arguments) {
@@ -121,7 +121,7 @@ void addStages(CommandLine& line, Arguments& arguments) {
                  "STAGE");
   line.addChoice(
       "--fusion", arguments.fusion, kFusionLevels,
-      "level of fusion: none, low, object or track, as set by the single options below;\n"
+      "level of fusion: none, low, object or track, as set by the individual options below;\n"
       "recommended: the level recommended by measurements, with road borders",
       "LEVEL");
   for (const NamedSwitch& each : stackSwitches()) {

@@ -62,7 +62,7 @@ void carry(rosbag::View& view, const InputTopics& topics, BagToGraph& run, std::
   const Stopwatch watch;
   for (const auto& [order, message] : inOrder(view, topics)) {
     if (interrupted()) {
-      throw std::runtime_error("interrupted, so that no bag is written");
+      throw std::runtime_error("interrupted, no bag written");
     }
     run.take(message);
     const double done = (order.first - view.getBeginTime()).toSec();
@@ -76,11 +76,11 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const G
   if (scans_used && (!graph.has("tracker") || drive.trackLists() > 0)) {
     return;
   }
-  std::string message =
-      arguments.input + (scans_used ? ": no list of tracks came out" : ": no scan could be used");
+  std::string message = arguments.input + (scans_used ? ": no list of tracks was published"
+                                                      : ": no scan could be used");
   for (const StageMonitor* monitor : graph.monitors()) {
     if (!monitor->lastError().empty()) {
-      message += "; " + monitor->stage() + " says: " + monitor->lastError();
+      message += "; " + monitor->stage() + " reports: " + monitor->lastError();
     }
   }
   throw NoUsableInput(message);

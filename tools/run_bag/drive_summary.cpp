@@ -38,7 +38,7 @@ void printCounts(std::ostream& out, const std::string& what, const StageMonitor&
 void printRefusals(std::ostream& out, const InputRefusals& refusals) {
   for (const auto& [name, topic] : refusals.topics()) {
     for (const auto& [reason, refused] : topic.reasons) {
-      line(out, "refused of " + name + ", " + reason)
+      line(out, "refused on " + name + ", " + reason)
           << refused.messages << " of " << topic.received << '\n';
     }
   }

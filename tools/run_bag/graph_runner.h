@@ -97,7 +97,7 @@ class GraphRunner {
   std::vector<const StageMonitor*> inputMonitors() const;
 
   /// The health of each stage (stackHealth tells why there are no tracks). Faults are those since
-  /// the last call; "nobody publishes it" is reported for every silent topic. `now`: arrival time
+  /// the last call; "it has no publisher" is reported for every silent topic. `now`: arrival time
   /// of the last message.
   std::vector<StageState> states(Stamp now);
 

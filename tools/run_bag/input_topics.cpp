@@ -220,9 +220,9 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   if (arguments.cloud_objects) {
     topics.object_cloud = objectCloudTopic(bag, arguments);
     if (!topics.cloud.empty() && topics.object_cloud != topics.cloud) {
-      throw std::runtime_error("object_cloud:=" + topics.object_cloud +
-                               " with scans made of the clouds on " + topics.cloud +
-                               ": expected one 3D lidar, or object_cloud beside a planar scan");
+      throw std::runtime_error(
+          "object_cloud:=" + topics.object_cloud + " with scans made of the clouds on " +
+          topics.cloud + ": expected one 3D lidar, or object_cloud in addition to a planar scan");
     }
   }
   topics.motion = motionTopics(bag, arguments, sensors.shared().motion);

@@ -42,22 +42,22 @@ struct Arguments {
 Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
   std::vector<std::string> overrides;
-  CommandLine line("replay_risks",
-                   "Assesses the risks of a run of run_bag once more, from its tracks, scans "
-                   "and borders\nand the odometry of the drive, and writes /risks and the ground "
-                   "truth. With the options\nof the run they are the same bit for bit. Sensor sets "
-                   "with `motion: {source: odometry}` only.",
-                   "bags");
-  line.addFile("RUN.bag", arguments.run, "of run_bag, with the ground truth by --with-truth")
+  CommandLine line(
+      "replay_risks",
+      "Assesses the risks of a run of run_bag again, from its tracks, scans and borders and the\n"
+      "odometry of the drive, and writes /risks and the ground truth. With the run's options\n"
+      "the risks are the same bit for bit. Only for sensor sets with `motion: {source: odometry}`.",
+      "bags");
+  line.addFile("RUN.bag", arguments.run, "output of run_bag, with the ground truth by --with-truth")
       ->required();
-  line.addFile("DRIVE.bag", arguments.drive, "that run_bag read")->required();
+  line.addFile("DRIVE.bag", arguments.drive, "input of that run")->required();
   line.addFile("OUT.bag", arguments.output, "for the risks")->required();
-  line.addFile("--config", arguments.config, "the sensor set, as of the run; required",
-               "CONFIG.yaml")
+  line.addFile("--config", arguments.config, "the sensor set of the run; required", "CONFIG.yaml")
       ->required();
   line.addFile("--odometry", arguments.odometry, "its topic in DRIVE.bag (default /odometry)",
                "TOPIC");
-  line.addRepeated("--set", overrides, "an option of the risk, e.g. method=thesis", "KEY=VALUE");
+  line.addRepeated("--set", overrides, "an option of the risk assessment, e.g. method=thesis",
+                   "KEY=VALUE");
   line.read(words);
   for (const std::string& assignment : overrides) {
     setOption(assignment, arguments.overrides);

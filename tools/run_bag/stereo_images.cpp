@@ -92,7 +92,7 @@ sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>&
   } catch (const std::exception& error) {  // from OpenCV, cv_bridge and image_geometry
     std::string said = error.what();
     said.erase(said.find_last_not_of('\n') + 1);
-    throw InputError("bad_images", "images that stereo_image_proc cannot take: " + said);
+    throw InputError("bad_images", "images that stereo_image_proc cannot process: " + said);
   }
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 void visitPrefilter(OptionVisitor& visitor, StereoImagesOptions& options) {
   visitor.integer({"prefilter_size", "px",
-                   "side of the window over which block matching evens out brightness; odd"},
+                   "side of the window over which block matching normalizes brightness; odd"},
                   options.prefilter_size, {5, 255});
   visitor.integer({"prefilter_cap", "1", "bound of the prefiltered values"}, options.prefilter_cap,
                   {1, 63});
@@ -29,34 +29,34 @@ void visitPostfilter(OptionVisitor& visitor, StereoImagesOptions& options) {
 void visitSemiGlobal(OptionVisitor& visitor, StereoImagesOptions& options) {
   visitor.integer({"fullDP", "1", "semi-global matching: 1: in eight directions, slow; 0: in five"},
                   options.full_dp, {0, 1});
-  visitor.number({"P1", "1", "semi-global matching: price of a disparity that changes by 1 px"},
+  visitor.number({"P1", "1", "semi-global matching: penalty for a disparity that changes by 1 px"},
                  options.small_change_price, {0, 4000});
-  visitor.number({"P2", "1", "semi-global matching: price of one that changes by more"},
+  visitor.number({"P2", "1", "semi-global matching: penalty for one that changes by more"},
                  options.large_change_price, {0, 4000});
-  visitor.integer({"disp12MaxDiff", "px",
-                   "semi-global matching: matches from left and from right differ by no more"},
-                  options.left_right_difference, {0, 128});
+  visitor.integer(
+      {"disp12MaxDiff", "px",
+       "semi-global matching: maximum difference of the matches from left and from right"},
+      options.left_right_difference, {0, 128});
 }
 
 }  // namespace
 
 void StereoImagesOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"rectified", "", "the images are rectified; whoever feeds them says so"},
+  visitor.toggle({"rectified", "", "the images are rectified, as stated by their source"},
                  rectified);
   visitor.toggle({"approximate_sync", "", "the stamps of left and right image may differ"},
                  approximate_sync);
-  visitor.number(
-      {"pair_tolerance", "s",
-       "with approximate_sync they differ by no more than this (the bag runner's own; the "
-       "nodelet knows no bound)"},
-      pair_tolerance, {0.0, 0.1});
+  visitor.number({"pair_tolerance", "s",
+                  "maximum difference of these with approximate_sync (only in run_bag; the nodelet "
+                  "has no limit)"},
+                 pair_tolerance, {0.0, 0.1});
   visitor.integer({"stereo_algorithm", "1",
                    "0: block matching, 1: semi-global block matching (Hirschmueller 2008)"},
                   stereo_algorithm, {0, 1});
   visitPrefilter(visitor, *this);
   visitor.integer({"correlation_window_size", "px", "side of the windows that are matched; odd"},
                   correlation_window_size, {5, 255});
-  visitor.integer({"min_disparity", "px", "least disparity"}, min_disparity, {-2048, 2048});
+  visitor.integer({"min_disparity", "px", "minimum disparity"}, min_disparity, {-2048, 2048});
   visitor.integer({"disparity_range", "px", "disparities that are searched; a multiple of 16"},
                   disparity_range, {32, 4096});
   visitPostfilter(visitor, *this);

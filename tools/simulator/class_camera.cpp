@@ -48,16 +48,16 @@ void ClassCameraOptions::visit(OptionVisitor& visitor) {
   visitor.number({"range_share", "1", "standard deviation of the range by size, of the range"},
                  range_share, {0.001, 1.0});
   visitor.numbers({"confusion", "1",
-                   "confusion matrix, row by row: of an object that is a pedestrian, cyclist, "
-                   "vehicle the shares of images that report it as one of these; the rest do not "
-                   "report it. About what YOLO-Fastest reaches on KITTI's drive 0005"},
+                   "confusion matrix, row by row: for a pedestrian, a cyclist and a vehicle the "
+                   "shares of images that report it as each of these; the others do not report it. "
+                   "About what YOLO-Fastest reaches on KITTI's drive 0005"},
                   confusion, {0.0, 1.0});
 }
 
 void ClassCameraOptions::check() const {
   if (confusion.size() != kClasses * kClasses) {
     throw OptionError("confusion has " + std::to_string(confusion.size()) +
-                      " shares: expected 9, of three classes as each of three");
+                      " shares: expected 9, for each of three classes as each of three");
   }
   for (std::size_t row = 0; row < kClasses; ++row) {
     double sum = 0.0;

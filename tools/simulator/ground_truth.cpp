@@ -46,12 +46,13 @@ int beamsOn(const ObjectState& object, const EchoScan& scan) {
 }  // namespace
 
 void GroundTruthOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"radius", "m", "objects within it round the vehicle are in the ground truth"},
-                 radius, {0.0, 1000.0});
-  visitor.number({"min_visible_share", "1",
-                  "share of an object's width that must be visible to a sensor for it to be named "
-                  "visible"},
-                 min_visible_share, {0.0, 1.0});
+  visitor.number(
+      {"radius", "m", "objects within this distance of the vehicle are in the ground truth"},
+      radius, {0.0, 1000.0});
+  visitor.number(
+      {"min_visible_share", "1",
+       "share of an object's width that a sensor must see for the object to count as visible"},
+      min_visible_share, {0.0, 1.0});
   visitor.toggle({"echoes", "", "records what each beam's nearest echo came from"}, echoes);
 }
 

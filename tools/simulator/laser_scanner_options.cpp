@@ -30,8 +30,8 @@ void visitBeams(LaserScannerOptions& o, OptionVisitor& visitor) {
   visitor.number({"max_range", "m", "of the hardware; thesis 1.3.3: 150"}, o.max_range,
                  {1.0, 500.0});
   visitor.number({"effective_range", "m",
-                  "echoes beyond it are dropped; thesis 1.3.3: 50, because a farther object gets "
-                  "one beam at most"},
+                  "echoes beyond it are dropped; thesis 1.3.3: 50, because at most one beam hits a "
+                  "farther object"},
                  o.effective_range, {1.0, 500.0});
   visitor.number({"horizontal_opening", "deg",
                   "width of a beam; assumed: as wide as the finest spacing of thesis 1.3.3"},
@@ -47,14 +47,14 @@ void visitBeams(LaserScannerOptions& o, OptionVisitor& visitor) {
                    "(LaserScan)"},
                   o.echoes, {1, 2});
   visitor.number({"target_separation", "m",
-                  "least difference in range of two targets (thesis 1.3.3 names the threshold, but "
-                  "no value)"},
+                  "minimum difference in range of two targets (thesis 1.3.3 mentions the "
+                  "threshold, but no value)"},
                  o.target_separation, {0.0, 50.0});
 }
 
 void visitFaults(LaserScannerOptions& o, OptionVisitor& visitor) {
   visitor.number({"full_detection_share", "1",
-                  "share of a beam's width from which on a target is always seen; below, the "
+                  "share of a beam's width above which a target is always seen; below it the "
                   "probability falls in proportion: thin poles are missed (thesis 3.2.1)"},
                  o.full_detection_share, {0.01, 1.0});
   visitor.number({"range_noise", "m",
@@ -63,18 +63,20 @@ void visitFaults(LaserScannerOptions& o, OptionVisitor& visitor) {
                  o.range_noise, {0.0, 5.0});
   visitor.number({"azimuth_noise", "deg", "standard deviation of each beam's direction"},
                  o.azimuth_noise, {0.0, 5.0});
-  visitor.number({"azimuth_shake", "deg",
-                  "standard deviation of a turn of the whole scan: shaking beams (thesis 1.3.3)"},
-                 o.azimuth_shake, {0.0, 5.0});
-  visitor.number({"pitch_shake", "deg",
-                  "standard deviation of a nod of the whole scan: shaking beams (thesis 1.3.3)"},
-                 o.pitch_shake, {0.0, 5.0});
   visitor.number(
-      {"curb_hit_probability", "1", "that a beam which lights a curb is reflected by it"},
+      {"azimuth_shake", "deg",
+       "standard deviation of a rotation of the whole scan: shaking beams (thesis 1.3.3)"},
+      o.azimuth_shake, {0.0, 5.0});
+  visitor.number(
+      {"pitch_shake", "deg",
+       "standard deviation of the pitch of the whole scan: shaking beams (thesis 1.3.3)"},
+      o.pitch_shake, {0.0, 5.0});
+  visitor.number(
+      {"curb_hit_probability", "1", "probability that a beam that hits a curb is reflected by it"},
       o.curb_hit_probability, {0.0, 1.0});
   visitor.number({"paint_hit_probability", "1",
-                  "that a beam which lights white paint on the road is reflected by it: false "
-                  "returns from lane markings (thesis 1.3.3, fig. 3.8)"},
+                  "probability that a beam that hits white paint on the road is reflected by it: "
+                  "false returns from lane markings (thesis 1.3.3, fig. 3.8)"},
                  o.paint_hit_probability, {0.0, 1.0});
   visitor.number({"paint_range", "m", "longest range of returns from white paint"}, o.paint_range,
                  {0.0, 500.0});

@@ -181,7 +181,7 @@ void refuseCollisions(const World& world, double duration) {
     std::ostringstream message;
     message << collision->mover << " and " << collision->other << " collide at ["
             << collision->position.x() << ", " << collision->position.y() << "] after "
-            << collision->time << " s: expected free ways";
+            << collision->time << " s: expected paths without collisions";
     throw OptionError(message.str());
   }
 }

@@ -22,7 +22,7 @@ void visitStretch(OptionVisitor& visitor, std::string& road, RoadSide& side, dou
 }  // namespace
 
 void RoadItem::visit(OptionVisitor& visitor) {
-  visitor.text({"name", "", "by which other entries call the road"}, name, {});
+  visitor.text({"name", "", "by which other entries refer to the road"}, name, {});
   visitor.number({"width", "m", "from curb to curb"}, width, {2.0, 100.0});
   visitor.number({"corner_radius", "m", "of the middle line's bends and of the curbs at junctions"},
                  corner_radius, {0.5, 200.0});
@@ -58,7 +58,7 @@ void ActorItem::visit(OptionVisitor& visitor) {
   visitor.text({"kind", "", "what it is"}, kind, objectKindKeys());
   visitor.number({"corner_radius", "m", "of the arcs at the corners of its path"}, corner_radius,
                  {0.0, 200.0});
-  visitor.number({"start", "m", "where it is on its path at the start"}, start, {0.0, 1e5});
+  visitor.number({"start", "m", "position along its path at the start"}, start, {0.0, 1e5});
 }
 
 void LaneItem::visit(OptionVisitor& visitor) {
@@ -66,10 +66,10 @@ void LaneItem::visit(OptionVisitor& visitor) {
                  {0.0, 200.0});
   visitor.number({"min_speed", "m/s", "of the movers in it"}, min_speed, {0.1, 100.0});
   visitor.number({"max_speed", "m/s", "of the movers in it"}, max_speed, {0.1, 100.0});
-  visitor.number({"min_ahead", "m", "along the lane, of the ego vehicle when they meet"}, min_ahead,
-                 {-500.0, 500.0});
-  visitor.number({"max_ahead", "m", "along the lane, of the ego vehicle when they meet"}, max_ahead,
-                 {-500.0, 500.0});
+  visitor.number({"min_ahead", "m", "ahead of the ego vehicle along the lane when they meet"},
+                 min_ahead, {-500.0, 500.0});
+  visitor.number({"max_ahead", "m", "ahead of the ego vehicle along the lane when they meet"},
+                 max_ahead, {-500.0, 500.0});
 }
 
 void SimulationOptions::visit(OptionVisitor& visitor) {
@@ -78,9 +78,8 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.number({"duration", "s", "of the bag"}, duration, {0.1, 36000.0});
   visitor.text({"compression", "", "of the bag"}, compression, {"none", "bz2", "lz4"});
   visitor.toggle({"contact", "",
-                  "the ego vehicle may run into something: the drive ends there, and "
-                  "/ground_truth/contact says when, with what and how; false: such a scene is "
-                  "refused"},
+                  "the ego vehicle may collide: the drive ends there, and /ground_truth/contact "
+                  "says when, with what and how; false: such a scene is rejected"},
                  contact);
   visitor.group("scanner", [&] { scanner.visit(visitor); });
   visitor.group("stereo", [&] { stereo.visit(visitor); });

@@ -24,7 +24,7 @@ std::vector<std::vector<double>> readRows(const std::string& key, const YAML::No
   try {
     rows = node.as<std::vector<std::vector<double>>>();
   } catch (const YAML::Exception&) {
-    throw OptionError(key + " is something else" + expected);
+    throw OptionError(key + " has another type" + expected);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].size() != columns) {

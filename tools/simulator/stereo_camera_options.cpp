@@ -16,11 +16,11 @@ void visitMount(StereoCameraOptions& o, OptionVisitor& visitor) {
   visitor.number({"mount_height", "m", "cameras above the road; assumed"}, o.mount_height,
                  {0.05, 5.0});
   visitor.number({"mount_heading_error", "deg",
-                  "cameras turned to the left, which tf does not know of: a wrong mount"},
+                  "rotation of the cameras to the left that is not on tf: a wrong mount"},
                  o.mount_heading_error, {-20.0, 20.0});
-  visitor.number({"stamp_error", "s",
-                  "stamps of clouds are later than the images by this, and so are the clouds"},
-                 o.stamp_error, {0.0, 2.0});
+  visitor.number(
+      {"stamp_error", "s", "delay of the stamps of clouds after their images, and of the clouds"},
+      o.stamp_error, {0.0, 2.0});
   visitor.number({"baseline", "m", "from the left camera to the right one; thesis 1.3.3: 340 mm"},
                  o.baseline, {0.01, 5.0});
 }
@@ -33,22 +33,23 @@ void visitImages(StereoCameraOptions& o, OptionVisitor& visitor) {
   visitor.integer({"image_width", "px", "of the rectified and down-sampled images; assumed"},
                   o.image_width, {16.0, kMaxPixels});
   visitor.integer({"image_height", "px",
-                   "of these images: cut to what lies ahead, the road from 4 m on; assumed"},
+                   "of these images: cropped to the view ahead, the road from 4 m on; assumed"},
                   o.image_height, {16.0, kMaxPixels});
   visitor.number({"focal_length", "px", "of these images: 68 deg from side to side; assumed"},
                  o.focal_length, {10.0, 10000.0});
-  visitor.integer(
-      {"column_step", "px", "a point for every so many columns: fewer make a smaller bag"},
-      o.column_step, {1.0, 64.0});
-  visitor.integer({"row_step", "px", "a point for every so many rows"}, o.row_step, {1.0, 64.0});
+  visitor.integer({"column_step", "px",
+                   "one point for every this many columns: fewer points make a smaller bag"},
+                  o.column_step, {1.0, 64.0});
+  visitor.integer({"row_step", "px", "one point for every this many rows"}, o.row_step,
+                  {1.0, 64.0});
   visitor.number({"min_range", "m", "depth of the nearest points; assumed"}, o.min_range,
                  {0.1, 100.0});
   visitor.number({"max_range", "m", "depth of the farthest points; assumed"}, o.max_range,
                  {1.0, 1000.0});
-  visitor.number({"effective_range", "m",
-                  "what is farther away does not count as visible in the ground truth; thesis "
-                  "3.3.3: 36"},
-                 o.effective_range, {1.0, 1000.0});
+  visitor.number(
+      {"effective_range", "m",
+       "objects farther away do not count as visible in the ground truth; thesis 3.3.3: 36"},
+      o.effective_range, {1.0, 1000.0});
 }
 
 void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
@@ -73,7 +74,7 @@ void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
                  o.weak_road_share, {0.0, 1.0});
   visitor.integer(
       {"edge_width", "px",
-       "so far beside a nearer object the background's disparity may be wrong; assumed"},
+       "within this distance of a nearer object the background's disparity may be wrong; assumed"},
       o.edge_width, {0.0, 64.0});
   visitor.number({"edge_mixing", "1", "probability that it is, and lies between the two; assumed"},
                  o.edge_mixing, {0.0, 1.0});
@@ -82,28 +83,26 @@ void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
   visitor.integer({"outlier_patch", "px", "size of a wrong match; assumed"}, o.outlier_patch,
                   {1.0, 512.0});
   visitor.number({"pitch_shake", "deg",
-                  "standard deviation of the vehicle's nod, which the points do not know of; as "
-                  "the scanner's"},
+                  "standard deviation of the vehicle's pitch, for which the points are not "
+                  "corrected; as the scanner's"},
                  o.pitch_shake, {0.0, 5.0});
 }
 
 void visitFeatures(StereoCameraOptions& o, OptionVisitor& visitor) {
-  visitor.toggle({"features", "", "corners are followed from image to image: points with velocity"},
+  visitor.toggle({"features", "", "corners are tracked from image to image: points with velocity"},
                  o.features);
-  visitor.integer({"feature_spacing", "px", "between two corners at the least"}, o.feature_spacing,
-                  {1.0, 100.0});
-  visitor.number(
-      {"feature_share", "1",
-       "of squares of this size with texture, those with a corner that is found in all "
-       "four images: 4 in 1000 px^2 on the cyclist of KITTI's drive 0005, 5 on its vehicles, "
-       "in images shrunk to the demonstrator's focal length"},
-      o.feature_share, {0.0, 1.0});
-  visitor.number(
-      {"feature_noise", "px",
-       "standard deviation of flow (by axis) and disparity of a corner; 0.10 and 0.09 px "
-       "at the median on KITTI's drive 0005"},
-      o.feature_noise, {0.01, 5.0});
-  visitor.number({"wrong_feature_share", "1", "corners that are taken for others; assumed"},
+  visitor.integer({"feature_spacing", "px", "minimum distance between two corners"},
+                  o.feature_spacing, {1.0, 100.0});
+  visitor.number({"feature_share", "1",
+                  "share of textured squares of this size with a corner that is found in all four "
+                  "images: 4 in 1000 px^2 on the cyclist of KITTI's drive 0005, 5 on its vehicles, "
+                  "in images scaled to the demonstrator's focal length"},
+                 o.feature_share, {0.0, 1.0});
+  visitor.number({"feature_noise", "px",
+                  "standard deviation of flow (per axis) and disparity of a corner; medians on "
+                  "KITTI's drive 0005: 0.10 and 0.09 px"},
+                 o.feature_noise, {0.01, 5.0});
+  visitor.number({"wrong_feature_share", "1", "share of corners that are matched wrongly; assumed"},
                  o.wrong_feature_share, {0.0, 1.0});
 }
 

@@ -67,7 +67,7 @@ bool addMover(const std::vector<Lane>& lanes, const TrafficOptions& options, dou
 void TrafficOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"movers", "1", "that drive at random in the scene's lanes"}, movers,
                   {0.0, 1000.0});
-  visitor.number({"gap", "m", "that each of them keeps at least to what is ahead and behind"}, gap,
+  visitor.number({"gap", "m", "minimum distance that each of them keeps ahead and behind"}, gap,
                  {0.0, 100.0});
 }
 

@@ -41,11 +41,13 @@ Arguments parse(const std::vector<std::string>& words) {
       "Assesses the risks of a scene from its true objects, and writes /risks with the\n"
       "ground truth for `evaluate risk`.",
       "files");
-  line.addFile("SCENE.yaml", arguments.scene, "as simulate takes it")->required();
+  line.addFile("SCENE.yaml", arguments.scene, "as for simulate")->required();
   line.addFile("OUT.bag", arguments.bag, "risks, true objects and contact")->required();
   line.addRepeated("--set", of_scene, "an option instead of the scene's", "KEY=VALUE");
-  line.addRepeated("--risk", of_risk, "an option of the risk, e.g. method=thesis", "KEY=VALUE");
-  line.addAnswer("--options", optionTable<RiskOptions>, "prints all options of the risk");
+  line.addRepeated("--risk", of_risk, "an option of the risk assessment, e.g. method=thesis",
+                   "KEY=VALUE");
+  line.addAnswer("--options", optionTable<RiskOptions>,
+                 "prints all options of the risk assessment");
   line.read(words);
   for (const std::string& assignment : of_scene) {
     setOption(assignment, arguments.overrides);

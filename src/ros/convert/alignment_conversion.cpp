@@ -53,8 +53,8 @@ StereoAlignment fromMessage(const StereoAlignmentMessage& message) {
       !(variances.array() <= kMaxOffset * kMaxOffset).all()) {
     throw InputError(
         "bad_alignment",
-        "alignment of the stereo camera with numbers that are not finite or beyond reason, or "
-        "variances below 0: expected offsets and variances of all terms");
+        "alignment of the stereo camera with numbers that are not finite or implausible, or "
+        "negative variances: expected offsets and variances of all terms");
   }
   alignment.covariance = variances.asDiagonal();
   alignment.surfaces = message.surfaces;

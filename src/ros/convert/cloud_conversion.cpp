@@ -49,7 +49,7 @@ std::size_t offsetOf(const std::string& name, const PointCloud2& message) {
   }
   if (std::uint64_t{field->offset} + sizeof(float) > message.point_step) {
     refuse("wrong_field_type", "cloud with field ", name, " at byte ", field->offset,
-           " of points of ", message.point_step, " bytes: expected it inside of the point");
+           " of points of ", message.point_step, " bytes: expected it inside the point");
   }
   return field->offset;
 }
@@ -203,7 +203,7 @@ StereoCamera stereoCamera(const CameraInfo& right) {
            " px, a baseline of ", camera.baseline, " m, and a view from ", camera.left_tangent,
            " to ", camera.right_tangent, " (tangents): expected the right camera's, with ",
            kMinFocalLength, " to ", kMaxFocalLength, " px and ", kMinBaseline, " to ", kMaxBaseline,
-           " m; a depth camera has none: set camera/depth_noise");
+           " m; a depth camera has no baseline: set stereo_camera/depth_noise");
   }
   return camera;
 }

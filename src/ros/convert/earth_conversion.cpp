@@ -102,14 +102,14 @@ EarthFrame fromMessage(const EarthFrameMessage& message) {
       !std::isfinite(pose.heading()) ||
       Eigen::LLT<Eigen::Matrix3d>(covariance).info() != Eigen::Success) {
     throw InputError("bad_earth_frame",
-                     "the map's pose on the earth is not finite, or its covariance is none");
+                     "the map's pose on the earth is not finite, or its covariance is invalid");
   }
   return {toStamp(message.header.stamp), LocalPlane(datum), {pose, covariance}};
 }
 
 GeodeticPosition positionOf(const sensor_msgs::NavSatFix& message) {
   if (message.status.status < sensor_msgs::NavSatStatus::STATUS_FIX) {
-    throw InputError("no_fix", "the receiver says that it has no position (status " +
+    throw InputError("no_fix", "the receiver reports that it has no position (status " +
                                    std::to_string(message.status.status) + ")");
   }
   // A receiver without height may report NaN.

@@ -54,9 +54,9 @@ CellIndex cornerAt(const Pose2& origin, double cell_size) {
   const double off =
       std::max(std::abs(column * cell_size - origin.x()), std::abs(row * cell_size - origin.y()));
   if (off > kLatticeTolerance * cell_size || std::abs(origin.heading()) > kTurnTolerance) {
-    refuse("grid with its origin at ", origin.x(), ", ", origin.y(), " m, turned by ",
+    refuse("grid with its origin at ", origin.x(), ", ", origin.y(), " m, rotated by ",
            origin.heading(), " rad: expected a whole number of cells of ", cell_size,
-           " m along x and y, and no turn");
+           " m along x and y, and no rotation");
   }
   return {static_cast<int>(column), static_cast<int>(row)};
 }

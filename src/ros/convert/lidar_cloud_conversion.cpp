@@ -91,7 +91,7 @@ std::optional<InputError> faultOf(const std::vector<float>& times, const std::st
   return InputError("bad_point_times", "cloud with a point " + std::to_string(*bad) +
                                            " s after its stamp (field " + field +
                                            "): expected at most " + std::to_string(max_sweep) +
-                                           " s; goes on without the points' times");
+                                           " s; continues without the points' times");
 }
 
 }  // namespace
@@ -129,11 +129,10 @@ ConvertedCloud toLidarCloud(const PointCloud2& message, double max_sweep) {
 }
 
 void visitMaxSweep(OptionVisitor& visitor, double& max_sweep) {
-  visitor.number(
-      {"max_sweep", "s",
-       "a cloud with points farther from its stamp has no usable times (slow lidars turn "
-       "5 times a second)"},
-      max_sweep, {0.001, 2.0});
+  visitor.number({"max_sweep", "s",
+                  "maximum time between a point and its cloud's stamp; beyond it the cloud's point "
+                  "times are not used (slow lidars turn 5 times a second)"},
+                 max_sweep, {0.001, 2.0});
 }
 
 }  // namespace datmo

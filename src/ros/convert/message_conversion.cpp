@@ -77,12 +77,13 @@ ScanField fromMessage(const ScanFieldMessage& message) {
   const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.min_range +
                                     field.free_range + field.range + field.beam_time);
   if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
-    throw InputError("bad_field", "labeled scan of " + std::to_string(field.beams) +
-                                      " beams from " + std::to_string(field.first_bearing) +
-                                      " rad every " + std::to_string(field.beam_spacing) +
-                                      " rad up to " + std::to_string(field.range) +
-                                      " m: expected finite numbers, a spacing and at most " +
-                                      std::to_string(kMaxBeams) + " beams");
+    throw InputError("bad_field",
+                     "labeled scan of " + std::to_string(field.beams) + " beams from " +
+                         std::to_string(field.first_bearing) + " rad every " +
+                         std::to_string(field.beam_spacing) + " rad up to " +
+                         std::to_string(field.range) +
+                         " m: expected finite numbers, a spacing other than 0 and at most " +
+                         std::to_string(kMaxBeams) + " beams");
   }
   return field;
 }
@@ -139,8 +140,8 @@ PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message)
   if (!isCovariance(pose.covariance.data(), 3) ||
       pose.covariance.diagonal().maxCoeff() > kMaxCoordinate * kMaxCoordinate) {
     throw InputError("bad_pose",
-                     "pose with a covariance of x, y and yaw that is none: expected finite "
-                     "numbers, symmetric and positive semidefinite");
+                     "pose with an invalid covariance of x, y and yaw: expected finite numbers, "
+                     "symmetric and positive semidefinite");
   }
   return pose;
 }

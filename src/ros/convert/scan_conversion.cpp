@@ -31,7 +31,7 @@ void checkGeometry(const Message& message) {
     }
   }
   if (message.angle_increment == 0.0F) {
-    throw InputError("bad_geometry", "scan with an angle increment of 0: expected another");
+    throw InputError("bad_geometry", "scan with an angle increment of 0: expected another value");
   }
   if (message.range_min < 0.0F || message.range_max <= message.range_min) {
     throw InputError("bad_geometry", "scan with ranges from " + std::to_string(message.range_min) +
@@ -71,7 +71,7 @@ std::optional<InputError> faultOfTimes(const Message& message, double max_sweep)
                     "scan with " + std::to_string(message.ranges.size()) +
                         " beams and a time increment of " + std::to_string(message.time_increment) +
                         " s: expected 0 or more, and at most " + std::to_string(max_sweep) +
-                        " s for all beams; takes them as measured at once");
+                        " s for all beams; assumes that they were measured at once");
 }
 
 /// NaN is never valid, because comparisons with it are false. Nor is 0, which drivers use for "no
@@ -162,15 +162,16 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
 
 void ScanConversionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"free_range", "m",
-                  "a beam without return is taken as free up to here (or the scanner's range_max); "
-                  "less than the scanner's reach, since dark objects far away return nothing; 0: "
-                  "such beams say nothing",
+                  "a beam without return is assumed free up to this range (or the scanner's "
+                  "range_max); less than the scanner's reach, since distant dark objects return "
+                  "nothing; 0: such beams are blind",
                   Tier::kPublic},
                  free_range, {0.0, 500.0});
-  visitor.number({"max_sweep", "s",
-                  "from the first to the last beam; a scan that says more (slow rotating scanners "
-                  "turn 5 times a second) has no usable beam times and is not motion-compensated"},
-                 max_sweep, {0.0, 2.0});
+  visitor.number(
+      {"max_sweep", "s",
+       "maximum time from the first to the last beam; a scan with more has no usable beam times "
+       "and is not motion-compensated (slow rotating scanners turn 5 times a second)"},
+      max_sweep, {0.0, 2.0});
 }
 
 ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,

@@ -60,7 +60,7 @@ image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
       throw InputError("bad_calibration",
                        "P[" + std::to_string(same) + "] is " + std::to_string(left.P[same]) +
                            " of the left camera and " + std::to_string(right.P[same]) +
-                           " of the right one: expected the same, of a rectified pair");
+                           " of the right one: expected the same, from a rectified pair");
     }
   }
   if (!(right.P[kTx] < left.P[kTx])) {

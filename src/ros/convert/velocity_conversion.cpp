@@ -78,7 +78,7 @@ void check(const sensor_msgs::PointCloud2& message) {
     if (message.fields[i].datatype != PointField::FLOAT32 ||
         message.fields[i].offset != i * sizeof(float)) {
       throw InputError("wrong_field_type", std::string("point velocities with field ") +
-                                               kFields[i] + " elsewhere: " + expected);
+                                               kFields[i] + " at another offset: " + expected);
     }
   }
   const std::uint64_t bytes = std::uint64_t{message.width} * message.height * message.point_step;

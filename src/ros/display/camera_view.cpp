@@ -132,7 +132,7 @@ sensor_msgs::ImagePtr CameraView::draw(const sensor_msgs::ImageConstPtr& image,
   } else {
     monitor_.warned(InputError("old_tracks", "no tracks within " +
                                                  std::to_string(options_.track_timeout) +
-                                                 " s of an image: shown without boxes"));
+                                                 " s of an image: it is shown without boxes"));
   }
   monitor_.processed({stamp, watch.seconds()});
   return canvas->toImageMsg();

@@ -194,7 +194,7 @@ std::string GridViews::drawGrid(const std::string& name, Panel& panel) const {
 const nav_msgs::OccupancyGrid& GridViews::gridOf(const std::string& name) const {
   const auto found = grids_.find(name);
   if (found == grids_.end()) {
-    throw InputError("no grid", "no grid of " + name + " has come");
+    throw InputError("no grid", "no grid of " + name + " received");
   }
   const nav_msgs::OccupancyGrid& grid = *found->second;
   if (name != kMap &&
@@ -209,7 +209,7 @@ Pose2 GridViews::baseInGrid(const std::string& name) const {
     return {};
   }
   if (!pose_) {
-    throw InputError("no pose", "the pose in the map has not come");
+    throw InputError("no pose", "no pose in the map received");
   }
   return fromMessage(pose_->pose.pose);
 }

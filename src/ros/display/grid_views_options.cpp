@@ -11,20 +11,20 @@ namespace datmo {
 void GridViewsOptions::visit(OptionVisitor& visitor) {
   const Bounds length{1.0, 500.0};
   visitor.text({"panels", "",
-                "what is drawn from the left: sources of grid_fusion by their names, `fused`, "
-                "`conflict`, `map`; separated by spaces",
+                "panels from left to right: sources of grid_fusion by name, `fused`, `conflict`, "
+                "`map`; separated by spaces",
                 Tier::kPublic},
                panels, {});
-  visitor.number({"ahead", "m", "how much is seen ahead of the vehicle", Tier::kPublic}, ahead,
+  visitor.number({"ahead", "m", "visible distance ahead of the vehicle", Tier::kPublic}, ahead,
                  length);
-  visitor.number({"behind", "m", "how much is seen behind it"}, behind, {0.0, length.max});
-  visitor.number({"to_side", "m", "how much is seen to each side of it"}, to_side, length);
+  visitor.number({"behind", "m", "visible distance behind it"}, behind, {0.0, length.max});
+  visitor.number({"to_side", "m", "visible distance to each side of it"}, to_side, length);
   visitor.number({"pixels_per_meter", "px/m", "scale of all panels"}, pixels_per_meter,
                  {0.5, 50.0});
-  visitor.number({"rate", "Hz", "the most pictures in a second"}, rate, {0.1, 30.0});
+  visitor.number({"rate", "Hz", "maximum number of pictures per second"}, rate, {0.1, 30.0});
   visitor.number({"silent_after", "s",
-                  "a grid this much older than the newest one is not drawn any more; nor is what "
-                  "was there before the clock jumped back as far"},
+                  "a grid older than the newest one by more than this is no longer drawn, nor is "
+                  "one from before the clock jumped back by as much"},
                  silent_after, {0.1, 60.0});
 }
 
@@ -34,7 +34,7 @@ std::vector<std::string> GridViewsOptions::panelNames() const {
   for (std::string name; text >> name;) {
     if (!canBeTopic(name) || std::find(names.begin(), names.end(), name) != names.end()) {
       throw OptionError("panels = '" + panels + "': '" + name +
-                        "' is there twice or cannot be the name of a topic; expected names of "
+                        "' is given twice or cannot be the name of a topic; expected names of "
                         "letters, digits and underscores, each once");
     }
     names.push_back(name);

@@ -54,19 +54,20 @@ constexpr float kBody = 0.3F;
 
 void MarkersOptions::visit(OptionVisitor& visitor) {
   const Bounds size{0.01, 10.0};
-  visitor.number({"point_size", "m", "edge of a scan point", Tier::kLive}, point_size, size);
-  visitor.number({"line_width", "m", "width of outlines; arrows go by it", Tier::kLive}, line_width,
-                 size);
+  visitor.number({"point_size", "m", "edge length of a scan point", Tier::kLive}, point_size, size);
+  visitor.number({"line_width", "m", "width of outlines; arrows scale with it", Tier::kLive},
+                 line_width, size);
   visitor.number({"text_height", "m", "height of the letters of a track's label", Tier::kLive},
                  text_height, size);
-  visitor.number({"min_size", "m", "a box that was seen smaller is drawn this long and wide"},
-                 min_size, size);
-  visitor.number({"default_height", "m", "of a box whose height is not measured"}, default_height,
-                 size);
-  visitor.number({"arrow_time", "s", "a track's arrow is its distance in this time", Tier::kLive},
+  visitor.number({"min_size", "m", "minimum length and width of a box as drawn"}, min_size, size);
+  visitor.number({"default_height", "m", "height of a box whose height is not measured"},
+                 default_height, size);
+  visitor.number({"arrow_time", "s", "a track's arrow is the distance that it travels in this time",
+                  Tier::kLive},
                  arrow_time, {0.0, 10.0});
-  visitor.number({"path_time", "s", "a track's path is where it was in this time", Tier::kLive},
-                 path_time, {0.0, 600.0});
+  visitor.number(
+      {"path_time", "s", "a track's path shows its positions over this time", Tier::kLive},
+      path_time, {0.0, 600.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
 }
 

@@ -47,17 +47,17 @@ std::optional<InputError> ScanExtent::take(const Scan& scan) {
 
 std::optional<InputError> ScanExtent::judge(double reach) const {
   if (static_cast<double>(outside_) > kMaxOutside * static_cast<double>(hits_)) {
-    return InputError("small_window", std::to_string(outside_) + " of the first " +
-                                          std::to_string(hits_) + " end points, up to " +
-                                          meters(farthest_) + " away, lie outside of " +
-                                          sizeOf(window_) + ": expected one of about twice that");
+    return InputError("small_window",
+                      std::to_string(outside_) + " of the first " + std::to_string(hits_) +
+                          " end points, up to " + meters(farthest_) + " away, lie outside of " +
+                          sizeOf(window_) + ": expected a window of about twice that distance");
   }
   if (0.5 * std::min(window_.length, window_.width) > kMaxExcess * reach) {
     return InputError("large_window",
                       "the scanner reaches " + meters(reach) + " and detects objects up to " +
                           meters(farthest_) + " away, a small part of " + sizeOf(window_) +
-                          ": expected settings of its size, also of the targets (tracker: "
-                          "{target: {box: {size}}}); see config/model_car.yaml");
+                          ": expected settings of the scanner's scale, also for the targets "
+                          "(tracker: {target: {box: {size}}}); see config/model_car.yaml");
   }
   return std::nullopt;
 }

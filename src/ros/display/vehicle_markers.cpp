@@ -96,11 +96,11 @@ class Body {
 }  // namespace
 
 void VehicleBodyOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "of the vehicle as it is drawn"}, length, {0.1, 30.0});
-  visitor.number({"width", "m", "the same"}, width, {0.1, 5.0});
+  visitor.number({"length", "m", "length of the vehicle as drawn"}, length, {0.1, 30.0});
+  visitor.number({"width", "m", "width of the vehicle as drawn"}, width, {0.1, 5.0});
   visitor.number({"rear_overhang", "m", "from its rear end to the base frame"}, rear_overhang,
                  {0.0, 10.0});
-  visitor.number({"height", "m", "of its roof over the ground"}, height, {0.05, 10.0});
+  visitor.number({"height", "m", "height of its roof above the ground"}, height, {0.05, 10.0});
 }
 
 MarkerArray vehicleMarkers(const std_msgs::Header& scan, const VehicleBodyOptions& options) {

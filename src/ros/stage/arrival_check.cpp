@@ -23,8 +23,8 @@ constexpr std::size_t kMaxPublishers = 20;
 std::string waitedFor(double seconds, double max_wait) {
   char text[200];
   std::snprintf(text, sizeof text,
-                "a message that waited for %.2f s, expected at most %.2f s: they come faster than "
-                "they are served; goes on with newer ones",
+                "a message waited for %.2f s, expected at most %.2f s: they arrive faster than "
+                "they are processed; continues with newer ones",
                 seconds, max_wait);
   return text;
 }
@@ -36,8 +36,8 @@ bool ArrivalCheck::passes(const Arrived& message, const ros::Time& now) {
     const InputError error("lost_message",
                            std::to_string(lost) + " messages on " + topic_ + " from " +
                                message.publisher +
-                               " did not come: a queue was full, as they come faster than they "
-                               "are served, the network lost them, or a relay left them out");
+                               " were lost: a queue was full because they arrive faster than they "
+                               "are processed, the network lost them, or a relay skipped them");
     monitor_.dropped(error, lost);
     const std::string figure = "lost on " + topic_;
     const auto before = monitor_.figures().find(figure);

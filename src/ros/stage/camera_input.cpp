@@ -28,8 +28,7 @@ void CameraInput::take(const sensor_msgs::CameraInfo& message) {
   if (!finite || p[0] <= 0.0 || p[5] <= 0.0) {
     throw InputError("bad_camera_info", "camera info whose matrix P has focal lengths " +
                                             std::to_string(p[0]) + " and " + std::to_string(p[5]) +
-                                            " px: expected those of a calibrated camera, more "
-                                            "than 0");
+                                            " px: expected more than 0, from a calibrated camera");
   }
   image_geometry::PinholeCameraModel model;
   model.fromCameraInfo(message);
@@ -41,8 +40,8 @@ void CameraInput::take(const sensor_msgs::CameraInfo& message) {
 void CameraInput::check(const sensor_msgs::Image& image) const {
   if (!camera_) {
     throw InputError("missing_camera_info",
-                     "no camera info has come for the images: expected one of their size and frame "
-                     "(argument camera_info of perception.launch)");
+                     "no camera info received for the images: expected one with their size and "
+                     "frame (argument camera_info of perception.launch)");
   }
   if (image.width != info_.width || image.height != info_.height) {
     throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) +
@@ -53,7 +52,7 @@ void CameraInput::check(const sensor_msgs::Image& image) const {
   if (image.header.frame_id != info_.header.frame_id) {
     throw InputError("wrong_frame", "image in frame '" + image.header.frame_id +
                                         "', but its camera info is in '" + info_.header.frame_id +
-                                        "': expected those of one camera");
+                                        "': expected both from the same camera");
   }
 }
 

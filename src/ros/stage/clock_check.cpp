@@ -17,22 +17,21 @@ std::string offsetInWords(double ahead) {
 }
 
 std::string stepSentence(const std::string& input, double ahead) {
-  return "stamps of " + input + " that are " + offsetInWords(ahead) +
-         " the sensor's clock so far, though its messages come as before: that clock was set; puts "
-         "its stamps right by that";
+  return "stamps of " + input + " are " + offsetInWords(ahead) +
+         " the sensor's previous clock, while its messages arrive as before: that clock was set; "
+         "corrects its stamps by this offset";
 }
 
 std::string takenSentence(const std::string& input, double ahead) {
-  return "stamps of " + input + " that stay " + offsetInWords(ahead) +
-         " the sensor's clock of before, which is not surely the right one, or are right since: "
-         "that clock was set; takes them as they are";
+  return "stamps of " + input + " stay " + offsetInWords(ahead) +
+         " the sensor's previous clock, which may have been wrong, or are now right: that clock "
+         "was set; uses them uncorrected";
 }
 
 std::string leadSentence(const std::string& input, double lead) {
-  return "messages of " + input + " that come at least " + offsetInWords(lead) +
-         " their stamps: expected after them; the sensor's clock is ahead, or that of this "
-         "computer "
-         "or of the recording is behind: synchronize them";
+  return "messages of " + input + " arrive at least " + offsetInWords(lead) +
+         " their stamps: expected after them; the sensor's clock is ahead, or the clock of this "
+         "computer or of the recording is behind: synchronize them";
 }
 
 /// Whether ros::Time can represent it; 0 is not a valid time.

@@ -62,9 +62,9 @@ void CloudObjectsStage::show(const CloudObjects& objects, const ConvertedCloud& 
   monitor_.figure("points of the vehicle itself", static_cast<double>(objects.own_points));
   monitor_.figure("ground seen, 0 or 1", objects.ground.seen ? 1.0 : 0.0);
   if (options_.detector.ground.estimate && !objects.ground.seen) {
-    monitor_.warned(
-        InputError("no_ground", "no plane of the ground in the cloud: takes it as z = 0 of '" +
-                                    options_.frames.base + "'"));
+    monitor_.warned(InputError(
+        "no_ground", "no ground plane found in the cloud: assumes the ground at z = 0 of '" +
+                         options_.frames.base + "'"));
   }
 }
 

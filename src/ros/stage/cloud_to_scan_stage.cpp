@@ -13,7 +13,7 @@ namespace datmo {
 void CloudToScanStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"scan_frame", "",
                 "frame of the scan; the stage publishes frames/base -> scan_frame, below the lidar "
-                "in the middle of the band: no other node may"},
+                "in the middle of the band: no other node may publish it"},
                scan_frame, {});
   visitMaxSweep(visitor, max_sweep);
   visitor.group("input", [&] { input.visit(visitor); });
@@ -62,19 +62,19 @@ void CloudToScanStage::warnOf(const ConvertedCloud& converted, const PlanarScan&
     monitor_.warned(*converted.unusable_times);
   }
   if (!converted.cloud.times.empty() && scan.beam_time == 0.0 && !scan.sweep_ends_inside) {
-    monitor_.warned(InputError("uneven_point_times",
-                               "the points' times (field " + converted.time_field +
-                                   ") are not those of one even turn: takes all beams as measured "
-                                   "at once"));
+    monitor_.warned(
+        InputError("uneven_point_times", "the points' times (field " + converted.time_field +
+                                             ") are not those of one uniform rotation: assumes "
+                                             "that all beams were measured at once"));
   }
   if (scan.sweep_ends_inside) {
-    monitor_.warned(InputError("sweep_ends_inside",
-                               "the lidar's turn ends within field_of_view: takes all beams as "
-                               "measured at once; expected a whole turn of 6.28319 rad, or a "
-                               "narrower field of view"));
+    monitor_.warned(InputError(
+        "sweep_ends_inside",
+        "the lidar's rotation ends within field_of_view: assumes that all beams were measured at "
+        "once; expected a full turn of 6.28319 rad, or a narrower field of view"));
   }
   if (options_.scan.ground.estimate && !scan.ground.seen) {
-    monitor_.warned(InputError("no_ground", "no plane of the ground found: takes z = 0 of " +
+    monitor_.warned(InputError("no_ground", "no ground plane found: uses z = 0 of " +
                                                 options_.frames.base + " as the ground"));
   }
 }
@@ -84,7 +84,7 @@ void CloudToScanStage::show(const ConvertedCloud& converted, const PlanarScan& s
   monitor_.figure("points that are not finite", static_cast<double>(converted.holes));
   monitor_.figure("points of the own vehicle", static_cast<double>(scan.own_points));
   monitor_.figure("points in the band", static_cast<double>(scan.band_points));
-  monitor_.figure("beams that see nothing at all", static_cast<double>(scan.blind_beams));
+  monitor_.figure("blind beams", static_cast<double>(scan.blind_beams));
   monitor_.figure("ground seen, 0 or 1", scan.ground.seen ? 1.0 : 0.0);
   monitor_.figure("ground's height [m]", scan.ground.plane.height);
   monitor_.figure("ground's slope ahead [m/m]", scan.ground.plane.slope_x);

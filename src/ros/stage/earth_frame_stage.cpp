@@ -25,10 +25,10 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
 
 void EarthFrameStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"fix_sigma", "m",
-                  "standard deviation along each axis of a position whose receiver does not say "
-                  "it; about that of a receiver without corrections"},
+                  "standard deviation of a position along each axis, if the receiver does not "
+                  "report it; about that of a receiver without corrections"},
                  fix_sigma, {0.001, 1000.0});
-  visitor.number({"max_gap", "s", "between poses farther apart none is interpolated"}, max_gap,
+  visitor.number({"max_gap", "s", "maximum time between two poses for interpolation"}, max_gap,
                  {0.01, 10.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("filter", [&] { filter.visit(visitor); });
@@ -39,8 +39,7 @@ EarthFrameStage::EarthFrameStage(const Checked<EarthFrameStageOptions>& options,
     : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options->input, "forgets where the map lies on the earth",
-              [this] { reset(); }),
+      runner_(monitor, options->input, "forgets the map's pose on the earth", [this] { reset(); }),
       filter_(options->filter) {}
 
 void EarthFrameStage::reset() {
@@ -67,8 +66,8 @@ void EarthFrameStage::takeFix(const sensor_msgs::NavSatFix& message) {
     waiting_.push_back(fix);
     if (waiting_.size() > kMaxWaiting) {
       waiting_.pop_front();
-      throw InputError("no_pose", "no pose for a position since " + std::to_string(kMaxWaiting) +
-                                      " of them: expected pose of grid_slam");
+      throw InputError("no_pose", "no pose for any of the last " + std::to_string(kMaxWaiting) +
+                                      " positions: expected pose of grid_slam");
     }
   });
 }
@@ -83,7 +82,7 @@ EarthFrameMessagePtr EarthFrameStage::takePose(
       waiting_.pop_front();
       const double gap = last_pose_ ? secondsBetween(last_pose_->stamp, now.stamp) : 0.0;
       if (!last_pose_ || fix.stamp < last_pose_->stamp || gap <= 0.0 || gap > options_.max_gap) {
-        monitor_.dropped({"no_pose", "no poses around a position within max_gap"});
+        monitor_.dropped({"no_pose", "no poses before and after a position within max_gap"});
         continue;
       }
       const double share = secondsBetween(last_pose_->stamp, fix.stamp) / gap;
@@ -109,7 +108,7 @@ void EarthFrameStage::report() {
   if (counts.gated > gated_) {
     gated_ = counts.gated;
     monitor_.warned({"far_position",
-                     "a position too far from where the vehicle is taken to be: left out; starts "
+                     "a position too far from the vehicle's estimated position: rejected; starts "
                      "over after filter/restart_after in a row"});
   }
   const auto map = filter_.mapInPlane();
@@ -118,10 +117,10 @@ void EarthFrameStage::report() {
     monitor_.figure("heading of the map, standard deviation [rad]",
                     std::sqrt(map->covariance(2, 2)));
   }
-  monitor_.condition(map ? HealthLevel::kOk : HealthLevel::kDegraded,
-                     map ? "the map's pose on the earth is known"
-                         : "where the map lies on the earth is not known before the vehicle has "
-                           "driven for a while");
+  monitor_.condition(
+      map ? HealthLevel::kOk : HealthLevel::kDegraded,
+      map ? "the map's pose on the earth is known"
+          : "the map's pose on the earth is unknown until the vehicle has driven for a while");
 }
 
 void EarthFrameStage::connect(StagePorts& ports) {

@@ -56,7 +56,7 @@ bool lacksPart(const cv::Mat& image) {
 void ExposureCheckOptions::visit(OptionVisitor& visitor) {
   visitor.number({"min_contrast", "1",
                   "an image whose gray levels have a smaller standard deviation is blank: black, "
-                  "white, covered"},
+                  "white or covered"},
                  min_contrast, {0.0, 100.0});
 }
 
@@ -72,12 +72,12 @@ void ExposureCheck::check(const sensor_msgs::ImageConstPtr& image) const {
   }
   if (lacksPart(pixels->image)) {
     throw InputError("half_image",
-                     "image of which a quarter or more has one gray: expected all of an exposure; "
-                     "is it cut on its way?");
+                     "image with one gray level in a quarter of it or more: expected a complete "
+                     "exposure; is it cut off in transmission?");
   }
   if (last_ && last_->data == image->data && last_->header.stamp < image->header.stamp) {
     throw InputError("frozen_image",
-                     "image of the same pixels as the last one, which was taken " +
+                     "image with the same pixels as the last one, taken " +
                          std::to_string(secondsBetween(toStamp(last_->header.stamp),
                                                        toStamp(image->header.stamp))) +
                          " s before: expected a new exposure");

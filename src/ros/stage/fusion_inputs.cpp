@@ -34,8 +34,8 @@ FusionInputs::FusionInputs(const FusionInputOptions& options, StageRunner& runne
 void FusionInputs::take(const std::string& source, const std_msgs::Header& header, Stamp now) {
   const std::vector<std::string>& sources = options_.sources;
   if (std::find(sources.begin(), sources.end(), source) == sources.end()) {
-    throw InputError("unknown_source", options_.what + " of '" + source +
-                                           "': expected one of the sources that are in use");
+    throw InputError("unknown_source",
+                     options_.what + " of '" + source + "': expected one of the sources in use");
   }
   if (header.frame_id != options_.frame) {
     throw InputError("wrong_frame", options_.what + " of " + source + " in '" + header.frame_id +
@@ -125,16 +125,16 @@ InputError FusionInputs::warningOf(const MissingSource& missing) const {
     case WhyMissing::kNoneNear:
       return {"late_source", none + "in time for " + silent_after + ": expected one within " +
                                  std::to_string(options.tolerance) + " s of the reference's stamp" +
-                                 " and after " + std::to_string(options.max_wait) +
-                                 " s at most; goes on without it"};
+                                 ", arriving within " + std::to_string(options.max_wait) +
+                                 " s; continues without it"};
     case WhyMissing::kNoMotion:
       return {"no_motion", none + "used for " + silent_after +
-                               ": expected to know from odometry or poses how the vehicle moved "
-                               "between its stamp and the reference's; goes on without it"};
+                               ": expected odometry or poses that give the vehicle's motion "
+                               "between its stamp and the reference's; continues without it"};
     case WhyMissing::kSilent:
       break;
   }
-  return {"silent_source", none + "for " + silent_after + ": goes on without it"};
+  return {"silent_source", none + "for " + silent_after + ": continues without it"};
 }
 
 }  // namespace datmo

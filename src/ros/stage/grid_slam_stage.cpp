@@ -27,13 +27,13 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
                   "(thesis 3.2.5); false: the scan alone"},
                  fused_grid);
   visitor.number(
-      {"map_period", "s", "least time between two maps, of the scans' stamps", Tier::kPublic},
+      {"map_period", "s", "minimum time between two maps, by the scans' stamps", Tier::kPublic},
       map_period, {0.0, 3600.0});
-  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this causes a warning"},
                  max_tilt, {0.0, kPi / 2.0});
   visitor.number({"odometry_wait", "s",
-                  "a scan waits for the last odometry before it, so long at most, where they come "
-                  "over a network (perception.launch); 0: it does not"},
+                  "longest time that a scan waits for the last odometry before it when they arrive "
+                  "over a network (perception.launch); 0: it does not wait"},
                  odometry_wait, {0.0, 1.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
@@ -186,13 +186,11 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
   const std::optional<Pose2> base_in_odom = odometry_poses_.at(stamp);
   if (!base_in_odom) {
     held_.drop();
-    monitor_.warned(
-        InputError("silent_odometry",
-                   "no odometry at the scan's stamp: goes on with constant velocity "
-                   "and without " +
-                       options_.frames.map + " -> " + options_.frames.odom +
-                       " (a vehicle without odometry: motion: {source: none} in the yaml "
-                       "file)"));
+    monitor_.warned(InputError(
+        "silent_odometry",
+        "no odometry at the scan's stamp: continues with constant velocity and without " +
+            options_.frames.map + " -> " + options_.frames.odom +
+            " (without odometry, set motion: {source: none} in the yaml file)"));
     return {};
   }
   const geometry_msgs::TransformStamped transform =

@@ -26,31 +26,30 @@ std::uint8_t stateOf(const SlamResult& result) {
 std::string reasonOf(const SlamResult& result) {
   const bool is_lost = result.localization == Localization::kLost;
   if (result.localization == Localization::kLocated) {
-    return result.may_be_kidnapped
-               ? "the map contradicts what is seen, as if the vehicle had been carried elsewhere: "
-                 "its pose is not known, and nothing is written to the map"
-               : "";
+    return result.may_be_kidnapped ? "the map contradicts the scans, as if the vehicle had been "
+                                     "kidnapped: its pose is unknown, and the map is not updated"
+                                   : "";
   }
   if (result.searches_prior_map) {
     return std::string(is_lost ? "lost" : "uncertain") +
-           ": searches the prior map, and writes nothing to it until one place alone fits what was "
-           "seen on the way";
+           ": searches the prior map, and does not update it until a single position fits the "
+           "scans along the way";
   }
   if (result.kidnapped) {
-    return "carried elsewhere, as the map contradicts what is seen: searches all of its window, "
-           "and keeps the map as it was";
+    return "kidnapped, since the map contradicts the scans: searches all of its window, and does "
+           "not update the map";
   }
-  return is_lost
-             ? "lost after a gap: the scan fits the map nowhere within reach of the vehicle, or "
-               "that area is too large to search"
-             : "uncertain where in the map after a gap: searches, and keeps the map as it was";
+  return is_lost ? "lost after a gap: the scan does not fit the map anywhere within reach of the "
+                   "vehicle, or that area is too large to search"
+                 : "uncertain of the pose in the map after a gap: searches, and does not update "
+                   "the map";
 }
 
 }  // namespace
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
   for (const InputError& fault :
-       faultsOf(mount, converted, options_.max_tilt, "goes on with the predicted pose")) {
+       faultsOf(mount, converted, options_.max_tilt, "continues with the predicted pose")) {
     monitor_.warned(fault);
   }
   if (const auto misfit = extent_.take(converted.scan)) {
@@ -78,8 +77,8 @@ void GridSlamStage::showLocalization(const LocalizationState& state) {
   }
   if (state.maps_started > maps_started_) {
     monitor_.condition(HealthLevel::kOk,
-                       "not found again: goes on in a new map, and the pose's "
-                       "covariance keeps what is not known of it");
+                       "pose not recovered: continues in a new map, and the pose's covariance "
+                       "keeps the uncertainty");
   } else if (monitor_.health() != HealthLevel::kOk) {
     monitor_.condition(HealthLevel::kOk, "located in the map");
   }
@@ -89,14 +88,13 @@ void GridSlamStage::showLocalization(const LocalizationState& state) {
 void GridSlamStage::showForgottenTiles() {
   const OccupancyMap& map = slam_.lastingMap();
   const std::size_t forgotten = map.forgottenTiles();
-  monitor_.figure("tiles of the map that were forgotten", static_cast<double>(forgotten));
+  monitor_.figure("forgotten tiles of the map", static_cast<double>(forgotten));
   if (forgotten > forgotten_tiles_) {
     forgotten_tiles_ = forgotten;
-    monitor_.warned(
-        InputError("forgotten_tile",
-                   "the oldest tiles of the map are forgotten, and save_map will not have "
-                   "them: there are more than map/max_tiles, and " +
-                       map.tileFileError()));
+    monitor_.warned(InputError("forgotten_tile",
+                               "the oldest tiles of the map are forgotten, and save_map will not "
+                               "contain them: there are more than map/max_tiles, and " +
+                                   map.tileFileError()));
   }
 }
 
@@ -106,8 +104,7 @@ void GridSlamStage::showMatch(const SlamResult& result) {
   monitor_.figure("points matched", match.matched_points);
   monitor_.figure("match score, 0 to 1", match.score);
   monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
-  monitor_.figure("scans with a direction left to the odometry",
-                  static_cast<double>(degenerate_scans_));
+  monitor_.figure("scans with a degenerate direction", static_cast<double>(degenerate_scans_));
   monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
   monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
 }

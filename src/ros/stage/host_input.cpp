@@ -18,11 +18,11 @@ constexpr char kOdometryStream[] = "/odometry";
 
 void HostInputOptions::visit(OptionVisitor& visitor) {
   visitor.number({"acceleration_time", "s",
-                  "over which the host's acceleration is taken from its speed: long enough for the "
-                  "steps of a wheel encoder"},
+                  "time over which the host's acceleration is computed from its speed: long enough "
+                  "for the steps of a wheel encoder"},
                  acceleration_time, {0.05, 5.0});
   visitor.number(
-      {"max_age", "s", "how far from the tracks' stamp the newest pose and odometry may be"},
+      {"max_age", "s", "maximum time between the tracks' stamp and the newest pose and odometry"},
       max_age, {0.0, 5.0});
 }
 

@@ -9,7 +9,7 @@
 namespace datmo {
 
 void LidarGridStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this causes a warning"},
                  max_tilt, {0.0, kQuarterTurn});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
@@ -30,7 +30,7 @@ LidarGridStage::LidarGridStage(const Checked<LidarGridStageOptions>& options,
       transforms_(transforms),
       monitor_(monitor),
       model_(options->grid),
-      runner_(monitor, options->input, "forgets how the vehicle moved",
+      runner_(monitor, options->input, "forgets the vehicle's motion",
               [this] {
                 motion_.reset();
                 frozen_.reset();
@@ -59,7 +59,8 @@ template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(
     const sensor_msgs::MultiEchoLaserScan&);
 
 void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
-  for (const InputError& fault : faultsOf(mount, converted, options_.max_tilt, "says nothing")) {
+  for (const InputError& fault :
+       faultsOf(mount, converted, options_.max_tilt, "its grid is all unknown")) {
     monitor_.warned(fault);
   }
   monitor_.figure("beams with a hit", static_cast<double>(converted.beams.hits));

@@ -28,13 +28,14 @@ constexpr double kBytesPerMegabyte = 1e6;
 void LoopClosingStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"global_frame", "",
                 "frame of the optimized map and trajectory; the stage publishes frames/map -> "
-                "global_frame: no other node may"},
+                "global_frame: no other node may publish it"},
                global_frame, {});
-  visitor.number({"publish_period", "s", "least time between two optimized maps"}, publish_period,
+  visitor.number({"publish_period", "s", "minimum time between two optimized maps"}, publish_period,
                  {0.0, 3600.0});
-  visitor.number({"publish_share", "1",
-                  "the same, as a share of the time driven: a longer drive takes longer to draw"},
-                 publish_share, {0.0, 1.0});
+  visitor.number(
+      {"publish_share", "1",
+       "the same, as a share of the time driven: the map of a longer drive takes longer to draw"},
+      publish_share, {0.0, 1.0});
   visitor.group("keyframe", [&] { keyframes.visit(visitor); });
   visitor.group("correction", [&] { correction.visit(visitor); });
   visitor.group("input", [&] { input.visit(visitor); });
@@ -66,7 +67,7 @@ LoopClosingStage::LoopClosingStage(const Checked<LoopClosingStageOptions>& optio
 
 void LoopClosingStage::beginDrive(Stamp stamp) {
   if (drive_ > 0) {
-    monitor_.condition(HealthLevel::kOk, "begins a new trajectory: the SLAM's map is another one");
+    monitor_.condition(HealthLevel::kOk, "begins a new trajectory: SLAM has started a new map");
   }
   ++drive_;
   begun_ = stamp;
@@ -82,7 +83,7 @@ void LoopClosingStage::queue(LoopJob::Step step) {
     waiting_.push_back(std::move(step));
   } else {
     monitor_.dropped(InputError("superseded_scan",
-                                "a scan came while 1000 wait for the search for loops: expected a "
+                                "a scan arrived while 1000 wait for the loop search: expected a "
                                 "faster machine, or a longer search_distance"));
   }
 }
@@ -155,16 +156,15 @@ void LoopClosingStage::takeResults() {
 }
 
 void LoopClosingStage::show(const LoopResult& result) {
-  monitor_.figure("trajectories begun", static_cast<double>(drive_));
+  monitor_.figure("trajectories started", static_cast<double>(drive_));
   monitor_.figure("keyframes", static_cast<double>(result.keyframes));
   monitor_.figure("scans kept for submaps", static_cast<double>(result.scans));
   monitor_.figure("memory of the trajectory [MB]", result.memory / kBytesPerMegabyte);
   monitor_.figure("loops closed", static_cast<double>(result.counts.closed));
-  monitor_.figure("loops refused: none confirmed them",
-                  static_cast<double>(result.counts.unconfirmed));
-  monitor_.figure("loops refused: ambiguous", static_cast<double>(result.counts.ambiguous));
-  monitor_.figure("loops refused: nothing alike", static_cast<double>(result.counts.unlike));
-  monitor_.figure("loops taken out: others refuted them",
+  monitor_.figure("loops rejected: not confirmed", static_cast<double>(result.counts.unconfirmed));
+  monitor_.figure("loops rejected: ambiguous", static_cast<double>(result.counts.ambiguous));
+  monitor_.figure("loops rejected: no match", static_cast<double>(result.counts.unlike));
+  monitor_.figure("loops removed: contradicted by others",
                   static_cast<double>(result.counts.refuted));
   monitor_.figure("residual of the loops, in standard deviations", result.residual);
   monitor_.figure("search and optimization [s]", result.seconds);
@@ -213,10 +213,9 @@ double LoopClosingStage::maxWait() const {
 
 std::string LoopClosingStage::saveMap(const std::string& file) const {
   if (!map_) {
-    throw MapFileError(
-        file +
-        ": no optimized map, expected one within publish_period, of a drive that is not "
-        "too wide for one");
+    throw MapFileError(file +
+                       ": no optimized map, expected one within publish_period, of a drive whose "
+                       "area is not too large for one");
   }
   return savedMapText(file, *map_);
 }

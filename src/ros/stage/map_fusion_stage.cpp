@@ -52,14 +52,16 @@ std::vector<Point2> moversOf(const LabeledScan& scan) {
 
 void MapFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
-  visitor.number({"period", "s", "least time between two fused maps, of the stamps"}, period,
+  visitor.number({"period", "s", "minimum time between two fused maps, by their stamps"}, period,
                  {0.0, 3600.0});
-  visitor.number({"tolerance", "s", "a grid this near in time to a pose is taken in"}, tolerance,
+  visitor.number(
+      {"tolerance", "s", "maximum time between a grid and a pose with which it is fused"},
+      tolerance, {0.0, 1.0});
+  visitor.number({"max_wait", "s", "longest time that a pose waits for the grids"}, max_wait,
                  {0.0, 1.0});
-  visitor.number({"max_wait", "s", "a pose waits for the grids at most"}, max_wait, {0.0, 1.0});
   visitor.text({"prior_map", "",
-                "absolute path of the map that grid_slam starts in (its prior_map/file): one more "
-                "source, and what changes are relative to; empty: none"},
+                "absolute path of the map that grid_slam starts in (its prior_map/file): an "
+                "additional source, and the reference for changes; empty: none"},
                prior_map, {});
   fuser.visit(visitor);
 }
@@ -92,7 +94,7 @@ void MapFusionStage::checkWindow(const std::string& source, const GridWindow& wi
   if (window != *window_) {
     throw InputError("wrong_window", "grid of " + source + " of " + describe(window) +
                                          ": expected " + describe(*window_) +
-                                         ", as the first grid has them");
+                                         ", as in the first grid");
   }
 }
 
@@ -108,7 +110,7 @@ void MapFusionStage::readPriorMap(const GridWindow& window) {
     fuser_.setPrior(readMap(options_.prior_map, map));
   } catch (const std::exception& error) {  // out of memory, too
     monitor_.warned(InputError("bad_prior_map", error.what()));
-    monitor_.condition(HealthLevel::kDegraded, "goes on without the prior map");
+    monitor_.condition(HealthLevel::kDegraded, "continues without the prior map");
   }
 }
 
@@ -131,10 +133,9 @@ void MapFusionStage::takeLabeledScan(const LabeledScanMessage& message, Stamp no
                                           "': expected '" + options_.frames.map + "'");
     }
     if (!isCovariance(message.pose.covariance.data(), kPoseAxes)) {
-      throw InputError(
-          "bad_pose",
-          "labeled scan with a pose whose covariance is none: expected finite numbers, "
-          "symmetric, without a negative variance");
+      throw InputError("bad_pose",
+                       "labeled scan whose pose has an invalid covariance: expected finite "
+                       "numbers, symmetric, without a negative variance");
     }
     inputs_.take(kPoses, message.header, now);
     const Stamp stamp = scan.stamp;
@@ -169,7 +170,8 @@ std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const 
   std::vector<MissingSource> missing = matched.missing;
   if (fuser_.isLessCertain(scan.base_in_map) && last_pose_ &&
       secondsBetween(*last_pose_, scan.stamp) < KeyframeOptions().new_map_after) {
-    monitor_.figure("scans left out, their pose being uncertain", static_cast<double>(++left_out_));
+    monitor_.figure("scans left out because of an uncertain pose",
+                    static_cast<double>(++left_out_));
     return missing;
   }
   const std::vector<Point2> movers = moversOf(scan);
@@ -209,7 +211,7 @@ MapFusionOutput MapFusionStage::outputAt(Stamp stamp) {
 
 void MapFusionStage::show(const FusedMaps& maps) {
   monitor_.figure("cells in conflict", maps.cells_in_conflict);
-  monitor_.figure("maps begun anew", fuser_.mapsBegun());
+  monitor_.figure("maps started over", fuser_.mapsBegun());
   if (maps.changes) {
     monitor_.figure("cells new since the prior map", maps.changes->appeared);
     monitor_.figure("cells vanished since the prior map", maps.changes->vanished);

@@ -13,8 +13,8 @@ std::string savedMapText(const std::string& file, const OccupancyMap& map) {
   std::string text = file + ": " + std::to_string(saved.cells) + " cells";
   if (saved.cells_of_pixel > 1) {
     const std::string side = std::to_string(saved.cells_of_pixel);
-    text += "; the image beside it would be too large, so its pixels are of " + side + " x " +
-            side + " cells";
+    text +=
+        "; its image would be too large, so each pixel covers " + side + " x " + side + " cells";
   }
   if (!saved.tile_file_error.empty()) {
     text += "; tiles are missing (" + std::to_string(saved.forgotten_tiles) +

@@ -46,26 +46,26 @@ void giveWay(const MonoClassifierStageOptions& options) {
 }  // namespace
 
 void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"tolerance", "s", "objects of this time around the exposure are looked at"},
+  visitor.number({"tolerance", "s", "objects within this time of the exposure are classified"},
                  tolerance, {0.0, 1.0});
-  visitor.number({"max_wait", "s",
-                  "longest time that an image waits for them; without them it is looked at by "
-                  "itself"},
-                 max_wait, {0.01, 2.0});
   visitor.number(
-      {"max_age", "s", "an image that is older than the newest objects by more is not looked at"},
+      {"max_wait", "s",
+       "longest time that an image waits for objects; without them the image is processed alone"},
+      max_wait, {0.01, 2.0});
+  visitor.number(
+      {"max_age", "s", "an image older than the newest objects by more than this is dropped"},
       max_age, {0.0, 10.0});
   visitor.number({"object_speed", "m/s",
                   "standard deviation of the objects' speed between their time and the exposure"},
                  object_speed, {0.0, 100.0});
   visitor.integer({"detector_threads", "1",
-                   "that OpenCV may use, for the detector and, as it knows no other limit, for all "
-                   "else in the process; 0: as many as it likes. Not in run_bag"},
+                   "threads that OpenCV may use, for the detector and, since it has no other "
+                   "limit, for everything else in the process; 0: no limit. Not in run_bag"},
                   detector_threads, {0.0, 256.0});
-  visitor.integer({"detector_nice", "1",
-                   "nice value of the detector's thread (setpriority): the higher, the more it "
-                   "gives way to all others"},
-                  detector_nice, {0.0, 19.0});
+  visitor.integer(
+      {"detector_nice", "1",
+       "nice value of the detector's thread (setpriority): the higher, the lower its priority"},
+      detector_nice, {0.0, 19.0});
   exposure.visit(visitor);
   visitor.group("input", [&] { input.visit(visitor); });
   classifier.visit(visitor);
@@ -125,16 +125,17 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
     if (!classifier_->tellsAnything()) {
-      monitor_.warned(InputError("detector_tells_nothing",
-                                 "no object gets a class by the image: the reports of this "
-                                 "detector are right no more often than by chance (`reliability`); "
-                                 "expected detector: dnn with a model, or a reliability that "
-                                 "calibrate_classes measured on your images"));
+      monitor_.warned(
+          InputError("detector_tells_nothing",
+                     "images do not classify any object: this detector's reports are no more often "
+                     "right than by chance (`reliability`); expected detector: dnn with a model, "
+                     "or a reliability that calibrate_classes measured on your images"));
     }
     if (!wait_.addImage(message, now)) {
-      monitor_.dropped(InputError("superseded_image",
-                                  "a newer image came before objects of its time: expected objects "
-                                  "at the rate of the images; goes on with the newer one"));
+      monitor_.dropped(
+          InputError("superseded_image",
+                     "a newer image arrived before objects for this one: expected objects at the "
+                     "rate of the images; continues with the newer one"));
     }
   });
 }
@@ -163,8 +164,8 @@ ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
   const auto base = baseAt(list->stamp, exposure, motion);
   if (!base) {
     monitor_.warned(InputError("no_motion",
-                               "no objects used: expected to know from odometry or poses how the "
-                               "vehicle moved between their stamp and the image's"));
+                               "no objects used: expected odometry or poses that give the "
+                               "vehicle's motion between their stamp and the image's"));
     return result;
   }
   const double later = secondsBetween(exposure, list->stamp);
@@ -187,9 +188,10 @@ void MonoClassifierStage::startIfReady(Stamp now) {
   }
   if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
                      objectsAt(toStamp(image->header.stamp)), run_})) {
-    monitor_.dropped(InputError("slow_detector",
-                                "a newer image came before the detector had time for one: expected "
-                                "a faster machine, a smaller network or fewer images a second"));
+    monitor_.dropped(
+        InputError("slow_detector",
+                   "a newer image arrived before the detector had started on one: expected a "
+                   "faster machine, a smaller network or fewer images per second"));
   }
 }
 
@@ -233,7 +235,7 @@ ObjectArrayPtr MonoClassifierStage::show(const Result& result) {
   monitor_.figure("objects in view", static_cast<double>(found.in_view));
   monitor_.figure("detections", static_cast<double>(found.detections));
   monitor_.figure("objects classified", static_cast<double>(found.classified));
-  monitor_.figure("objects of the image alone", static_cast<double>(found.alone));
+  monitor_.figure("objects from the image alone", static_cast<double>(found.alone));
   monitor_.figure("detector's time [s]", result.seconds);
   monitor_.processed({found.list.stamp, result.seconds});
   return boost::make_shared<ObjectArray>(toMessage(found.list, options_.frames.base));

@@ -16,9 +16,9 @@
 namespace datmo {
 
 void MonoGridStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this causes a warning"},
                  max_tilt, {0.0, kQuarterTurn});
-  visitor.number({"tolerance", "s", "the scan of an image is of this time around its exposure"},
+  visitor.number({"tolerance", "s", "maximum time between an image's exposure and its scan"},
                  tolerance, {0.0, 1.0});
   visitor.number({"max_wait", "s", "longest time that an image waits for its scan"}, max_wait,
                  {0.01, 2.0});
@@ -78,7 +78,7 @@ template void MonoGridStage::takeScan(const sensor_msgs::MultiEchoLaserScan&);
 
 void MonoGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
   for (const InputError& fault :
-       faultsOf(mount, converted, options_.max_tilt, "the image is looked at without its depth")) {
+       faultsOf(mount, converted, options_.max_tilt, "the image is used without its depth")) {
     monitor_.warned(fault);
   }
 }
@@ -91,8 +91,8 @@ void MonoGridStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp n
     exposure_.accept(message);
     if (!wait_.addImage(message, now)) {
       monitor_.dropped(InputError("superseded_image",
-                                  "a newer image came before the scan of one: expected scans at "
-                                  "the rate of the images; goes on with the newer one"));
+                                  "a newer image arrived before the scan of this one: expected "
+                                  "scans at the rate of the images; continues with the newer one"));
     }
   });
 }
@@ -101,17 +101,17 @@ void MonoGridStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp n
 MonoGridStage::MountedScan MonoGridStage::scanOf(Stamp exposure) const {
   const MountedScan* nearest = wait_.nearest(exposure);
   if (nearest == nullptr) {
-    throw InputError("no_scan", "image without a scan within " +
-                                    std::to_string(options_.tolerance) +
-                                    " s of its exposure: expected one, for it bounds what the "
-                                    "image says");
+    throw InputError(
+        "no_scan",
+        "image without a scan within " + std::to_string(options_.tolerance) +
+            " s of its exposure: expected one, since it bounds the evidence of the image");
   }
   const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
   const auto base = baseAt(nearest->scan.stamp, exposure, motion);
   if (!base) {
     throw InputError("no_motion",
-                     "image whose scan is of another time: expected to know from odometry or poses "
-                     "how the vehicle moved between their stamps");
+                     "image whose scan has another stamp: expected odometry or poses that give the "
+                     "vehicle's motion between the two");
   }
   return {scanAt(nearest->scan, exposure, *base), nearest->height};
 }

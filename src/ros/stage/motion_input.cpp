@@ -54,7 +54,7 @@ OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const
   } catch (const InputError& error) {
     sample.twist_measured = false;
     runner_.monitor().warned(
-        InputError("bad_twist", std::string(error.what()) + "; its pose serves"));
+        InputError("bad_twist", std::string(error.what()) + "; uses its pose alone"));
   }
   return sample;
 }
@@ -64,24 +64,22 @@ OdometrySample OdometryReader::read(const nav_msgs::Odometry& message) {
   OdometrySample sample = sampleOf(message);
   runner_.check(stream_, message.header.stamp);
   if (frozen_.take(message)) {
-    throw InputError(
-        "frozen_odometry",
-        "odometry that repeats its last pose and twist bit for bit though it says that "
-        "the vehicle moves: its driver or the device hangs; drops it until it changes");
+    throw InputError("frozen_odometry",
+                     "odometry repeats its last pose and twist bit for bit although it reports "
+                     "motion: its driver or the device hangs; drops it until it changes");
   }
   if (!sample.twist_measured || gate_.passes(sample.stamp, sample.twist)) {
     return sample;
   }
-  const std::string text =
-      "odometry with speed " + std::to_string(sample.twist.forward_speed) + " m/s and yaw rate " +
-      std::to_string(sample.twist.yaw_rate) +
-      " rad/s: expected what the vehicle can have after the last ones (motion/max_acceleration, "
-      "max_yaw_acceleration)";
+  const std::string text = "odometry with speed " + std::to_string(sample.twist.forward_speed) +
+                           " m/s and yaw rate " + std::to_string(sample.twist.yaw_rate) +
+                           " rad/s: expected what the vehicle can reach from the previous ones "
+                           "(motion/max_acceleration, max_yaw_acceleration)";
   if (!sample.base_in_odom) {
-    throw InputError("impossible_twist", text + "; drops it, until a second one goes on from it");
+    throw InputError("impossible_twist", text + "; drops it until a second one confirms it");
   }
   sample.twist_measured = false;
-  runner_.monitor().warned(InputError("bad_twist", text + "; its pose serves"));
+  runner_.monitor().warned(InputError("bad_twist", text + "; uses its pose alone"));
   return sample;
 }
 
@@ -111,12 +109,12 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
     return;
   }
   if (step->jumped) {
-    throw InputError("pose_jump", "pose that moved at " +
-                                      std::to_string(step->twist.forward_speed) + " m/s and " +
-                                      std::to_string(step->twist.yaw_rate) +
-                                      " rad/s: expected what the vehicle can do (motion/"
-                                      "max_acceleration, max_yaw_acceleration); the map's pose was "
-                                      "corrected, and that is no motion");
+    throw InputError(
+        "pose_jump",
+        "pose that moved at " + std::to_string(step->twist.forward_speed) + " m/s and " +
+            std::to_string(step->twist.yaw_rate) +
+            " rad/s: expected what the vehicle can do (motion/max_acceleration, "
+            "max_yaw_acceleration); a correction of the pose in the map is not motion");
   }
   // The motion up to this pose is the prediction for the time after it.
   buffer_.add({stamp, step->twist, step->traveled});

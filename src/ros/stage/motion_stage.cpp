@@ -35,7 +35,7 @@ MotionStage::MotionStage(const MotionStageOptions& options, const TransformBuffe
                          StageMonitor& monitor)
     : options_(options),
       transforms_(transforms),
-      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { reset(); }) {
+      runner_(monitor, options.input, "forgets the vehicle's motion", [this] { reset(); }) {
   checkOptions(options.motion);
   checkFrames(options.frames);
 }
@@ -44,8 +44,8 @@ nav_msgs::OdometryPtr MotionStage::takeImu(const sensor_msgs::Imu& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     if (message.angular_velocity_covariance[0] == kNotMeasured) {
       throw InputError("no_angular_velocity",
-                       "Imu whose angular_velocity_covariance says that it measures none: expected "
-                       "one with gyroscopes");
+                       "Imu whose angular_velocity_covariance says that it measures no angular "
+                       "velocity: expected one with gyroscopes");
     }
     const Eigen::Vector3d turn = inBase(message.header.frame_id, message.angular_velocity);
     const Twist2 turning = checked({0.0, turn.z()}, "Imu");
@@ -81,7 +81,7 @@ nav_msgs::OdometryPtr MotionStage::takeWheels(const sensor_msgs::JointState& mes
     const auto& rates = message.velocity;
     if (rates.empty()) {
       throw InputError("no_wheel_speed",
-                       "JointState without velocity: expected that of each wheel, rad/s");
+                       "JointState without velocity: expected the velocity of each wheel in rad/s");
     }
     const double mean =
         std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(rates.size());
@@ -118,7 +118,7 @@ Eigen::Vector3d MotionStage::inBase(const std::string& frame,
   }
   if (frame == options_.frames.odom || frame == options_.frames.map) {
     throw InputError("wrong_frame", "motion in '" + frame + "': expected it in '" + base +
-                                        "' or a frame that is fixed to it");
+                                        "' or a frame fixed to it");
   }
   return sensorMount(transforms_.core(), base, frame).linear() * in_sensor;
 }

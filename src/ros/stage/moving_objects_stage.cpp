@@ -13,12 +13,11 @@ namespace datmo {
 void MovingObjectsStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   detector.visit(visitor);
-  visitor.toggle(
-      {"road_borders", "",
-       "what lies on the borders of the road and beyond is less likely to move (thesis 3.5.1); set "
-       "by the launch file's switch"},
-      road_borders);
-  visitor.number({"border_age", "s", "older borders than this are not used, and all objects pass"},
+  visitor.toggle({"road_borders", "",
+                  "objects on the borders of the road and beyond are less likely to move (thesis "
+                  "3.5.1); set by the launch file's switch"},
+                 road_borders);
+  visitor.number({"border_age", "s", "borders older than this are not used, and all objects pass"},
                  border_age, {0.0, 60.0});
   visitor.group("border_filter", [&] { border_filter.visit(visitor); });
 }
@@ -33,7 +32,7 @@ MovingObjectsStage::MovingObjectsStage(const Checked<MovingObjectsStageOptions>&
       monitor_(monitor),
       detector_(options->detector),
       border_filter_(options->border_filter),
-      runner_(monitor, options->input, "forgets how the road goes on",
+      runner_(monitor, options->input, "forgets the road",
               [this] { border_filter_.forgetRoad(); }) {}
 
 void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
@@ -64,7 +63,7 @@ std::optional<MovingObjectsOutput> MovingObjectsStage::takeLabeledScan(
 
 std::optional<RoadModel> MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) {
   if (!road_) {
-    monitor_.warned({"no_borders", "no borders of the road have come yet: all objects pass"});
+    monitor_.warned({"no_borders", "no borders of the road received yet: all objects pass"});
     return std::nullopt;
   }
   if (road_frame_ != map_frame) {

@@ -40,11 +40,10 @@ std::string sourcesWith(const std::vector<SourceObjects>& lists,
 void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   matcher.visit(visitor);
-  visitor.toggle(
-      {"retroactive", "",
-       "tracks do not wait for objects of other sources, which count later, at their own "
-       "time (live.launch); false: they wait up to max_wait"},
-      retroactive);
+  visitor.toggle({"retroactive", "",
+                  "tracks do not wait for objects of other sources, which are fused later, at "
+                  "their own stamp (live.launch); false: they wait up to max_wait"},
+                 retroactive);
   fuser.visit(visitor);
 }
 
@@ -86,8 +85,8 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
       }
     }
     inputs_.report(source, {"bad_view", message.views.size() - list->views.size(), "bad views",
-                            "finite numbers, bearings in rad from the least to the most one, a "
-                            "turn apart at most, and sure_range up to range"});
+                            "finite numbers, bearings in rad in ascending order, at most a turn "
+                            "apart, and sure_range of at most range"});
     matcher_.add(source, list->stamp, list);
   });
 }
@@ -190,15 +189,15 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
     monitor_.warned(InputError("many_objects", std::to_string(counts.refused) + " objects of " +
                                                    sourcesWith(lists, is_long) +
                                                    " beyond max_objects = " + std::to_string(max) +
-                                                   " of a list: left out the farthest"));
+                                                   " of a list: the farthest are left out"));
   }
   bad_objects_ += counts.rejected;
   objects_too_many_ += counts.refused;
   names_of_gone_ += counts.names_of_gone;
   monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
   monitor_.figure("bad objects", static_cast<double>(bad_objects_));
-  monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
-  monitor_.figure("classes of objects that are gone", static_cast<double>(names_of_gone_));
+  monitor_.figure("objects beyond max_objects", static_cast<double>(objects_too_many_));
+  monitor_.figure("classes for missing objects", static_cast<double>(names_of_gone_));
   monitor_.figure("fused without a labeled scan", static_cast<double>(times_without_scan_));
   inputs_.reportUnserved(matcher_);
 }

@@ -28,11 +28,11 @@ std::string textOf(const ClockOffset& offset) {
 void PartClocksOptions::visit(OptionVisitor& visitor) {
   visitor.group("clock", [&] { exchanges.visit(visitor); });
   visitor.number({"max_clock_offset", "s",
-                  "a clock that is surely farther off is warned of: what passes at 10 m/s is 0.1 m "
-                  "away after 10 ms, half a cell of the map"},
+                  "a clock that is certainly off by more causes a warning: at 10 m/s an object "
+                  "moves 0.1 m in 10 ms, half a cell of the map"},
                  max_offset, {1e-4, 10.0});
   visitor.number(
-      {"silent_after", "s", "a part whose process has not answered for so long is warned of"},
+      {"silent_after", "s", "a part whose process has not answered for this long causes a warning"},
       silent_after, {1.0, 600.0});
 }
 
@@ -54,7 +54,7 @@ std::string PartClocks::description(const Clock& clock, Stamp now) const {
     return "no answer for " + std::to_string(std::lround(secondsBetween(clock.last, now))) + " s";
   }
   const std::optional<ClockOffset> offset = clock.estimator.at(now);
-  return offset ? textOf(*offset) : "not known";
+  return offset ? textOf(*offset) : "unknown";
 }
 
 std::map<std::string, std::string> PartClocks::descriptions(Stamp now) const {
@@ -83,7 +83,7 @@ StackHealth PartClocks::judged(StackHealth health, Stamp now) const {
     if (const auto found = fault(process, clock, now)) {
       const bool is_good = health.level == HealthLevel::kOk;
       return {is_good ? HealthLevel::kDegraded : health.level,
-              (is_good ? "less than all: " : health.sentence + "; ") + *found};
+              (is_good ? "degraded: " : health.sentence + "; ") + *found};
     }
   }
   return health;

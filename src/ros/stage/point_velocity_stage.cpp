@@ -37,27 +37,31 @@ void PointVelocityStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("features", [&] { features.visit(visitor); });
   visitor.group("camera_motion", [&] { camera_motion.visit(visitor); });
-  visitor.toggle({"rectified", "", "the images are; if not, they are by their calibration"},
+  visitor.toggle({"rectified", "",
+                  "the images are rectified already; false: rectify them by their calibration"},
                  rectified);
   visitor.toggle(
       {"approximate_sync", "", "stamps of left and right images may differ by pair_tolerance"},
       approximate_sync);
-  visitor.number({"pair_tolerance", "s", "with approximate_sync"}, pair_tolerance, {0.0, 1.0});
+  visitor.number({"pair_tolerance", "s", "maximum difference of the stamps with approximate_sync"},
+                 pair_tolerance, {0.0, 1.0});
   constexpr Bounds kPixels{0.01, 5.0};
-  visitor.number({"flow_sigma", "px",
-                  "standard deviation of a feature's motion from image to image, by axis; measured "
-                  "on KITTI's images: what is left of standing features is 0.10 px at the median"},
-                 flow_sigma, kPixels);
+  visitor.number(
+      {"flow_sigma", "px",
+       "standard deviation of a feature's motion from image to image, per axis; measured on "
+       "KITTI's images: the median residual of stationary features is 0.10 px"},
+      flow_sigma, kPixels);
   visitor.number({"disparity_sigma", "px", "the same of a feature's disparity: 0.09 px"},
                  disparity_sigma, kPixels);
   visitor.number({"turn_sigma", "rad/s",
-                  "of the camera about each axis, beyond what the vehicle's odometry says: pitch "
-                  "and roll of its body"},
+                  "standard deviation of the camera's rotation about each axis beyond the "
+                  "vehicle's odometry: pitch and roll of its body"},
                  turn_sigma, {1e-4, 1.0});
-  visitor.number({"speed_sigma", "m/s", "the same along each axis"}, speed_sigma, {1e-3, 10.0});
-  visitor.number(
-      {"max_interval", "s", "between two pairs, beyond which features are not looked for again"},
-      max_interval, {0.02, 5.0});
+  visitor.number({"speed_sigma", "m/s", "the same of its velocity along each axis"}, speed_sigma,
+                 {1e-3, 10.0});
+  visitor.number({"max_interval", "s",
+                  "maximum time between two pairs; features are not followed over a longer gap"},
+                 max_interval, {0.02, 5.0});
 }
 
 SharedKeys PointVelocityStageOptions::sharedKeys() {

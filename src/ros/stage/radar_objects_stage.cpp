@@ -22,12 +22,13 @@ constexpr double kMaxElevation = 1.0;
 }  // namespace
 
 void RadarObjectsStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_range", "m", "nearer returns are of the vehicle itself, and left out"},
+  visitor.number({"min_range", "m", "nearer returns are from the vehicle itself and are ignored"},
                  min_range, {0.2, 100.0});
-  visitor.number({"max_range", "m", "no return is farther (data sheet)"}, max_range, {1.0, 1000.0});
-  visitor.number({"max_doppler", "m/s", "no return is faster (data sheet)"}, max_doppler,
+  visitor.number({"max_range", "m", "maximum range of a return (data sheet)"}, max_range,
+                 {1.0, 1000.0});
+  visitor.number({"max_doppler", "m/s", "maximum speed of a return (data sheet)"}, max_doppler,
                  {1.0, 300.0});
-  visitor.integer({"max_returns", "", "of one cycle; of more the first ones are taken"},
+  visitor.integer({"max_returns", "", "maximum per cycle; returns beyond it are ignored"},
                   max_returns, {1.0, 10000.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("detector", [&] { detector.visit(visitor); });
@@ -76,8 +77,8 @@ Twist2 RadarObjectsStage::twistAt(Stamp stamp) const {
   const std::optional<Pose2> motion = motion_.between(stamp + -kTwistTime, stamp);
   if (!motion) {
     throw InputError("no_motion",
-                     "the vehicle's motion up to the radar's cycle is not known: expected odometry "
-                     "before it, or without odometry poses of grid_slam");
+                     "the vehicle's motion up to the radar's cycle is unknown: expected odometry "
+                     "before it, or, without odometry, poses of grid_slam");
   }
   return twistOf(*motion, kTwistTime);
 }

@@ -34,7 +34,7 @@ void RiskStageOptions::visit(OptionVisitor& visitor) {
                   "the host is expected to follow the borders of the road; set by the launch "
                   "file's switch"},
                  road_borders);
-  visitor.number({"border_age", "s", "older borders than this are not used"}, border_age,
+  visitor.number({"border_age", "s", "borders older than this are not used"}, border_age,
                  {0.0, 60.0});
   visitor.group("host_state", [&] { host_state.visit(visitor); });
   risk.visit(visitor);
@@ -88,12 +88,12 @@ std::optional<RoadModel> RiskStage::roadAt(Stamp stamp) {
   }
   if (road_frame_ != map_frame_ ||
       std::abs(secondsBetween(road_->stamp, stamp)) > options_.border_age) {
-    monitor_.warned({"old_borders", "borders of the road in '" + road_frame_ +
-                                        "', from another time or in another frame than the "
-                                        "tracks: expected '" +
-                                        map_frame_ +
-                                        "' within border_age; the host is taken to "
-                                        "keep its steering"});
+    monitor_.warned(
+        {"old_borders", "borders of the road in '" + road_frame_ +
+                            "', from another time or in another frame than the "
+                            "tracks: expected '" +
+                            map_frame_ +
+                            "' within border_age; assumes that the host keeps its steering angle"});
     return std::nullopt;
   }
   return road_;
@@ -132,9 +132,9 @@ void RiskStage::report(const RiskReport& report) {
   };
   warn(report.counts.rejected, "bad_track",
        "bad tracks: expected finite numbers in range, a covariance that is positive definite, and "
-       "an id from 1 on; they have no risk");
+       "an id of at least 1; no risk is assessed for them");
   warn(report.counts.over_budget, "many_tracks",
-       "tracks too many: expected max_objects at most; the surest have a risk");
+       "tracks too many: expected at most max_objects; only the most certain ones have a risk");
   monitor_.figure("level, 0 (none) to 3 (imminent)", static_cast<double>(report.level));
   monitor_.figure("objects assessed", static_cast<double>(report.objects.size()));
   // A road user behind a parked car is followed for a while unseen: nothing is wrong with that.

@@ -23,12 +23,11 @@ constexpr char kOneScan[] = "scan";
 }  // namespace
 
 void MergedScannerOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"use", "", "this scanner is there"}, use);
-  visitor.numbers(
-      {"blind_sectors", "rad",
-       "where the vehicle itself is in view, about the scanner: pairs of where a sector "
-       "begins and where it ends, to the left"},
-      blind_sectors, {-kTurn, kTurn});
+  visitor.toggle({"use", "", "the vehicle has this scanner"}, use);
+  visitor.numbers({"blind_sectors", "rad",
+                   "sectors of the scanner in which the vehicle itself is in view: pairs of the "
+                   "bearings where a sector begins and ends, counterclockwise"},
+                  blind_sectors, {-kTurn, kTurn});
 }
 
 std::vector<std::string> ScanMergeStageOptions::sourcesInUse() const {
@@ -42,11 +41,11 @@ std::vector<std::string> ScanMergeStageOptions::sourcesInUse() const {
 }
 
 void ScanMergeStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this causes a warning"},
                  max_tilt, {0.0, kQuarterTurn});
   visitor.text({"scan_frame", "",
                 "frame of the merged scan; the stage publishes frames/base -> scan_frame: no other "
-                "node may"},
+                "node may publish it"},
                scan_frame, {});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group(
@@ -61,7 +60,7 @@ void ScanMergeStageOptions::check() const {
     if (source.blind_sectors.size() % 2 != 0) {
       throw OptionError("sources/" + name + "/blind_sectors has " +
                         std::to_string(source.blind_sectors.size()) +
-                        " numbers: expected pairs of where a sector begins and where it ends");
+                        " numbers: expected pairs of the bearings where a sector begins and ends");
     }
   }
 }
@@ -110,7 +109,7 @@ void ScanMergeStage::takeScan(const std::string& source, const sensor_msgs::Lase
     inputs_.take(source, header, now);
     checkFrozen(source, message);
     for (const InputError& fault :
-         faultsOf(mount, converted, options_.max_tilt, source + " says nothing")) {
+         faultsOf(mount, converted, options_.max_tilt, source + " contributes nothing")) {
       monitor_.warned(fault);
     }
     if (source == options_.matcher.reference) {
@@ -130,7 +129,7 @@ void ScanMergeStage::checkFrozen(const std::string& source, const sensor_msgs::L
   if (frozen_[source].take(toStamp(message.header.stamp), measuredBytes(message), motion)) {
     throw InputError("frozen_scan", "scans of " + source +
                                         " that stay the same bit for bit while the vehicle moves: "
-                                        "expected new ones; goes on without them");
+                                        "expected new ones; continues without them");
   }
 }
 

@@ -41,7 +41,7 @@ const StageState& sourceOfNothing(const Stages& stages, const StageState& stage,
 }
 
 std::string firstFault(const StageState& stage) {
-  return stage.stage + ": " + (stage.faults.empty() ? "no reason is known" : stage.faults.front());
+  return stage.stage + ": " + (stage.faults.empty() ? "no reason reported" : stage.faults.front());
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
   const StageState* const last = producerOf(stages, result);
   if (last == nullptr) {
     return {HealthLevel::kNoOutput,
-            "no " + withoutSlash(result) + ": no stage that makes them has reported"};
+            "no " + withoutSlash(result) + ": no stage that publishes them has reported"};
   }
   if (last->level == HealthLevel::kNoOutput) {
     std::set<std::string> visited;
@@ -61,9 +61,9 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
     return stage.level != HealthLevel::kOk;
   });
   if (worse != stages.end()) {
-    return {HealthLevel::kDegraded, "less than all: " + firstFault(*worse)};
+    return {HealthLevel::kDegraded, "degraded: " + firstFault(*worse)};
   }
-  return {HealthLevel::kOk, withoutSlash(result) + " come"};
+  return {HealthLevel::kOk, withoutSlash(result) + " are published"};
 }
 
 void ReportingStages::take(const StageState& state, double seconds) {

@@ -33,7 +33,7 @@ bool isPublished(const WatchedInput& input, const PublishedType& published_type)
 
 std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type) {
   if (isPublished(input, published_type)) {
-    return "it is published, but no message has come";
+    return "it is published, but no message has been received";
   }
   for (const InputTopic& topic : input.topics) {
     const std::string type = published_type(topic.topic);
@@ -41,7 +41,7 @@ std::string whyNothingComes(const WatchedInput& input, const PublishedType& publ
       return "it is published as " + type + ", expected " + topic.data_type;
     }
   }
-  return "nobody publishes it";
+  return "it has no publisher";
 }
 
 StageHealth::StageHealth(std::vector<WatchedInput> inputs, double silence_after)

@@ -17,11 +17,12 @@ ros::Time toTime(Stamp stamp) {
 }
 
 void StreamOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"restart_after", "s",
-                  "a stamp older than the newest by this is a restart of the clock (a looped bag), "
-                  "and all state is forgotten; one that is less old is late, and dropped"},
-                 restart_after, {0.1, 60.0});
-  visitor.number({"silence_after", "s", "an input that is silent for so long is reported"},
+  visitor.number(
+      {"restart_after", "s",
+       "a stamp older than the newest by more than this is a restart of the clock (a looped bag), "
+       "and all state is cleared; one that is less old is late and is dropped"},
+      restart_after, {0.1, 60.0});
+  visitor.number({"silence_after", "s", "an input that is silent for longer than this is reported"},
                  silence_after, {0.1, 60.0});
 }
 
@@ -45,12 +46,12 @@ Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now
                                         " s: expected one later than the newest, " +
                                         std::to_string(newest->seconds()) + " s");
     case StampVerdict::kStray:
-      throw InputError("stray_stamp",
-                       "stamp " + std::to_string(time.toSec()) + " s, the newest is " +
-                           std::to_string(newest->seconds()) +
-                           " s: expected the next one of its stream; drops it, and follows the "
-                           "clock when a second message confirms that it has jumped, and no other "
-                           "input contradicts it");
+      throw InputError(
+          "stray_stamp",
+          "stamp " + std::to_string(time.toSec()) + " s, the newest is " +
+              std::to_string(newest->seconds()) +
+              " s: expected the next one of its stream; drops it, and accepts the jump of the "
+              "clock when a second message confirms it and no other input contradicts it");
     case StampVerdict::kRestart:
       return Arrival::kRestart;
     case StampVerdict::kAhead:

@@ -21,10 +21,10 @@ void checkStampRange(const ros::Time& time) {
 
 void checkStampRange(Stamp stamp) {
   if (stamp.nanoseconds < 0 || stamp.seconds() >= kEnd) {
-    throw InputError("stamp_out_of_range", "stamp " +
-                                               std::to_string(std::llround(stamp.seconds())) +
-                                               " s: expected seconds since 1970, before the year "
-                                               "2100; check the clock of who sends it");
+    throw InputError(
+        "stamp_out_of_range",
+        "stamp " + std::to_string(std::llround(stamp.seconds())) +
+            " s: expected seconds since 1970, before the year 2100; check the sender's clock");
   }
 }
 

@@ -55,11 +55,11 @@ sensor_msgs::LaserScanConstPtr toLaserScan(const ScanField& field, std::vector<f
 void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"scan_frame", "",
                 "frame of static_scan; the stage publishes frames/base -> scan_frame: no other "
-                "node may"},
+                "node may publish it"},
                scan_frame, {});
   visitor.toggle({"include_unknown", "",
-                  "end points where the map knows nothing yet count as standing: a navigation "
-                  "stack must not drive into them",
+                  "end points in unknown space count as stationary: a navigation stack must not "
+                  "drive into them",
                   Tier::kPublic},
                  include_unknown);
   visitor.group("input", [&] { input.visit(visitor); });

@@ -32,7 +32,7 @@ struct TermName {
 constexpr std::array<TermName, kAlignmentTerms> kTerms = {{
     {AlignmentTerm::kDisparity, "disparities too large by", "px", "its calibration is off"},
     {AlignmentTerm::kSurface, "surfaces behind the scanner's by", "m",
-     "the two do not see the same heights"},
+     "scanner and camera do not see the same heights"},
     {AlignmentTerm::kForward, "mounted farther back by", "m", "tf has the wrong mount"},
     {AlignmentTerm::kHeading, "turned to the left by", "rad", "tf has the wrong mount"},
     {AlignmentTerm::kTime, "older than its stamps by", "s", "its clock or driver is off"},
@@ -45,8 +45,9 @@ void StereoAlignmentStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("scan", [&] { scan.visit(visitor); });
   alignment.visit(visitor);
   visitor.group("pairs", [&] { pairs.visit(visitor); });
-  visitor.number({"max_interval", "s", "between a cloud and the scan that it is compared with"},
-                 max_interval, {0.0, 1.0});
+  visitor.number(
+      {"max_interval", "s", "maximum time between a cloud and the scan that it is compared with"},
+      max_interval, {0.0, 1.0});
 }
 
 SharedKeys StereoAlignmentStageOptions::sharedKeys() {
@@ -115,8 +116,8 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
     if (frozen_.take(cloud.stamp, message.data, motion)) {
       filter_.takeFrozen(cloud.stamp);
       monitor_.warned(InputError("frozen_camera",
-                                 "the stereo camera's cloud is that of the last image, though the "
-                                 "vehicle moves: its objects and grid are left out"));
+                                 "the stereo camera repeats the cloud of its last image although "
+                                 "the vehicle moves: its objects and grid are ignored"));
       runner_.processed(cloud.stamp);
       return toMessage(filter_.alignment(), options_.frames.base);
     }
@@ -186,10 +187,10 @@ void StereoAlignmentStage::show() {
   if (alignment.usable != std::exchange(was_usable_, alignment.usable) && !alignment.usable) {
     monitor_.warned(InputError(
         "camera_disagrees",
-        "scanner and stereo camera do not see the same: " + std::to_string(alignment.agreement) +
+        "scanner and stereo camera disagree: " + std::to_string(alignment.agreement) +
             " of the surfaces agree (expected: at least " +
             std::to_string(options_.alignment.min_agreement) +
-            "), or mount or clock are wrong; nothing is made of its clouds until they are right"));
+            "), or its mount or clock is wrong; its clouds are ignored until they agree"));
   }
   for (const TermName& each : kTerms) {
     const std::string what = std::string(each.name) + " [" + each.unit + "]";

@@ -16,7 +16,7 @@ void StereoGridStageOptions::visit(OptionVisitor& visitor) {
   StereoInputOptions::visit(visitor);
   visitor.number(
       {"scanner_height", "m",
-       "height of the scanner above the vehicle's frame, where tf does not know it (thesis 3.2.2)",
+       "height of the scanner above the vehicle's frame, if it is not on tf (thesis 3.2.2)",
        Tier::kPublic},
       scanner_height, {-1.0, 3.0});
   grid.visit(visitor);
@@ -77,7 +77,7 @@ double StereoGridStage::scannerHeight() {
         .z();
   } catch (const InputError& error) {
     monitor_.warned(InputError(error.reason(), std::string(error.what()) +
-                                                   "; takes scanner_height, " +
+                                                   "; uses scanner_height, " +
                                                    std::to_string(options_.scanner_height) + " m"));
     return options_.scanner_height;
   }

@@ -31,7 +31,7 @@ StereoInput::StereoInput(const Checked<StereoInputOptions>& options,
   if (options_.camera.principle == DepthPrinciple::kActiveStereo &&
       camera.baseline < kMinBaseline) {
     throw OptionError("stereo_camera/baseline = " + std::to_string(camera.baseline) +
-                      ": expected that of the data sheet, in m, for depth_noise: active_stereo");
+                      ": expected the data sheet's value in m for depth_noise: active_stereo");
   }
   if (camera.max_depth > 0.0 && camera.min_depth >= camera.max_depth) {
     throw OptionError("stereo_camera/min_depth = " + std::to_string(camera.min_depth) +
@@ -62,7 +62,7 @@ StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& po
       options_.frames.camera.empty() ? header.frame_id : options_.frames.camera;
   if (isRefused(toStamp(header.stamp))) {
     throw InputError("camera_disagrees",
-                     "a cloud that is not of what the scanner sees: see stereo_alignment");
+                     "a cloud that does not agree with the scanner: see stereo_alignment");
   }
   StereoCloud cloud;
   cloud.stamp = toStamp(header.stamp);

@@ -63,7 +63,7 @@ void StereoObjectsStage::takeVelocities(const sensor_msgs::PointCloud2& message)
     if (bad > 0) {
       monitor_.warned(InputError("bad_velocity",
                                  std::to_string(bad) +
-                                     " points with velocity with numbers that are not finite, or a "
+                                     " points with velocity have numbers that are not finite or a "
                                      "covariance that is not positive definite: left out"));
     }
     monitor_.figure("bad points with velocity", static_cast<double>(bad_points_ += bad));

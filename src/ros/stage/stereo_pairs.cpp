@@ -82,8 +82,8 @@ void StereoPairs::dropUpTo(Frames& frames, Stamp stamp) {
 
 InputError unpairedImage() {
   return {"unpaired_image",
-          "an image without its calibration or without one of the other camera: expected all four "
-          "messages of one stamp, or with approximate_sync of nearly one"};
+          "an image without its calibration or without an image of the other camera: expected all "
+          "four messages with the same stamp, or, with approximate_sync, nearly the same"};
 }
 
 }  // namespace datmo

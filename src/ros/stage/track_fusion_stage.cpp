@@ -78,16 +78,17 @@ void TrackFusionStage::takeTracks(const std::string& source, const TrackArray& m
 TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& message) {
   TrackList list = fromMessage(message);
   inputs_.report(source, {"bad_view", message.views.size() - list.views.size(), "bad views",
-                          "finite numbers, a beam_spacing that is not 0, no reach below 0, and " +
+                          "finite numbers, a beam_spacing other than 0, no negative reach, and " +
                               std::to_string(kMaxBeams) + " beams at most"});
   list.tracks = validTracks(list.tracks);
   inputs_.report(source, {"bad_track", message.tracks.size() - list.tracks.size(), "bad tracks",
-                          "finite numbers in range, a covariance that is positive definite, and an "
-                          "id from 1 on that is there once"});
+                          "finite numbers in range, a covariance that is positive definite, and a "
+                          "unique id of at least 1"});
   const auto max = static_cast<std::size_t>(options_.fuser.max_tracks);
   const std::size_t beyond = list.tracks.size() - std::min(list.tracks.size(), max);
-  inputs_.report(source, {"many_tracks", beyond, "tracks too many",
-                          "max_tracks = " + std::to_string(max) + " at most, the surest ones"});
+  inputs_.report(source,
+                 {"many_tracks", beyond, "tracks too many",
+                  "max_tracks = " + std::to_string(max) + " at most, the most certain ones"});
   return list;
 }
 

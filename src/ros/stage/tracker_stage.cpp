@@ -22,12 +22,11 @@ constexpr std::size_t kMaxWaiting = 50;
 void TrackerStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"transform_wait", "s", "longest time that objects wait for their transform"},
                  transform_wait, {0.0, 5.0});
-  visitor.toggle(
-      {"scan_view", "",
-       "the objects come from the scanner of labeled_scan, alone or with other sensors: its "
-       "view gives where they could have been seen; false: from other sensors, and the "
-       "labeled scan gives the vehicle's pose alone"},
-      scan_view);
+  visitor.toggle({"scan_view", "",
+                  "the objects come from the scanner of labeled_scan, alone or with other sensors: "
+                  "its field of view says where they could have been detected; false: from other "
+                  "sensors only, and the labeled scan gives only the vehicle's pose"},
+                 scan_view);
   visitor.group("input", [&] { input.visit(visitor); });
   tracker.visit(visitor);
 }
@@ -139,17 +138,17 @@ void TrackerStage::report(const TrackerCounts& before, const TrackerCounts& afte
                                "covariance that is not positive definite: left out"));
   }
   if (after.intake.refused > before.intake.refused) {
-    monitor_.warned(
-        InputError("many_objects", "more objects than intake/max_objects: left out the farthest"));
+    monitor_.warned(InputError("many_objects",
+                               "more objects than intake/max_objects: the farthest are left out"));
   }
   if (after.association.refused_births > before.association.refused_births) {
     monitor_.warned(
         InputError("many_targets", "more targets than gating/max_targets: new objects wait"));
   }
   if (after.association.best_only_steps > before.association.best_only_steps) {
-    monitor_.warned(InputError("time_budget",
-                               "a step took longer than time_budget: went on with the most likely "
-                               "hypothesis alone"));
+    monitor_.warned(InputError(
+        "time_budget",
+        "a step took longer than time_budget: continued with only the most likely hypothesis"));
   }
   monitor_.figure("hypotheses cut", static_cast<double>(after.association.cut_hypotheses));
   monitor_.figure("steps beyond the time budget",

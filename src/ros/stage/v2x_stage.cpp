@@ -27,10 +27,10 @@ constexpr double kOwnAccelerationVariance = 4.0;
 }  // namespace
 
 void V2xStageOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"station", "", "our number among all stations, of no other one"}, station,
+  visitor.integer({"station", "", "our station number, unique among all stations"}, station,
                   {0.0, 2147483647.0});
   visitor.number({"max_frame_age", "s",
-                  "with an older last position of the receiver nothing passes in or out"},
+                  "if the receiver's last position is older, no tracks are received or sent"},
                  max_frame_age, {0.1, 600.0});
   visitor.number({"own_clock_sigma", "s", "standard deviation of our stamps, for other stations"},
                  own_clock_sigma, {0.0, 10.0});
@@ -80,10 +80,10 @@ void V2xStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message)
 const EarthFrame& V2xStage::frameAt(Stamp stamp) {
   if (!frame_ || std::abs(secondsBetween(frame_->stamp, stamp)) > options_.max_frame_age) {
     const std::string why = frame_ ? "the receiver's last position is older than max_frame_age"
-                                   : "where the map lies on the earth is not known yet";
-    monitor_.condition(HealthLevel::kDegraded, "nothing passes in or out: " + why);
+                                   : "the map's pose on the earth is not known yet";
+    monitor_.condition(HealthLevel::kDegraded, "no tracks are received or sent: " + why);
     throw InputError("no_earth_frame",
-                     why + ": expected earth_frame, which takes gnss and a drive");
+                     why + ": expected earth_frame, which needs gnss and a drive");
   }
   monitor_.condition(HealthLevel::kOk, "the map's pose on the earth is known");
   return *frame_;
@@ -101,7 +101,7 @@ void V2xStage::check(const StationTracksMessage& message, Stamp now) const {
   }
   if (age < -options_.tracks.max_ahead) {
     throw InputError("future_list", who + ": tracks of " + std::to_string(-age) +
-                                        " s ahead, expected clocks that agree");
+                                        " s ahead, expected synchronized clocks");
   }
 }
 
@@ -179,9 +179,8 @@ StationTracksMessagePtr V2xStage::takeTracks(const TrackArray& message) {
     }
     if (invalid > 0) {
       monitor_.warned({"bad_own_track", std::to_string(invalid) +
-                                            " of our tracks with numbers that are none, or a "
-                                            "covariance that is none: other stations do not get "
-                                            "them"});
+                                            " of our tracks have invalid numbers or an invalid "
+                                            "covariance: they are not sent to other stations"});
     }
     return boost::make_shared<StationTracksMessage>(toMessage(list, frame.plane));
   });
@@ -198,16 +197,17 @@ void V2xStage::warn(std::uint64_t count, std::uint64_t& reported, const char* re
 void V2xStage::report() {
   const StationTrackCounts& counts = stations_.counts();
   warn(counts.fast, reported_.fast, "fast_track", "faster than tracks/max_speed");
-  warn(counts.jumped, reported_.jumped, "jumped_track", "that are not where they were going");
+  warn(counts.jumped, reported_.jumped, "jumped_track",
+       "that jumped from their predicted position");
   warn(counts.sudden, reported_.sudden, "sudden_track",
-       "with new numbers in nearly each message, where none was");
+       "with new ids in nearly every message, where there was no track");
   warn(counts.invalid, reported_.invalid, "bad_track",
-       "with numbers that are none, or a covariance that is none");
+       "with invalid numbers or an invalid covariance");
   warn(counts.many, reported_.many, "many_tracks", "beyond tracks/max_tracks");
   monitor_.figure("our own vehicle, as others see it", static_cast<double>(counts.own));
   monitor_.figure("tracks left out: too fast", static_cast<double>(counts.fast));
   monitor_.figure("tracks left out: jumped", static_cast<double>(counts.jumped));
-  monitor_.figure("tracks left out: new numbers", static_cast<double>(counts.sudden));
+  monitor_.figure("tracks left out: new ids", static_cast<double>(counts.sudden));
 }
 
 void V2xStage::connect(StagePorts& ports) {

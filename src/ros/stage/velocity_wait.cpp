@@ -15,14 +15,14 @@ constexpr std::size_t kMaxOfEach = 50;
 }  // namespace
 
 void VelocityWaitOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"max_wait", "s",
+                  "longest time that the objects of a cloud wait for the points with velocity of "
+                  "its stamp, if these are published; object_fusion waits for the objects"},
+                 max_wait, {0.0, 2.0});
   visitor.number(
-      {"max_wait", "s",
-       "longest time that the objects of a cloud wait for the points with velocity of its "
-       "stamp, where somebody publishes these; object_fusion waits for the objects"},
-      max_wait, {0.0, 2.0});
-  visitor.number({"silent_after", "s",
-                  "a cloud so much newer than the last points with velocity does not wait for any"},
-                 silent_after, {0.02, 10.0});
+      {"silent_after", "s",
+       "a cloud newer than the last points with velocity by more than this does not wait"},
+      silent_after, {0.02, 10.0});
 }
 
 VelocityWait::VelocityWait(const Checked<VelocityWaitOptions>& options, StageMonitor& monitor)
@@ -36,19 +36,18 @@ void VelocityWait::addPoints(Stamp stamp, std::vector<PointVelocity> points) {
     if (!first) {
       monitor_.dropped(InputError(
           "late_velocities",
-          "points with velocity came after their cloud had waited for velocity/max_wait = " +
-              std::to_string(options_.max_wait) + " s: expected sooner; left out"));
+          "points with velocity arrived after their cloud had waited for velocity/max_wait = " +
+              std::to_string(options_.max_wait) + " s: expected earlier; left out"));
     }
     return;
   }
   points_.push_back({stamp, std::move(points)});
   if (points_.size() > kMaxOfEach) {
     points_.pop_front();
-    monitor_.dropped(
-        InputError("velocities_without_cloud",
-                   "more than " + std::to_string(kMaxOfEach) +
-                       " lists of points with velocity wait for their clouds: expected "
-                       "clouds of the same stamps, dropped the oldest"));
+    monitor_.dropped(InputError("velocities_without_cloud",
+                                "more than " + std::to_string(kMaxOfEach) +
+                                    " lists of points with velocity wait for their clouds: "
+                                    "expected clouds with the same stamps, dropped the oldest"));
   }
 }
 
@@ -102,7 +101,7 @@ VelocityWait::Served VelocityWait::serveOldest() {
                                "no points with velocity of the cloud's stamp: expected them within "
                                "velocity/max_wait = " +
                                    std::to_string(options_.max_wait) +
-                                   " s; its objects go on without"));
+                                   " s; its objects continue without velocity"));
   }
   return result;
 }

@@ -28,7 +28,7 @@ Scan WaitingScans::take(Stamp stamp) {
   while (!scans_.empty() && scans_.front().stamp < stamp) {
     scans_.pop_front();
     monitor_.dropped(
-        InputError("scan_without_grid", "a scan without fused grid: expected one of its stamp"));
+        InputError("scan_without_grid", "a scan without fused grid: expected one with its stamp"));
   }
   if (!scans_.empty() && scans_.front().stamp == stamp) {
     Scan scan = std::move(scans_.front());
@@ -36,7 +36,7 @@ Scan WaitingScans::take(Stamp stamp) {
     return scan;
   }
   monitor_.warned(InputError("no_scan_for_grid",
-                             "no scan of the fused grid's stamp: goes on with the grid alone"));
+                             "no scan with the fused grid's stamp: continues with the grid alone"));
   Scan scan = last_field_;
   scan.stamp = stamp;
   return scan;

@@ -39,17 +39,18 @@ TEST(ScoreArguments, OneClassAndOverlap) {
 
 TEST(ScoreArguments, SaysWhatIsWrong) {
   EXPECT_THROW(parseScoreArguments({}), OptionError);
-  EXPECT_EQ(errorOf({"labels"}), "1 folders are named: expected LABELS_DIR RESULTS_DIR");
+  EXPECT_EQ(errorOf({"labels"}), "1 folders are given: expected LABELS_DIR RESULTS_DIR");
   EXPECT_EQ(errorOf({"a", "b", "--class", "van"}),
             "--class 'van': expected car, pedestrian, cyclist or all");
-  EXPECT_EQ(errorOf({"a", "b", "--iou"}), "--iou: expected a value behind it");
+  EXPECT_EQ(errorOf({"a", "b", "--iou"}), "--iou: expected a value after it");
   EXPECT_EQ(errorOf({"a", "b", "--averaging", "never"}),
             "--averaging 'never': expected once or repeated");
   EXPECT_EQ(errorOf({"a", "b", "--frames"}),
             "'--frames': expected --class, --iou, --averaging or --out");
   for (const char* overlap : {"0", "1.1", "nan", "0.5x", "x"}) {
-    EXPECT_EQ(errorOf({"a", "b", "--iou", overlap}),
-              "--iou '" + std::string(overlap) + "': expected a number above 0 to 1, or all");
+    EXPECT_EQ(
+        errorOf({"a", "b", "--iou", overlap}),
+        "--iou '" + std::string(overlap) + "': expected a number above 0 and up to 1, or all");
   }
 }
 

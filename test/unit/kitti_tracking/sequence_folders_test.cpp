@@ -35,18 +35,18 @@ TEST_F(SequenceFolders, ASequenceThatIsInOneFolderOnly) {
   labels_.write("0000.txt", "");
   labels_.write("0002.txt", "");
   results_.write("0000.txt", "");
-  EXPECT_EQ(error(), results_.path() + "/0002.txt: is not there, expected it beside " +
+  EXPECT_EQ(error(), results_.path() + "/0002.txt: no such file, expected it along with " +
                          labels_.path() + "/0002.txt");
   results_.write("0002.txt", "");
   results_.write("0003.txt", "");
-  EXPECT_EQ(error(), labels_.path() + "/0003.txt: is not there, expected it beside " +
+  EXPECT_EQ(error(), labels_.path() + "/0003.txt: no such file, expected it along with " +
                          results_.path() + "/0003.txt");
 }
 
 TEST_F(SequenceFolders, FoldersThatAreEmptyOrNotThere) {
-  EXPECT_EQ(error(), labels_.path() + ": has no NAME.txt, expected one a sequence");
+  EXPECT_EQ(error(), labels_.path() + ": has no NAME.txt, expected one per sequence");
   EXPECT_EQ(messageOf([this] { readSequences(labels_.path() + "/none", results_.path()); }),
-            labels_.path() + "/none: is no folder, expected one with a NAME.txt a sequence");
+            labels_.path() + "/none: not a folder, expected one with a NAME.txt per sequence");
 }
 
 }  // namespace

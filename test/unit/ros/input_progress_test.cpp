@@ -52,7 +52,7 @@ TEST(InputProgress, WhatNeverComesIsNamedOnceAfterAWhile) {
   const auto lines = progress.news(monitor, 5.1, nobody);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(lines[0].is_warning);
-  EXPECT_EQ(lines[0].text, "waits for odometry on /odom: nobody publishes it");
+  EXPECT_EQ(lines[0].text, "waits for odometry on /odom: it has no publisher");
   EXPECT_TRUE(progress.news(monitor, 6.0, nobody).empty());
 }
 
@@ -63,7 +63,7 @@ TEST(InputProgress, ASilentPublisherIsNoWarning) {
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_FALSE(lines[0].is_warning);
   EXPECT_EQ(lines[0].text,
-            "waits for objects on /objects: it is published, but no message has come");
+            "waits for objects on /objects: it is published, but no message has been received");
 }
 
 TEST(InputProgress, AScanMayComeOnTwoTopics) {

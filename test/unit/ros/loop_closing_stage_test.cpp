@@ -90,7 +90,7 @@ TEST_F(LoopClosingStageTest, ADriveWithALoopComesOutWithoutItsDrift) {
   EXPECT_EQ(optimized->map->header.frame_id, "global_map");
   EXPECT_GT(optimized->map->data.size(), 10000U);
   EXPECT_GT(monitor_.figures().at("loops closed"), 1.0);
-  EXPECT_EQ(monitor_.figures().at("trajectories begun"), 1.0);
+  EXPECT_EQ(monitor_.figures().at("trajectories started"), 1.0);
   EXPECT_FALSE(stage.next(Stamp::fromSeconds(9000.0))) << "nothing has changed since";
 }
 
@@ -199,7 +199,7 @@ TEST_F(LoopClosingStageTest, AClockThatJumpsBackBeginsANewTrajectory) {
   const auto transforms = take(stage, message(Pose2(), Pose2(), -500.0));
   ASSERT_TRUE(transforms);
   EXPECT_EQ(transforms->transforms.at(0).transform.translation.x, 0.0);
-  EXPECT_EQ(monitor_.figures().at("trajectories begun"), 2.0);
+  EXPECT_EQ(monitor_.figures().at("trajectories started"), 2.0);
   EXPECT_EQ(monitor_.figures().at("keyframes"), 1.0);
   EXPECT_NE(monitor_.healthReason().find("new trajectory"), std::string::npos);
 }
@@ -210,10 +210,10 @@ TEST_F(LoopClosingStageTest, ANewMapOfTheSlamBeginsANewTrajectory) {
   LabeledScan lost = labeled(Yard().scan(Pose2(), now_ + 1.0), Pose2());
   lost.base_in_map.covariance = Eigen::Vector3d(100.0, 100.0, 1.0).asDiagonal();
   take(stage, toMessage(lost, "base_link", "map"));
-  EXPECT_EQ(monitor_.figures().at("trajectories begun"), 1.0) << "it may be found again";
+  EXPECT_EQ(monitor_.figures().at("trajectories started"), 1.0) << "it may be found again";
   lost.stamp = lost.stamp + stageOptions().keyframes.new_map_after;
   take(stage, toMessage(lost, "base_link", "map"));
-  EXPECT_EQ(monitor_.figures().at("trajectories begun"), 2.0);
+  EXPECT_EQ(monitor_.figures().at("trajectories started"), 2.0);
 }
 
 TEST_F(LoopClosingStageTest, BadScansAreDroppedAndCounted) {

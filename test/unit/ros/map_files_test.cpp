@@ -145,7 +145,7 @@ TEST_F(MapFilesTest, ACutOrChangedFileIsRefused) {
   write("changed.map", changed);
   expectIn("its checksum is", refusal("changed.map"));
   write("more.map", whole + "x");
-  expectIn("is cut or changed", refusal("more.map"));
+  expectIn("is truncated or modified", refusal("more.map"));
 }
 
 TEST_F(MapFilesTest, AnotherResolutionIsRefused) {
@@ -159,17 +159,17 @@ TEST_F(MapFilesTest, AnotherResolutionIsRefused) {
 TEST_F(MapFilesTest, WhatIsNoMapIsRefused) {
   expectIn("no such file", refusal("none.map"));
   write("text.map", "hello\n");
-  expectIn("no map of this version", refusal("text.map"));
+  expectIn("not a map of this version", refusal("text.map"));
   write("text.yaml", "hello: [\n");
-  expectIn("no yaml file of map_server", refusal("text.yaml"));
+  expectIn("not a yaml file of map_server", refusal("text.yaml"));
   write("no_image.yaml", "image: none.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
   expectIn("none.pgm: no such file", refusal("no_image.yaml"));
   writeMap(file("a.map"), mapWithWall());
   write("a.pgm", content("a.pgm").substr(0, 60));
-  expectIn("a.pgm: is cut", refusal("a.yaml"));
+  expectIn("a.pgm: is truncated", refusal("a.yaml"));
   write("empty.pgm", std::string("P5 2 2 255\n") + std::string(4, static_cast<char>(205)));
   write("empty.yaml", "image: empty.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
-  expectIn("nothing is known in it", refusal("empty.yaml"));
+  expectIn("has only unknown cells", refusal("empty.yaml"));
 }
 
 TEST_F(MapFilesTest, AllOfAFileIsKeptWhateverRoomThereIsForANewMap) {
@@ -238,8 +238,8 @@ TEST_F(MapFilesTest, AnImpossibleDescriptionIsRefused) {
   };
   expectIn("origin out of range", refusalWith("origin: [.nan, 0, 0]\n"));
   expectIn("origin out of range", refusalWith("origin: [0, 1e12, 0]\n"));
-  expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nnegate: true\n"));
-  expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nfree_thresh: low\n"));
+  expectIn("not a yaml file of map_server", refusalWith("origin: [0, 0, 0]\nnegate: true\n"));
+  expectIn("not a yaml file of map_server", refusalWith("origin: [0, 0, 0]\nfree_thresh: low\n"));
   expectIn("free_thresh <= occupied", refusalWith("origin: [0, 0, 0]\nfree_thresh: 0.9\n"));
   expectIn("mode raw, expected trinary", refusalWith("origin: [0, 0, 0]\nmode: raw\n"));
   write("b.yaml", "image: /dev/zero\nresolution: 0.5\norigin: [0, 0, 0]\n");

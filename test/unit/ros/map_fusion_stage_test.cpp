@@ -192,7 +192,7 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   EXPECT_EQ(
       monitor_.lastError(),
       "grid of stereo of 20 x 10 cells of 0.5 m from cell (-10, -5): expected 20 x 10 cells of "
-      "1 m from cell (-10, -5), as the first grid has them");
+      "1 m from cell (-10, -5), as in the first grid");
   take("stereo", gridMessage(100.15, kFree, {1.0, 30, 10, {-15, -5}}));
   EXPECT_EQ(drops("wrong_window"), 2U) << "of another size";
   auto elsewhere = gridMessage(100.2, kFree);
@@ -233,7 +233,7 @@ TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
   allAt(100.1, kOccupied, kOccupied, Pose2(2.0, 0.0, 0.0));
   allAt(100.2, kOccupied, kOccupied, Pose2(12.0, 0.0, 0.0));
   ASSERT_TRUE(allAt(101.0, kFree, kFree, Pose2(14.0, 0.0, 0.0))->fused);
-  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0);
+  EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0);
 }
 
 TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
@@ -245,11 +245,11 @@ TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
   const auto output = allAt(101.0, kOccupied, kOccupied);
   ASSERT_TRUE(output && output->fused);
   EXPECT_GT(percentAt(*output->fused, kCell), 80) << "nothing was taken";
-  EXPECT_EQ(monitor_.figures().at("scans left out, their pose being uncertain"), 9.0);
+  EXPECT_EQ(monitor_.figures().at("scans left out because of an uncertain pose"), 9.0);
   for (int i = 1; i <= 82; ++i) {
     allAt(101.0 + 0.1 * i, kFree, kFree, Pose2(), kUncertain);
   }
-  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0) << "it is in a new map";
+  EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0) << "it is in a new map";
 }
 
 TEST_F(MapFusionStageTest, GridsThatNoPoseTakesInAreCounted) {

@@ -38,17 +38,17 @@ TEST(PartClocks, EachIsDescribed) {
 }
 
 TEST(PartClocks, OneThatMayAgreeIsFine) {
-  const StackHealth good{HealthLevel::kOk, "tracks come"};
+  const StackHealth good{HealthLevel::kOk, "tracks are published"};
   EXPECT_EQ(judgedNow(PartClocks((PartClocksOptions())), good).level, HealthLevel::kOk);
   EXPECT_EQ(judgedNow(with("/perception_stereo", 0.0109), good).level, HealthLevel::kOk);
 }
 
 TEST(PartClocks, OneThatIsSurelyOffIsNamed) {
   const StackHealth health =
-      judgedNow(with("/perception_stereo", -0.0115), {HealthLevel::kOk, "tracks come"});
+      judgedNow(with("/perception_stereo", -0.0115), {HealthLevel::kOk, "tracks are published"});
   EXPECT_EQ(health.level, HealthLevel::kDegraded);
   EXPECT_EQ(health.sentence,
-            "less than all: clock of perception_stereo: 11.5 +- 1.0 ms behind, expected at most "
+            "degraded: clock of perception_stereo: 11.5 +- 1.0 ms behind, expected at most "
             "10.0 ms; synchronize the machines' clocks (chrony)");
 }
 
@@ -62,10 +62,10 @@ TEST(PartClocks, WhatIsKnownAlreadyStays) {
 
 TEST(PartClocks, APartThatDoesNotAnswerAnyMoreIsNamed) {
   const PartClocks clocks = with("/perception_risk", 0.0);
-  const StackHealth good{HealthLevel::kOk, "tracks come"};
+  const StackHealth good{HealthLevel::kOk, "tracks are published"};
   EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 9.0)).level, HealthLevel::kOk);
   EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 12.0)).sentence,
-            "less than all: perception_risk: no answer for 12 s");
+            "degraded: perception_risk: no answer for 12 s");
 }
 
 }  // namespace

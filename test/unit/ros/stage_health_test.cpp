@@ -50,8 +50,8 @@ TEST_F(StageHealthTest, NothingPublishedIsNothingMade) {
   const StageState state = judge(100.0);
   EXPECT_EQ(state.level, HealthLevel::kNoOutput);
   ASSERT_EQ(state.faults.size(), 2U);
-  EXPECT_EQ(state.faults[0], "no scan yet: nobody publishes it (scan on /scan or /echoes)");
-  EXPECT_EQ(state.faults[1], "no odometry yet: nobody publishes it (odometry on /odom)");
+  EXPECT_EQ(state.faults[0], "no scan yet: it has no publisher (scan on /scan or /echoes)");
+  EXPECT_EQ(state.faults[1], "no odometry yet: it has no publisher (odometry on /odom)");
 }
 
 TEST_F(StageHealthTest, AWrongTypeIsReportedWithBothTypes) {
@@ -68,8 +68,9 @@ TEST_F(StageHealthTest, AWrongTypeIsReportedWithBothTypes) {
 
 TEST_F(StageHealthTest, ASilentPublisherIsNotMissing) {
   published_ = {{"/echoes", "sensor_msgs/MultiEchoLaserScan"}};
-  EXPECT_EQ(judge(100.0).faults[0],
-            "no scan yet: it is published, but no message has come (scan on /scan or /echoes)");
+  EXPECT_EQ(
+      judge(100.0).faults[0],
+      "no scan yet: it is published, but no message has been received (scan on /scan or /echoes)");
 }
 
 TEST_F(StageHealthTest, WhatStillMakesResultsGivesLess) {
@@ -129,18 +130,18 @@ TEST(StackHealth, LessThanAllNamesTheFirstFault) {
       stage("tracker", HealthLevel::kOk, "", {"/grids/stereo"}, {"/tracks"})};
   const StackHealth health = stackHealth(stages, "/tracks");
   EXPECT_EQ(health.level, HealthLevel::kDegraded);
-  EXPECT_EQ(health.sentence, "less than all: stereo_grid: no points2 for 3.0 s");
+  EXPECT_EQ(health.sentence, "degraded: stereo_grid: no points2 for 3.0 s");
 }
 
 TEST(StackHealth, GoodOnesAreReportedInTwoWords) {
   EXPECT_EQ(
       stackHealth({stage("tracker", HealthLevel::kOk, "", {}, {"/tracks"})}, "/tracks").sentence,
-      "tracks come");
+      "tracks are published");
 }
 
 TEST(StackHealth, AStageThatHasNotReportedIsNamedByWhatItMakes) {
   EXPECT_EQ(stackHealth({}, "/tracks").sentence,
-            "no tracks: no stage that makes them has reported");
+            "no tracks: no stage that publishes them has reported");
 }
 
 TEST(StackHealth, ACircleEnds) {

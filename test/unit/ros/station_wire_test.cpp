@@ -98,7 +98,7 @@ TEST_F(StationWireTest, WhatWeSentOurselvesIsNotTaken) {
   StationWire other{StationWireOptions(), others_monitor};
   EXPECT_TRUE(other.received(sent[0], kNoon));
   EXPECT_FALSE(wire_.received(sent[0], kNoon));
-  EXPECT_EQ(monitor_.figures().at("messages of ours that came back"), 1.0);
+  EXPECT_EQ(monitor_.figures().at("own messages received back"), 1.0);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 

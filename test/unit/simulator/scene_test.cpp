@@ -158,7 +158,8 @@ TEST_F(SceneFile, PathThatIsTooShortForItsSpeedIsRefused) {
 
 TEST_F(SceneFile, BodiesThatCollideAreRefused) {
   const std::string message = refusal("[[20, 2], [80, 2]]", "[[50, -2], [20, -2]]");
-  EXPECT_IN_ORDER(message, "ego vehicle and Cyclist collide at", "expected free ways");
+  EXPECT_IN_ORDER(message, "ego vehicle and Cyclist collide at",
+                  "expected paths without collisions");
   EXPECT_NE(refusal("from_curb: -1.1", "from_curb: -4.0"), "");
 }
 

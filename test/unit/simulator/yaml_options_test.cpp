@@ -95,13 +95,13 @@ TEST(LoadYaml, AliasesMayStandForSoMuch) {
   }
   EXPECT_EQ(
       refusalOf(text),
-      ":15: expected yaml, but there are more than 100000 values, with what aliases stand for");
+      ":15: expected yaml, but there are more than 100000 values, including those of aliases");
   EXPECT_EQ(refusalOf("a: &a [1, 2]\nb: *a\nc: [*a, *a]\n"), "");
 }
 
 TEST(LoadYaml, DepthAndSizeAreBounded) {
   EXPECT_EQ(refusalOf("a: " + std::string(20000, '[')),
-            ":1: expected yaml, but lists and maps are more than 100 deep");
+            ":1: expected yaml, but lists and maps are nested more than 100 deep");
   EXPECT_EQ(refusalOf("a: " + std::string(90, '[') + std::string(90, ']')), "");
   EXPECT_EQ(refusalOf("a: 1 #" + std::string(2'000'000, ' ')),
             ": expected yaml, but it has more than 1048576 bytes");

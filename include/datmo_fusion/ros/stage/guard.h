@@ -18,10 +18,10 @@ void guarded(StageMonitor& monitor, const std::string& input, const Callback& ca
   } catch (const InputError& error) {
     monitor.dropped(error);
   } catch (const std::exception& error) {
-    monitor.dropped(InputError("unexpected_error", "at a message on " + input + ": " +
-                                                       error.what() +
-                                                       ": drops it and goes on; expected no such "
-                                                       "error: please report it"));
+    monitor.dropped(
+        InputError("unexpected_error",
+                   "at a message on " + input + ": " + error.what() +
+                       ": drops it and continues; expected no such error: please report it"));
   }
 }
 

@@ -18,7 +18,7 @@ struct StackHealth {
 /// Answers "why is there no output?": if the stage that publishes `result` (a resolved topic)
 /// produces nothing, the cause is the first fault of the most upstream stage that produces nothing
 /// either: "no tracks: grid_slam: no transform base_link -> laser". Otherwise the first fault of
-/// any stage, in the order given: "less than all: stereo_grid: no points2 for 3.0 s".
+/// any stage, in the order given: "degraded: stereo_grid: no points2 for 3.0 s".
 ///
 /// Two stages are connected if an output of one has the topic of an input of the other.
 StackHealth stackHealth(const std::vector<StageState>& stages, const std::string& result);

@@ -32,8 +32,8 @@ std::string nameAndTopics(const WatchedInput& input);
 /// Whether an input is published with the right type.
 bool isPublished(const WatchedInput& input, const PublishedType& published_type);
 
-/// Returns why no message of an input can be received: "nobody publishes it", "it is published as
-/// A, expected B", or "it is published, but no message has come".
+/// Returns why no message of an input can be received: "it has no publisher", "it is published as
+/// A, expected B", or "it is published, but no message has been received".
 std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type);
 
 /// Topics of a stage, resolved.

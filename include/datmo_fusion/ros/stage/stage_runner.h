@@ -32,7 +32,7 @@ class StageRunner {
   auto serve(const Handle& handle) -> decltype(handle()) {
     watch_ = Stopwatch();
     if (monitor_.takeResetRequest()) {
-      reset("bad_output", "what it made could not be used");
+      reset("bad_output", "its output could not be used");
     }
     try {
       return handle();
