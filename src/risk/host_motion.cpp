@@ -38,28 +38,29 @@ double speedAfter(double speed, double acceleration, double seconds) {
 }  // namespace
 
 void HostVehicleOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "of the vehicle, bumper to bumper", Tier::kPublic}, length,
+  visitor.number({"length", "m", "length of the vehicle, bumper to bumper", Tier::kPublic}, length,
                  {0.1, 30.0});
-  visitor.number({"width", "m", "of the vehicle without mirrors", Tier::kPublic}, width,
+  visitor.number({"width", "m", "width of the vehicle without mirrors", Tier::kPublic}, width,
                  {0.1, 5.0});
   visitor.number(
       {"rear_overhang", "m", "from the rear bumper to the rear axle (base_link)", Tier::kPublic},
       rear_overhang, {0.0, 10.0});
   visitor.number(
-      {"wheelbase", "m", "from axle to axle; of the bicycle model (thesis 5.3.5)", Tier::kPublic},
+      {"wheelbase", "m", "distance between the axles, for the bicycle model (thesis 5.3.5)",
+       Tier::kPublic},
       wheelbase, {0.1, 15.0});
   visitor.number({"max_steering", "rad", "angle of the front wheels at full lock"}, max_steering,
                  {0.05, 1.5});
   visitor.number({"max_steering_rate", "rad/s",
-                  "of the front wheels; a quick driver turns the wheel by 500 degrees a second, "
-                  "geared down by 15"},
+                  "steering rate of the front wheels; a quick driver turns the steering wheel by "
+                  "500 degrees a second, geared down by 15"},
                  max_steering_rate, {0.01, 5.0});
-  visitor.number({"max_braking", "m/s^2",
-                  "deceleration that brakes reach on a dry road within a driver's power; automatic "
-                  "brakes are tested at 6 to 9"},
-                 max_braking, {0.5, 12.0});
+  visitor.number(
+      {"max_braking", "m/s^2",
+       "deceleration that a driver can reach on a dry road; automatic brakes are tested at 6 to 9"},
+      max_braking, {0.5, 12.0});
   visitor.number({"max_lateral", "m/s^2",
-                  "lateral acceleration up to which the tires hold and a driver dares to steer"},
+                  "lateral acceleration up to which the tires grip and a driver dares to steer"},
                  max_lateral, {0.5, 12.0});
 }
 

@@ -87,19 +87,19 @@ double turnIntoRoad(double course, double road) {
 
 void RoadFollowingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"probability", "1",
-                  "prior probability that who drives or rides keeps to the direction of the road; "
-                  "0: the track's velocity alone"},
+                  "prior probability that a driver or rider follows the direction of the road; 0: "
+                  "the track's velocity alone is used"},
                  probability, {0.0, 0.999});
   visitor.number({"turning", "1",
-                  "of who drives and does not follow the road, the share that turns into it or off "
-                  "it; the others cross it"},
+                  "share of the drivers not following the road that turn into it or off it; the "
+                  "others cross it"},
                  turning, {0.0, 1.0});
   visitor.number({"crossing_sigma", "rad",
-                  "standard deviation of the angle at which roads cross about a right angle"},
+                  "standard deviation of the angle between crossing roads about a right angle"},
                  crossing_sigma, {0.05, 1.0});
   visitor.number({"direction_sigma", "rad",
-                  "standard deviation of his course about it: swaying, and bends beyond what is "
-                  "known of the road"},
+                  "standard deviation of a course about the road's direction: swaying, and bends "
+                  "beyond the known part of the road"},
                  direction_sigma, {0.001, 1.0});
   visitor.number({"min_speed", "m/s", "slower objects have no measurable course"}, min_speed,
                  {0.1, 10.0});

@@ -66,27 +66,27 @@ WarningOptions warningOf(const RiskOptions& options) {
 }  // namespace
 
 void RiskOptions::visit(OptionVisitor& visitor) {
-  visitor.choice(
-      {"method", "",
-       "futures: seeded joint futures; to compare with: the circles of thesis 5.3.5, boxes "
-       "at constant velocity, responsibility-sensitive safety"},
-      method,
-      {{"futures", RiskMethod::kFutures},
-       {"thesis", RiskMethod::kThesis},
-       {"ttc_boxes", RiskMethod::kBoxes},
-       {"rss", RiskMethod::kRss}});
+  visitor.choice({"method", "",
+                  "futures: seeded joint futures; for comparison: the circles of thesis 5.3.5, "
+                  "boxes at constant velocity, responsibility-sensitive safety"},
+                 method,
+                 {{"futures", RiskMethod::kFutures},
+                  {"thesis", RiskMethod::kThesis},
+                  {"ttc_boxes", RiskMethod::kBoxes},
+                  {"rss", RiskMethod::kRss}});
   visitor.integer({"max_objects", "1",
-                   "tracks that are assessed at most, the surest to exist; bounds the time of a "
-                   "step"},
+                   "maximum number of tracks that are assessed, those most likely to exist; bounds "
+                   "the time of a step"},
                   max_objects, {1, 1000});
-  visitor.number({"max_silence", "s", "a track that was not seen for longer is left out"},
+  visitor.number({"max_silence", "s", "a track that was not observed for longer is ignored"},
                  max_silence, {0.0, 10.0});
-  visitor.number({"point_spacing", "m", "of points of what stands: nearer ones count once"},
+  visitor.number({"point_spacing", "m",
+                  "spacing of the points of stationary obstacles: closer ones count once"},
                  point_spacing, {0.05, 2.0});
-  visitor.number({"point_margin", "m", "points this near to a track's box are the track's"},
+  visitor.number({"point_margin", "m", "points this close to a track's box belong to the track"},
                  point_margin, {0.0, 5.0});
   visitor.number({"default_size", "m",
-                  "of a track whose extent was not measured, or is smaller: that of a pedestrian"},
+                  "extent of a track that was not measured, or is smaller: that of a pedestrian"},
                  default_size, {0.1, 5.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("horizon", [&] { horizon.visit(visitor); });
