@@ -74,7 +74,7 @@ CanSignal canSignalOf(const std::string& option, const std::string& file, const 
   const Found found = findSignal(stream, name);
   const std::string named = option + ": the signal '" + name + "' of " + file;
   if (found.entries.empty()) {
-    throw OptionError(named + " is not there: expected the name of a signal (SG_)");
+    throw OptionError(named + " does not exist: expected the name of a signal (SG_)");
   }
   const Entry& entry = found.entries.front();
   if (found.entries.size() > 1) {

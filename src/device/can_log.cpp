@@ -139,7 +139,7 @@ CanFrame CanLog::next() {
                      (other_interface_.empty()
                           ? ""
                           : " (frames of " + other_interface_ + " are not of " + interface_ +
-                                ", and were left out)"));
+                                ", and were ignored)"));
 }
 
 }  // namespace datmo

@@ -77,7 +77,7 @@ CanFrame frameOf(const canfd_frame& read, std::size_t size) {
   const bool is_classic = size == CAN_MTU;
   const bool has_size = is_classic || size == CANFD_MTU;
   if (!has_size || read.len > (is_classic ? CAN_MAX_DLEN : CANFD_MAX_DLEN)) {
-    throw CanFrameError("what came has " + std::to_string(size) + " bytes and says " +
+    throw CanFrameError("a frame with " + std::to_string(size) + " bytes indicates " +
                         std::to_string(read.len) + " of data: expected a frame of CAN or CAN FD");
   }
   CanFrame frame;
@@ -123,8 +123,9 @@ CanFrame CanSocket::next() {
       throw DeviceStopped();
     }
   } while (Clock::now() < end);
-  throw DeviceError("silent_device", "no frame on " + name_ + " for " + std::to_string(timeout_) +
-                                         " s: is the ignition on, and the bit rate the bus's?");
+  throw DeviceError("silent_device",
+                    "no frame on " + name_ + " for " + std::to_string(timeout_) +
+                        " s: is the ignition on, and is the bit rate that of the bus?");
 }
 
 bool CanSocket::read(CanFrame& frame) {
@@ -146,7 +147,7 @@ bool CanSocket::read(CanFrame& frame) {
       throw interfaceDown(name_);
     }
     throw DeviceError("lost_connection", "the CAN interface " + name_ + " fails (" +
-                                             std::strerror(errno) + "): opens it again");
+                                             std::strerror(errno) + "): reopening it");
   }
   frame = frameOf(bytes, static_cast<std::size_t>(size));
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr;

@@ -50,7 +50,7 @@ std::string CanVehicle::connect() {
   try {
     pending_ = nextMotion();
   } catch (const RecordingEnd& end) {
-    throw RecordingEnd(std::string(end.what()) + ", and no motion came of its " +
+    throw RecordingEnd(std::string(end.what()) + ", and gave no motion from its " +
                        std::to_string(frames_) + " frames: expected some with " +
                        motion_.paceText());
   }
@@ -98,7 +98,7 @@ CanFrame CanVehicle::nextFrame() {
       if (bad > kMaxBadFrames) {
         if (!timeout_) {
           throw RecordingEnd(std::string(error.what()) + "; it is the last of " +
-                             std::to_string(bad) + " such lines in a row: it is played no further");
+                             std::to_string(bad) + " such lines in a row: playback stops");
         }
         throw;
       }

@@ -106,9 +106,9 @@ CaptureFile::CaptureFile(std::string file, int port, const std::atomic<bool>& st
   const int link = pcap_datalink(capture_.get());
   if (link != DLT_RAW && headerOf(link) == nullptr) {
     const char* const name = pcap_datalink_val_to_name(link);
-    throw badRecording(file_, "its frames are of kind " +
+    throw badRecording(file_, "its frames are of link type " +
                                   (name == nullptr ? std::to_string(link) : std::string(name)) +
-                                  ", none of Ethernet, Linux cooked and raw IP");
+                                  ", not Ethernet, Linux cooked or raw IP");
   }
 }
 

@@ -21,12 +21,12 @@ constexpr std::size_t kColaByteBits = 8;
 constexpr std::size_t kLongestTelegram = 131072;
 
 DeviceError endsBefore(const char* name) {
-  return badAnswer(std::string("a telegram that ends before ") + name + ": expected a whole one");
+  return badAnswer(std::string("a telegram that ends before ") + name + ": expected a complete one");
 }
 
 DeviceError wrongDialect(ColaDialect expected) {
   return {kWrongDialect, std::string("the scanner speaks ") + nameOf(otherThan(expected)) +
-                             ": expected " + nameOf(expected) + ", which it was asked in"};
+                             ": expected " + nameOf(expected) + ", in which it was asked"};
 }
 
 std::uint32_t numberOf(std::string_view bytes) {
@@ -128,7 +128,7 @@ std::optional<ColaTelegram> ColaReader::nextBinary() {
     if (waiting[0] == kStart) {
       throw wrongDialect(dialect_);
     }
-    throw badAnswer(shownBytes(waiting) + ": expected a telegram of CoLa B, which begins by STX");
+    throw badAnswer(shownBytes(waiting) + ": expected a telegram of CoLa B, which begins with STX");
   }
   if (waiting.size() < kHead) {
     return std::nullopt;
@@ -164,7 +164,8 @@ std::optional<ColaTelegram> ColaReader::nextText() {
   // The last beginning: what was before it was cut off.
   const std::size_t start = waiting_.rfind(kStart, end);
   if (start == std::string::npos) {
-    throw badAnswer(shownBytes(waiting_) + ": expected a telegram of CoLa A, which begins by STX");
+    throw badAnswer(shownBytes(waiting_) +
+                    ": expected a telegram of CoLa A, which begins with STX");
   }
   ColaTelegram telegram{dialect_, waiting_.substr(start + 1, end - start - 1)};
   waiting_.erase(0, end + 1);

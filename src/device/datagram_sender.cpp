@@ -22,8 +22,8 @@ DatagramSender::DatagramSender(const std::string& host, int port)
   if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     const int error = errno;
     close(socket_);
-    throw DeviceError("no_connection", "no datagram can go to " + name_ + " (" +
-                                           std::strerror(error) + "): expected a network to it");
+    throw DeviceError("no_connection", "no datagram can be sent to " + name_ + " (" +
+                                           std::strerror(error) + "): expected a route to it");
   }
 }
 

@@ -47,8 +47,8 @@ void DatagramSocket::open() {
     const int error = errno;
     close(socket_);
     throw DeviceError("no_connection", "UDP port " + std::to_string(device_.port) +
-                                           " cannot be listened to (" + std::strerror(error) +
-                                           "): expected that no other driver does");
+                                           " cannot be opened (" + std::strerror(error) +
+                                           "): expected that no other driver uses it");
   }
 }
 
@@ -65,7 +65,7 @@ std::string_view DatagramSocket::next() {
     }
     if (count < 0 && errno != EAGAIN && errno != EINTR) {
       throw DeviceError("lost_connection", "UDP port " + std::to_string(device_.port) + " fails (" +
-                                               std::strerror(errno) + "): listens again");
+                                               std::strerror(errno) + "): reopening it");
     }
     const std::chrono::duration<double> left = end - Clock::now();
     if (count < 0) {

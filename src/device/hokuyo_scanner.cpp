@@ -21,8 +21,8 @@ constexpr const char* kQuit = "QT";  ///< ends all scans
 }  // namespace
 
 void HokuyoOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"baud", "1", "bits per second of a serial port; on USB it does not matter"},
-                  baud, {4800.0, 460800.0});
+  visitor.integer({"baud", "1", "bits per second of a serial port; irrelevant on USB"}, baud,
+                  {4800.0, 460800.0});
 }
 
 HokuyoScanner::HokuyoScanner(DeviceAddress address, const HokuyoOptions& options,
@@ -47,7 +47,7 @@ std::string HokuyoScanner::connect() {
   }
   const ScipAnswer started = ask(scipScanRequest(model_));
   if (started.status != "00") {
-    throw DeviceError("device_fault", "'" + model_.name + "' does not begin to scan (status " +
+    throw DeviceError("device_fault", "'" + model_.name + "' does not start scanning (status " +
                                           started.status + "): expected 00");
   }
   return model_.name + ", " + std::to_string(model_.beams()) + " beams, at " + address_.host;

@@ -16,12 +16,12 @@ constexpr int kMaxBadSentences = 20;  ///< in a row: there is no receiver
 void NmeaOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"baud", "1", "bits per second of a serial port"}, baud, {4800.0, 460800.0});
   visitor.number({"delay", "s",
-                  "from the time of a position to its first byte: what the receiver takes to "
-                  "compute it (data sheet)"},
+                  "delay from the time of a position to its first byte: the time the receiver "
+                  "needs to compute it (data sheet)"},
                  delay, {0.0, 1.0});
   visitor.number({"sigma", "m",
-                  "standard deviation along each axis of a position without corrections where HDOP "
-                  "is 1; corrections make it less by fixed shares"},
+                  "standard deviation along each axis of a position without corrections at an HDOP "
+                  "of 1; corrections reduce it by fixed factors"},
                  sigma, {0.01, 100.0});
 }
 

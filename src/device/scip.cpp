@@ -40,7 +40,7 @@ bool isChecked(std::string_view line) {
 std::string_view withoutChecksum(std::string_view line) {
   if (!isChecked(line)) {
     throw DeviceError("bad_answer", "line " + shownBytes(line) +
-                                        " of a scan: expected one that fits its checksum");
+                                        " of a scan: expected one that matches its checksum");
   }
   return line.substr(0, line.size() - 1);
 }
@@ -70,9 +70,9 @@ int numberOf(const std::map<std::string, std::string>& fields, const std::string
     }
   }
   throw DeviceError("wrong_device",
-                    "the device says " + name + " = " +
+                    "the device reports " + name + " = " +
                         (field == fields.end() ? "nothing" : shownBytes(field->second)) +
-                        ": expected the number that a scanner with SCIP 2.0 has");
+                        ": expected a number, as from a scanner with SCIP 2.0");
 }
 
 void check(const ScipModel& model) {
@@ -86,7 +86,7 @@ void check(const ScipModel& model) {
         "'" + model.name + "' measures steps " + std::to_string(model.first_step) + " to " +
             std::to_string(model.last_step) + " of " + std::to_string(model.turn_steps) + " from " +
             std::to_string(model.min_range) + " to " + std::to_string(model.max_range) + " mm at " +
-            std::to_string(model.speed) + " turns a minute: expected a scanner's");
+            std::to_string(model.speed) + " turns a minute: expected those of a scanner");
   }
 }
 
@@ -172,7 +172,7 @@ ScipScan scipScan(const ScipAnswer& answer, const ScipModel& model) {
   if (answer.status != "99") {
     throw DeviceError("device_fault", "the scanner answers with status " +
                                           shownBytes(answer.status) +
-                                          ": expected 99, a scan; its manual has the cause");
+                                          ": expected 99, a scan; see its manual for the cause");
   }
   if (answer.lines.empty()) {
     throw DeviceError("bad_answer", "a scan without a time: expected one");

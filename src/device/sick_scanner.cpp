@@ -23,8 +23,7 @@ DeviceError wrongAnswer(const ColaTelegram& answer, std::string_view command,
                         std::string_view expected) {
   return {"device_fault", "the device answers " + shownBytes(answer.bytes) + " to '" +
                               std::string(command) + "': expected '" + std::string(expected) +
-                              "'; is it a scanner of SICK's with the password that it left the "
-                              "factory with?"};
+                              "'; is it a SICK scanner with its factory password?"};
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ void SickScanner::identify() {
     }
     throw DeviceError(kSilent, std::string(error.what()) + "; it was asked in " + nameOf(first) +
                                    " and in " + nameOf(otherThan(first)) +
-                                   ": is it a scanner of SICK's?");
+                                   ": is it a SICK scanner?");
   }
 }
 
@@ -134,7 +133,8 @@ ColaTelegram SickScanner::nextTelegramOnceWarm() {
       if (error.reason() != kSilent || !isWarmingUp()) {
         throw;
       }
-      host_.warn({"warming_up", "'" + model_.name + "' is not measuring yet: waits for its scans"});
+      host_.warn(
+          {"warming_up", "'" + model_.name + "' is not measuring yet: waiting for its scans"});
     }
   }
 }
@@ -143,8 +143,8 @@ DeviceMeasurement SickScanner::next() {
   ColaTelegram telegram = nextTelegramOnceWarm();
   while (!telegram.isCalled(kScanTelegram)) {
     if (telegram.bytes.rfind("sFA", 0) == 0) {
-      throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram.bytes) +
-                                            ": expected scans; its manual has the error");
+      throw DeviceError("device_fault", "the scanner reports " + shownBytes(telegram.bytes) +
+                                            ": expected scans; see its manual for the error");
     }
     telegram = nextTelegramOnceWarm();
   }
@@ -164,11 +164,10 @@ DeviceMeasurement SickScanner::next() {
 void SickScanner::warnOf(SickState state) const {
   if (state == SickState::kFault) {
     host_.warn({"device_error", "'" + model_.name +
-                                    "' says that it has an error: its scans may "
-                                    "be wrong; its display or SOPAS ET has the "
-                                    "cause"});
+                                    "' reports an error: its scans may be wrong; see its display "
+                                    "or SOPAS ET for the cause"});
   } else if (state == SickState::kDirty) {
-    host_.warn({"dirty_window", "'" + model_.name + "' says that its window is dirty: clean it"});
+    host_.warn({"dirty_window", "'" + model_.name + "' reports a dirty window: clean it"});
   }
 }
 

@@ -70,7 +70,7 @@ Channel readChannel(ColaFields& fields, std::size_t size) {
   const std::uint32_t count = fields.number(kTwo, "its number of beams");
   if (channel.spacing <= 0.0 || channel.spacing * count > toDegrees(kTurn) + channel.spacing) {
     throw badAnswer(std::to_string(count) + " beams " + std::to_string(channel.spacing) +
-                    " deg apart: expected a turn at most");
+                    " deg apart: expected at most a full turn");
   }
   fields.require(count, size, "a beam");
   channel.values.reserve(count);
@@ -138,7 +138,7 @@ void takeStatus(ColaFields& fields, SickScan& scan) {
   scan.sent = fields.number(kFour, "the time of its transmission");
   if (scan.sent - scan.begun > kLongestScan) {
     throw badAnswer("a scan that began at " + std::to_string(scan.begun) + " us and was sent at " +
-                    std::to_string(scan.sent) + " us: expected a second between at most");
+                    std::to_string(scan.sent) + " us: expected at most a second between");
   }
 }
 

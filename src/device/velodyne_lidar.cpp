@@ -33,11 +33,11 @@ void VelodyneOptions::visit(OptionVisitor& visitor) {
   for (const VelodyneModel& known : velodyneModels()) {
     names.push_back(known.name);
   }
-  visitor.text({"model", "", "auto: as its packets say, which those of old firmware do not"}, model,
-               names);
-  visitor.number({"min_range", "m", "nearer returns are left out: the mount and the lidar itself"},
+  visitor.text({"model", "", "auto: as its packets report, which those of old firmware do not"},
+               model, names);
+  visitor.number({"min_range", "m", "nearer returns are ignored: the mount and the lidar itself"},
                  min_range, {0.0, 10.0});
-  visitor.number({"max_range", "m", "farther returns are left out"}, max_range, {1.0, 300.0});
+  visitor.number({"max_range", "m", "farther returns are ignored"}, max_range, {1.0, 300.0});
   visitor.number({"seam", "rad",
                   "bearing about the lidar where a turn ends and the next begins: best where "
                   "little happens"},
@@ -71,7 +71,7 @@ VelodynePacket VelodyneLidar::nextPacket() {
       throw DeviceError("wrong_device",
                         "a packet of another product (" + std::to_string(packet.product()) +
                             ") than " + model_->name +
-                            ": expected one lidar a port; tell them apart by their addresses");
+                            ": expected one lidar per port; distinguish them by their addresses");
     } catch (const RecordingEnd&) {
       throw;
     } catch (const DeviceError& error) {
@@ -106,10 +106,10 @@ const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const 
     for (const VelodyneModel& model : models) {
       known += std::to_string(model.product) + " (" + model.name + "), ";
     }
-    throw DeviceError("wrong_device", "a lidar of product " + std::to_string(packet.product()) +
-                                          ": expected one of " + known +
-                                          "and that of velodyne/model if it names "
-                                          "one; name it only for old firmware");
+    throw DeviceError(
+        "wrong_device",
+        "a lidar with product number " + std::to_string(packet.product()) + ": expected one of " +
+            known + "and that of velodyne/model if it names one; name it only for old firmware");
   }
   return *found;
 }
@@ -143,7 +143,7 @@ void VelodyneLidar::takeTime(const VelodynePacket& packet) {
   if (age_ > kLongestTurn) {
     throw DeviceError("device_fault", "the lidar has not turned once in " +
                                           std::to_string(kLongestTurn) +
-                                          " s: expected five turns a second or more");
+                                          " s: expected at least five turns a second");
   }
 }
 

@@ -41,9 +41,9 @@ VelodynePacket::VelodynePacket(std::string_view bytes) : bytes_(bytes) {
           "own: expected a VLP-16, Puck LITE, Puck Hi-Res, VLP-32C or HDL-32E");
     }
     if (flag != kUpperBlock || azimuth(block) >= kFullTurn) {
-      throw DeviceError("bad_packet", "block " + std::to_string(block) + " of a packet begins by " +
-                                          std::to_string(flag) + " at azimuth " +
-                                          std::to_string(azimuth(block)) +
+      throw DeviceError("bad_packet", "block " + std::to_string(block) +
+                                          " of a packet begins with " + std::to_string(flag) +
+                                          " at azimuth " + std::to_string(azimuth(block)) +
                                           ": expected 61183 and less than 36000");
     }
   }
