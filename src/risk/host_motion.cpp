@@ -8,16 +8,16 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower, a yaw rate says nothing about the steering.
+/// m/s; below this, a yaw rate does not determine the steering.
 constexpr double kRolling = 0.5;
 
-/// What changes of a state in one second.
+/// Time derivative of a state.
 struct Rates {
   Point2 position;
   double heading;
 };
 
-/// 1/m, of the rear axle's path.
+/// Returns the curvature of the rear axle's path, 1/m.
 double curvatureOf(double speed, double steering, const HostVehicleOptions& vehicle) {
   const double curvature = std::tan(steering) / vehicle.wheelbase;
   const double limit = vehicle.max_lateral / std::max(speed * speed, kRolling * kRolling);
@@ -28,8 +28,8 @@ Rates ratesOf(double heading, double speed, double curvature) {
   return {speed * Point2(std::cos(heading), std::sin(heading)), speed * curvature};
 }
 
-/// The speed after a time of an acceleration that does not turn the direction of travel: who stands
-/// stays.
+/// Returns the speed after an acceleration that does not reverse the direction of travel: a
+/// stationary vehicle remains stationary.
 double speedAfter(double speed, double acceleration, double seconds) {
   const double after = speed + acceleration * seconds;
   return speed * after <= 0.0 ? 0.0 : after;

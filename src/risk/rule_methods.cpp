@@ -13,12 +13,12 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower bodies do not close a gap.
+/// m/s; bodies that approach more slowly do not close a gap.
 constexpr double kClosing = 0.01;
 
 Point2 velocityOf(const Track& track) { return track.state.segment<2>(2); }
 
-/// The path at constant velocity, at the times of another one.
+/// Returns the path at constant velocity, at the times of another path.
 BodyPath straightPath(const Track& track, const BodyPath& times) {
   BodyPath path{times.step, {}};
   for (std::size_t i = 0; i < times.poses.size(); ++i) {
@@ -37,7 +37,7 @@ ObjectRisk riskOf(const Track& track) {
   return risk;
 }
 
-/// Contact at `time` with that probability.
+/// Sets contact at `time` with this probability.
 void setContact(ObjectRisk& risk, double time, double probability, const RuleOptions& options) {
   for (std::size_t i = 0; i < kRiskTimes; ++i) {
     risk.contact_probability[i] = time <= static_cast<double>(i + 1) ? probability : 0.0;
@@ -73,14 +73,14 @@ double brakingOf(ObjectClass object_class, const RuleOptions& options) {
   return options.vehicle_braking;
 }
 
-/// Gap at which two that approach each other along a line may be, before both have responded: each
-/// goes on for the response time, with an acceleration toward the other, and brakes. `a`, `b`:
-/// speeds toward the other, m/s; less than 0: it goes away, and may brake as hard as it can.
+/// Safe gap between two bodies that approach each other along a line before both have responded:
+/// each continues for the response time, accelerating toward the other, and then brakes. `a`, `b`:
+/// speeds toward the other, m/s; negative: it moves away, and may brake as hard as it can.
 struct Approach {
   double speed;
   double response;      ///< m/s^2, in the response time
   double braking;       ///< m/s^2, after it
-  double hard_braking;  ///< m/s^2, of one that goes away
+  double hard_braking;  ///< m/s^2, of one that moves away
 };
 
 double advanceOf(const Approach& body, double time) {
@@ -93,7 +93,7 @@ double advanceOf(const Approach& body, double time) {
 }
 
 struct Gap {
-  double distance;      ///< m; 0 or less: the bodies overlap along this line
+  double distance;      ///< m; not positive: the bodies overlap along this line
   double toward_other;  ///< m/s, of the host
   double toward_host;   ///< m/s, of the other
 };
@@ -227,7 +227,7 @@ ObjectRisk rssRisk(const Track& track, const BodyPath& host, const BodySize& hos
   const double contact =
       closing > kClosing ? std::max(0.0, ahead.distance) / closing : host.duration();
   setContact(risk, std::min(contact, host.duration()), 1.0, options);
-  risk.time_to_brake = 0.0;  // the safe distances hold the response time already
+  risk.time_to_brake = 0.0;  // the safe distances already include the response time
   risk.side = struckSide(pose, host_size, other, size);
   risk.strike_speed = (velocityOf(track) - host.velocity(0)).norm();
   risk.contact = other.center;

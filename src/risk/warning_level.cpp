@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower the host stands, and braking changes nothing.
+/// m/s; below this, the host is stationary, and braking changes nothing.
 constexpr double kStanding = 0.1;
 
-/// Not where the host stands, or is struck from behind as it moves.
+/// Returns false if the host is stationary, or is moving and struck from behind.
 bool brakingHelps(const ObjectRisk& risk, double host_speed) {
   const StruckSide behind = host_speed < 0.0 ? StruckSide::kFront : StruckSide::kRear;
   return std::abs(host_speed) > kStanding && risk.side != behind;
@@ -138,7 +138,8 @@ void WarningLevel::judge(RiskReport& report, double host_speed) {
     level_ = kept;
     kept_at_ = report.stamp;
   }
-  // While a level is held, what asked for it stays its reason, whatever else asks for less.
+  // While a level is held, the object that required it remains its reason, even if others require
+  // less.
   if (kept != RiskLevel::kNone && kept >= level_) {
     cause_ = eased->id;
     reason_ = reasonOf(*eased, host_speed);
