@@ -21,7 +21,7 @@ constexpr std::array<const char*, 8> kSignalNames = {"speed",     "yaw_rate",   
 
 std::string optionName(const std::string& option) { return "can/" + option; }
 
-/// `text`: as CanOptions says. Throws OptionError.
+/// Parses a signal; `text`: see CanOptions. Throws OptionError.
 CanSignal signalOf(const std::string& name, const std::string& text, const std::string& dbc) {
   if (text.find('|') == std::string::npos) {
     if (dbc.empty()) {
@@ -227,7 +227,7 @@ std::optional<double> CanMotion::newest(int role, Stamp stamp) const {
   if (channel.value && std::abs(secondsBetween(channel.stamp, stamp)) <= options_.max_age) {
     return channel.value;
   }
-  if (!(channel.signal.id == pace_)) {  // otherwise it has been said what is wrong with it
+  if (!(channel.signal.id == pace_)) {  // otherwise the fault has already been reported
     warn_({"stale_signal", optionName(kSignalNames[role]) + " (" + toText(channel.signal.id) +
                                ") has had no valid value for " + std::to_string(options_.max_age) +
                                " s: expected one with each speed; there is no motion without it"});

@@ -5,7 +5,7 @@ namespace datmo {
 
 namespace {
 
-/// Which bits of which message have what.
+/// Visits the options that define the signals.
 void visitSignals(CanOptions& options, OptionVisitor& visitor) {
   visitor.text({"dbc", "", "DBC file that describes the messages of the bus; empty: none"},
                options.dbc, {});

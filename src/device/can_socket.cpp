@@ -37,7 +37,7 @@ DeviceError interfaceDown(const std::string& interface) {
                                 " up type can bitrate 500000`, with the bus's own bit rate"};
 }
 
-/// Whether it is up; its name is known.
+/// Returns whether an interface, which must exist, is up.
 bool isUp(int descriptor, const std::string& interface) {
   ifreq request{};
   interface.copy(request.ifr_name, IFNAMSIZ - 1);
@@ -61,10 +61,11 @@ void bindTo(int descriptor, const std::string& interface) {
   setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &kSwitchOn, sizeof kSwitchOn);
 }
 
-/// s since the kernel received it; 0 where that is not known, or its clock has been set since then.
+/// Returns the time since the kernel received a frame, s; 0 if that is unknown, or the clock has
+/// been set since then.
 double ageOf(const timeval& received) {
   constexpr double kMicrosecond = 1e-6;  // s
-  constexpr double kOld = 10.0;          // s; more than what waits in a socket is
+  constexpr double kOld = 10.0;          // s; older than any frame that waits in a socket
   timeval now{};
   gettimeofday(&now, nullptr);
   const double age = static_cast<double>(now.tv_sec - received.tv_sec) +
@@ -72,7 +73,7 @@ double ageOf(const timeval& received) {
   return age > 0.0 && age < kOld ? age : 0.0;
 }
 
-/// A frame of the kernel's, which both kinds begin alike.
+/// Converts a frame of the kernel; both kinds have the same first fields.
 CanFrame frameOf(const canfd_frame& read, std::size_t size) {
   const bool is_classic = size == CAN_MTU;
   const bool has_size = is_classic || size == CANFD_MTU;

@@ -10,9 +10,9 @@ namespace datmo {
 
 namespace {
 
-constexpr int kMaxBadFrames = 20;  ///< in a row: there is no bus
+constexpr int kMaxBadFrames = 20;  ///< in a row: it is not a bus
 
-/// For people: the classes of an error frame.
+/// Returns the classes of an error frame in readable form.
 std::string errorText(std::uint32_t error) {
   constexpr std::array<std::pair<std::uint32_t, const char*>, 9> kClasses = {
       {{CAN_ERR_TX_TIMEOUT, "timeout of sending"},

@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// s; of the messages of so long a time the earliest counts.
+/// s; interval of whose messages only the earliest is used.
 constexpr double kBin = 0.5;
 
 }  // namespace
@@ -89,7 +89,7 @@ void ClockEstimator::keep(const Point& point) {
   if (point.time - last.time >= kBin) {
     points_.push_back(point);
   } else if (point.delay - drift_ * point.time < last.delay - drift_ * last.time) {
-    // The bin goes on from where it began, so that early messages do not stretch it for ever.
+    // The bin keeps its start, so that early messages do not extend it forever.
     last.delay = point.delay - drift_ * (point.time - last.time);
   }
   while (point.time - points_.front().time > options_.window) {

@@ -87,7 +87,7 @@ int Connection::connectTo(const addrinfo& found) {
 Connection::~Connection() { close(socket_); }
 
 void Connection::send(std::string_view bytes) {
-  // A command is far shorter than what a socket takes at once.
+  // A command is far shorter than what a socket accepts at once.
   const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (sent != static_cast<ssize_t>(bytes.size())) {
     throw DeviceError("lost_connection", nameOf(address_) + " does not accept a command (" +

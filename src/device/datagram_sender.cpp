@@ -30,7 +30,7 @@ DatagramSender::DatagramSender(const std::string& host, int port)
 DatagramSender::~DatagramSender() { close(socket_); }
 
 void DatagramSender::send(std::string_view bytes) const {
-  // That nobody listened to an earlier one is told by the next one; it is tried again.
+  // If nobody listened to an earlier datagram, the next one reports it; then it is sent again.
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) {
       return;

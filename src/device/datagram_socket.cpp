@@ -20,8 +20,8 @@ namespace datmo {
 
 namespace {
 
-/// Bytes that wait at most while the thread is held up: half a second of 1.3 million points a
-/// second. The system may allow less (net.core.rmem_max).
+/// Maximum number of bytes that wait while the thread is delayed: half a second of 1.3 million
+/// points per second. The system may allow less (net.core.rmem_max).
 constexpr int kWaitingBytes = 4 * 1024 * 1024;
 
 }  // namespace

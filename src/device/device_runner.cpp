@@ -47,7 +47,7 @@ void DeviceRunner::run() {
     } catch (const DeviceStopped&) {
       return;
     } catch (const std::exception& error) {
-      // Whatever it is, the other nodelets of the process go on.
+      // The other nodelets of the process must continue after any exception.
       handlers_.fault(DeviceError("internal_error", error.what()));
       waitBeforeNext();
     }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr TickFormat kScipTicks{1e-3, std::uint64_t{1} << kScipClockBits};
 
-/// So many answers may still come of what was asked before.
+/// Maximum number of answers to earlier commands that may still arrive.
 constexpr int kOldAnswers = 100;
 
 constexpr const char* kBadAnswer = "bad_answer";
@@ -54,7 +54,7 @@ std::string HokuyoScanner::connect() {
 }
 
 void HokuyoScanner::beginAtSerialPort() {
-  // What speaks SCIP 2.0 already does not know this command, and says so.
+  // A scanner that already speaks SCIP 2.0 rejects this command.
   connection_->send("SCIP2.0\n");
   connection_->send(std::string(kQuit) + "\n");
   for (int i = 0; i < kOldAnswers; ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr TickFormat kNmeaTicks{1e-3, 86400000};  // to midnight
 
-constexpr int kMaxBadSentences = 20;  ///< in a row: there is no receiver
+constexpr int kMaxBadSentences = 20;  ///< in a row: it is not a receiver
 
 }  // namespace
 
@@ -31,7 +31,7 @@ NmeaReceiver::NmeaReceiver(StreamOpener open, const NmeaOptions& options, const 
 std::string NmeaReceiver::connect() {
   stream_ = open_();
   host_.clock.restart(kNmeaTicks);
-  nextSentence();  // the first one may be half
+  nextSentence();  // the first one may be incomplete
   return "a satellite receiver";
 }
 
@@ -97,7 +97,7 @@ bool NmeaReceiver::isOfNextTime() const {
 }
 
 bool NmeaReceiver::takeTime(const std::string& field) {
-  constexpr double kOld = 1.0;  // s; what is older is of a clock that was set
+  constexpr double kOld = 1.0;  // s; an older time means that the clock was set
   const std::optional<std::uint64_t> ticks = nmeaTime(field);
   if (!ticks) {
     host_.warn({"no_time", "the receiver does not know the time yet: expected satellites in view"});

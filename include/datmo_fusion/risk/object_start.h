@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Who drives or rides keeps to the direction of the road, more often than not.
+/// Prior that drivers and riders follow the direction of the road.
 struct RoadFollowingOptions {
   double probability = 0.9;       ///< 1
   double turning = 0.15;          ///< 1
@@ -19,13 +19,13 @@ struct RoadFollowingOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Direction of the road beside an object, either way along it.
+/// Direction of the road beside an object, in either direction along it.
 struct RoadCourse {
   double direction = 0.0;  ///< rad, fixed frame
-  double curvature = 0.0;  ///< 1/m, by which the direction rises along it
+  double curvature = 0.0;  ///< 1/m, rate of change of the direction along it
 };
 
-/// What the futures of one object are drawn from.
+/// Initial distribution from which the futures of one object are sampled.
 struct ObjectStart {
   TrackState state = TrackState::Zero();               ///< fixed frame
   TrackCovariance root = TrackCovariance::Identity();  ///< Cholesky factor of its covariance
