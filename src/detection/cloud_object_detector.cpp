@@ -154,8 +154,8 @@ void CloudObjectDetectorOptions::visit(OptionVisitor& visitor) {
        Tier::kPublic},
       range_sigma, {0.001, 1.0});
   visitor.number({"position_sigma", "m",
-                  "standard deviation of what moves all sides of an object together: mount, time, "
-                  "the shape of bodies"},
+                  "standard deviation of errors that shift all sides of an object together: mount, "
+                  "time, the shape of bodies"},
                  position_sigma, {0.0, 1.0});
   visitor.number({"max_doubt", "1", "an unusual size lowers the log odds by at most this"},
                  max_doubt, {0.0, 20.0});

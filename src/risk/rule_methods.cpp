@@ -140,10 +140,10 @@ void RuleOptions::visit(OptionVisitor& visitor) {
       host_braking, kBraking);
   visitor.number({"vehicle_braking", "m/s^2", "rss: largest deceleration of a vehicle ahead"},
                  vehicle_braking, kBraking);
-  visitor.number({"cyclist_braking", "m/s^2", "rss: the same of a cyclist"}, cyclist_braking,
+  visitor.number({"cyclist_braking", "m/s^2", "rss: the same for a cyclist"}, cyclist_braking,
                  kBraking);
   visitor.number(
-      {"pedestrian_braking", "m/s^2", "rss: the same of a pedestrian, who stops at once"},
+      {"pedestrian_braking", "m/s^2", "rss: the same for a pedestrian, who stops at once"},
       pedestrian_braking, kBraking);
   visitor.number({"lateral_braking", "m/s^2", "rss: lateral deceleration"}, lateral_braking,
                  kBraking);

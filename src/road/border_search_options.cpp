@@ -30,8 +30,8 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
       {1, 64});
   visitor.choice(
       {"score", "",
-       "share: share of the sections of a window with a cell above the cut, which is the same for "
-       "any speed and scanner; hits: the sum over all cells (thesis 3.5.3)"},
+       "share: fraction of the sections of a window with a cell above the cut, which is the same "
+       "for any speed and scanner; hits: the sum over all cells (thesis 3.5.3)"},
       score, {{"share", BorderScore::kShare}, {"hits", BorderScore::kHits}});
   visitor.number({"min_share", "1", "least score of a border, if score is share"}, min_share,
                  {0.0, 1.0});

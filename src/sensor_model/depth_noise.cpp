@@ -7,20 +7,19 @@ namespace datmo {
 
 void StructuredLightNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.number({"constant", "m",
-                  "constant of the standard deviation constant + quadratic (depth - nearest)^2 "
+                  "the constant in the standard deviation constant + quadratic (depth - nearest)^2 "
                   "(Nguyen et al. 2012; Khoshelham and Elberink 2012: 0, 0.001425, 0)"},
                  constant, {0.0, 0.5});
-  visitor.number({"quadratic", "1/m", "quadratic of the same"}, quadratic, {1e-5, 0.1});
-  visitor.number({"nearest", "m", "nearest of the same: the depth with the least noise"}, nearest,
-                 {0.0, 5.0});
+  visitor.number({"quadratic", "1/m", "its quadratic coefficient"}, quadratic, {1e-5, 0.1});
+  visitor.number({"nearest", "m", "the depth with the least noise"}, nearest, {0.0, 5.0});
 }
 
 void TimeOfFlightNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.number({"constant", "m",
-                  "constant of the standard deviation constant + linear depth (Azure Kinect's data "
-                  "sheet, random and systematic error)"},
+                  "the constant in the standard deviation constant + linear depth (Azure Kinect's "
+                  "data sheet, random and systematic error)"},
                  constant, {0.0001, 0.5});
-  visitor.number({"linear", "m/m", "linear of the same"}, linear, {0.0, 0.1});
+  visitor.number({"linear", "m/m", "its linear coefficient"}, linear, {0.0, 0.1});
 }
 
 void DepthNoiseOptions::visit(OptionVisitor& visitor) {

@@ -29,8 +29,8 @@ GridWindow windowOf(const Eigen::AlignedBox2d& extent, double cell_size) {
 }  // namespace
 
 void LoopCloserOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"submap_length", "m", "length of the drive of which a submap is made"},
-                 submap_length, {1.0, 1000.0});
+  visitor.number({"submap_length", "m", "length of the drive that a submap covers"}, submap_length,
+                 {1.0, 1000.0});
   visitor.number({"search_distance", "m", "distance between two searches for a loop"},
                  search_distance, {0.1, 1000.0});
   visitor.number({"min_loop", "m", "a loop is no shorter than this distance driven"}, min_loop,

@@ -17,8 +17,8 @@ void ExistenceOptions::visit(OptionVisitor& visitor) {
        "its cells are coarser than a row of parked cars"},
       clutter_density, {0.0, 100.0});
   visitor.number({"scan_limit", "1",
-                  "most that one object may add to the score, or subtract: what misleads a sensor "
-                  "does so from scan to scan; misses count in full"},
+                  "most that one object may add to the score, or subtract: errors of a sensor "
+                  "persist from scan to scan; misses count in full"},
                  scan_limit, {0.1, 100.0});
   visitor.number(
       {"max_score", "1", "upper limit of the score, so that a track that has lost its object ends"},

@@ -168,8 +168,8 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
                   "something else"},
                  wrong_velocity, kError);
   visitor.number({"moving_prior", "1",
-                  "prior probability that what starts a target moves, before any beam is "
-                  "considered: what the map knows to be static starts none"},
+                  "prior probability that a new target moves, before any beam is considered: "
+                  "objects that the map knows to be static start none"},
                  moving_prior, kProbability);
   visitor.number({"required_probability", "1",
                   "probability from which a target is considered moving: sweeping it draws the "

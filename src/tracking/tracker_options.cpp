@@ -22,8 +22,8 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.group("duplicates", [&] { duplicates.visit(visitor); });
   visitor.toggle(
       {"require_motion", "",
-       "only what moves with target/motion_likelihood/required_probability becomes a track; off: "
-       "everything that exists, for detectors that distinguish road users from other objects"},
+       "only targets that move according to target/motion_likelihood/required_probability become "
+       "tracks; off: all that exist, for detectors that distinguish road users from other objects"},
       require_motion);
   constexpr Bounds kHits{1, 100};
   visitor.integer({"confirmation_hits", "1",

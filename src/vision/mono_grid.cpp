@@ -74,7 +74,7 @@ void MonoGridOptions::visit(OptionVisitor& visitor) {
        "a cell has the road's colors if at least this share of its pixels does (lines only)"},
       min_road_share, {0.01, 1.0});
   visitor.number(
-      {"min_obstacle_height", "m", "what is lower is not an obstacle: paint, curbs (lines only)"},
+      {"min_obstacle_height", "m", "lower objects are not obstacles: paint, curbs (lines only)"},
       min_obstacle_height, {0.01, 2.0});
   visitor.number({"pitch_sigma", "rad",
                   "standard deviation of the camera's pitch over the road: springs and slopes "

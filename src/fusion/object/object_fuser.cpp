@@ -50,8 +50,8 @@ bool isPole(const Object& object) {
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its objects are not read", Tier::kPublic}, use);
   visitor.number({"detection_probability", "1",
-                  "probability that the source lists an object that it could see: an object that "
-                  "it does not list is less likely to exist accordingly",
+                  "probability that the source lists an object that it could see; an object that "
+                  "it does not list is accordingly less likely to exist",
                   Tier::kPublic},
                  detection_probability, {0.01, 0.99});
   visitor.number({"false_agreement_probability", "1",

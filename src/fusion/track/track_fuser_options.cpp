@@ -116,7 +116,7 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                  misses, {0.0, 1.0});
   visitor.number({"published_existence", "1",
                   "existence probability above which a track is published by_existence; the other "
-                  "schemes take what is likelier to exist than not",
+                  "schemes publish tracks that are likelier to exist than not",
                   Tier::kLive},
                  published_existence, {0.5, 1.0});
   visitor.number({"memory", "s", "an object that all sources have lost keeps its id for this time"},
