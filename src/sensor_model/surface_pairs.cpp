@@ -20,12 +20,12 @@ constexpr double kMaxInverse = 1.0;
 }  // namespace
 
 void SurfacePairOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"min_height", "m", "lowest height above the road of the camera's points that are used"},
-      min_height, {0.0, 3.0});
-  visitor.number(
-      {"max_height", "m", "highest height: near the scanner's, since bodies are not upright"},
-      max_height, {0.1, 5.0});
+  visitor.number({"min_height", "m",
+                  "lower limit of the height above the road of the camera's points that are used"},
+                 min_height, {0.0, 3.0});
+  visitor.number({"max_height", "m",
+                  "upper limit of that height: near the scanner's, since bodies are not upright"},
+                 max_height, {0.1, 5.0});
   visitor.number({"max_range", "m", "farther surfaces are not compared"}, max_range, {2.0, 200.0});
   visitor.number({"max_step", "m", "largest distance between neighboring beams of one surface"},
                  max_step, {0.01, 5.0});
