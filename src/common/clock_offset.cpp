@@ -8,10 +8,11 @@
 namespace datmo {
 
 void ClockOffsetOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"window", "s", "exchanges of this time bound the offset"}, window, {1.0, 600.0});
+  visitor.number({"window", "s", "time window of the exchanges that bound the offset"}, window,
+                 {1.0, 600.0});
   visitor.number({"max_drift", "1",
-                  "two clocks do not drift apart faster (crystals of 50 ppm each); one that is "
-                  "being slewed may, and shows as one that was set"},
+                  "largest drift of two clocks (crystals of 50 ppm each); a clock that is being "
+                  "slewed may drift faster, and then looks like one that was set"},
                  max_drift, {0.0, 0.01});
 }
 

@@ -78,7 +78,7 @@ class Reader : public OptionVisitor {
   const OptionValue* find(const OptionInfo& info) {
     const std::string full_key = key(info);
     if (!keys_.insert(full_key).second) {
-      throw std::logic_error("two options are named " + full_key);
+      throw std::logic_error("two options have the name " + full_key);
     }
     const auto found = values_.find(full_key);
     return found == values_.end() ? nullptr : &found->second;
@@ -125,7 +125,7 @@ void detail::readAll(const OptionValues& values, const OptionWalk& visit) {
       const std::string hint =
           reader.keys().empty() ? "no option at all" : nearestName(key, reader.keys());
       throw OptionError(key + " = " + toText(value) +
-                        ": expected a key that is read; the nearest one is " + hint);
+                        ": expected a known key; the nearest one is " + hint);
     }
   }
 }

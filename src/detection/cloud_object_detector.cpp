@@ -124,39 +124,41 @@ void setClass(Object& object, const SeenSize& size, const ObjectClassifier& clas
 
 void CloudObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"min_height", "m", "what is lower above the ground is none of an object's", Tier::kPublic},
+      {"min_height", "m", "points lower than this above the ground do not belong to an object",
+       Tier::kPublic},
       min_height, {0.05, 2.0});
   visitor.number(
-      {"max_height", "m", "nor is what is higher: signs, branches, roofs", Tier::kPublic},
+      {"max_height", "m", "nor do points higher than this: signs, branches, roofs", Tier::kPublic},
       max_height, {0.5, 10.0});
-  visitor.number({"max_range", "m", "from the lidar; farther points are left out", Tier::kPublic},
+  visitor.number({"max_range", "m", "from the lidar; farther points are ignored", Tier::kPublic},
                  max_range, {5.0, 300.0});
-  visitor.number({"voxel_size", "m", "points in a cube of this side are of one object"}, voxel_size,
-                 {0.1, 1.0});
+  visitor.number({"voxel_size", "m", "edge of a voxel; the points in a voxel belong to one object"},
+                 voxel_size, {0.1, 1.0});
+  visitor.number({"cluster_distance", "m",
+                  "voxels whose centroids are closer than this belong to one object; more than "
+                  "voxel_size and than the gap between two rows of the lidar at max_range, less "
+                  "than the gap between two objects"},
+                 cluster_distance, {0.05, 3.0});
+  visitor.integer({"min_points", "1", "minimum number of points of an object", Tier::kPublic},
+                  min_points, {1, 1000});
   visitor.number(
-      {"cluster_distance", "m",
-       "cubes whose points are this near to each other on average are of one object: more "
-       "than voxel_size and than the gap "
-       "between two rows of the lidar at max_range, less than between two objects"},
-      cluster_distance, {0.05, 3.0});
-  visitor.integer({"min_points", "1", "points of an object at least", Tier::kPublic}, min_points,
-                  {1, 1000});
-  visitor.number(
-      {"max_size", "m", "a longer cluster is no road user: a wall, a hedge", Tier::kPublic},
+      {"max_size", "m", "a longer cluster is not a road user but a wall or a hedge", Tier::kPublic},
       max_size, {1.0, 50.0});
-  visitor.number({"column_spacing", "rad", "between two columns of the lidar (datasheet)"},
+  visitor.number({"column_spacing", "rad", "angle between two columns of the lidar (data sheet)"},
                  column_spacing, {degrees(0.02), degrees(5.0)});
-  visitor.number({"row_spacing", "rad", "between two of its rows (datasheet)"}, row_spacing,
-                 {degrees(0.02), degrees(5.0)});
+  visitor.number({"row_spacing", "rad", "angle between two rows of the lidar (data sheet)"},
+                 row_spacing, {degrees(0.02), degrees(5.0)});
   visitor.number(
       {"range_sigma", "m",
-       "standard deviation of a point about the side it lies on: bodies are round", Tier::kPublic},
+       "standard deviation of a point about the side of the box it lies on: bodies are round",
+       Tier::kPublic},
       range_sigma, {0.001, 1.0});
   visitor.number({"position_sigma", "m",
-                  "of what moves all sides of an object: mount, time, the shape of bodies"},
+                  "standard deviation of errors that shift all sides of an object together: mount, "
+                  "time, the shape of bodies"},
                  position_sigma, {0.0, 1.0});
-  visitor.number({"max_doubt", "1", "an unusual size lowers the log odds by no more"}, max_doubt,
-                 {0.0, 20.0});
+  visitor.number({"max_doubt", "1", "an unusual size lowers the log odds by at most this"},
+                 max_doubt, {0.0, 20.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("ground", [&] { ground.visit(visitor); });
   visitor.group("classifier", [&] { classifier.visit(visitor); });

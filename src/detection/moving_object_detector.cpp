@@ -54,15 +54,16 @@ void MovingObjectDetectorOptions::visit(OptionVisitor& visitor) {
                   "free (thesis 3.3.1: 0, any point)",
                   Tier::kLive},
                  moving_share, {0.0, 1.0});
-  visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges", Tier::kLive},
-                 max_size, {0.5, 100.0});
-  visitor.integer({"min_points", "1", "points that make an object", Tier::kLive}, min_points,
-                  {1, 1000});
+  visitor.number(
+      {"max_size", "m", "longer segments are not objects but walls or hedges", Tier::kLive},
+      max_size, {0.5, 100.0});
+  visitor.integer({"min_points", "1", "minimum number of points of an object", Tier::kLive},
+                  min_points, {1, 1000});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's range", Tier::kPublic},
                  range_sigma, {0.001, 5.0});
   visitor.number({"position_sigma", "m",
-                  "standard deviation of the box as a whole along each axis, besides its sides': "
-                  "bodies are no rectangles, and scans take time",
+                  "standard deviation of the box as a whole along each axis, in addition to that "
+                  "of its sides: bodies are not rectangles, and scans take time",
                   Tier::kPublic},
                  position_sigma, {0.001, 5.0});
 }

@@ -92,7 +92,7 @@ double likelihoodOfAny(double seen, double mean, bool more) {
 }  // namespace
 
 void KindSize::visit(OptionVisitor& visitor) {
-  visitor.number({"share", "1", "how many there are, relative to the other kinds"}, share,
+  visitor.number({"share", "1", "prior share of this kind, relative to the other kinds"}, share,
                  {0.0, 1000.0});
   visitor.number({"height", "m", "mean"}, height, {0.1, 20.0});
   visitor.number({"height_sigma", "m", "standard deviation"}, height_sigma, {0.01, 10.0});
@@ -101,8 +101,8 @@ void KindSize::visit(OptionVisitor& visitor) {
   visitor.number({"width", "m", "mean"}, width, {0.01, 10.0});
   visitor.number({"width_sigma", "m", "standard deviation"}, width_sigma, {0.01, 10.0});
   visitor.number({"relief_sigma", "m",
-                  "standard deviation of the depth of what is no box in it: from bumper to "
-                  "windscreen, from wheel to rider"},
+                  "standard deviation of the depth of its surface about that of a box: from bumper "
+                  "to windshield, from wheel to rider"},
                  relief_sigma, {0.0, 10.0});
 }
 

@@ -27,34 +27,39 @@ constexpr double kMinExtent = 0.5;
 void RadarObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"range_sigma", "m", "standard deviation of a range (data sheet)"}, range_sigma,
                  {0.001, 10.0});
-  visitor.number({"bearing_sigma", "rad", "the same of a bearing"}, bearing_sigma, {1e-4, 0.5});
-  visitor.number({"range_rate_sigma", "m/s", "the same of a Doppler velocity"}, range_rate_sigma,
-                 {0.001, 10.0});
+  visitor.number({"bearing_sigma", "rad", "standard deviation of a bearing (data sheet)"},
+                 bearing_sigma, {1e-4, 0.5});
+  visitor.number(
+      {"range_rate_sigma", "m/s", "standard deviation of a Doppler velocity (data sheet)"},
+      range_rate_sigma, {0.001, 10.0});
   visitor.number({"own_speed_sigma", "m/s", "standard deviation of the vehicle's own speed"},
                  own_speed_sigma, {0.0, 10.0});
   visitor.number({"cluster_distance", "m",
-                  "returns that are nearer to each other are of one object, besides what their "
-                  "bearings' noise sets them apart"},
+                  "returns closer to each other than this, plus what the noise of their bearings "
+                  "allows, belong to one object"},
                  cluster_distance, {0.1, 20.0});
-  visitor.number({"cluster_speed", "m/s", "by how much their velocities differ at most"},
+  visitor.number({"cluster_speed", "m/s", "largest difference between their velocities"},
                  cluster_speed, {0.05, 20.0});
-  visitor.integer({"min_returns", "",
-                   "a return begins or joins clusters if so many are near to it, itself counted"},
-                  min_returns, {1.0, 100.0});
-  visitor.number({"reflection_sigma", "m",
-                  "standard deviation, along each axis, of where on an object it reflects, about "
-                  "its middle: of a car drawn evenly, 1.3 m along and 0.5 m across"},
-                 reflection_sigma, {0.0, 10.0});
+  visitor.integer(
+      {"min_returns", "",
+       "returns nearby, itself included, that a return needs to start or join a cluster"},
+      min_returns, {1.0, 100.0});
+  visitor.number(
+      {"reflection_sigma", "m",
+       "standard deviation, along each axis, of the point that reflects about the middle of the "
+       "object: for a uniform distribution over a car, 1.3 m along and 0.5 m across"},
+      reflection_sigma, {0.0, 10.0});
   visitor.number({"tangential_sigma", "m/s",
                   "standard deviation of the velocity across the line of sight, which is not "
                   "measured"},
                  tangential_sigma, {0.1, 100.0});
   visitor.number({"min_speed", "m/s",
-                  "what is slower along the line of sight stands, or crosses it, and is left out"},
+                  "returns that are slower along the line of sight are stationary or cross it, and "
+                  "are dropped"},
                  min_speed, {0.0, 50.0});
   visitor.number(
       {"wrong_velocity", "1",
-       "probability that a velocity is of something else: a wheel, a leg, a mirror image"},
+       "probability that a velocity is that of something else: a wheel, a leg, a mirror image"},
       wrong_velocity, {0.0, 1.0});
 }
 

@@ -25,20 +25,20 @@ double gapBetween(const ScanPoint& first, const ScanPoint& second,
 }  // namespace
 
 void SegmentationOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"max_gap", "m", "points farther apart belong to two objects (thesis 3.3.1: 2 m)",
+                  Tier::kPublic},
+                 max_gap, {0.05, 20.0});
   visitor.number(
-      {"max_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)", Tier::kPublic},
-      max_gap, {0.05, 20.0});
-  visitor.number(
-      {"min_gap", "m", "adaptive: points nearer than this are one object, whatever the range",
+      {"min_gap", "m", "adaptive: points closer than this belong to one object at any range",
        Tier::kPublic},
       min_gap, {0.0, 20.0});
   visitor.toggle({"adaptive", "",
-                  "let the gap grow with range and beam spacing (Borges & Aldon 2004); false: "
-                  "max_gap everywhere (thesis)"},
+                  "the gap grows with range and beam spacing (Borges & Aldon 2004); false: max_gap "
+                  "everywhere (thesis)"},
                  adaptive);
   visitor.number(
       {"min_incidence", "rad",
-       "adaptive: flattest angle between a beam and a surface that is kept in one piece"},
+       "adaptive: smallest angle between a beam and a surface that is kept in one piece"},
       min_incidence, {0.05, 1.5});
 }
 

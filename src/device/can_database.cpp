@@ -13,19 +13,19 @@ namespace datmo {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 1000;  ///< characters, of a line that names a signal
+constexpr std::size_t kLongestLine = 1000;  ///< characters, of a line that defines a signal
 
-/// A line SG_ that fits a name.
+/// An SG_ line that matches a name.
 struct Entry {
   std::string message;
   std::uint64_t id = 0;
   bool is_multiplexed = false;
-  std::string form;  ///< behind the colon
+  std::string form;  ///< after the colon
 };
 
 struct Found {
   std::vector<Entry> entries;
-  bool is_float = false;  ///< SIG_VALTYPE_ says so of one of them
+  bool is_float = false;  ///< according to SIG_VALTYPE_, for at least one of them
 };
 
 bool fits(const std::string& name, const std::string& message, const std::string& signal) {
@@ -74,7 +74,7 @@ CanSignal canSignalOf(const std::string& option, const std::string& file, const 
   const Found found = findSignal(stream, name);
   const std::string named = option + ": the signal '" + name + "' of " + file;
   if (found.entries.empty()) {
-    throw OptionError(named + " is not there: expected the name of a signal (SG_)");
+    throw OptionError(named + " does not exist: expected the name of a signal (SG_)");
   }
   const Entry& entry = found.entries.front();
   if (found.entries.size() > 1) {

@@ -12,10 +12,10 @@ namespace datmo {
 
 namespace {
 
-/// s, the last second that ROS time has.
+/// s, the largest ROS time.
 constexpr double kMaxTime = 4294967295.0;
 
-/// The next word before white space, which is taken off the front; empty: there is none.
+/// Removes the next word from the front and returns it; empty if there is none.
 std::string_view nextWord(std::string_view& rest) {
   constexpr std::string_view kSpace = " \t\r";
   rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
@@ -29,7 +29,7 @@ std::string_view nextWord(std::string_view& rest) {
                       ": expected one of candump -L, '(1436509052.249713) can0 1A0#2A366C2B'");
 }
 
-/// Digits of 16 alone.
+/// Parses hexadecimal digits only.
 std::uint32_t hexadecimal(std::string_view digits, std::string_view line) {
   constexpr std::size_t kLongest = 8;
   constexpr int kBase = 16;
@@ -95,10 +95,10 @@ std::optional<LoggedCanFrame> canLogLine(std::string_view line) {
     return std::nullopt;
   }
   if (!data.empty() && data.front() == '#') {
-    hexadecimal(data.substr(1, 1), line);  // flags, which change nothing here
+    hexadecimal(data.substr(1, 1), line);  // flags, which are irrelevant here
     readData(data.substr(2), CanFrame::kLongest, line, logged.frame);
   } else {
-    data = data.substr(0, data.find('_'));  // behind it: a length code of more than 8
+    data = data.substr(0, data.find('_'));  // after it: a length code of more than 8
     readData(data, kClassic, line, logged.frame);
   }
   return logged;
@@ -139,7 +139,7 @@ CanFrame CanLog::next() {
                      (other_interface_.empty()
                           ? ""
                           : " (frames of " + other_interface_ + " are not of " + interface_ +
-                                ", and were left out)"));
+                                ", and were ignored)"));
 }
 
 }  // namespace datmo

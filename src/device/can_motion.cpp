@@ -21,7 +21,7 @@ constexpr std::array<const char*, 8> kSignalNames = {"speed",     "yaw_rate",   
 
 std::string optionName(const std::string& option) { return "can/" + option; }
 
-/// `text`: as CanOptions says. Throws OptionError.
+/// Parses a signal; `text`: see CanOptions. Throws OptionError.
 CanSignal signalOf(const std::string& name, const std::string& text, const std::string& dbc) {
   if (text.find('|') == std::string::npos) {
     if (dbc.empty()) {
@@ -110,8 +110,8 @@ void CanMotion::addCounter(const char* name, const std::string& text, int first,
   }
   if (!is_guard) {
     throw OptionError(optionName(name) + " is in the message " + toText(counter.signal.id) +
-                      ": expected that of the signals that it guards, " +
-                      (guarded.empty() ? "which there are none of" : guarded));
+                      ": expected that of the signals that it protects, " +
+                      (guarded.empty() ? "of which there are none" : guarded));
   }
   counters_.push_back(counter);
 }
@@ -124,7 +124,7 @@ void CanMotion::check() const {
   };
   if (std::none_of(channels_.begin() + kWheel, channels_.end(),
                    [](const auto& wheel) { return wheel.has_value(); })) {
-    require(kSpeed, "or those of wheels");
+    require(kSpeed, "or those of the wheels");
   }
   if (options_.yaw_from == CanYaw::kSignal) {
     require(kYawRate, "or another can/yaw_from");
@@ -185,9 +185,9 @@ bool CanMotion::step(Counter& counter, std::uint64_t value) {
     counter.repeats = is_first ? 0 : counter.repeats + 1;
     counter.is_frozen = counter.is_frozen || counter.repeats >= options_.frozen_after;
     if (counter.is_frozen && !is_first) {
-      warn_({"frozen_counter", toText(counter.signal.id) + " repeats its counter, " +
-                                   std::to_string(value) +
-                                   ": expected one that moves; it is not used until then"});
+      warn_({"frozen_counter",
+             toText(counter.signal.id) + " repeats its counter, " + std::to_string(value) +
+                 ": expected one that changes; the message is not used until then"});
     }
     return !counter.is_frozen;
   }
@@ -227,11 +227,10 @@ std::optional<double> CanMotion::newest(int role, Stamp stamp) const {
   if (channel.value && std::abs(secondsBetween(channel.stamp, stamp)) <= options_.max_age) {
     return channel.value;
   }
-  if (!(channel.signal.id == pace_)) {  // otherwise it has been said what is wrong with it
+  if (!(channel.signal.id == pace_)) {  // otherwise the fault has already been reported
     warn_({"stale_signal", optionName(kSignalNames[role]) + " (" + toText(channel.signal.id) +
-                               ") has no valid value of the last " +
-                               std::to_string(options_.max_age) +
-                               " s: expected it with each speed; there is no motion without it"});
+                               ") has had no valid value for " + std::to_string(options_.max_age) +
+                               " s: expected one with each speed; there is no motion without it"});
   }
   return std::nullopt;
 }

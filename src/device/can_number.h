@@ -9,8 +9,8 @@
 
 namespace datmo {
 
-/// Sets what a frame is from the number that the system has for it, with the flags in its upper
-/// bits (CAN_EFF_FLAG, CAN_ERR_FLAG).
+/// Sets id and kind of a frame from the system's number, with flags in the upper bits
+/// (CAN_EFF_FLAG, CAN_ERR_FLAG).
 inline void setNumber(std::uint32_t number, bool is_extended, CanFrame& frame) {
   if ((number & CAN_ERR_FLAG) != 0) {
     frame.error = number & CAN_ERR_MASK;

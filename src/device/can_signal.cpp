@@ -17,7 +17,7 @@ constexpr std::uint32_t kStandardIds = 0x7FF;
 constexpr std::uint32_t kExtendedIds = 0x1FFFFFFF;
 constexpr std::uint64_t kExtendedBit = 0x80000000;  // of an id in a DBC file
 
-/// How many bits of a Motorola signal its first byte has at most.
+/// Returns how many bits of a Motorola signal its first byte can hold.
 unsigned firstBits(unsigned start) { return start % kByteBits + 1; }
 
 }  // namespace

@@ -37,7 +37,7 @@ DeviceError interfaceDown(const std::string& interface) {
                                 " up type can bitrate 500000`, with the bus's own bit rate"};
 }
 
-/// Whether it is up; its name is known.
+/// Returns whether an interface, which must exist, is up.
 bool isUp(int descriptor, const std::string& interface) {
   ifreq request{};
   interface.copy(request.ifr_name, IFNAMSIZ - 1);
@@ -61,10 +61,11 @@ void bindTo(int descriptor, const std::string& interface) {
   setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &kSwitchOn, sizeof kSwitchOn);
 }
 
-/// s since the kernel received it; 0 where that is not known, or its clock has been set since then.
+/// Returns the time since the kernel received a frame, s; 0 if that is unknown, or the clock has
+/// been set since then.
 double ageOf(const timeval& received) {
   constexpr double kMicrosecond = 1e-6;  // s
-  constexpr double kOld = 10.0;          // s; more than what waits in a socket is
+  constexpr double kOld = 10.0;          // s; older than any frame that waits in a socket
   timeval now{};
   gettimeofday(&now, nullptr);
   const double age = static_cast<double>(now.tv_sec - received.tv_sec) +
@@ -72,12 +73,12 @@ double ageOf(const timeval& received) {
   return age > 0.0 && age < kOld ? age : 0.0;
 }
 
-/// A frame of the kernel's, which both kinds begin alike.
+/// Converts a frame of the kernel; both kinds have the same first fields.
 CanFrame frameOf(const canfd_frame& read, std::size_t size) {
   const bool is_classic = size == CAN_MTU;
   const bool has_size = is_classic || size == CANFD_MTU;
   if (!has_size || read.len > (is_classic ? CAN_MAX_DLEN : CANFD_MAX_DLEN)) {
-    throw CanFrameError("what came has " + std::to_string(size) + " bytes and says " +
+    throw CanFrameError("a frame with " + std::to_string(size) + " bytes indicates " +
                         std::to_string(read.len) + " of data: expected a frame of CAN or CAN FD");
   }
   CanFrame frame;
@@ -123,8 +124,9 @@ CanFrame CanSocket::next() {
       throw DeviceStopped();
     }
   } while (Clock::now() < end);
-  throw DeviceError("silent_device", "no frame on " + name_ + " for " + std::to_string(timeout_) +
-                                         " s: is the ignition on, and the bit rate the bus's?");
+  throw DeviceError("silent_device",
+                    "no frame on " + name_ + " for " + std::to_string(timeout_) +
+                        " s: is the ignition on, and is the bit rate that of the bus?");
 }
 
 bool CanSocket::read(CanFrame& frame) {
@@ -146,7 +148,7 @@ bool CanSocket::read(CanFrame& frame) {
       throw interfaceDown(name_);
     }
     throw DeviceError("lost_connection", "the CAN interface " + name_ + " fails (" +
-                                             std::strerror(errno) + "): opens it again");
+                                             std::strerror(errno) + "): reopening it");
   }
   frame = frameOf(bytes, static_cast<std::size_t>(size));
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr;

@@ -6,10 +6,10 @@
 
 namespace datmo {
 
-/// By name, what one is in m, s and rad.
+/// Factors to m, s and rad, by unit name.
 using Units = std::map<std::string, double>;
 
-/// `quantity`: "speed", "turning" of wheels, "rate", "angle".
+/// Returns the units of a quantity: "speed", "turning" of wheels, "rate", "angle".
 const Units& unitsOf(const std::string& quantity);
 
 }  // namespace datmo

@@ -10,9 +10,9 @@ namespace datmo {
 
 namespace {
 
-constexpr int kMaxBadFrames = 20;  ///< in a row: there is no bus
+constexpr int kMaxBadFrames = 20;  ///< in a row: it is not a bus
 
-/// For people: the classes of an error frame.
+/// Returns the classes of an error frame in readable form.
 std::string errorText(std::uint32_t error) {
   constexpr std::array<std::pair<std::uint32_t, const char*>, 9> kClasses = {
       {{CAN_ERR_TX_TIMEOUT, "timeout of sending"},
@@ -50,7 +50,7 @@ std::string CanVehicle::connect() {
   try {
     pending_ = nextMotion();
   } catch (const RecordingEnd& end) {
-    throw RecordingEnd(std::string(end.what()) + ", and no motion came of its " +
+    throw RecordingEnd(std::string(end.what()) + ", and gave no motion from its " +
                        std::to_string(frames_) + " frames: expected some with " +
                        motion_.paceText());
   }
@@ -98,7 +98,7 @@ CanFrame CanVehicle::nextFrame() {
       if (bad > kMaxBadFrames) {
         if (!timeout_) {
           throw RecordingEnd(std::string(error.what()) + "; it is the last of " +
-                             std::to_string(bad) + " such lines in a row: it is played no further");
+                             std::to_string(bad) + " such lines in a row: playback stops");
         }
         throw;
       }

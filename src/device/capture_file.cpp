@@ -27,14 +27,14 @@ pcap* openCapture(const std::string& file) {
   return capture;
 }
 
-/// Two bytes in the network's order; the caller has checked the length.
+/// Reads two bytes in network order; the caller has checked the length.
 unsigned wordAt(std::string_view bytes, std::size_t at) {
   constexpr unsigned kByte = 8;
   return static_cast<unsigned>(static_cast<unsigned char>(bytes[at])) << kByte |
          static_cast<unsigned char>(bytes[at + 1]);
 }
 
-/// A kind of frame: where its EtherType stands, and what is inside begins.
+/// A kind of frame: offsets of its EtherType and its payload.
 struct LinkHeader {
   int link;  ///< DLT_...
   std::size_t type;
@@ -52,7 +52,7 @@ const LinkHeader* headerOf(int link) {
   return found == kLinkHeaders.end() ? nullptr : found;
 }
 
-/// Where a frame's IPv4 packet begins; past its end if it has none.
+/// Returns where a frame's IPv4 packet begins; past its end if it has none.
 std::size_t packetStart(std::string_view frame, int link) {
   constexpr unsigned kIpv4 = 0x0800;
   constexpr unsigned kTagged = 0x8100;  // 802.1Q
@@ -75,9 +75,9 @@ std::size_t packetStart(std::string_view frame, int link) {
 std::optional<std::string_view> datagramOf(std::string_view frame, int link, int port) {
   constexpr std::size_t kIpHeader = 20;
   constexpr std::size_t kUdpHeader = 8;
-  constexpr unsigned kWords = 4;  // bytes, of the unit of the header's length
+  constexpr unsigned kWords = 4;  // bytes, unit of the header's length
   constexpr unsigned kUdp = 17;
-  constexpr unsigned kFragment = 0x3FFF;  // more of them, or an offset
+  constexpr unsigned kFragment = 0x3FFF;  // more fragments follow, or an offset
   const std::string_view packet = frame.substr(std::min(packetStart(frame, link), frame.size()));
   if (packet.size() < kIpHeader + kUdpHeader) {
     return std::nullopt;
@@ -106,9 +106,9 @@ CaptureFile::CaptureFile(std::string file, int port, const std::atomic<bool>& st
   const int link = pcap_datalink(capture_.get());
   if (link != DLT_RAW && headerOf(link) == nullptr) {
     const char* const name = pcap_datalink_val_to_name(link);
-    throw badRecording(file_, "its frames are of kind " +
+    throw badRecording(file_, "its frames are of link type " +
                                   (name == nullptr ? std::to_string(link) : std::string(name)) +
-                                  ", none of Ethernet, Linux cooked and raw IP");
+                                  ", not Ethernet, Linux cooked or raw IP");
   }
 }
 

@@ -9,24 +9,25 @@ namespace datmo {
 
 namespace {
 
-/// s; of the messages of so long a time the earliest counts.
+/// s; interval of whose messages only the earliest is used.
 constexpr double kBin = 0.5;
 
 }  // namespace
 
 void ClockOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"window", "s", "the device's clock is judged by its messages of this time"},
-                 window, {1.0, 3600.0});
-  visitor.number({"settle", "s", "messages of less time do not tell its drift"}, settle,
+  visitor.number(
+      {"window", "s", "time window of the messages by which the device's clock is estimated"},
+      window, {1.0, 3600.0});
+  visitor.number({"settle", "s", "messages over a shorter time do not determine its drift"}, settle,
                  {1.0, 3600.0});
   visitor.number({"max_drift", "1",
-                  "no clock drifts faster (a crystal's 100 ppm, and as much "
-                  "again of the computer's, with room)"},
+                  "largest drift of a clock (a crystal's 100 ppm, and as much again for the "
+                  "computer's, with a margin)"},
                  max_drift, {0.0, 0.01});
-  visitor.number({"step", "s", "a message farther off tells of a clock that was set"}, step,
-                 {0.01, 10.0});
-  visitor.number({"confirm", "s", "messages that are late for so long were not held up"}, confirm,
-                 {0.0, 10.0});
+  visitor.number({"step", "s", "a message that deviates by more indicates that a clock was set"},
+                 step, {0.01, 10.0});
+  visitor.number({"confirm", "s", "messages that stay late for longer were not merely delayed"},
+                 confirm, {0.0, 10.0});
 }
 
 Stamp ClockEstimator::add(double device, Stamp arrival) {
@@ -88,7 +89,7 @@ void ClockEstimator::keep(const Point& point) {
   if (point.time - last.time >= kBin) {
     points_.push_back(point);
   } else if (point.delay - drift_ * point.time < last.delay - drift_ * last.time) {
-    // The bin goes on from where it began, so that early messages do not stretch it for ever.
+    // The bin keeps its start, so that early messages do not extend it forever.
     last.delay = point.delay - drift_ * (point.time - last.time);
   }
   while (point.time - points_.front().time > options_.window) {

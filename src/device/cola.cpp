@@ -17,16 +17,17 @@ constexpr std::string_view kBinaryStart = "\x02\x02\x02\x02";
 constexpr std::size_t kLengthSize = 4;
 constexpr std::size_t kColaByteBits = 8;
 
-/// No telegram is longer: five echoes and their remission in 1,141 beams, six characters each.
+/// The longest telegram: five echoes and their remission in 1,141 beams, six characters each.
 constexpr std::size_t kLongestTelegram = 131072;
 
 DeviceError endsBefore(const char* name) {
-  return badAnswer(std::string("a telegram that ends before ") + name + ": expected a whole one");
+  return badAnswer(std::string("a telegram that ends before ") + name +
+                   ": expected a complete one");
 }
 
 DeviceError wrongDialect(ColaDialect expected) {
   return {kWrongDialect, std::string("the scanner speaks ") + nameOf(otherThan(expected)) +
-                             ": expected " + nameOf(expected) + ", which it was asked in"};
+                             ": expected " + nameOf(expected) + ", in which it was asked"};
 }
 
 std::uint32_t numberOf(std::string_view bytes) {
@@ -69,7 +70,7 @@ char checksumOf(std::string_view bytes) {
   return sum;
 }
 
-/// The length of a telegram's name, which is two words.
+/// Returns the length of a telegram's name, which is two words.
 std::size_t nameLength(std::string_view telegram) {
   const std::size_t kind = telegram.find(' ');
   return kind == std::string_view::npos ? telegram.size()
@@ -128,7 +129,7 @@ std::optional<ColaTelegram> ColaReader::nextBinary() {
     if (waiting[0] == kStart) {
       throw wrongDialect(dialect_);
     }
-    throw badAnswer(shownBytes(waiting) + ": expected a telegram of CoLa B, which begins by STX");
+    throw badAnswer(shownBytes(waiting) + ": expected a telegram of CoLa B, which begins with STX");
   }
   if (waiting.size() < kHead) {
     return std::nullopt;
@@ -161,10 +162,11 @@ std::optional<ColaTelegram> ColaReader::nextText() {
     }
     return std::nullopt;
   }
-  // The last beginning: what was before it was cut off.
+  // The last start: any telegram before it is incomplete.
   const std::size_t start = waiting_.rfind(kStart, end);
   if (start == std::string::npos) {
-    throw badAnswer(shownBytes(waiting_) + ": expected a telegram of CoLa A, which begins by STX");
+    throw badAnswer(shownBytes(waiting_) +
+                    ": expected a telegram of CoLa A, which begins with STX");
   }
   ColaTelegram telegram{dialect_, waiting_.substr(start + 1, end - start - 1)};
   waiting_.erase(0, end + 1);

@@ -87,11 +87,11 @@ int Connection::connectTo(const addrinfo& found) {
 Connection::~Connection() { close(socket_); }
 
 void Connection::send(std::string_view bytes) {
-  // A command is far shorter than what a socket takes at once.
+  // A command is far shorter than what a socket accepts at once.
   const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (sent != static_cast<ssize_t>(bytes.size())) {
-    throw DeviceError("lost_connection", nameOf(address_) + " takes no command (" +
-                                             std::strerror(errno) + "): connects again");
+    throw DeviceError("lost_connection", nameOf(address_) + " does not accept a command (" +
+                                             std::strerror(errno) + "): reconnecting");
   }
 }
 
@@ -100,10 +100,9 @@ std::string Connection::receive() {
     if (stop_) {
       throw DeviceStopped();
     }
-    throw DeviceError("silent_device",
-                      nameOf(address_) + " has been silent for " +
-                          std::to_string(address_.timeout) +
-                          " s: expected an answer or measurements; connects again");
+    throw DeviceError("silent_device", nameOf(address_) + " has been silent for " +
+                                           std::to_string(address_.timeout) +
+                                           " s: expected an answer or measurements; reconnecting");
   }
   constexpr std::size_t kAtOnce = 16384;
   std::array<char, kAtOnce> bytes;
@@ -112,7 +111,7 @@ std::string Connection::receive() {
     throw DeviceError("lost_connection",
                       nameOf(address_) + " has closed the connection" +
                           (count < 0 ? " (" + std::string(std::strerror(errno)) + ")" : "") +
-                          ": connects again");
+                          ": reconnecting");
   }
   return {bytes.data(), static_cast<std::size_t>(count)};
 }

@@ -43,7 +43,7 @@ void DatagramListener::run() {
     } catch (const DeviceError& error) {
       handlers_.fault(error);
     } catch (const std::exception& error) {
-      // Whatever it is, the other nodelets of the process go on.
+      // The other nodelets of the process must continue after any exception.
       handlers_.fault(DeviceError("internal_error", error.what()));
     }
     std::unique_lock<std::mutex> lock(mutex_);

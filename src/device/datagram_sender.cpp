@@ -22,15 +22,15 @@ DatagramSender::DatagramSender(const std::string& host, int port)
   if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     const int error = errno;
     close(socket_);
-    throw DeviceError("no_connection", "no datagram can go to " + name_ + " (" +
-                                           std::strerror(error) + "): expected a network to it");
+    throw DeviceError("no_connection", "no datagram can be sent to " + name_ + " (" +
+                                           std::strerror(error) + "): expected a route to it");
   }
 }
 
 DatagramSender::~DatagramSender() { close(socket_); }
 
 void DatagramSender::send(std::string_view bytes) const {
-  // That nobody listened to an earlier one is told by the next one; it is tried again.
+  // If nobody listened to an earlier datagram, the next one reports it; then it is sent again.
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) {
       return;

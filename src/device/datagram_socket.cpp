@@ -20,8 +20,8 @@ namespace datmo {
 
 namespace {
 
-/// Bytes that wait at most while the thread is held up: half a second of 1.3 million points a
-/// second. The system may allow less (net.core.rmem_max).
+/// Maximum number of bytes that wait while the thread is delayed: half a second of 1.3 million
+/// points per second. The system may allow less (net.core.rmem_max).
 constexpr int kWaitingBytes = 4 * 1024 * 1024;
 
 }  // namespace
@@ -47,8 +47,8 @@ void DatagramSocket::open() {
     const int error = errno;
     close(socket_);
     throw DeviceError("no_connection", "UDP port " + std::to_string(device_.port) +
-                                           " cannot be listened to (" + std::strerror(error) +
-                                           "): expected that no other driver does");
+                                           " cannot be opened (" + std::strerror(error) +
+                                           "): expected that no other driver uses it");
   }
 }
 
@@ -65,7 +65,7 @@ std::string_view DatagramSocket::next() {
     }
     if (count < 0 && errno != EAGAIN && errno != EINTR) {
       throw DeviceError("lost_connection", "UDP port " + std::to_string(device_.port) + " fails (" +
-                                               std::strerror(errno) + "): listens again");
+                                               std::strerror(errno) + "): reopening it");
     }
     const std::chrono::duration<double> left = end - Clock::now();
     if (count < 0) {

@@ -9,9 +9,10 @@
 namespace datmo {
 
 void DeviceRunnerOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_backoff", "s", "the first pause before it is connected again"}, min_backoff,
+  visitor.number({"min_backoff", "s", "first pause before reconnecting"}, min_backoff,
                  {0.001, 60.0});
-  visitor.number({"max_backoff", "s", "pauses grow up to this"}, max_backoff, {0.001, 600.0});
+  visitor.number({"max_backoff", "s", "longest pause; pauses grow up to this"}, max_backoff,
+                 {0.001, 600.0});
   visitor.group("clock", [&] { clock.visit(visitor); });
 }
 
@@ -46,7 +47,7 @@ void DeviceRunner::run() {
     } catch (const DeviceStopped&) {
       return;
     } catch (const std::exception& error) {
-      // Whatever it is, the other nodelets of the process go on.
+      // The other nodelets of the process must continue after any exception.
       handlers_.fault(DeviceError("internal_error", error.what()));
       waitBeforeNext();
     }

@@ -77,25 +77,25 @@ DeviceMaker canMaker(const DeviceSetup& setup) {
 
 void DeviceSetup::visit(OptionVisitor& visitor) {
   constexpr double kPorts = 65535.0;
-  visitor.choice({"kind", "", "whose protocol the device speaks"}, kind,
+  visitor.choice({"kind", "", "protocol of the device"}, kind,
                  Choices<DeviceKind>{{"hokuyo", DeviceKind::kHokuyo},
                                      {"sick_lms", DeviceKind::kSickLms},
                                      {"velodyne", DeviceKind::kVelodyne},
                                      {"nmea", DeviceKind::kNmea},
                                      {"can", DeviceKind::kCan}});
   visitor.text({"address", "",
-                "the device's name or address on the network; velodyne: empty for any that sends; "
-                "hokuyo, nmea: or the file of a serial port; can: the interface, can0"},
+                "host name or address of the device; velodyne: empty for any sender; hokuyo, nmea: "
+                "or the file of a serial port; can: the interface, can0"},
                address, {});
   visitor.integer(
-      {"port", "1", "its port; 0: the one that its make has (10940, 2111, 2368, 10110)"}, port,
+      {"port", "1", "port of the device; 0: its make's default (10940, 2111, 2368, 10110)"}, port,
       {0.0, kPorts});
-  visitor.number({"timeout", "s", "a device silent for so long is connected again"}, timeout,
+  visitor.number({"timeout", "s", "a device that is silent for longer is reconnected"}, timeout,
                  {0.05, 60.0});
   visitor.text(
       {"recording", "",
-       "velodyne: a capture file (pcap) that is played in its place; can: a log of candump -L, "
-       "of the frames of `address`, or all if that is empty; empty: the network, the bus"},
+       "velodyne: a capture file (pcap) to play instead; can: a log of candump -L to play, the "
+       "frames of `address`, or all if that is empty; empty: the network, the bus"},
       recording, {});
   runner.visit(visitor);
   visitor.group("hokuyo", [&] { hokuyo.visit(visitor); });

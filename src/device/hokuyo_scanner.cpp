@@ -12,7 +12,7 @@ namespace {
 
 constexpr TickFormat kScipTicks{1e-3, std::uint64_t{1} << kScipClockBits};
 
-/// So many answers may still come of what was asked before.
+/// Maximum number of answers to earlier commands that may still arrive.
 constexpr int kOldAnswers = 100;
 
 constexpr const char* kBadAnswer = "bad_answer";
@@ -21,8 +21,8 @@ constexpr const char* kQuit = "QT";  ///< ends all scans
 }  // namespace
 
 void HokuyoOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"baud", "1", "bits per second of a serial port; on USB it does not matter"},
-                  baud, {4800.0, 460800.0});
+  visitor.integer({"baud", "1", "bits per second of a serial port; irrelevant on USB"}, baud,
+                  {4800.0, 460800.0});
 }
 
 HokuyoScanner::HokuyoScanner(DeviceAddress address, const HokuyoOptions& options,
@@ -47,14 +47,14 @@ std::string HokuyoScanner::connect() {
   }
   const ScipAnswer started = ask(scipScanRequest(model_));
   if (started.status != "00") {
-    throw DeviceError("device_fault", "'" + model_.name + "' does not begin to scan (status " +
+    throw DeviceError("device_fault", "'" + model_.name + "' does not start scanning (status " +
                                           started.status + "): expected 00");
   }
   return model_.name + ", " + std::to_string(model_.beams()) + " beams, at " + address_.host;
 }
 
 void HokuyoScanner::beginAtSerialPort() {
-  // What speaks SCIP 2.0 already does not know this command, and says so.
+  // A scanner that already speaks SCIP 2.0 rejects this command.
   connection_->send("SCIP2.0\n");
   connection_->send(std::string(kQuit) + "\n");
   for (int i = 0; i < kOldAnswers; ++i) {

@@ -7,7 +7,8 @@
 
 namespace datmo {
 
-/// Of a name or address, by the system's look-up. Throws DeviceError (`no_connection`).
+/// Returns the address of a host name or address, by the system's lookup. Throws DeviceError
+/// (`no_connection`).
 sockaddr_in ipv4Address(const std::string& host, int port);
 
 }  // namespace datmo

@@ -15,23 +15,23 @@ namespace datmo {
 
 namespace {
 
-/// The standard's 82 characters, with room for receivers that do not keep to it.
+/// The standard's 82 characters, with a margin for receivers that exceed it.
 constexpr std::size_t kLongestSentence = 256;
 
-/// Of differential corrections, RTK with and without whole cycles: standard deviations relative to
+/// Standard deviations of differential corrections, RTK with and without whole cycles, relative to
 /// that without corrections (Kaplan and Hegarty, Understanding GPS, 2006, 8.2).
 constexpr double kDifferentialShare = 0.3;
 constexpr double kFloatShare = 0.1;
 constexpr double kFixedShare = 0.005;
 
-/// Heights are less well known by about as much (the same, 7.3).
+/// Heights are less accurate by about this factor (ibid., 7.3).
 constexpr double kVerticalShare = 1.5;
 
 DeviceError badSentence(const std::string& what, const std::string& expected) {
   return {"bad_sentence", what + ": expected " + expected};
 }
 
-/// "4807.038" and two digits of degrees are 48 degrees and 7.038 minutes.
+/// Decodes an angle: "4807.038" with two digits of degrees is 48 degrees and 7.038 minutes.
 std::optional<double> angleOf(const NmeaSentence& sentence, std::size_t index, char negative) {
   constexpr double kDegree = 100.0;
   constexpr double kMinutes = 60.0;
@@ -45,7 +45,7 @@ std::optional<double> angleOf(const NmeaSentence& sentence, std::size_t index, c
   return side[0] == negative ? -angle : angle;
 }
 
-/// By GGA's quality.
+/// Decodes the quality field of GGA.
 SatelliteFix::Kind kindOf(const std::string& quality) {
   using Kind = SatelliteFix::Kind;
   if (quality == "1" || quality == "3" || quality == "8") {  // satellites, military, simulator
@@ -57,7 +57,7 @@ SatelliteFix::Kind kindOf(const std::string& quality) {
   if (quality == "4" || quality == "5") {
     return Kind::kRealTimeKinematic;
   }
-  return Kind::kNone;  // none, dead reckoning, by hand
+  return Kind::kNone;  // none, dead reckoning, manual
 }
 
 double shareOf(const std::string& quality) {
@@ -117,7 +117,7 @@ std::optional<NmeaSentence> NmeaReader::next() {
   char checksum[kChecksum];
   std::snprintf(checksum, sizeof checksum, "%02X", nmeaChecksum(line.substr(0, star)));
   std::string digits = star == std::string::npos ? "" : line.substr(star + 1, 2);
-  // Some receivers write them in lower case.
+  // Some receivers write the digits in lower case.
   std::transform(digits.begin(), digits.end(), digits.begin(),
                  [](unsigned char digit) { return static_cast<char>(std::toupper(digit)); });
   if (digits != checksum) {
@@ -167,7 +167,7 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
   fix.longitude = angleOf(sentence, 3, 'W').value_or(kNaN);
   fix.satellites =
       static_cast<int>(std::clamp(sentence.number(6).value_or(0.0), 0.0, kMaxSatellites));
-  // Height above the sea, and of the sea above the ellipsoid: one without the other is not known.
+  // Height above sea level, and of sea level above the ellipsoid: both are required.
   fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(kNaN);
   const bool is_there =
       std::abs(fix.latitude) <= kQuarter && std::abs(fix.longitude) <= 2.0 * kQuarter;
@@ -177,7 +177,7 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
         "one on the earth");
   }
   const double hdop = sentence.number(7).value_or(1.0);
-  const double dilution = hdop > 0.0 ? hdop : 1.0;  // 0 and nothing: not known
+  const double dilution = hdop > 0.0 ? hdop : 1.0;  // 0 or missing: unknown
   fix.sigma = sigma * shareOf(quality) * dilution;
   fix.vertical_sigma = kVerticalShare * fix.sigma;
   return fix;
@@ -186,7 +186,7 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
 std::optional<GroundVelocity> nmeaVelocity(const NmeaSentence& sentence) {
   constexpr double kKnot = 1852.0 / 3600.0;  // m/s
   const bool is_rmc = sentence.type == "RMC";
-  // Newer receivers end both with a mode: N is for what is not valid.
+  // Newer receivers end both with a mode: N marks invalid data.
   const bool is_valid = sentence.field(is_rmc ? 11 : 8) != "N";
   if (!is_valid || (is_rmc && sentence.field(1) != "A")) {
     return std::nullopt;
@@ -198,7 +198,7 @@ std::optional<GroundVelocity> nmeaVelocity(const NmeaSentence& sentence) {
   if (*knots < 0.0) {
     throw badSentence("a speed of " + std::to_string(*knots) + " knots", "0 or more");
   }
-  // At rest it has no direction.
+  // At rest it is missing.
   const double course = sentence.number(is_rmc ? 7 : 0).value_or(0.0);
   return GroundVelocity{*knots * kKnot, degrees(course)};
 }

@@ -9,19 +9,19 @@ namespace {
 
 constexpr TickFormat kNmeaTicks{1e-3, 86400000};  // to midnight
 
-constexpr int kMaxBadSentences = 20;  ///< in a row: there is no receiver
+constexpr int kMaxBadSentences = 20;  ///< in a row: it is not a receiver
 
 }  // namespace
 
 void NmeaOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"baud", "1", "bits per second of a serial port"}, baud, {4800.0, 460800.0});
   visitor.number({"delay", "s",
-                  "from the time of a position to its first byte: what the receiver takes to "
-                  "compute it (data sheet)"},
+                  "delay from the time of a position to its first byte: the time the receiver "
+                  "needs to compute it (data sheet)"},
                  delay, {0.0, 1.0});
   visitor.number({"sigma", "m",
-                  "standard deviation along each axis of a position without corrections where HDOP "
-                  "is 1; corrections make it less by fixed shares"},
+                  "standard deviation along each axis of a position without corrections at an HDOP "
+                  "of 1; corrections reduce it by fixed factors"},
                  sigma, {0.01, 100.0});
 }
 
@@ -31,7 +31,7 @@ NmeaReceiver::NmeaReceiver(StreamOpener open, const NmeaOptions& options, const 
 std::string NmeaReceiver::connect() {
   stream_ = open_();
   host_.clock.restart(kNmeaTicks);
-  nextSentence();  // the first one may be half
+  nextSentence();  // the first one may be incomplete
   return "a satellite receiver";
 }
 
@@ -97,7 +97,7 @@ bool NmeaReceiver::isOfNextTime() const {
 }
 
 bool NmeaReceiver::takeTime(const std::string& field) {
-  constexpr double kOld = 1.0;  // s; what is older is of a clock that was set
+  constexpr double kOld = 1.0;  // s; an older time means that the clock was set
   const std::optional<std::uint64_t> ticks = nmeaTime(field);
   if (!ticks) {
     host_.warn({"no_time", "the receiver does not know the time yet: expected satellites in view"});

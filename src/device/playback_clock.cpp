@@ -9,7 +9,7 @@
 namespace datmo {
 
 void PlaybackClock::waitUntil(double recorded) {
-  constexpr std::chrono::milliseconds kSlice(50);  // so late it may be found out that it is to stop
+  constexpr std::chrono::milliseconds kSlice(50);  // latency of stopping
   start_ = start_.value_or(Start{recorded, Clock::now()});
   const auto due = start_->played + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(recorded - start_->recorded));

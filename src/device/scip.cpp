@@ -22,7 +22,8 @@ constexpr char kZero = '0';
 constexpr std::size_t kRangeCharacters = 3;
 constexpr std::size_t kClockCharacters = 4;
 
-/// No answer is longer: the most steps that a request can name, three characters each, with room.
+/// The longest answer: the most steps that a request can specify, three characters each, with a
+/// margin.
 constexpr std::size_t kLongestAnswer = 65536;
 
 std::uint32_t decoded(std::string_view characters) {
@@ -40,17 +41,17 @@ bool isChecked(std::string_view line) {
 std::string_view withoutChecksum(std::string_view line) {
   if (!isChecked(line)) {
     throw DeviceError("bad_answer", "line " + shownBytes(line) +
-                                        " of a scan: expected one that fits its checksum");
+                                        " of a scan: expected one that matches its checksum");
   }
   return line.substr(0, line.size() - 1);
 }
 
-/// The fields `NAME:value;` of an answer.
+/// Returns the fields `NAME:value;` of an answer.
 std::map<std::string, std::string> fieldsOf(const ScipAnswer& answer) {
   std::map<std::string, std::string> fields;
   for (const std::string& line : answer.lines) {
     const std::size_t colon = line.find(':');
-    // The last character is the checksum, which may be a semicolon, too.
+    // The last character is the checksum, which may also be a semicolon.
     const std::size_t end = line.size() - std::min<std::size_t>(line.size(), 2);
     if (colon < end && line[end] == ';') {
       fields[line.substr(0, colon)] = line.substr(colon + 1, end - colon - 1);
@@ -70,13 +71,13 @@ int numberOf(const std::map<std::string, std::string>& fields, const std::string
     }
   }
   throw DeviceError("wrong_device",
-                    "the device says " + name + " = " +
+                    "the device reports " + name + " = " +
                         (field == fields.end() ? "nothing" : shownBytes(field->second)) +
-                        ": expected the number that a scanner with SCIP 2.0 has");
+                        ": expected a number, as from a scanner with SCIP 2.0");
 }
 
 void check(const ScipModel& model) {
-  constexpr int kMaxSteps = 9999;  // a request has four digits for one
+  constexpr int kMaxSteps = 9999;  // a request has four digits for each
   const bool is_scanner = model.turn_steps > 0 && model.speed > 0.0 && model.first_step >= 0 &&
                           model.last_step > model.first_step && model.last_step <= kMaxSteps &&
                           model.min_range >= 0 && model.max_range > model.min_range;
@@ -86,14 +87,14 @@ void check(const ScipModel& model) {
         "'" + model.name + "' measures steps " + std::to_string(model.first_step) + " to " +
             std::to_string(model.last_step) + " of " + std::to_string(model.turn_steps) + " from " +
             std::to_string(model.min_range) + " to " + std::to_string(model.max_range) + " mm at " +
-            std::to_string(model.speed) + " turns a minute: expected a scanner's");
+            std::to_string(model.speed) + " turns a minute: expected those of a scanner");
   }
 }
 
 float rangeOf(std::uint32_t millimeters, const ScipModel& model) {
   constexpr float kMeter = 1000.0F;  // mm
   if (millimeters < static_cast<std::uint32_t>(model.min_range)) {
-    return std::numeric_limits<float>::quiet_NaN();  // a code of why there is no range
+    return std::numeric_limits<float>::quiet_NaN();  // an error code instead of a range
   }
   if (millimeters > static_cast<std::uint32_t>(model.max_range)) {
     return std::numeric_limits<float>::infinity();
@@ -162,7 +163,7 @@ ScipModel scipModel(const ScipAnswer& answer) {
 }
 
 std::string scipScanRequest(const ScipModel& model) {
-  // Each step by itself (01), no scan left out (0), without end (00).
+  // Each step separately (01), no scan skipped (0), endless (00).
   char request[32];
   std::snprintf(request, sizeof request, "MD%04d%04d01000", model.first_step, model.last_step);
   return request;
@@ -172,7 +173,7 @@ ScipScan scipScan(const ScipAnswer& answer, const ScipModel& model) {
   if (answer.status != "99") {
     throw DeviceError("device_fault", "the scanner answers with status " +
                                           shownBytes(answer.status) +
-                                          ": expected 99, a scan; its manual has the cause");
+                                          ": expected 99, a scan; see its manual for the cause");
   }
   if (answer.lines.empty()) {
     throw DeviceError("bad_answer", "a scan without a time: expected one");

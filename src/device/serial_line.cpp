@@ -68,7 +68,7 @@ void SerialLine::configure() const {
       std::find_if(kBauds.begin(), kBauds.end(),
                    [this](const BaudName& known) { return known.baud == settings_.baud; });
   if (baud == kBauds.end()) {
-    throw noLine(settings_, std::to_string(settings_.baud) + " baud are not known here");
+    throw noLine(settings_, std::to_string(settings_.baud) + " baud are not supported here");
   }
   cfmakeraw(&line);
   line.c_cflag |= CLOCAL | CREAD;
@@ -87,8 +87,8 @@ void SerialLine::send(std::string_view bytes) {
     }
     const ssize_t sent = write(file_, bytes.data(), bytes.size());
     if (sent <= 0) {
-      throw DeviceError("lost_connection", settings_.file + " takes no command (" +
-                                               std::strerror(errno) + "): opens it again");
+      throw DeviceError("lost_connection", settings_.file + " does not accept a command (" +
+                                               std::strerror(errno) + "): reopening it");
     }
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
@@ -101,16 +101,16 @@ std::string SerialLine::receive() {
     }
     throw DeviceError("silent_device", settings_.file + " has been silent for " +
                                            std::to_string(settings_.timeout) +
-                                           " s: expected measurements; opens it again");
+                                           " s: expected measurements; reopening it");
   }
   constexpr std::size_t kAtOnce = 4096;
   std::array<char, kAtOnce> bytes;
   const ssize_t count = read(file_, bytes.data(), bytes.size());
   if (count <= 0) {
     throw DeviceError("lost_connection",
-                      settings_.file + " has gone" +
+                      settings_.file + " has disappeared" +
                           (count < 0 ? " (" + std::string(std::strerror(errno)) + ")" : "") +
-                          ": opens it again");
+                          ": reopening it");
   }
   return {bytes.data(), static_cast<std::size_t>(count)};
 }

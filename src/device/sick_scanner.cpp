@@ -16,15 +16,14 @@ constexpr std::string_view kScanTelegram = "sSN LMDscandata";
 constexpr const char* kSilent = "silent_device";
 constexpr const char* kLost = "lost_connection";
 
-/// So many scans may still come of what was asked before.
+/// Maximum number of scans of an earlier request that may still arrive.
 constexpr int kOldScans = 100;
 
 DeviceError wrongAnswer(const ColaTelegram& answer, std::string_view command,
                         std::string_view expected) {
   return {"device_fault", "the device answers " + shownBytes(answer.bytes) + " to '" +
                               std::string(command) + "': expected '" + std::string(expected) +
-                              "'; is it a scanner of SICK's with the password that it left the "
-                              "factory with?"};
+                              "'; is it a SICK scanner with its factory password?"};
 }
 
 }  // namespace
@@ -36,15 +35,14 @@ SickScanner::SickScanner(DeviceAddress address, std::shared_ptr<ColaDialect> dia
 std::string SickScanner::connect() {
   host_.clock.restart(kSickTicks);
   identify();
-  // As user 3, authorized client, by the hash of the password that all scanners leave the factory
-  // with.
+  // As user 3, authorized client, with the hash of the factory password.
   command("sMN SetAccessMode", "sAN SetAccessMode", 1, {{"03"}, {"F4724744", 4}});
   // First echoes with remission, both of 16 bits; neither encoder, position, name, comment nor
-  // date; each scan. It is not kept when the scanner is switched off.
+  // date; each scan. The setting is lost when the scanner is switched off.
   ask("sWN LMDscandatacfg", "sWA LMDscandatacfg",
       {{"01"}, {"00"}, {"1"}, {"1"}, {"0"}, {"00"}, {"00"}, {"0"}, {"0"}, {"0"}, {"0"}, {"+1", 2}});
   command("sMN LMCstartmeas", "sAN LMCstartmeas", 0);
-  ask("sMN Run", "sAN Run");  // manuals differ in what follows; that scans come shows it
+  ask("sMN Run", "sAN Run");  // manuals differ in what follows; arriving scans confirm it
   command("sEN LMDscandata", "sEA LMDscandata", 1, {{"1"}});
   return model_.name + " at " + address_.host + ", " + nameOf(*dialect_);
 }
@@ -68,7 +66,7 @@ void SickScanner::identify() {
     }
     throw DeviceError(kSilent, std::string(error.what()) + "; it was asked in " + nameOf(first) +
                                    " and in " + nameOf(otherThan(first)) +
-                                   ": is it a scanner of SICK's?");
+                                   ": is it a SICK scanner?");
   }
 }
 
@@ -121,7 +119,7 @@ bool SickScanner::isWarmingUp() {
   send("sRN STlms");
   const ColaTelegram answer = nextTelegram();
   if (answer.isCalled(kScanTelegram)) {
-    return true;  // it has just begun: the next telegram is a scan's, too
+    return true;  // it has just started: the next telegram is also a scan
   }
   return answer.isCalled("sRA STlms") && isSickWarmingUp(answer);
 }
@@ -134,7 +132,8 @@ ColaTelegram SickScanner::nextTelegramOnceWarm() {
       if (error.reason() != kSilent || !isWarmingUp()) {
         throw;
       }
-      host_.warn({"warming_up", "'" + model_.name + "' is not measuring yet: waits for its scans"});
+      host_.warn(
+          {"warming_up", "'" + model_.name + "' is not measuring yet: waiting for its scans"});
     }
   }
 }
@@ -143,8 +142,8 @@ DeviceMeasurement SickScanner::next() {
   ColaTelegram telegram = nextTelegramOnceWarm();
   while (!telegram.isCalled(kScanTelegram)) {
     if (telegram.bytes.rfind("sFA", 0) == 0) {
-      throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram.bytes) +
-                                            ": expected scans; its manual has the error");
+      throw DeviceError("device_fault", "the scanner reports " + shownBytes(telegram.bytes) +
+                                            ": expected scans; see its manual for the error");
     }
     telegram = nextTelegramOnceWarm();
   }
@@ -155,7 +154,7 @@ DeviceMeasurement SickScanner::next() {
   measurement.stamp = sent + -static_cast<double>(raw.sent - raw.begun) * kMicrosecond;
   const auto scans = static_cast<std::uint16_t>(raw.counter - last_counter_);
   last_counter_ = raw.counter;
-  // Without a time since the last one that one was of another clock, and so of another counter.
+  // Without an interval, the last scan belongs to another clock, and so to another counter.
   measurement.missed = host_.clock.interval() > 0.0 && scans > 0 ? scans - 1U : 0;
   measurement.data = std::move(raw.scan);
   return measurement;
@@ -164,11 +163,10 @@ DeviceMeasurement SickScanner::next() {
 void SickScanner::warnOf(SickState state) const {
   if (state == SickState::kFault) {
     host_.warn({"device_error", "'" + model_.name +
-                                    "' says that it has an error: its scans may "
-                                    "be wrong; its display or SOPAS ET has the "
-                                    "cause"});
+                                    "' reports an error: its scans may be wrong; see its display "
+                                    "or SOPAS ET for the cause"});
   } else if (state == SickState::kDirty) {
-    host_.warn({"dirty_window", "'" + model_.name + "' says that its window is dirty: clean it"});
+    host_.warn({"dirty_window", "'" + model_.name + "' reports a dirty window: clean it"});
   }
 }
 

@@ -15,8 +15,8 @@ namespace datmo {
 
 namespace {
 
-/// Scanners by the beginning of their names, with the range of their data sheets (m). All look
-/// straight ahead at 90 degrees of their own, unlike LMS1000 and TiM2xx.
+/// Scanners by the prefix of their names, with the range of their data sheets (m). Straight ahead
+/// is 90 degrees in the frame of all of them, unlike LMS1000 and TiM2xx.
 struct Family {
   std::string_view prefix;
   double max_range;
@@ -33,14 +33,14 @@ constexpr std::array<Family, 11> kFamilies = {{{"LMS10", 20.0},
                                                {"TiM57", 25.0},
                                                {"TiM7", 25.0}}};
 constexpr double kAhead = 90.0;  // deg
-/// "LMS111": what has a digit more is of another family.
+/// "LMS111": a name with one more digit belongs to another family.
 constexpr std::size_t kModelCharacters = 6;
 
 constexpr double kAngleUnit = 1e-4;  // deg
 
 constexpr std::uint32_t kLongestScan = 1000000;  // us, until it is sent
 
-/// Values below stand for why there is no range; 0 of them for an echo that did not come.
+/// Smaller values are codes for a missing range; among them, 0 means no echo.
 constexpr std::uint32_t kFirstRange = 16;
 
 /// Bytes of fields in CoLa B (Telegram listing 8014631, 4.3).
@@ -48,7 +48,7 @@ constexpr std::size_t kOne = 1;
 constexpr std::size_t kTwo = 2;
 constexpr std::size_t kFour = 4;
 
-/// The values of one channel, and what they mean.
+/// The values of one channel, and their meaning.
 struct Channel {
   std::string_view content;
   float factor = 1.0F;
@@ -58,7 +58,7 @@ struct Channel {
   std::vector<std::uint32_t> values;
 };
 
-/// `size`: bytes of a value in CoLa B.
+/// Reads a channel; `size`: bytes of a value in CoLa B.
 Channel readChannel(ColaFields& fields, std::size_t size) {
   constexpr std::size_t kNameLength = 5;
   Channel channel;
@@ -70,7 +70,7 @@ Channel readChannel(ColaFields& fields, std::size_t size) {
   const std::uint32_t count = fields.number(kTwo, "its number of beams");
   if (channel.spacing <= 0.0 || channel.spacing * count > toDegrees(kTurn) + channel.spacing) {
     throw badAnswer(std::to_string(count) + " beams " + std::to_string(channel.spacing) +
-                    " deg apart: expected a turn at most");
+                    " deg apart: expected at most a full turn");
   }
   fields.require(count, size, "a beam");
   channel.values.reserve(count);
@@ -91,7 +91,7 @@ float rangeOf(std::uint32_t value, const Channel& channel) {
   return (static_cast<float>(value) * channel.factor + channel.offset) / kMeter;
 }
 
-/// The ranges, and their geometry and timing.
+/// Converts the ranges, and their geometry and timing.
 void takeDistances(const Channel& channel, double frequency, DeviceScan& scan) {
   constexpr double kMillimeter = 1e-3;  // m
   scan.first_bearing = degrees(channel.first_angle - kAhead);
@@ -125,7 +125,7 @@ SickState stateOf(std::uint32_t status) {
                                      : SickState::kDirty;
 }
 
-/// The fields up to the time of transmission.
+/// Reads the fields up to the time of transmission.
 void takeStatus(ColaFields& fields, SickScan& scan) {
   fields.skip(kTwo, "its version");
   fields.skip(kTwo, "the device's number");
@@ -138,11 +138,11 @@ void takeStatus(ColaFields& fields, SickScan& scan) {
   scan.sent = fields.number(kFour, "the time of its transmission");
   if (scan.sent - scan.begun > kLongestScan) {
     throw badAnswer("a scan that began at " + std::to_string(scan.begun) + " us and was sent at " +
-                    std::to_string(scan.sent) + " us: expected a second between at most");
+                    std::to_string(scan.sent) + " us: expected at most a second between");
   }
 }
 
-/// The fields up to the channels. Returns the frequency of the scans (Hz).
+/// Reads the fields up to the channels. Returns the frequency of the scans (Hz).
 double takeFrequency(ColaFields& fields) {
   constexpr double kFrequencyUnit = 0.01;  // Hz
   for (const char* name : {"the inputs", "the inputs", "the outputs", "the outputs"}) {
@@ -203,7 +203,7 @@ bool isSickWarmingUp(const ColaTelegram& answer) {
   constexpr std::uint32_t kIdle = 3;
   constexpr std::uint32_t kMeasuring = 7;
   const auto state = ColaFields(answer).number(kTwo, "the scanner's state");
-  // One that was stopped has to be started again, by a new connection.
+  // A scanner that was stopped must be started again, by a new connection.
   return state > kUndefined && state < kMeasuring && state != kIdle;
 }
 

@@ -13,16 +13,16 @@ namespace {
 
 constexpr TickFormat kVelodyneTicks{1e-6, 3600000000};  // to the hour
 
-/// s; packets of the past that overtook each other in the network. What is older is of a clock that
-/// was set.
+/// s; packets are late by up to this if they overtook each other in the network. An older time
+/// means that the clock was set.
 constexpr double kReordered = 0.1;
 
 constexpr double kLongestTurn = 0.5;  ///< s; the slowest of all lidars takes 0.2 s
-/// s, in a turn that is published in spite of it: half of the fastest turn, so that no gap hides
-/// where one turn ends.
+/// s, longest gap in a turn that is still published: half of the fastest turn, so that no gap hides
+/// the end of a turn.
 constexpr double kLongestGap = 0.025;
 
-constexpr int kMaxBadPackets = 100;  ///< in a row: there is no lidar
+constexpr int kMaxBadPackets = 100;  ///< in a row: it is not a lidar
 
 constexpr const char* kAuto = "auto";
 
@@ -33,11 +33,11 @@ void VelodyneOptions::visit(OptionVisitor& visitor) {
   for (const VelodyneModel& known : velodyneModels()) {
     names.push_back(known.name);
   }
-  visitor.text({"model", "", "auto: as its packets say, which those of old firmware do not"}, model,
-               names);
-  visitor.number({"min_range", "m", "nearer returns are left out: the mount and the lidar itself"},
+  visitor.text({"model", "", "auto: as its packets report, which those of old firmware do not"},
+               model, names);
+  visitor.number({"min_range", "m", "nearer returns are ignored: the mount and the lidar itself"},
                  min_range, {0.0, 10.0});
-  visitor.number({"max_range", "m", "farther returns are left out"}, max_range, {1.0, 300.0});
+  visitor.number({"max_range", "m", "farther returns are ignored"}, max_range, {1.0, 300.0});
   visitor.number({"seam", "rad",
                   "bearing about the lidar where a turn ends and the next begins: best where "
                   "little happens"},
@@ -71,7 +71,7 @@ VelodynePacket VelodyneLidar::nextPacket() {
       throw DeviceError("wrong_device",
                         "a packet of another product (" + std::to_string(packet.product()) +
                             ") than " + model_->name +
-                            ": expected one lidar a port; tell them apart by their addresses");
+                            ": expected one lidar per port; distinguish them by their addresses");
     } catch (const RecordingEnd&) {
       throw;
     } catch (const DeviceError& error) {
@@ -88,7 +88,7 @@ bool VelodyneLidar::isOf(const VelodyneModel& model, const VelodynePacket& packe
   if (packet.product() == model.product) {
     return true;
   }
-  // Old firmware has something else there, but hardly another model's product.
+  // Old firmware has other data there, but hardly the product number of another model.
   const auto& models = velodyneModels();
   return options_.model != kAuto &&
          std::none_of(models.begin(), models.end(), [&packet](const VelodyneModel& other) {
@@ -106,10 +106,10 @@ const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const 
     for (const VelodyneModel& model : models) {
       known += std::to_string(model.product) + " (" + model.name + "), ";
     }
-    throw DeviceError("wrong_device", "a lidar of product " + std::to_string(packet.product()) +
-                                          ": expected one of " + known +
-                                          "and that of velodyne/model if it names "
-                                          "one; name it only for old firmware");
+    throw DeviceError(
+        "wrong_device",
+        "a lidar with product number " + std::to_string(packet.product()) + ": expected one of " +
+            known + "and that of velodyne/model if it names one; name it only for old firmware");
   }
   return *found;
 }
@@ -127,7 +127,7 @@ bool VelodyneLidar::isLate(const VelodynePacket& packet) const {
 void VelodyneLidar::takeTime(const VelodynePacket& packet) {
   const double span = packetSpan(*model_, packet.isDual());
   const bool is_first = !host_.clock.hasMessage();
-  // It is sent after its last firing.
+  // A packet is sent after its last firing.
   const Stamp stamp = host_.clock.add(packet.time(), model_->stamped_last ? 0.0 : span);
   packet_stamp_ = model_->stamped_last ? stamp + -span : stamp;
   next_block_ = 0;
@@ -143,7 +143,7 @@ void VelodyneLidar::takeTime(const VelodynePacket& packet) {
   if (age_ > kLongestTurn) {
     throw DeviceError("device_fault", "the lidar has not turned once in " +
                                           std::to_string(kLongestTurn) +
-                                          " s: expected five turns a second or more");
+                                          " s: expected at least five turns a second");
   }
 }
 
@@ -165,12 +165,12 @@ std::optional<DeviceMeasurement> VelodyneLidar::takeBlocks() {
   while (next_block_ < VelodynePacket::kBlocks) {
     const std::size_t block = next_block_;
     const unsigned angle = (packet_->azimuth(block) + kFullTurn - seam_) % kFullTurn;
-    // Less by more than the encoder's noise.
+    // Smaller by more than the encoder's noise.
     const bool is_new = angle + kFullTurn / 2 < last_angle_;
     last_angle_ = angle;
     if (is_new) {
       if (std::optional<DeviceMeasurement> measurement = endTurn(block)) {
-        return measurement;  // the block is of the next turn, which has begun
+        return measurement;  // the block belongs to the next turn, which has begun
       }
     }
     if (turn_) {

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// Two banks that fire in turn; the lasers of each have the same spacing, from the lowest one.
+/// Two banks that fire alternately; the lasers of each are equally spaced, from the lowest one.
 struct Banks {
   double first;    ///< deg, of laser 0, 2, 4, ...
   double second;   ///< deg, of laser 1, 3, 5, ...
@@ -31,9 +31,9 @@ std::vector<double> elevationsOf(const Banks& banks, std::size_t count) {
 struct LaserTable {
   std::vector<double> elevations;  ///< deg
   double firing_time = 0.0;        ///< s, from a firing to the next
-  std::vector<double> heights;     ///< mm; empty: they all leave at the origin
+  std::vector<double> heights;     ///< mm; empty: all start at the origin
   std::vector<double> offsets;     ///< deg of azimuth, clockwise; empty: none
-  std::size_t per_firing = 1;      ///< so many fire together
+  std::size_t per_firing = 1;      ///< lasers that fire together
 };
 
 double valueAt(const std::vector<double>& values, std::size_t i) {

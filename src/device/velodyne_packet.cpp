@@ -41,9 +41,9 @@ VelodynePacket::VelodynePacket(std::string_view bytes) : bytes_(bytes) {
           "own: expected a VLP-16, Puck LITE, Puck Hi-Res, VLP-32C or HDL-32E");
     }
     if (flag != kUpperBlock || azimuth(block) >= kFullTurn) {
-      throw DeviceError("bad_packet", "block " + std::to_string(block) + " of a packet begins by " +
-                                          std::to_string(flag) + " at azimuth " +
-                                          std::to_string(azimuth(block)) +
+      throw DeviceError("bad_packet", "block " + std::to_string(block) +
+                                          " of a packet begins with " + std::to_string(flag) +
+                                          " at azimuth " + std::to_string(azimuth(block)) +
                                           ": expected 61183 and less than 36000");
     }
   }
@@ -70,7 +70,7 @@ unsigned VelodynePacket::azimuth(std::size_t block) const { return wordAt(block 
 
 unsigned VelodynePacket::azimuthStep(std::size_t block) const {
   const std::size_t next = isDual() ? 2 : 1;
-  // The last one turns as far as the one before it.
+  // For the last one, the angle of the one before it is used.
   const std::size_t from = block + next < kBlocks ? block : block - next;
   const unsigned step = (azimuth(from + next) + kFullTurn - azimuth(from)) % kFullTurn;
   return step <= kFullTurn / 2 ? step : 0;
@@ -116,7 +116,7 @@ void appendPoints(const VelodynePacket& packet, std::size_t block, const Velodyn
     const VelodyneLaser& laser = model.lasers[channel % lasers];
     const double offset =
         model.sequence_time * static_cast<double>(sequence) + static_cast<double>(laser.time);
-    // A block turns by less than half a degree: of the second order, 1e-7 remains.
+    // A block turns by less than half a degree: the second-order error is 1e-7.
     const auto angle = static_cast<float>(turning * offset);
     const float cos_angle = 1.0F - 0.5F * angle * angle;
     const float cos_turned = laser.cos_offset * cos_angle - laser.sin_offset * angle;

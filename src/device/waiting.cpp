@@ -8,7 +8,7 @@
 namespace datmo {
 
 bool waitForEvents(int descriptor, short events, double timeout, const std::atomic<bool>& stop) {
-  constexpr int kSlice = 50;  // ms; so late it may be found out that it is to stop
+  constexpr int kSlice = 50;  // ms, latency of stopping
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(timeout);
   while (!stop && Clock::now() < end) {

@@ -17,16 +17,16 @@ constexpr int kSaturation = 100000;
 void HitGridOptions::visit(OptionVisitor& visitor) {
   window.visit(visitor);
   visitor.integer({"max_hits", "1",
-                   "that a cell counts: a stationary vehicle hits the same cells over and over, "
-                   "which would drown what it sees later; 0: all (thesis 3.5)"},
+                   "maximum count of a cell: a stationary vehicle hits the same cells over and "
+                   "over, which would drown what it sees later; 0: no maximum (thesis 3.5)"},
                   max_hits, {0, kSaturation});
   visitor.number({"cut_share", "1",
-                  "cells with a smoothed count below this share of the highest are noise or what "
-                  "has moved (thesis 3.5.2: 0.1)"},
+                  "cells with a smoothed count below this share of the highest are noise or left "
+                  "by moving objects (thesis 3.5.2: 0.1)"},
                  cut_share, {0.0, 1.0});
   visitor.number({"min_age", "s",
-                  "between the first and the last hit in and around a cell: what passes is over a "
-                  "cell for less; 0: any (thesis)"},
+                  "least time between the first and the last hit in and around a cell: a passing "
+                  "object covers a cell for less; 0: any (thesis)"},
                  min_age, {0.0, 60.0});
 }
 

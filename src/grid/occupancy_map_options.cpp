@@ -22,33 +22,33 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "the beams); 0: along the beam alone"},
       beam_width, {0.0, 0.2});
   visitor.number({"surface_sigma", "m",
-                  "a beam that passes a cell beside the surface in it makes it free only as far as "
-                  "it would have hit that surface, which is known to within this (normal "
-                  "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)",
+                  "a beam that passes beside the surface in a cell frees the cell only as far as "
+                  "it would have hit that surface, whose position has this standard deviation "
+                  "(normal distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)",
                   Tier::kPublic},
                  surface_sigma, {0.0, 2.0});
   beam_end.visit(visitor);
   visitor.number({"moving_below", "1",
                   "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
                  moving_below, {0.01, 0.5});
-  visitor.number(
-      {"static_after", "s",
-       "between the first and the last hit of a static cell: longer than a mover takes to "
-       "pass over it (thesis: 0)"},
-      static_after, {0.0, 60.0});
+  visitor.number({"static_after", "s",
+                  "least time between the first and the last hit of a static cell: longer than a "
+                  "moving object takes to pass over it (thesis: 0)"},
+                 static_after, {0.0, 60.0});
   visitor.integer({"static_neighborhood", "cells",
-                   "a static cell this near to an end point makes it static: range noise and pose "
+                   "a static cell this close to an end point makes it static: range noise and pose "
                    "error (thesis: 0)"},
                   static_neighborhood, {0, 5});
   visitor.integer(
       {"ghost_after", "1",
-       "where other sensors have refuted so many ends of beams the scanner sees what is "
-       "no obstacle: what ends there again does not move; 0: forgets them"},
+       "where other sensors have refuted this many end points, the scanner sees something that is "
+       "not an obstacle: end points there are not moving; 0: forgets them"},
       ghost_after, {0, 1000});
-  visitor.integer({"max_tiles", "1",
-                   "of 32 x 32 cells, 61 kB each, that are kept in memory of what the window has "
-                   "left, for save_map; of more the first ones go into a file"},
-                  max_tiles, {1, 1000000});
+  visitor.integer(
+      {"max_tiles", "1",
+       "tiles (32 x 32 cells, 61 kB each) that the window has left and that are kept in memory for "
+       "save_map; beyond this number, the first ones are written to a file"},
+      max_tiles, {1, 1000000});
   visitor.group("tile_file", [&] { tile_file.visit(visitor); });
 }
 

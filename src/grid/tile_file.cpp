@@ -15,7 +15,7 @@ namespace {
 constexpr double kBytesPerMebibyte = 1024.0 * 1024.0;
 
 std::string systemError() {
-  return errno == 0 ? "it is cut" : std::generic_category().message(errno);
+  return errno == 0 ? "it is truncated" : std::generic_category().message(errno);
 }
 
 /// Opens an unnamed file; if the file system does not support that, a named one that is unlinked.
@@ -52,14 +52,12 @@ bool transferAll(std::size_t bytes, Transfer&& transfer) {
 }  // namespace
 
 void TileFileOptions::visit(OptionVisitor& visitor) {
-  visitor.text(
-      {"folder", "",
-       "where tiles go that are more than max_tiles, in a file without a name; empty: they "
-       "are forgotten"},
-      folder, {});
+  visitor.text({"folder", "",
+                "folder of the unnamed file for tiles beyond max_tiles; empty: they are forgotten"},
+               folder, {});
   visitor.number({"max_size", "MiB",
-                  "of this file: 70 to 80 for a kilometer of a street in cells of 0.2 m that is "
-                  "seen 25 m to each side"},
+                  "maximum size of this file: 70 to 80 for a kilometer of a street in cells of 0.2 "
+                  "m that is seen 25 m to each side"},
                  max_size, {0.0, 1e7});
 }
 

@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// m; nearer than this is contact: no track is known so well.
+/// m; closer than this is contact: no track is that accurate.
 constexpr double kTouching = 0.01;
 
 }  // namespace
@@ -63,7 +63,7 @@ bool circlesMeet(const CircleMove& a, const CircleMove& b) {
   const double reach = a.radius + b.radius + kTouching;
   const double farthest = reach + drift.lpNorm<1>();
   if (apart.squaredNorm() > farthest * farthest) {
-    return false;  // most are: the quotient is slow
+    return false;  // the usual case; avoids the slow division
   }
   const double length = drift.squaredNorm();
   const double nearest = length > 0.0 ? std::clamp(-apart.dot(drift) / length, 0.0, 1.0) : 0.0;
@@ -86,7 +86,7 @@ std::optional<double> firstContact(const BodyMove& a, const BodyMove& b) {
     if (apart.gap <= kTouching) {
       return share;
     }
-    // Along this axis the gap closes no faster than that, over the rest of the move.
+    // Over the rest of the move, the gap along this axis closes no faster than this.
     const double closing = turning - apart.axis.dot(drift);
     if (closing <= 0.0) {
       return std::nullopt;

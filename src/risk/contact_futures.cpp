@@ -11,14 +11,15 @@ namespace datmo {
 
 namespace {
 
-/// Fewer futures than this give no probability: then those in which the bodies overlap already
-/// count, too.
+/// Fewer possible futures than this give no probability: then those in which the bodies already
+/// overlap count as well.
 constexpr std::size_t kMinPossible = 16;
 
 constexpr double kEarly = 0.05;
 constexpr double kMedian = 0.5;
 
-/// The side of most contacts; of as many the first in the order of StruckSide.
+/// Returns the side with most contacts; the first in the order of StruckSide if several have as
+/// many.
 StruckSide sideOf(const std::vector<FutureContact>& contacts) {
   std::array<int, 5> counts{};
   for (const FutureContact& contact : contacts) {
@@ -39,7 +40,7 @@ FutureContact contactAt(const BodyMove& host, const BodyMove& object, double sha
   return contact;
 }
 
-/// A path, continued as it ends for as long again.
+/// Returns a path of twice the duration, continued as it ends.
 BodyPath continued(const BodyPath& path) {
   BodyPath result = path;
   const std::size_t steps = path.poses.size() - 1;
@@ -56,7 +57,7 @@ BodyPath continued(const BodyPath& path) {
 }
 
 /// Whether the other body is stationary or moves in the host's direction, so that the host has to
-/// stop or match its speed; oncoming traffic would strike a stationary host, too.
+/// stop or match its speed; oncoming traffic would also strike a stationary host.
 bool isPursued(const Encounter& encounter) {
   return encounter.host.poses.size() < 2 ||
          encounter.host.velocity(0).dot(encounter.other.velocity(0)) >= 0.0;
@@ -138,8 +139,8 @@ void summarize(std::vector<FutureContact>& contacts, std::size_t futures, double
 }
 
 void setCriticality(const Encounter& met, const HostVehicleOptions& vehicle, ObjectRisk& risk) {
-  // Braking that only puts contact off avoids none: what stands and is met within T at speed v
-  // needs v / (2 T) at least, which stops within 2 T.
+  // Braking that only delays contact does not avoid it: a stationary object reached within T at
+  // speed v requires at least v / (2 T), which stops within 2 T.
   const bool pursued = isPursued(met);
   const BodyPath host = pursued ? continued(met.host) : met.host;
   const BodyPath other = pursued ? continued(met.other) : met.other;

@@ -12,18 +12,18 @@ namespace datmo {
 
 namespace {
 
-/// Halvings of an interval: a value is found to 1.6 % of it.
+/// Bisections of an interval: a value is found to 1.6 % of it.
 constexpr int kHalvings = 6;
 
-/// m/s; slower, no heading follows from a path.
+/// m/s; below this, a path does not define a heading.
 constexpr double kMoving = 0.1;
 
 bool touch(const Encounter& encounter, const BodyPath& host) {
   return firstContact(host, encounter.host_size, encounter.other, encounter.other_size).has_value();
 }
 
-/// The end of the range (from, where `holds` is false, to `to`, where it is true) at which it
-/// becomes true.
+/// Returns where `holds` becomes true between `from`, where it is false, and `to`, where it is
+/// true: the end at which it is true.
 template <typename Holds>
 double firstWhere(double from, double to, const Holds& holds) {
   for (int i = 0; i < kHalvings; ++i) {
@@ -33,7 +33,7 @@ double firstWhere(double from, double to, const Holds& holds) {
   return to;
 }
 
-/// Arc length up to each pose, m.
+/// Returns the arc length up to each pose, m.
 std::vector<double> lengthsOf(const BodyPath& path) {
   std::vector<double> lengths{0.0};
   for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
@@ -42,7 +42,7 @@ std::vector<double> lengthsOf(const BodyPath& path) {
   return lengths;
 }
 
-/// The pose on a path at an arc length within it.
+/// Returns the pose on a path at an arc length within it.
 BodyPose poseAt(const BodyPath& path, const std::vector<double>& lengths, double length) {
   const auto next = std::upper_bound(lengths.begin(), lengths.end(), length);
   if (next == lengths.end()) {
@@ -53,7 +53,8 @@ BodyPose poseAt(const BodyPath& path, const std::vector<double>& lengths, double
   return move.at((length - lengths[i]) / (lengths[i + 1] - lengths[i]));
 }
 
-/// Over the deceleration (or lateral acceleration) that a vehicle has: the share that avoids.
+/// Returns the deceleration (or lateral acceleration) that avoids contact, as a multiple of the
+/// vehicle's maximum; kHopeless if more is required.
 template <typename Avoids>
 double threat(const Avoids& avoids) {
   if (avoids(0.0)) {

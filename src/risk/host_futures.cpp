@@ -15,22 +15,22 @@ namespace {
 enum HostDraw : std::uint32_t { kDrawAcceleration, kDrawSteering, kDrawVariation };
 constexpr std::uint32_t kHost = 0;  ///< no track has this id
 
-/// m/s; slower, a lateral acceleration is no steering.
+/// m/s; below this, a lateral acceleration does not define a steering angle.
 constexpr double kSteered = 1.0;
 
-/// How a driver's acceleration and position in the lane vary, step by step.
+/// Random variation of a driver's acceleration and position in the lane, step by step.
 class DriverVariation {
  public:
   DriverVariation(const HostFutureOptions& options, double step)
       : options_(options), step_(step), kept_(std::exp(-step / options.acceleration_time)) {}
 
-  /// m/s^2, of the first step.
+  /// Starts with the first step's acceleration; `normal`: standard normal.
   void begin(double normal) { acceleration_ = options_.acceleration_spread * normal; }
 
   void advance(double first, double second) {
     acceleration_ = kept_ * acceleration_ +
                     options_.acceleration_spread * std::sqrt(1.0 - kept_ * kept_) * first;
-    // e'' = w - 2 f e' - f^2 e: white noise w of density 4 f^3 s^2 makes the deviation s.
+    // e'' = w - 2 f e' - f^2 e: white noise w of density 4 f^3 s^2 gives a standard deviation of s.
     const double frequency = 1.0 / options_.lane_time;
     const double noise = 2.0 * options_.lane_deviation *
                          std::sqrt(frequency * frequency * frequency / step_) * second;
@@ -39,7 +39,7 @@ class DriverVariation {
     rate_ += step_ * lateral_;
   }
 
-  double acceleration() const { return acceleration_; }  ///< m/s^2, on top of the present one
+  double acceleration() const { return acceleration_; }  ///< m/s^2, in addition to the current one
   double lateral() const { return lateral_; }            ///< m/s^2, to the left
 
  private:
@@ -52,10 +52,10 @@ class DriverVariation {
   double lateral_ = 0.0;
 };
 
-/// m; no border is known better.
+/// m; no border is more accurate.
 constexpr double kMinSigma = 0.02;
 
-/// A border's points in the host's frame.
+/// Returns a border's points in the host's frame.
 std::vector<BorderPoint> inFrame(const RoadBorder& border, const Pose2& base) {
   const Pose2 fixed_in_base = base.inverse();
   std::vector<BorderPoint> points;
@@ -66,7 +66,7 @@ std::vector<BorderPoint> inFrame(const RoadBorder& border, const Pose2& base) {
   return points;
 }
 
-/// Where a border passes the axis through `ahead` (m), square to the heading.
+/// Returns where a border crosses the axis through `ahead` (m), perpendicular to the heading.
 std::optional<BorderPoint> pointAt(const std::vector<BorderPoint>& border, double ahead) {
   for (std::size_t i = 0; i + 1 < border.size(); ++i) {
     const Point2& a = border[i].position;
@@ -79,7 +79,7 @@ std::optional<BorderPoint> pointAt(const std::vector<BorderPoint>& border, doubl
   return std::nullopt;
 }
 
-/// Curvature of the arc that leads from here to as far beside a border as it is here, 1/m.
+/// Curvature (1/m) of the arc from here to a point ahead at the same distance from a border.
 struct Curvature {
   double value = 0.0;
   double variance = 0.0;
@@ -94,7 +94,7 @@ Curvature curvatureBetween(const BorderPoint& here, const BorderPoint& there) {
 }
 
 double curvatureOf(const BodyPath& path) {
-  constexpr double kShortPath = 1.0;  // m; a vehicle that hardly moves shows no curvature
+  constexpr double kShortPath = 1.0;  // m; a shorter path does not define a curvature
   double length = 0.0;
   double turn = 0.0;
   for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
@@ -108,34 +108,35 @@ double curvatureOf(const BodyPath& path) {
 
 void HostFutureOptions::visit(OptionVisitor& visitor) {
   visitor.number({"acceleration_spread", "m/s^2",
-                  "standard deviation of the host's acceleration about the present one"},
+                  "standard deviation of the host's acceleration about its current value"},
                  acceleration_spread, {0.0, 5.0});
   visitor.number({"acceleration_time", "s", "time constant with which a driver varies it"},
                  acceleration_time, {0.1, 100.0});
   visitor.number({"lane_deviation", "m",
                   "standard deviation of a driver's lateral position in the lane: 0.2 to 0.3 on "
-                  "straight roads "
-                  "(Verster, Roth, Standard operation procedures for conducting the on-the-road "
-                  "driving test, 2011), more in towns"},
+                  "straight roads (Verster, Roth, Standard operation procedures for conducting the "
+                  "on-the-road driving test, 2011), more in towns"},
                  lane_deviation, {0.0, 5.0});
-  visitor.number({"lane_time", "s", "time constant with which a driver comes back to it"},
-                 lane_time, {0.3, 10.0});
+  visitor.number({"lane_time", "s", "time constant with which a driver returns to it"}, lane_time,
+                 {0.3, 10.0});
+  visitor.number({"steering_spread", "m/s^2",
+                  "standard deviation of the error of the host's course, as a lateral "
+                  "acceleration: noise of the yaw rate, and bends ahead that no border shows"},
+                 steering_spread, {0.0, 5.0});
   visitor.number(
-      {"steering_spread", "m/s^2",
-       "standard deviation of the lateral acceleration by which the host's course is off: "
-       "noise of the yaw rate, and bends to come that no border tells of"},
-      steering_spread, {0.0, 5.0});
-  visitor.number({"max_steering_spread", "rad",
-                  "the same of the steering's angle, where a slow vehicle turns on the spot"},
-                 max_steering_spread, {0.0, 0.5});
-  visitor.number({"steering_time", "s", "time constant with which a driver comes to a steering"},
+      {"max_steering_spread", "rad",
+       "its limit, as a steering angle: without one, a slow vehicle would turn on the spot"},
+      max_steering_spread, {0.0, 0.5});
+  visitor.number({"steering_time", "s",
+                  "time constant with which a driver reaches the intended steering angle"},
                  steering_time, {0.05, 5.0});
-  visitor.number({"course_time", "s", "how far ahead a driver looks at the course of the road"},
+  visitor.number({"course_time", "s", "how far ahead a driver follows the course of the road"},
                  course_time, {0.2, 5.0});
   visitor.number({"min_course_distance", "m", "the same at low speed"}, min_course_distance,
                  {1.0, 50.0});
-  visitor.number({"border_probability", "1", "a road's border less probable gives no course"},
-                 border_probability, {0.0, 1.0});
+  visitor.number(
+      {"border_probability", "1", "a less probable border of the road is not used for the course"},
+      border_probability, {0.0, 1.0});
 }
 
 std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
@@ -175,7 +176,7 @@ HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteeri
                          const HorizonOptions& horizon, const RandomDraws& draws)
     : host_(host), vehicle_(vehicle), options_(options), horizon_(horizon) {
   const double steering = course ? course->angle : host.steering;
-  // Of the bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
+  // Bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());
   const double spread =
       std::hypot(std::min(options.max_steering_spread,
@@ -218,7 +219,7 @@ BodyPath HostFutures::path(double steering, std::uint32_t future, const RandomDr
     const StepDraws drawn =
         draws.step({kHost, future, static_cast<std::uint32_t>(i), kDrawVariation});
     driver.advance(drawn.first, drawn.second);
-    // Of the bicycle model, as above; a vehicle that hardly moves does not sway.
+    // Bicycle model, as above; a vehicle that hardly moves does not sway.
     const double sway = std::abs(state.speed) < kSteered
                             ? 0.0
                             : driver.lateral() * vehicle_.wheelbase / square(state.speed);

@@ -8,16 +8,16 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower, a yaw rate says nothing about the steering.
+/// m/s; below this, a yaw rate does not determine the steering.
 constexpr double kRolling = 0.5;
 
-/// What changes of a state in one second.
+/// Time derivative of a state.
 struct Rates {
   Point2 position;
   double heading;
 };
 
-/// 1/m, of the rear axle's path.
+/// Returns the curvature of the rear axle's path, 1/m.
 double curvatureOf(double speed, double steering, const HostVehicleOptions& vehicle) {
   const double curvature = std::tan(steering) / vehicle.wheelbase;
   const double limit = vehicle.max_lateral / std::max(speed * speed, kRolling * kRolling);
@@ -28,8 +28,8 @@ Rates ratesOf(double heading, double speed, double curvature) {
   return {speed * Point2(std::cos(heading), std::sin(heading)), speed * curvature};
 }
 
-/// The speed after a time of an acceleration that does not turn the direction of travel: who stands
-/// stays.
+/// Returns the speed after an acceleration that does not reverse the direction of travel: a
+/// stationary vehicle remains stationary.
 double speedAfter(double speed, double acceleration, double seconds) {
   const double after = speed + acceleration * seconds;
   return speed * after <= 0.0 ? 0.0 : after;
@@ -38,28 +38,29 @@ double speedAfter(double speed, double acceleration, double seconds) {
 }  // namespace
 
 void HostVehicleOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "of the vehicle, bumper to bumper", Tier::kPublic}, length,
+  visitor.number({"length", "m", "length of the vehicle, bumper to bumper", Tier::kPublic}, length,
                  {0.1, 30.0});
-  visitor.number({"width", "m", "of the vehicle without mirrors", Tier::kPublic}, width,
+  visitor.number({"width", "m", "width of the vehicle without mirrors", Tier::kPublic}, width,
                  {0.1, 5.0});
   visitor.number(
       {"rear_overhang", "m", "from the rear bumper to the rear axle (base_link)", Tier::kPublic},
       rear_overhang, {0.0, 10.0});
   visitor.number(
-      {"wheelbase", "m", "from axle to axle; of the bicycle model (thesis 5.3.5)", Tier::kPublic},
+      {"wheelbase", "m", "distance between the axles, for the bicycle model (thesis 5.3.5)",
+       Tier::kPublic},
       wheelbase, {0.1, 15.0});
   visitor.number({"max_steering", "rad", "angle of the front wheels at full lock"}, max_steering,
                  {0.05, 1.5});
   visitor.number({"max_steering_rate", "rad/s",
-                  "of the front wheels; a quick driver turns the wheel by 500 degrees a second, "
-                  "geared down by 15"},
+                  "steering rate of the front wheels; a quick driver turns the steering wheel by "
+                  "500 degrees a second, geared down by 15"},
                  max_steering_rate, {0.01, 5.0});
-  visitor.number({"max_braking", "m/s^2",
-                  "deceleration that brakes reach on a dry road within a driver's power; automatic "
-                  "brakes are tested at 6 to 9"},
-                 max_braking, {0.5, 12.0});
+  visitor.number(
+      {"max_braking", "m/s^2",
+       "deceleration that a driver can reach on a dry road; automatic brakes are tested at 6 to 9"},
+      max_braking, {0.5, 12.0});
   visitor.number({"max_lateral", "m/s^2",
-                  "lateral acceleration up to which the tires hold and a driver dares to steer"},
+                  "lateral acceleration up to which the tires grip and a driver dares to steer"},
                  max_lateral, {0.5, 12.0});
 }
 

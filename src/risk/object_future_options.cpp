@@ -7,18 +7,19 @@ namespace datmo {
 
 void HorizonOptions::visit(OptionVisitor& visitor) {
   visitor.number({"horizon", "s",
-                  "how far the futures reach: contact within 1, 2, 3 and 4 s is reported; the "
-                  "thesis's h (5.3.5), which it leaves open"},
+                  "how far ahead the futures reach: contact within 1, 2, 3 and 4 s is reported; h "
+                  "of thesis 5.3.5, which leaves it open"},
                  horizon, {4.0, 10.0});
   visitor.number({"step", "s",
-                  "of the futures; between two steps bodies move evenly, and no contact is missed"},
+                  "time step of the futures; between two steps bodies move uniformly, and no "
+                  "contact is missed"},
                  step, {0.02, 0.5});
   visitor.integer({"futures", "1",
-                   "joint futures of host and objects; the standard deviation of a probability of "
-                   "one half is 0.03 with 256"},
+                   "number of joint futures of host and objects; with 256, the standard deviation "
+                   "of a probability of one half is 0.03"},
                   futures, {16, 4096});
-  visitor.integer({"seed", "1", "of the random numbers: the same seed gives the same risks"}, seed,
-                  {0, 1000000});
+  visitor.integer({"seed", "1", "seed of the random numbers: the same seed gives the same risks"},
+                  seed, {0, 1000000});
 }
 
 std::size_t HorizonOptions::steps() const {
@@ -31,22 +32,25 @@ void ObjectFutureOptions::visit(OptionVisitor& visitor) {
                   "random walk of the course of a vehicle between turns: 0.4 m/s to the side after "
                   "1 s at 14 m/s, as drivers sway in their lane"},
                  vehicle_turning, kTurning);
-  visitor.number({"cyclist_turning", "rad/sqrt(s)", "the same of cyclists and of unknown objects"},
+  visitor.number({"cyclist_turning", "rad/sqrt(s)", "the same for cyclists and unknown objects"},
                  cyclist_turning, kTurning);
   visitor.number({"pedestrian_turning", "rad/sqrt(s)",
-                  "the same of pedestrians, who change direction easily (thesis 5.3.5)"},
+                  "the same for pedestrians, who change direction easily (thesis 5.3.5)"},
                  pedestrian_turning, kTurning);
-  visitor.number({"turning_time", "s",
-                  "time constant with which who drives or rides comes back to his course"},
-                 turning_time, {0.1, 100.0});
-  visitor.number({"start_acceleration", "m/s^2",
-                  "standard deviation of the acceleration of what begins to accelerate or brake"},
-                 start_acceleration, {0.0, 10.0});
-  visitor.number({"stop_deceleration", "m/s^2", "with which an object comes to stand"},
-                 stop_deceleration, {0.1, 10.0});
+  visitor.number(
+      {"turning_time", "s", "time constant with which a driver or rider returns to the course"},
+      turning_time, {0.1, 100.0});
+  visitor.number(
+      {"start_acceleration", "m/s^2",
+       "standard deviation of the acceleration of an object that begins to accelerate or brake"},
+      start_acceleration, {0.0, 10.0});
+  visitor.number(
+      {"stop_deceleration", "m/s^2", "deceleration with which an object comes to a stop"},
+      stop_deceleration, {0.1, 10.0});
   visitor.number({"max_acceleration", "m/s^2", "no road user accelerates or brakes harder"},
                  max_acceleration, {0.1, 15.0});
-  visitor.number({"max_lateral", "m/s^2", "no road user turns harder"}, max_lateral, {0.1, 12.0});
+  visitor.number({"max_lateral", "m/s^2", "no road user has a larger lateral acceleration"},
+                 max_lateral, {0.1, 12.0});
   visitor.group("road_following", [&] { road_following.visit(visitor); });
 }
 

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// What random numbers are for: a state takes kTrackState of them.
+/// Purposes of random numbers: a state takes kTrackState of them.
 enum ObjectDraw : std::uint32_t {
   kDrawState = 0,
   kDrawHeading = 16,
@@ -18,11 +18,11 @@ enum ObjectDraw : std::uint32_t {
   kDrawRoad,
 };
 
-/// rad; a box whose heading is less sure than this is turned no farther: beyond, the velocity says
-/// more than the box.
+/// rad; limit of the standard deviation of a sampled heading: beyond it, the velocity is more
+/// informative than the box.
 constexpr double kMaxHeadingSigma = 0.3;
 
-/// m/s; slower than this it has come to rest.
+/// m/s; a slower object has come to rest.
 constexpr double kRest = 1e-3;
 
 std::uint32_t narrow(std::size_t value) { return static_cast<std::uint32_t>(value); }
@@ -45,12 +45,12 @@ bool isTurn(MotionMode mode) {
   return mode == MotionMode::kLeftTurn || mode == MotionMode::kRightTurn;
 }
 
-/// A turn would lead off the road.
+/// Replaces turns for objects that follow the road, since they would lead off it.
 MotionMode modeIn(bool follows_road, MotionMode mode) {
   return follows_road && isTurn(mode) ? MotionMode::kConstantVelocity : mode;
 }
 
-/// Turns of most steps are small: their series is right to 1e-5, and much faster.
+/// The turns of most steps are small: their series is accurate to 1e-5, and much faster.
 Point2 turned(const Point2& vector, double angle) {
   constexpr double kSmall = 0.1;
   const double square = angle * angle;
@@ -60,7 +60,7 @@ Point2 turned(const Point2& vector, double angle) {
   return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
 }
 
-/// The mode whose range of the cumulated probabilities holds the uniform number.
+/// Returns the mode whose range of the cumulative probabilities contains the uniform number.
 template <typename Cumulated>
 MotionMode modeAt(const Cumulated& cumulated, double uniform) {
   int mode = 0;
@@ -111,14 +111,14 @@ ObjectFutures::ObjectFutures(const Track& track, const std::optional<RoadCourse>
   }
 }
 
-/// From here on along the road, whichever way it goes.
+/// Makes the object follow the road from now on, in its own direction of travel.
 void ObjectFutures::followRoad(State& state) const {
   const Point2 along(std::cos(road_.direction), std::sin(road_.direction));
   state.follows_road = true;
   state.curvature = state.course.dot(along) < 0.0 ? -road_.curvature : road_.curvature;
 }
 
-/// `mode` standing: at rest, whatever the velocity.
+/// `mode` standing: at rest, regardless of the velocity.
 ObjectFutures::State ObjectFutures::stateOf(const TrackState& state, double heading,
                                             MotionMode mode) const {
   State result;
@@ -169,7 +169,7 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
 
 void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) const {
   if (state.mode == MotionMode::kStanding && state.speed <= kRest) {
-    // It starts along its box; who walks, wherever to.
+    // It starts along its box; a pedestrian in any direction.
     const double direction =
         class_ == ObjectClass::kPedestrian ? kTurn * draws_.uniform(key) : state.heading;
     state.course = {std::cos(direction), std::sin(direction)};

@@ -15,15 +15,16 @@ namespace datmo {
 
 namespace {
 
-/// Density of the velocity across the road where all directions are alike, s/m: that of a
-/// projected circle at its middle.
+/// Returns the density of the velocity across the road if all directions are equally likely, s/m:
+/// that of a projected circle at its center.
 double densityOfAnyDirection(double speed) { return 1.0 / (kPi * speed); }
 
 double normalDensity(double value, double variance) {
   return std::exp(-0.5 * square(value) / variance) / std::sqrt(kTurn * variance);
 }
 
-/// Of who drives or rides, of what moves: that is no pole, and if its class is unknown, any other.
+/// Returns the probability that a moving object is a driver or rider: it is not a pole, and an
+/// unknown class is any of the others.
 double shareOfDrivers(const Track& track) {
   const auto share = [&](ObjectClass kind) {
     return track.class_probabilities[static_cast<std::size_t>(kind)];
@@ -32,12 +33,12 @@ double shareOfDrivers(const Track& track) {
   return drivers > 0.0 ? drivers / (drivers + share(ObjectClass::kPedestrian)) : 0.0;
 }
 
-/// A smaller share of the modes cannot be told from none: messages have each in single precision
-/// (6e-8), and it is what is left of 1.
+/// A smaller share of the modes cannot be distinguished from 0: messages have each in single
+/// precision (6e-8), and it is the remainder to 1.
 constexpr double kMinStraight = 1e-6;
 
-/// How much likelier the measurements are of what turns as often as others do than of what never
-/// does: its modes without and with them. 1: the modes are not known.
+/// Returns the likelihood ratio of an object that turns as often as others over one that never
+/// does, from its mode probabilities. 1: the modes are unknown.
 double turnEvidence(const Track& track, double turn_share) {
   const auto share = [&](MotionMode mode) {
     return track.mode_probabilities[static_cast<std::size_t>(mode)];
@@ -50,8 +51,8 @@ double turnEvidence(const Track& track, double turn_share) {
   return (1.0 - turn_share) / std::max(straight, kMinStraight);
 }
 
-/// How much likelier the measurements are of what turns to one side than of what turns as often as
-/// others do. 1: the modes are not known.
+/// Returns the likelihood ratio of an object that turns to one side over one that turns as often as
+/// others. 1: the modes are unknown.
 double sideEvidence(const Track& track, MotionMode side, double turn_share) {
   const auto& modes = track.mode_probabilities;
   return std::accumulate(modes.begin(), modes.end(), 0.0) <= 0.0
@@ -59,15 +60,15 @@ double sideEvidence(const Track& track, MotionMode side, double turn_share) {
              : modes[static_cast<std::size_t>(side)] / (0.5 * turn_share);
 }
 
-/// Of who drives and does not follow the road, the share that turns into it: Bayes over who crosses
-/// it, about a right angle and straight on, and who turns into it or off it, at any angle, by the
-/// side to which the modes say that it turns.
+/// Returns the share of drivers not following the road that turn into it: Bayes over those that
+/// cross it, straight and at about a right angle, and those that turn into it or off it, at any
+/// angle, according to the side to which the modes turn.
 double shareOfJoining(const Track& track, double road, double turn_share,
                       const RoadFollowingOptions& options) {
   const double into = turnIntoRoad(std::atan2(track.state[3], track.state[2]), road);
   const double left = sideEvidence(track, MotionMode::kLeftTurn, turn_share);
   const double right = sideEvidence(track, MotionMode::kRightTurn, turn_share);
-  const double each = 0.5 * options.turning / kQuarterTurn;  // of all angles up to a right one
+  const double each = 0.5 * options.turning / kQuarterTurn;  // per angle, up to a right angle
   const double joins = each * (into > 0.0 ? left : right);
   const double leaves = each * (into > 0.0 ? right : left);
   const double from_right_angle = kQuarterTurn - std::abs(into);  // one half of a Gaussian
@@ -87,19 +88,19 @@ double turnIntoRoad(double course, double road) {
 
 void RoadFollowingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"probability", "1",
-                  "prior probability that who drives or rides keeps to the direction of the road; "
-                  "0: the track's velocity alone"},
+                  "prior probability that a driver or rider follows the direction of the road; 0: "
+                  "the track's velocity alone is used"},
                  probability, {0.0, 0.999});
   visitor.number({"turning", "1",
-                  "of who drives and does not follow the road, the share that turns into it or off "
-                  "it; the others cross it"},
+                  "share of the drivers not following the road that turn into it or off it; the "
+                  "others cross it"},
                  turning, {0.0, 1.0});
   visitor.number({"crossing_sigma", "rad",
-                  "standard deviation of the angle at which roads cross about a right angle"},
+                  "standard deviation of the angle between crossing roads about a right angle"},
                  crossing_sigma, {0.05, 1.0});
   visitor.number({"direction_sigma", "rad",
-                  "standard deviation of his course about it: swaying, and bends beyond what is "
-                  "known of the road"},
+                  "standard deviation of a course about the road's direction: swaying, and bends "
+                  "beyond the known part of the road"},
                  direction_sigma, {0.001, 1.0});
   visitor.number({"min_speed", "m/s", "slower objects have no measurable course"}, min_speed,
                  {0.1, 10.0});
@@ -126,7 +127,7 @@ std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& 
   const double other = (1.0 - prior) * densityOfAnyDirection(std::max(speed, std::sqrt(variance))) *
                        turnEvidence(track, turn_share);
   const TrackState gain = covariance / variance;
-  // Joseph's form stays positive definite.
+  // Joseph form: remains positive definite.
   const TrackCovariance keep = TrackCovariance::Identity() - gain * across;
   const TrackCovariance conditioned =
       keep * track.covariance * keep.transpose() +
@@ -139,7 +140,8 @@ std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& 
   follower.start.heading = start.heading + heading_share * turnIntoRoad(start.heading, road);
   follower.start.heading_sigma = start.heading_sigma * std::sqrt(1.0 - heading_share);
   follower.probability = follows / (follows + other);
-  const double drives = (shareOfDrivers(track) - prior) / (1.0 - prior);  // of who does not follow
+  const double drives =
+      (shareOfDrivers(track) - prior) / (1.0 - prior);  // among those that do not follow
   follower.joining =
       (1.0 - follower.probability) * drives * shareOfJoining(track, road, turn_share, options);
   return follower;

@@ -41,7 +41,7 @@ RandomDraws::RandomDraws(std::uint64_t seed) : seed_(seed), normals_(kTableSize)
   for (double& normal : normals_) {
     normal = random.normal(1.0);
   }
-  // Of mean 0 and variance 1 to the last digit, which a sample is not.
+  // Mean 0 and variance 1 exactly, unlike those of a sample.
   Eigen::Map<Eigen::ArrayXd> table(normals_.data(), static_cast<Eigen::Index>(kTableSize));
   table -= table.mean();
   table /= std::sqrt(table.square().mean());

@@ -13,15 +13,15 @@ namespace datmo {
 
 namespace {
 
-/// Of an object that none of so many possible futures meets, no more are drawn: contact is less
-/// probable than 5 % then (with 95 % confidence), far below what any level asks for, and most
-/// objects are such.
+/// If none of this many possible futures has contact with an object, no more are sampled: contact
+/// is then less probable than 5 % (with 95 % confidence), far below the threshold of any level.
+/// This holds for most objects.
 constexpr std::size_t kFirstFutures = 64;
 
-/// Standard deviations by which a state may be off for an object to be within reach.
+/// Standard deviations by which a state may be off when reachability is checked.
 constexpr double kReachSigmas = 4.0;
 
-/// A track without a measured extent is as large as a pedestrian.
+/// Returns the size of a track, at least `least` (m), that of a pedestrian.
 BodySize sizeOf(const Track& track, double least) {
   return {0.5 * std::max(least, track.box.length), 0.5 * std::max(least, track.box.width)};
 }
@@ -30,8 +30,8 @@ double largestDeviation(const TrackCovariance& covariance, int first) {
   return std::sqrt(covariance(first, first) + covariance(first + 1, first + 1));
 }
 
-/// Returns the road beside a point: the host is assumed to drive along it, led by its borders or as
-/// it steers.
+/// Returns the road beside a point: the host is assumed to drive along it, following its borders or
+/// its steering.
 RoadCourse roadBeside(const Point2& point, const HostFutures& host) {
   const std::vector<BodyPose>& poses = host.nominal().poses;
   const auto nearest =
@@ -41,7 +41,7 @@ RoadCourse roadBeside(const Point2& point, const HostFutures& host) {
   return {nearest->heading, host.curvature()};
 }
 
-/// The points without those of tracks, which have a risk of their own.
+/// Returns the points without those of tracks, whose risk is assessed separately.
 std::vector<Point2> withoutTracks(const std::vector<Point2>& points,
                                   const std::vector<Track>& tracks, double margin) {
   std::vector<Point2> rest;
@@ -66,27 +66,27 @@ WarningOptions warningOf(const RiskOptions& options) {
 }  // namespace
 
 void RiskOptions::visit(OptionVisitor& visitor) {
-  visitor.choice(
-      {"method", "",
-       "futures: seeded joint futures; to compare with: the circles of thesis 5.3.5, boxes "
-       "at constant velocity, responsibility-sensitive safety"},
-      method,
-      {{"futures", RiskMethod::kFutures},
-       {"thesis", RiskMethod::kThesis},
-       {"ttc_boxes", RiskMethod::kBoxes},
-       {"rss", RiskMethod::kRss}});
+  visitor.choice({"method", "",
+                  "futures: seeded joint futures; for comparison: the circles of thesis 5.3.5, "
+                  "boxes at constant velocity, responsibility-sensitive safety"},
+                 method,
+                 {{"futures", RiskMethod::kFutures},
+                  {"thesis", RiskMethod::kThesis},
+                  {"ttc_boxes", RiskMethod::kBoxes},
+                  {"rss", RiskMethod::kRss}});
   visitor.integer({"max_objects", "1",
-                   "tracks that are assessed at most, the surest to exist; bounds the time of a "
-                   "step"},
+                   "maximum number of tracks that are assessed, those most likely to exist; bounds "
+                   "the time of a step"},
                   max_objects, {1, 1000});
-  visitor.number({"max_silence", "s", "a track that was not seen for longer is left out"},
+  visitor.number({"max_silence", "s", "a track that was not observed for longer is ignored"},
                  max_silence, {0.0, 10.0});
-  visitor.number({"point_spacing", "m", "of points of what stands: nearer ones count once"},
+  visitor.number({"point_spacing", "m",
+                  "spacing of the points of stationary obstacles: closer ones count once"},
                  point_spacing, {0.05, 2.0});
-  visitor.number({"point_margin", "m", "points this near to a track's box are the track's"},
+  visitor.number({"point_margin", "m", "points this close to a track's box belong to the track"},
                  point_margin, {0.0, 5.0});
   visitor.number({"default_size", "m",
-                  "of a track whose extent was not measured, or is smaller: that of a pedestrian"},
+                  "extent of a track that was not measured, or is smaller: that of a pedestrian"},
                  default_size, {0.1, 5.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("horizon", [&] { horizon.visit(visitor); });
@@ -157,7 +157,7 @@ std::vector<Track> RiskAssessor::admitted(const RiskInput& input, RiskCounts& co
   return tracks;
 }
 
-/// Worst case: both go toward each other, and accelerate as hard as they can.
+/// Worst case: both move toward each other, and accelerate as hard as they can.
 bool RiskAssessor::reachable(const Track& track, const HostState& host) const {
   const double time = options_.horizon.horizon;
   const double acceleration =
@@ -217,7 +217,8 @@ ObjectRisk RiskAssessor::byRule(const Track& track, const HostFutures& host) con
   return rssRisk(track, host.nominal(), size, options_.rules);
 }
 
-/// Of the methods to compare with, those that know moving objects alone see nothing that stands.
+/// Among the methods for comparison, those that consider moving objects only ignore stationary
+/// obstacles.
 ObjectRisk RiskAssessor::ofStanding(const RiskInput& input, const std::vector<Track>& tracks,
                                     const HostFutures& host) const {
   ObjectRisk risk;

@@ -13,12 +13,12 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower bodies do not close a gap.
+/// m/s; bodies that approach more slowly do not close a gap.
 constexpr double kClosing = 0.01;
 
 Point2 velocityOf(const Track& track) { return track.state.segment<2>(2); }
 
-/// The path at constant velocity, at the times of another one.
+/// Returns the path at constant velocity, at the times of another path.
 BodyPath straightPath(const Track& track, const BodyPath& times) {
   BodyPath path{times.step, {}};
   for (std::size_t i = 0; i < times.poses.size(); ++i) {
@@ -37,7 +37,7 @@ ObjectRisk riskOf(const Track& track) {
   return risk;
 }
 
-/// Contact at `time` with that probability.
+/// Sets contact at `time` with this probability.
 void setContact(ObjectRisk& risk, double time, double probability, const RuleOptions& options) {
   for (std::size_t i = 0; i < kRiskTimes; ++i) {
     risk.contact_probability[i] = time <= static_cast<double>(i + 1) ? probability : 0.0;
@@ -73,14 +73,14 @@ double brakingOf(ObjectClass object_class, const RuleOptions& options) {
   return options.vehicle_braking;
 }
 
-/// Gap at which two that approach each other along a line may be, before both have responded: each
-/// goes on for the response time, with an acceleration toward the other, and brakes. `a`, `b`:
-/// speeds toward the other, m/s; less than 0: it goes away, and may brake as hard as it can.
+/// Safe gap between two bodies that approach each other along a line before both have responded:
+/// each continues for the response time, accelerating toward the other, and then brakes. `a`, `b`:
+/// speeds toward the other, m/s; negative: it moves away, and may brake as hard as it can.
 struct Approach {
   double speed;
   double response;      ///< m/s^2, in the response time
   double braking;       ///< m/s^2, after it
-  double hard_braking;  ///< m/s^2, of one that goes away
+  double hard_braking;  ///< m/s^2, of one that moves away
 };
 
 double advanceOf(const Approach& body, double time) {
@@ -93,7 +93,7 @@ double advanceOf(const Approach& body, double time) {
 }
 
 struct Gap {
-  double distance;      ///< m; 0 or less: the bodies overlap along this line
+  double distance;      ///< m; not positive: the bodies overlap along this line
   double toward_other;  ///< m/s, of the host
   double toward_host;   ///< m/s, of the other
 };
@@ -111,41 +111,48 @@ void RuleOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kTime{0.0, 5.0};
   constexpr Bounds kRadius{0.1, 10.0};
   constexpr Bounds kBraking{0.1, 15.0};
-  visitor.number({"driver_time", "s", "a driver's reaction (thesis 5.3.5: Zhang et al. 2006)"},
-                 driver_time, kTime);
-  visitor.number({"vehicle_time", "s", "the vehicle's reaction (thesis 5.3.5)"}, vehicle_time,
-                 kTime);
-  visitor.number({"host_radius", "m", "circle of the host (thesis 5.3.5; our assumption)"},
-                 host_radius, kRadius);
   visitor.number(
-      {"vehicle_radius", "m",
-       "circle of vehicles and all that is no pedestrian (thesis 5.3.5; our assumption)"},
-      vehicle_radius, kRadius);
+      {"driver_time", "s", "reaction time of a driver (thesis 5.3.5: Zhang et al. 2006)"},
+      driver_time, kTime);
+  visitor.number({"vehicle_time", "s", "reaction time of the vehicle (thesis 5.3.5)"}, vehicle_time,
+                 kTime);
+  visitor.number({"host_radius", "m", "radius of the host's circle (thesis 5.3.5; our assumption)"},
+                 host_radius, kRadius);
+  visitor.number({"vehicle_radius", "m",
+                  "radius of the circle of a vehicle or anything else but a pedestrian (thesis "
+                  "5.3.5; our assumption)"},
+                 vehicle_radius, kRadius);
   visitor.number({"pedestrian_radius", "m",
-                  "circle of a pedestrian (thesis 5.3.5: predefined; our assumption)"},
+                  "radius of a pedestrian's circle (thesis 5.3.5: predefined; our assumption)"},
                  pedestrian_radius, kRadius);
   visitor.number({"growth", "1",
-                  "by which the circle of a vehicle grows with each meter that it goes (thesis "
-                  "5.3.5; our assumption)"},
+                  "growth of a vehicle's circle with each meter that it travels (thesis 5.3.5; our "
+                  "assumption)"},
                  growth, {0.0, 1.0});
-  visitor.number({"response_time", "s", "of rss (Shalev-Shwartz et al. 2017), as usual values"},
-                 response_time, kTime);
-  visitor.number({"response_acceleration", "m/s^2", "rss: of all, within the response time"},
+  visitor.number(
+      {"response_time", "s", "rss: response time (Shalev-Shwartz et al. 2017), a usual value"},
+      response_time, kTime);
+  visitor.number({"response_acceleration", "m/s^2",
+                  "rss: acceleration of all road users within the response time"},
                  response_acceleration, {0.0, 10.0});
-  visitor.number({"host_braking", "m/s^2", "rss: that the host is sure to brake with after it"},
-                 host_braking, kBraking);
-  visitor.number({"vehicle_braking", "m/s^2", "rss: that a vehicle ahead brakes with at most"},
+  visitor.number(
+      {"host_braking", "m/s^2", "rss: deceleration that the host is certain to reach after it"},
+      host_braking, kBraking);
+  visitor.number({"vehicle_braking", "m/s^2", "rss: largest deceleration of a vehicle ahead"},
                  vehicle_braking, kBraking);
-  visitor.number({"cyclist_braking", "m/s^2", "rss: the same of a cyclist"}, cyclist_braking,
+  visitor.number({"cyclist_braking", "m/s^2", "rss: the same for a cyclist"}, cyclist_braking,
                  kBraking);
   visitor.number(
-      {"pedestrian_braking", "m/s^2", "rss: the same of a pedestrian, who stops at once"},
+      {"pedestrian_braking", "m/s^2", "rss: the same for a pedestrian, who stops at once"},
       pedestrian_braking, kBraking);
-  visitor.number({"lateral_braking", "m/s^2", "rss: to the side"}, lateral_braking, kBraking);
-  visitor.number({"lateral_acceleration", "m/s^2", "rss: to the side, within the response time"},
-                 lateral_acceleration, {0.0, 10.0});
-  visitor.number({"lateral_margin", "m", "rss: by which all sway in their lane"}, lateral_margin,
-                 {0.0, 5.0});
+  visitor.number({"lateral_braking", "m/s^2", "rss: lateral deceleration"}, lateral_braking,
+                 kBraking);
+  visitor.number(
+      {"lateral_acceleration", "m/s^2", "rss: lateral acceleration within the response time"},
+      lateral_acceleration, {0.0, 10.0});
+  visitor.number(
+      {"lateral_margin", "m", "rss: lateral distance by which all road users sway in their lane"},
+      lateral_margin, {0.0, 5.0});
 }
 
 ObjectRisk thesisRisk(const Track& track, const BodyPath& host, const RuleOptions& options) {
@@ -220,7 +227,7 @@ ObjectRisk rssRisk(const Track& track, const BodyPath& host, const BodySize& hos
   const double contact =
       closing > kClosing ? std::max(0.0, ahead.distance) / closing : host.duration();
   setContact(risk, std::min(contact, host.duration()), 1.0, options);
-  risk.time_to_brake = 0.0;  // the safe distances hold the response time already
+  risk.time_to_brake = 0.0;  // the safe distances already include the response time
   risk.side = struckSide(pose, host_size, other, size);
   risk.strike_speed = (velocityOf(track) - host.velocity(0)).norm();
   risk.contact = other.center;

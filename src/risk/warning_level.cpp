@@ -11,10 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// m/s; slower the host stands, and braking changes nothing.
+/// m/s; below this, the host is stationary, and braking changes nothing.
 constexpr double kStanding = 0.1;
 
-/// Not where the host stands, or is struck from behind as it moves.
+/// Returns false if the host is stationary, or is moving and struck from behind.
 bool brakingHelps(const ObjectRisk& risk, double host_speed) {
   const StruckSide behind = host_speed < 0.0 ? StruckSide::kFront : StruckSide::kRear;
   return std::abs(host_speed) > kStanding && risk.side != behind;
@@ -58,31 +58,34 @@ void WarningOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kProbability{0.0, 1.0};
   constexpr Bounds kTime{0.0, 5.0};
   visitor.number({"information_probability", "1",
-                  "probability of contact within 4 s from which the driver is informed"},
+                  "the driver is informed from this probability of contact within 4 s"},
                  information_probability, kProbability);
   visitor.number({"warning_probability", "1",
-                  "the same from which the driver is warned, if braking time runs out"},
+                  "the driver is warned from this probability, if the time left to brake runs out"},
                  warning_probability, kProbability);
-  visitor.number({"warning_time", "s",
-                  "time to brake from which the driver is warned: 1 s of a driver's reaction "
-                  "(thesis 5.3.5; Zhang et al. 2006), and the brakes' and the perception's delay"},
-                 warning_time, kTime);
+  visitor.number(
+      {"warning_time", "s",
+       "the driver is warned from this time to brake: 1 s for a driver's reaction (thesis 5.3.5; "
+       "Zhang et al. 2006), and the delay of the brakes and of perception"},
+      warning_time, kTime);
   visitor.number(
       {"warning_ttc", "s",
-       "time to contact from which the driver is warned however late he could brake: test "
-       "protocols of forward collision warnings ask for 1.7 s, on top of raise_time and a "
-       "scan"},
+       "the driver is warned from this time to contact, however late braking would do: test "
+       "protocols of forward collision warnings require 1.7 s; raise_time and a scan come on top"},
       warning_ttc, kTime);
-  visitor.number({"imminent_time", "s",
-                  "time to brake from which no driver reacts any more: automatic brakes would"},
-                 imminent_time, kTime);
-  visitor.number({"raise_time", "s", "how long a level must be asked for before it is given"},
-                 raise_time, kTime);
-  visitor.number({"hold_time", "s", "how long a level stays when it is not asked for any more"},
-                 hold_time, kTime);
+  visitor.number(
+      {"imminent_time", "s",
+       "time to brake from which no driver can react any more, but automatic brakes would"},
+      imminent_time, kTime);
+  visitor.number(
+      {"raise_time", "s", "how long the conditions of a level must hold before it is reported"},
+      raise_time, kTime);
+  visitor.number(
+      {"hold_time", "s", "how long a level is kept after its conditions have ceased to hold"},
+      hold_time, kTime);
   visitor.number({"release", "1",
-                  "a level is still asked for at this share of its probability, and at its time "
-                  "over this share"},
+                  "the conditions of a level hold down to this share of its probability, and up to "
+                  "its time divided by this share"},
                  release, {0.1, 1.0});
 }
 
@@ -135,7 +138,8 @@ void WarningLevel::judge(RiskReport& report, double host_speed) {
     level_ = kept;
     kept_at_ = report.stamp;
   }
-  // While a level is held, what asked for it stays its reason, whatever else asks for less.
+  // While a level is held, the object that required it remains its reason, even if others require
+  // less.
   if (kept != RiskLevel::kNone && kept >= level_) {
     cause_ = eased->id;
     reason_ = reasonOf(*eased, host_speed);
@@ -149,7 +153,7 @@ void WarningLevel::judge(RiskReport& report, double host_speed) {
 
 std::string reasonOf(const ObjectRisk& risk, double host_speed) {
   const std::string what = risk.id == kStandingId
-                               ? "what stands"
+                               ? "stationary obstacle"
                                : nameOf(risk.object_class) + (" " + std::to_string(risk.id));
   const std::string percent = std::to_string(std::lround(100.0 * risk.probability())) + " %";
   if (risk.side == StruckSide::kNone) {

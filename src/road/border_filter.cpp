@@ -59,21 +59,20 @@ DropReason reasonOf(double beyond, double margin) {
 void BorderFilterOptions::visit(OptionVisitor& visitor) {
   visitor.choice(
       {"method", "",
-       "evidence: what lies on a border or beyond is less likely to move; thesis: it is a "
-       "false alarm and dropped, however it moves (thesis 3.5.1)"},
+       "evidence: objects on or beyond a border are less likely to move; thesis: they are false "
+       "alarms and dropped, however they move (thesis 3.5.1)"},
       method,
       {{"evidence", BorderFilterMethod::kEvidence}, {"thesis", BorderFilterMethod::kThesis}});
-  visitor.number({"margin", "m", "what is nearer to a border than this lies on it (thesis 3.5.1)"},
+  visitor.number({"margin", "m", "objects closer to a border than this lie on it (thesis 3.5.1)"},
                  margin, {0.0, 5.0});
   visitor.number({"sigmas", "1", "standard deviations of the border that are added to the margin"},
                  sigmas, {0.0, 10.0});
-  visitor.number({"max_sigma", "m", "a border that is known less well says nothing"}, max_sigma,
-                 {0.01, 10.0});
+  visitor.number({"max_sigma", "m", "a less certain border is ignored"}, max_sigma, {0.01, 10.0});
   visitor.number(
-      {"reach", "m", "what lies farther beyond a border is left alone: another road may be there"},
+      {"reach", "m", "objects farther beyond a border are left alone: another road may be there"},
       reach, {0.0, 1000.0});
   visitor.number({"motion_log_odds", "1",
-                  "logarithm of the odds that what lies there moves, over those on the road"},
+                  "log odds that an object there moves, relative to those on the road"},
                  motion_log_odds, {-20.0, 0.0});
   visitor.group("extension", [&] { extension.visit(visitor); });
 }

@@ -63,14 +63,15 @@ void finish(std::vector<RoadBorder>& published) {
 void BorderPublishingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are published", Tier::kLive},
                  ahead, {1.0, 200.0});
-  visitor.number({"behind", "m", "how far behind it", Tier::kLive}, behind, {0.0, 200.0});
-  visitor.number({"max_sigma", "m", "across: what is less sure is not published", Tier::kLive},
+  visitor.number({"behind", "m", "how far behind the vehicle", Tier::kLive}, behind, {0.0, 200.0});
+  visitor.number({"max_sigma", "m",
+                  "lateral standard deviation above which a border is not published", Tier::kLive},
                  max_sigma, {0.05, 10.0});
-  visitor.number(
-      {"min_length", "m", "of a published piece of border: posts are shorter", Tier::kLive},
-      min_length, {0.0, 50.0});
-  visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
-                 {0.1, 20.0});
+  visitor.number({"min_length", "m",
+                  "least length of a published piece of border: posts are shorter", Tier::kLive},
+                 min_length, {0.0, 50.0});
+  visitor.number({"spacing", "m", "spacing of a border's points along the vehicle's heading"},
+                 spacing, {0.1, 20.0});
 }
 
 std::vector<RoadBorder> publishedBorders(const std::vector<FollowedBorder>& borders,

@@ -20,26 +20,27 @@ Eigen::Vector4d offsetRow(double along) {
 
 void BorderTrackOptions::visit(OptionVisitor& visitor) {
   visitor.number({"offset_drift", "m/m^0.5",
-                  "by which a border leaves the clothoid to the side: curbs and parked cars do not "
-                  "stand in one line"},
+                  "random walk of the border's offset from the clothoid: curbs and parked cars do "
+                  "not form one line"},
                  offset_drift, {0.0, 1.0});
-  visitor.number({"heading_drift", "rad/m^0.5", "the same of its heading"}, heading_drift,
+  visitor.number({"heading_drift", "rad/m^0.5", "the same for its heading"}, heading_drift,
                  {0.0, 0.1});
   visitor.number({"curvature_drift", "1/m^1.5",
-                  "the same of its curvature: bends begin where no clothoid leads into them"},
+                  "the same for its curvature: bends begin without a clothoid leading into them"},
                  curvature_drift, {0.0, 0.01});
   visitor.number({"curvature_sigma", "1/m", "standard deviation of a new border's curvature"},
                  curvature_sigma, {0.0, 0.1});
-  visitor.number({"curvature_rate_sigma", "1/m^2",
-                  "standard deviation of the change of curvature (Kirchner and Heinrich 1998)"},
-                 curvature_rate_sigma, {0.0, 0.01});
+  visitor.number(
+      {"curvature_rate_sigma", "1/m^2",
+       "standard deviation of the rate of change of curvature (Kirchner and Heinrich 1998)"},
+      curvature_rate_sigma, {0.0, 0.01});
   visitor.number({"curvature_rate_length", "m",
-                  "for how long curvature goes on changing: roads end a transition within some "
-                  "tens of meters"},
+                  "distance over which curvature keeps changing: roads end a transition within "
+                  "some tens of meters"},
                  curvature_rate_length, {1.0, 1000.0});
   visitor.number({"map_drift", "m/s^0.5", "random walk of the map under the vehicle"}, map_drift,
                  {0.0, 1.0});
-  visitor.number({"gate", "1", "standard deviations up to which a hit belongs to the line"}, gate,
+  visitor.number({"gate", "1", "standard deviations within which a hit belongs to the line"}, gate,
                  {1.0, 10.0});
 }
 

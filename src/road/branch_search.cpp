@@ -71,32 +71,31 @@ bool hasSide(const PassageGrid& grid, const Pose2& axis, const Point2& edge) {
 }  // namespace
 
 void BranchSearchOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "of a corridor that is a street: yards end before"}, length,
-                 {kSidesBegin + 2.0, 40.0});
-  visitor.number({"width", "m", "of it: two lanes; driveways and gaps between cars are narrower"},
-                 width, {1.0, 20.0});
+  visitor.number({"length", "m", "length of a corridor that is a street: yards are shorter"},
+                 length, {kSidesBegin + 2.0, 40.0});
   visitor.number(
-      {"max_shift", "m",
-       "from the vehicle to its middle line: beside a yard that is so long for a moment only"},
-      max_shift, {0.0, 10.0});
-  visitor.number({"heading_step", "rad", "from a heading that is tried to the next"}, heading_step,
+      {"width", "m", "its width: two lanes; driveways and gaps between cars are narrower"}, width,
+      {1.0, 20.0});
+  visitor.number({"max_shift", "m",
+                  "distance from the vehicle to its center line, at most: the vehicle is beside a "
+                  "yard of that length only briefly"},
+                 max_shift, {0.0, 10.0});
+  visitor.number({"heading_step", "rad", "step between the headings that are tried"}, heading_step,
                  {degrees(1.0), degrees(30.0)});
-  visitor.number({"min_free", "1", "share of a street that beams have passed"}, min_free,
+  visitor.number({"min_free", "1", "least share of a street that beams have passed"}, min_free,
                  {0.1, 1.0});
   visitor.number({"blocked_weight", "1",
-                  "share that has to have been passed beyond min_free for each share of the length "
-                  "in which something stands: a vehicle that waits"},
+                  "additional share that beams must have passed, beyond min_free, for each share "
+                  "of the length that is blocked, as by a waiting vehicle"},
                  blocked_weight, {0.0, 100.0});
-  visitor.number(
-      {"min_sides", "1",
-       "share of a street's length beyond the vehicle's own road beside which something "
-       "is seen to stand, mean of both sides: open ground that is seen through a gap has "
-       "none"},
-      min_sides, {0.0, 1.0});
-  visitor.number({"max_angle", "rad", "what is free in a wider one is open space"}, max_angle,
-                 {degrees(10.0), kTurn});
-  visitor.number({"min_separation", "rad", "of two streets' headings"}, min_separation,
-                 {degrees(10.0), degrees(120.0)});
+  visitor.number({"min_sides", "1",
+                  "least share of a street's length, beyond the vehicle's own road, with obstacles "
+                  "beside it, mean of both sides: open ground that is seen through a gap has none"},
+                 min_sides, {0.0, 1.0});
+  visitor.number({"max_angle", "rad", "free headings that span a wider angle are open space"},
+                 max_angle, {degrees(10.0), kTurn});
+  visitor.number({"min_separation", "rad", "least angle between the headings of two streets"},
+                 min_separation, {degrees(10.0), degrees(120.0)});
 }
 
 double BranchSearch::sidesOf(const PassageGrid& grid, const Pose2& axis) const {

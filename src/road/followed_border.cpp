@@ -66,22 +66,23 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.group("track", [&] { track.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
   visitor.number({"range_sigma", "m", "noise of a measured range"}, range_sigma, {0.0, 2.0});
-  visitor.number({"tolerance", "m", "from the line, where a beam that ends has hit the border"},
-                 tolerance, {0.05, 5.0});
   visitor.number(
-      {"correlation", "1",
-       "scans of a moving vehicle that see the same unevenness of a border: their hits count "
-       "as those of one"},
-      correlation, {1.0, 100.0});
-  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
+      {"tolerance", "m", "distance from the line within which a beam that ends has hit the border"},
+      tolerance, {0.05, 5.0});
+  visitor.number({"correlation", "1",
+                  "number of scans of a moving vehicle that see the same unevenness of a border: "
+                  "their hits count as those of one scan"},
+                 correlation, {1.0, 100.0});
+  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are tracked"}, ahead,
                  {5.0, 200.0});
-  visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
+  visitor.number({"behind", "m", "how far behind the vehicle they are kept"}, behind, {0.0, 200.0});
   visitor.number({"max_sigma", "m",
-                  "across: where a line is less sure it is not published; less sure as a whole "
-                  "it is dropped"},
+                  "lateral standard deviation above which a part of a line is not published, and "
+                  "above which a whole line is dropped"},
                  max_sigma, {0.1, 10.0});
   visitor.number(
-      {"growth", "m", "beyond the seen pieces of a line, where what is hit may belong to it"},
+      {"growth", "m",
+       "distance beyond the observed pieces of a line within which hits may belong to it"},
       growth, {0.0, 50.0});
 }
 

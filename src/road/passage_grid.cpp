@@ -14,19 +14,19 @@ PassageGridOptions::PassageGridOptions() {
 void PassageGridOptions::visit(OptionVisitor& visitor) {
   visitor.group(
       "window", [&] { window.visit(visitor); }, Tier::kExpert);
-  visitor.integer({"min_hits", "1", "beams that end in a cell that is not free"}, min_hits,
-                  {1, 1000});
+  visitor.integer({"min_hits", "1", "least number of beams that end in a cell that is not free"},
+                  min_hits, {1, 1000});
   visitor.number({"hit_share", "1",
-                  "of the beams that end in a cell or pass, from which on it is not free: what "
-                  "moved through it had fewer"},
+                  "least share of a cell's beams, ending or passing, that end in a cell that is "
+                  "not free: moving objects leave fewer"},
                  hit_share, {0.0, 1.0});
   visitor.number({"end_margin", "m",
-                  "before the end of a beam, where it does not say that a cell is free: noise of "
-                  "its range, and the cell's size"},
+                  "distance before the end of a beam in which it does not free cells: noise of its "
+                  "range, and the cell's size"},
                  end_margin, {0.0, 10.0});
   visitor.integer({"max_beams", "1",
-                   "that a cell counts; of more the older half is forgotten, as what stands may "
-                   "leave"},
+                   "maximum number of beams that a cell counts; beyond it, the older half is "
+                   "forgotten, since obstacles may leave"},
                   max_beams, {2, 1000000});
 }
 

@@ -38,7 +38,7 @@ double logOddsOf(const FollowedBorder& border, const std::vector<ArcLengthInterv
 
 void PresenceHistoryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle"}, ahead, {1.0, 200.0});
-  visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
+  visitor.number({"behind", "m", "how far behind the vehicle"}, behind, {0.0, 200.0});
 }
 
 PresenceHistory::PresenceHistory(const PresenceHistoryOptions& options) : options_(options) {}

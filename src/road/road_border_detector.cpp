@@ -37,7 +37,7 @@ RoadBorderDetectorOptions::RoadBorderDetectorOptions() {
 
 void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.choice({"method", "",
-                  "tracked: borders followed as clothoids over time (Kirchner and Heinrich 1998); "
+                  "tracked: borders tracked as clothoids over time (Kirchner and Heinrich 1998); "
                   "thesis: the best window of each scan by itself (thesis 3.5)"},
                  method,
                  {{"tracked", RoadBorderMethod::kTracked}, {"thesis", RoadBorderMethod::kThesis}});
@@ -52,11 +52,12 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("openings", [&] { openings.visit(visitor); });
   visitor.group("side_streets", [&] { side_streets.visit(visitor); });
   visitor.group("published", [&] { published.visit(visitor); });
-  visitor.number({"max_gap", "s", "between two scans; after a longer one all is forgotten"},
-                 max_gap, {0.01, 1000.0});
+  visitor.number(
+      {"max_gap", "s", "time between two scans; after a longer gap all state is forgotten"},
+      max_gap, {0.01, 1000.0});
   visitor.number({"max_step", "m",
-                  "of the vehicle between two scans; after a longer one, a jump of the map, all is "
-                  "forgotten"},
+                  "distance of the vehicle between two scans; after a longer one, a jump of the "
+                  "map, all state is forgotten"},
                  max_step, {0.1, 1000.0});
 }
 

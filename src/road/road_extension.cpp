@@ -28,8 +28,9 @@ Pose2 away(const Point2& point, const Point2& from) {
 }  // namespace
 
 void RoadExtensionOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "that a border is taken to go on beyond its end; 0: it does not"},
-                 length, {0.0, 200.0});
+  visitor.number(
+      {"length", "m", "how far a border is assumed to continue beyond its end; 0: it does not"},
+      length, {0.0, 200.0});
 }
 
 RoadExtension::RoadExtension(const Checked<RoadExtensionOptions>& options) : options_(*options) {}

@@ -43,10 +43,12 @@ double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const P
 }  // namespace
 
 void RoadOpeningOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_length", "m", "along the road; streets are wider, curbs are rounded"},
-                 min_length, {0.5, 100.0});
-  visitor.number({"max_length", "m", "along the road; longer ones are no streets"}, max_length,
-                 {0.5, 1000.0});
+  visitor.number(
+      {"min_length", "m", "least length along the road; streets are wider, curbs are rounded"},
+      min_length, {0.5, 100.0});
+  visitor.number(
+      {"max_length", "m", "greatest length along the road; longer openings are not streets"},
+      max_length, {0.5, 1000.0});
 }
 
 std::vector<RoadOpening> openingsOf(const BorderPresence& presence,

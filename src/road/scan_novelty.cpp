@@ -6,15 +6,14 @@
 namespace datmo {
 
 void ScanNoveltyOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"correlation_length", "m",
+                  "distance that the scanner moves until the correlation of two scans falls to "
+                  "1/e: the unevenness of curbs and parked cars"},
+                 correlation_length, {0.01, 10.0});
   visitor.number(
-      {"correlation_length", "m",
-       "that the scanner moves until what two scans see correlates by 1/e: the unevenness "
-       "of curbs and parked cars"},
-      correlation_length, {0.01, 10.0});
-  visitor.number({"correlation_time", "s",
-                  "the same of the time between two scans from one position: what stands there "
-                  "changes"},
-                 correlation_time, {0.1, 1000.0});
+      {"correlation_time", "s",
+       "the same for the time between two scans from one position: the surroundings change"},
+      correlation_time, {0.1, 1000.0});
 }
 
 double ScanNovelty::update(const Point2& scanner, double seconds) {

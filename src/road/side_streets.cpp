@@ -45,11 +45,12 @@ SideStreetOptions::SideStreetOptions() {
 }
 
 void SideStreetOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"period", "s", "from a look into the openings to the next one"}, period,
-                 {0.0, 10.0});
-  visitor.number({"memory", "s", "for which a border is known that was not found again"}, memory,
+  visitor.number({"period", "s", "time between two searches of the openings"}, period, {0.0, 10.0});
+  visitor.number({"memory", "s", "how long a border that was not found again is kept"}, memory,
                  {0.0, 60.0});
-  visitor.number({"start", "m", "from the vehicle's border outward: the corners' curbs are round"},
+  visitor.number({"start", "m",
+                  "distance outward from the border of the vehicle's road where searches start: "
+                  "curbs are rounded at corners"},
                  start, {0.0, 20.0});
   visitor.group("search", [&] { search.visit(visitor); });
 }

@@ -26,18 +26,20 @@ int indexOf(double along) {
 }  // namespace
 
 void StationEvidenceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"hit_probability", "1", "that a beam that crosses a border ends there: of curbs"},
+  visitor.number({"hit_probability", "1",
+                  "probability that a beam that crosses a border ends there: for curbs"},
                  hit_probability, {0.01, 0.99});
-  visitor.number({"clutter", "1", "that it ends there although there is no border"}, clutter,
-                 {1e-4, 0.5});
+  visitor.number({"clutter", "1", "probability that it ends there although there is no border"},
+                 clutter, {1e-4, 0.5});
   visitor.number({"max_per_scan", "1",
-                  "change of the log odds at a station in one scan: its beams there see "
+                  "largest change of the log odds at a station in one scan: its beams there see "
                   "the same surface"},
                  max_per_scan, {0.1, 10.0});
-  visitor.number({"saturation", "1", "most that it becomes, up and down"}, saturation, {0.5, 20.0});
-  visitor.number({"seen", "1", "from where on there is a border"}, seen, {0.0, 20.0});
+  visitor.number({"saturation", "1", "limit of the log odds, up and down"}, saturation,
+                 {0.5, 20.0});
+  visitor.number({"seen", "1", "log odds above which there is a border"}, seen, {0.0, 20.0});
   visitor.number(
-      {"bridged_gap", "m", "shorter gaps belong to the border: between parked cars, drives"},
+      {"bridged_gap", "m", "shorter gaps belong to the border: between parked cars, driveways"},
       bridged_gap, {0.0, 50.0});
 }
 

@@ -77,25 +77,28 @@ bool isCredible(const RoadPlane& plane, const CloudGroundOptions& options) {
 }  // namespace
 
 void CloudGroundOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"estimate", "",
-                  "find the ground's plane in each cloud; false: it is flat, z = 0 of the base "
-                  "frame"},
-                 estimate);
-  visitor.number({"max_distance", "m", "how far from the vehicle the ground is looked for"},
+  visitor.toggle(
+      {"estimate", "",
+       "estimate the ground plane in each cloud; false: it is flat, z = 0 of the base frame"},
+      estimate);
+  visitor.number({"max_distance", "m", "how far from the vehicle the ground is searched for"},
                  max_distance, {2.0, 100.0});
-  visitor.number({"half_width", "m", "how far to either side of it"}, half_width, {1.0, 100.0});
+  visitor.number({"half_width", "m", "how far to either side of the vehicle"}, half_width,
+                 {1.0, 100.0});
   visitor.number({"voxel_size", "m", "one point for each square of this side supports the plane"},
                  voxel_size, {0.05, 2.0});
-  visitor.number({"tolerance", "m",
-                  "points farther from the plane are none of the ground's: less than a curb's "
-                  "height"},
-                 tolerance, {0.01, 0.5});
-  visitor.integer({"min_voxels", "1", "squares of ground without which no plane is credible"},
+  visitor.number(
+      {"tolerance", "m",
+       "points farther from the plane do not belong to the ground: less than a curb's height"},
+      tolerance, {0.01, 0.5});
+  visitor.integer({"min_voxels", "1", "least number of squares of ground that support a plane"},
                   min_voxels, {3, 10000});
-  visitor.number({"max_slope", "m/m", "a plane steeper than this against the vehicle is no ground"},
-                 max_slope, {0.001, 0.5});
-  visitor.number({"max_height", "m", "nor one farther from z = 0 of the base frame at its origin"},
-                 max_height, {0.0, 2.0});
+  visitor.number(
+      {"max_slope", "m/m", "a plane steeper than this relative to the vehicle is not the ground"},
+      max_slope, {0.001, 0.5});
+  visitor.number(
+      {"max_height", "m", "nor is one farther from z = 0 of the base frame at its origin"},
+      max_height, {0.0, 2.0});
 }
 
 CloudGround findGround(const LidarPoints& points, const std::vector<int>& indices,

@@ -154,29 +154,30 @@ class Band {
 
 void CloudToScanOptions::visit(OptionVisitor& visitor) {
   visitor.number({"min_height", "m",
-                  "lower end of the band above the ground in which points are obstacles: over "
-                  "curbs and over what the ground's plane misses",
+                  "lower end of the band above the ground in which points are obstacles: above "
+                  "curbs and above the errors of the ground plane",
                   Tier::kPublic},
                  min_height, {-0.5, 5.0});
   visitor.number({"max_height", "m",
-                  "its upper end: high enough for two rows of the lidar where objects are far, "
-                  "under signs and branches",
+                  "upper end of the band: high enough for two rows of the lidar on distant "
+                  "objects, below signs and branches",
                   Tier::kPublic},
                  max_height, {-0.5, 5.0});
-  visitor.number({"min_range", "m", "nearer points are left out", Tier::kPublic}, min_range,
+  visitor.number({"min_range", "m", "nearer points are ignored", Tier::kPublic}, min_range,
                  {0.0, 100.0});
-  visitor.number({"max_range", "m", "farther points are left out", Tier::kPublic}, max_range,
+  visitor.number({"max_range", "m", "farther points are ignored", Tier::kPublic}, max_range,
                  {0.1, 500.0});
-  visitor.number({"beam_spacing", "rad", "from a beam to the next one", Tier::kPublic},
+  visitor.number({"beam_spacing", "rad", "angle from one beam to the next", Tier::kPublic},
                  beam_spacing, {degrees(0.02), degrees(10.0)});
-  visitor.number({"beam_width", "rad", "what one beam covers; 0: all up to its neighbors"},
+  visitor.number({"beam_width", "rad", "angle that one beam covers; 0: all up to its neighbors"},
                  beam_width, {0.0, degrees(10.0)});
   visitor.number(
-      {"field_of_view", "rad", "first to last beam, half of it to either side", Tier::kPublic},
+      {"field_of_view", "rad", "angle from the first beam to the last, half of it to either side",
+       Tier::kPublic},
       field_of_view, {degrees(1.0), kTurn + kRounding});
   visitor.number({"blind_width", "rad",
-                  "a beam is without measurement (NaN) if the cloud has no point at all this far "
-                  "to either side of it: behind the vehicle's own roof, out of the lidar's view"},
+                  "a beam has no measurement (NaN) if the cloud has no points at all within this "
+                  "angle to either side: behind the vehicle's own roof, out of the lidar's view"},
                  blind_width, {0.0, kPi});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("ground", [&] { ground.visit(visitor); });

@@ -97,8 +97,8 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
                   Tier::kPublic},
                  beam_width, {0.0, 0.2});
   visitor.number({"min_incidence", "rad",
-                  "flattest angle at which a beam meets a surface: the flatter, the shorter the "
-                  "beam's borders are free; pi/2: as far as its axis (thesis)"},
+                  "smallest angle at which a beam meets a surface: the smaller, the shorter the "
+                  "borders of the beam are free; pi/2: as far as its axis (thesis)"},
                  min_incidence, {0.01, kQuarterTurn});
   beam_end.visit(visitor);
 }

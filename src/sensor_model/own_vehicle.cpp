@@ -5,14 +5,14 @@ namespace datmo {
 
 void OwnVehicleOptions::visit(OptionVisitor& visitor) {
   visitor.number({"rear", "m",
-                  "rear end of the box around the own vehicle, x of the base frame; points in the "
-                  "box are its own and are left out",
+                  "rear end of the box around the ego vehicle, x of the base frame; points in the "
+                  "box are its own and are ignored",
                   Tier::kPublic},
                  rear, {-20.0, 0.0});
-  visitor.number({"front", "m", "its front end", Tier::kPublic}, front, {0.0, 20.0});
-  visitor.number(
-      {"half_width", "m", "from its middle to either side, mirrors included", Tier::kPublic},
-      half_width, {0.0, 5.0});
+  visitor.number({"front", "m", "front end of the box", Tier::kPublic}, front, {0.0, 20.0});
+  visitor.number({"half_width", "m", "from the middle of the box to either side, mirrors included",
+                  Tier::kPublic},
+                 half_width, {0.0, 5.0});
 }
 
 }  // namespace datmo

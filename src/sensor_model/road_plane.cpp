@@ -154,21 +154,23 @@ class RoadSamples {
 
 void RoadPlaneOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"estimate", "",
-                  "find the road's plane in the points; false: the road is flat, z = 0 of the "
+                  "estimate the road plane from the points; false: the road is flat, z = 0 of the "
                   "vehicle's frame (thesis 3.2.2)"},
                  estimate);
-  visitor.number({"max_distance", "m", "how far ahead of the camera the road is looked for"},
+  visitor.number({"max_distance", "m", "how far ahead of the camera the road is searched for"},
                  max_distance, {5.0, 100.0});
-  visitor.number({"half_width", "m", "how far to either side of it"}, half_width, {1.0, 50.0});
+  visitor.number({"half_width", "m", "how far to either side of the camera"}, half_width,
+                 {1.0, 50.0});
   visitor.number({"tolerance", "m",
-                  "points farther from the plane are none of the road's: less than a curb's "
-                  "height; beside that, they may be off by the noise of their depth"},
+                  "points farther from the plane do not belong to the road: less than a curb's "
+                  "height; the noise of their depth is allowed in addition"},
                  tolerance, {0.01, 0.5});
-  visitor.integer({"min_cells", "1", "square meters of road without which no plane is credible"},
+  visitor.integer({"min_cells", "1", "least area of road that supports a plane, in square meters"},
                   min_cells, {3, 1000});
-  visitor.number({"max_slope", "m/m", "a plane steeper than this against the vehicle is no road"},
-                 max_slope, {0.0, 0.5});
-  visitor.number({"max_height", "m", "nor one farther from the vehicle's z = 0 at its origin"},
+  visitor.number(
+      {"max_slope", "m/m", "a plane steeper than this relative to the vehicle is not the road"},
+      max_slope, {0.0, 0.5});
+  visitor.number({"max_height", "m", "nor is one farther from the vehicle's z = 0 at its origin"},
                  max_height, {0.0, 2.0});
 }
 

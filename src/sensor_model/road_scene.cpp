@@ -13,9 +13,11 @@ constexpr double kBeyondRange = 2.0;
 }  // namespace
 
 void RoadSceneOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"effective_range", "m",
-                  "nothing is said beyond it (thesis 3.2.2 and 3.3.3: 36 m)", Tier::kPublic},
-                 effective_range, {1.0, 200.0});
+  visitor.number(
+      {"effective_range", "m",
+       "range beyond which the camera's depth is not used (thesis 3.2.2 and 3.3.3: 36 m)",
+       Tier::kPublic},
+      effective_range, {1.0, 200.0});
   visitor.group("road", [&] { road.visit(visitor); });
 }
 

@@ -41,12 +41,13 @@ double rangeToLine(const Point2& a, const Point2& b, double bearing) {
 }  // namespace
 
 void ScanMergerOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"beam_spacing", "rad", "of the merged scan's beams; about that of the scanners"},
-                 beam_spacing, {0.001, 0.1});
-  visitor.number({"max_range", "m", "of the merged scan"}, max_range, {1.0, 500.0});
+  visitor.number(
+      {"beam_spacing", "rad", "spacing of the merged scan's beams; about that of the scanners"},
+      beam_spacing, {0.001, 0.1});
+  visitor.number({"max_range", "m", "range of the merged scan"}, max_range, {1.0, 500.0});
   visitor.number(
       {"surface_gap", "m",
-       "end points of neighboring beams that are nearer to each other are of one surface"},
+       "end points of neighboring beams that are closer to each other lie on one surface"},
       surface_gap, {0.0, 10.0});
 }
 

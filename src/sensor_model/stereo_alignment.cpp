@@ -26,7 +26,7 @@ void visitTerm(OptionVisitor& visitor, const char* name, const char* unit, const
     visitor.number({"sigma", unit, what}, term.sigma, {1e-6, 100.0});
     visitor.number({"drift", unit, "standard deviation of its change in one second"}, term.drift,
                    kAny);
-    visitor.number({"max_normal", unit, "if it is surely more, diagnostics warn of it"},
+    visitor.number({"max_normal", unit, "diagnostics warn if it is certainly larger"},
                    term.max_normal, {1e-6, 100.0});
   });
 }
@@ -35,42 +35,43 @@ void visitTerm(OptionVisitor& visitor, const char* name, const char* unit, const
 
 void StereoAlignmentOptions::visit(OptionVisitor& visitor) {
   visitTerm(visitor, "disparity", "px",
-            "standard deviation of the disparities' bias, before it is measured; OpenCV's "
+            "standard deviation of the bias of disparities, before it is measured; OpenCV's "
             "semi-global matcher has -0.4 px on vehicles of KITTI's drive 0005",
             disparity);
   visitTerm(visitor, "surface", "m",
-            "the same of how far the camera's surfaces lie behind the scanner's along their "
+            "the same for how far the camera's surfaces lie behind the scanner's along their "
             "normal: 0.1 to 0.2 m on that drive, whose scan has the nearest of a band of heights",
             surface);
-  visitTerm(visitor, "forward", "m", "the same of the mount's error along the camera's heading",
+  visitTerm(visitor, "forward", "m", "the same for the mount's error along the camera's heading",
             forward);
-  visitTerm(visitor, "heading", "rad", "the same of the mount's heading", heading);
-  visitTerm(visitor, "time", "s", "the same of the stamps", time);
+  visitTerm(visitor, "heading", "rad", "the same for the mount's heading", heading);
+  visitTerm(visitor, "time", "s", "the same for the stamps", time);
   visitor.number({"body_sigma", "m",
-                  "standard deviation of how far a surface lies behind where the scanner sees it, "
-                  "from surface to surface"},
+                  "standard deviation, between surfaces, of how far a surface lies behind where "
+                  "the scanner sees it"},
                  body_sigma, {0.001, 2.0});
-  visitor.number({"disparity_sigma", "px",
-                  "standard deviation of a surface's disparity that all its points have in common"},
-                 disparity_sigma, {0.01, 10.0});
+  visitor.number(
+      {"disparity_sigma", "px",
+       "standard deviation of the disparity error that all points of a surface have in common"},
+      disparity_sigma, {0.01, 10.0});
   constexpr Bounds kOnce{0.0, 1000.0};
   visitor.number({"surface_distance", "m",
-                  "a surface counts once while the vehicle moves so far, for from image to image "
-                  "its errors are the same: the length of a parked car; 0: each time"},
+                  "a surface counts once while the vehicle moves this far, since its errors are "
+                  "the same from image to image: the length of a parked car; 0: each time"},
                  surface_distance, kOnce);
-  visitor.number({"surface_time", "s", "and once in this time, standing still"}, surface_time,
-                 kOnce);
+  visitor.number({"surface_time", "s", "and once in this time while the vehicle is stationary"},
+                 surface_time, kOnce);
   visitor.number({"gate", "1",
-                  "squared differences beyond this, over their variance, are of two surfaces; 16: "
-                  "four standard deviations"},
+                  "squared differences beyond this, over their variance, belong to two surfaces; "
+                  "16: four standard deviations"},
                  gate, {1.0, 100.0});
-  visitor.number({"agreement_time", "s", "over which it is counted how many of them agree"},
-                 agreement_time, {0.1, 100.0});
   visitor.number(
-      {"min_agreement", "1",
-       "where fewer of them do, the clouds are not of what the scanner sees, and nothing "
-       "is made of them"},
-      min_agreement, {0.0, 1.0});
+      {"agreement_time", "s", "time over which the share of agreeing surfaces is averaged"},
+      agreement_time, {0.1, 100.0});
+  visitor.number({"min_agreement", "1",
+                  "if fewer of them agree, the clouds do not show what the scanner sees, and "
+                  "nothing is computed from them"},
+                 min_agreement, {0.0, 1.0});
 }
 
 std::array<const AlignmentTermOptions*, kAlignmentTerms> StereoAlignmentOptions::terms() const {

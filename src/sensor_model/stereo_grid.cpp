@@ -42,20 +42,20 @@ void StereoConesOptions::visit(OptionVisitor& visitor) {
 void StereoColumnsOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"min_surface", "m^2",
-       "a cell is occupied in which at least so much surface is seen between the layer's "
-       "bottom and its top; a pole of 0.1 m width has 0.1 m^2 for each meter of height"},
+       "a cell is occupied if at least this much surface is seen in it between the bottom and the "
+       "top of the layer; a pole of 0.1 m width has 0.1 m^2 for each meter of height"},
       min_surface, {0.0001, 10.0});
-  visitor.integer(
-      {"min_points", "1", "and at least so many points: far away, one has much surface"},
-      min_points, {1, 10000});
+  visitor.integer({"min_points", "1",
+                   "and at least this many points: far away, a single point covers much surface"},
+                  min_points, {1, 10000});
   visitor.number({"road_sigmas", "1",
-                  "a point is one of the road if a depth that is wrong by so many standard "
-                  "deviations puts it where it is"},
+                  "a point belongs to the road if a depth error of this many standard deviations "
+                  "explains its position"},
                  road_sigmas, {0.0, 10.0});
-  visitor.number({"obstacle_sigmas", "1",
-                  "cells nearer to an obstacle than so many standard deviations of its depth are "
-                  "not called free"},
-                 obstacle_sigmas, {0.0, 10.0});
+  visitor.number(
+      {"obstacle_sigmas", "1",
+       "cells within this many standard deviations of an obstacle's depth are not marked free"},
+      obstacle_sigmas, {0.0, 10.0});
 }
 
 void StereoGridOptions::visit(OptionVisitor& visitor) {
@@ -65,13 +65,13 @@ void StereoGridOptions::visit(OptionVisitor& visitor) {
        "columns: surface and lines of sight in columns of the image, on an estimated road; "
        "cones: counts of points and cones of objects on a flat road (thesis 3.2.2)"},
       method, {{"columns", StereoGridMethod::kColumns}, {"cones", StereoGridMethod::kCones}});
-  visitor.number({"occupied_probability", "1", "of an occupied cell (thesis figure 3.4)"},
+  visitor.number({"occupied_probability", "1", "occupancy of an occupied cell (thesis figure 3.4)"},
                  occupied_probability, {0.51, 1.0});
-  visitor.number({"free_probability", "1", "of a free cell being occupied (thesis figure 3.4)"},
+  visitor.number({"free_probability", "1", "occupancy of a free cell (thesis figure 3.4)"},
                  free_probability, {0.0, 0.49});
   visitor.number({"min_layer_height", "m",
-                  "the layer of obstacles begins at the planar scanner's height, but not nearer to "
-                  "the road than this (columns only)"},
+                  "the layer of obstacles begins at the planar scanner's height, but no lower "
+                  "above the road than this (columns only)"},
                  min_layer_height, {0.05, 2.0});
   visitor.number({"layer_thickness", "m", "height of the layer of obstacles (thesis eq. 3.2.2)"},
                  layer_thickness, {0.1, 5.0});

@@ -25,8 +25,8 @@ void checkCamera(const StereoCamera& camera) {
   // Written so that NaN is rejected as well.
   if (!measures || !(camera.right_tangent > camera.left_tangent)) {
     throw std::invalid_argument(
-        "stereo camera: expected a focal length above 0, a baseline of 0 or more, a noise of the "
-        "depth above 0, and a right border of the image to the right of the left one");
+        "stereo camera: expected a focal length above 0, a baseline of 0 or more, a depth noise "
+        "above 0, and a right border of the image to the right of the left one");
   }
 }
 
@@ -40,7 +40,7 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   if (!(axis.norm() > kMinLevel)) {
     throw std::invalid_argument(
         "stereo camera: expected to look along the ground, not at it, with its points in the "
-        "optical frame (REP 103: z ahead); if theirs is another one, name it in frames/camera");
+        "optical frame (REP 103: z ahead); if they are in another frame, name it in frames/camera");
   }
   const double height = road.heightOf(cloud.camera_in_base.translation());
   if (!(height > 0.0)) {

@@ -20,37 +20,41 @@ constexpr double kMaxInverse = 1.0;
 }  // namespace
 
 void SurfacePairOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_height", "m", "the camera's points from this height above the road on"},
+  visitor.number({"min_height", "m",
+                  "lower limit of the height above the road of the camera's points that are used"},
                  min_height, {0.0, 3.0});
-  visitor.number({"max_height", "m", "up to this: near the scanner's, for no body is upright"},
+  visitor.number({"max_height", "m",
+                  "upper limit of that height: near the scanner's, since bodies are not upright"},
                  max_height, {0.1, 5.0});
   visitor.number({"max_range", "m", "farther surfaces are not compared"}, max_range, {2.0, 200.0});
-  visitor.number({"max_step", "m", "from beam to beam of one surface"}, max_step, {0.01, 5.0});
-  visitor.number(
-      {"max_step_ratio", "1",
-       "or so many times what the beams are apart there: 2, on a surface that is slanted "
-       "by 60 degrees"},
-      max_step_ratio, {1.0, 100.0});
-  visitor.number({"max_length", "m", "of a surface; longer ones are several"}, max_length,
+  visitor.number({"max_step", "m", "largest distance between neighboring beams of one surface"},
+                 max_step, {0.01, 5.0});
+  visitor.number({"max_step_ratio", "1",
+                  "or this many times the spacing of the beams there: 2, on a surface that is "
+                  "slanted by 60 degrees"},
+                 max_step_ratio, {1.0, 100.0});
+  visitor.number({"max_length", "m", "length of a surface; longer ones are divided"}, max_length,
                  {0.1, 20.0});
-  visitor.integer({"min_beams", "1", "on a surface"}, min_beams, {3, 100});
+  visitor.integer({"min_beams", "1", "least number of beams on a surface"}, min_beams, {3, 100});
   visitor.number(
       {"min_incidence", "1",
-       "cosine of the angle between line of sight and normal; more slanted ones are left "
-       "out"},
+       "cosine of the angle between line of sight and normal; more slanted surfaces are ignored"},
       min_incidence, {0.05, 1.0});
-  visitor.number({"straightness", "m", "RMS of the beams' ends about their line"}, straightness,
-                 {0.001, 1.0});
+  visitor.number({"straightness", "m", "RMS distance of the beams' ends from their line"},
+                 straightness, {0.001, 1.0});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's ranges"}, range_sigma,
                  {0.001, 2.0});
-  visitor.number({"edge_pixels", "px", "at both ends of a surface, that are left out"}, edge_pixels,
-                 {0.0, 50.0});
-  visitor.integer({"min_points", "1", "of the camera on a surface"}, min_points, {3, 10000});
-  visitor.number({"min_share", "1", "of these that agree with each other within mode_width"},
-                 min_share, {0.1, 1.0});
+  visitor.number({"edge_pixels", "px", "at both ends of a surface, this much is ignored"},
+                 edge_pixels, {0.0, 50.0});
+  visitor.integer({"min_points", "1", "least number of the camera's points on a surface"},
+                  min_points, {3, 10000});
+  visitor.number(
+      {"min_share", "1", "least share of them that agree with each other within mode_width"},
+      min_share, {0.1, 1.0});
   visitor.number({"mode_width", "px", "to either side of their median"}, mode_width, {0.1, 10.0});
-  visitor.number({"max_difference", "px", "beyond what is expected it is another surface"},
-                 max_difference, {0.5, 100.0});
+  visitor.number(
+      {"max_difference", "px", "a larger deviation from the expected disparity is another surface"},
+      max_difference, {0.5, 100.0});
 }
 
 SurfacePairFinder::SurfacePairFinder(const Checked<SurfacePairOptions>& options)

@@ -139,21 +139,21 @@ double SweepTiming::turned(double bearing) const {
 }
 
 void SweepOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"duration", "s",
-       "of one turn of the lidar, for clouds without a time of each point; 0: all points "
-       "are taken as measured at once",
-       Tier::kPublic},
-      duration, {0.0, 1.0});
-  visitor.toggle(
-      {"clockwise", "", "it turns to the right, seen from above (Velodyne, Ouster)", Tier::kPublic},
-      clockwise);
-  visitor.number({"first_bearing", "rad", "where the turn begins, in the axes of the base frame",
+  visitor.number({"duration", "s",
+                  "duration of one turn of the lidar, for clouds without a time for each point; 0: "
+                  "all points are treated as measured at once",
                   Tier::kPublic},
+                 duration, {0.0, 1.0});
+  visitor.toggle({"clockwise", "", "the lidar turns clockwise, seen from above (Velodyne, Ouster)",
+                  Tier::kPublic},
+                 clockwise);
+  visitor.number({"first_bearing", "rad",
+                  "bearing where the turn begins, in the axes of the base frame", Tier::kPublic},
                  first_bearing, {-kTurn, kTurn});
   visitor.number(
       {"stamp_share", "1",
-       "part of the turn that is over at the cloud's stamp: 0 its begin, 1 its end", Tier::kPublic},
+       "share of the turn that is over at the cloud's stamp: 0 at its start, 1 at its end",
+       Tier::kPublic},
       stamp_share, {0.0, 1.0});
 }
 

@@ -14,10 +14,10 @@ constexpr double kMaxStepTime = 1.0;
 }  // namespace
 
 void GradualCorrectionOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"speed", "m/s", "at which a correction moves the vehicle, at the most"}, speed,
+  visitor.number({"speed", "m/s", "highest speed at which a correction moves the vehicle"}, speed,
                  {0.001, 1000.0});
-  visitor.number({"turn_rate", "rad/s", "at which it turns it, at the most"}, turn_rate,
-                 {0.0001, 1000.0});
+  visitor.number({"turn_rate", "rad/s", "highest rate at which a correction turns the vehicle"},
+                 turn_rate, {0.0001, 1000.0});
 }
 
 GradualCorrection::GradualCorrection(const Checked<GradualCorrectionOptions>& options)

@@ -36,18 +36,17 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("matcher", [&] { matcher.visit(visitor); });
   visitor.group("recovery", [&] { recovery.visit(visitor); });
   visitor.toggle({"motion_compensation", "",
-                  "bring each beam from its own time to the scan's stamp; false: take all beams of "
+                  "move each beam from its own time to the scan's stamp; false: treat all beams of "
                   "a scan as measured at once (thesis)"},
                  motion_compensation);
   visitor.number(
-      {"max_step", "m", "neighboring end points further apart are on different surfaces"}, max_step,
+      {"max_step", "m", "neighboring end points farther apart lie on different surfaces"}, max_step,
       {0.05, 20.0});
-  visitor.choice(
-      {"grid_ends", "",
-       "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
-       "cell, 'cells', at the cells' centers (thesis 3.2.5)"},
-      grid_ends, {{"scan", GridEnds::kScan}, {"cells", GridEnds::kCells}});
-  visitor.integer({"seed", "1", "of the random numbers with which poses are drawn"}, seed,
+  visitor.choice({"grid_ends", "",
+                  "where the obstacles of a fused grid lie: 'scan', where a beam ends in an "
+                  "occupied cell, 'cells', at the cells' centers (thesis 3.2.5)"},
+                 grid_ends, {{"scan", GridEnds::kScan}, {"cells", GridEnds::kCells}});
+  visitor.integer({"seed", "1", "seed of the random numbers with which poses are sampled"}, seed,
                   {0, 2147483647});
 }
 

@@ -29,31 +29,33 @@ GridWindow windowOf(const Eigen::AlignedBox2d& extent, double cell_size) {
 }  // namespace
 
 void LoopCloserOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"submap_length", "m", "of the drive, of which a submap is made"}, submap_length,
+  visitor.number({"submap_length", "m", "length of the drive that a submap covers"}, submap_length,
                  {1.0, 1000.0});
-  visitor.number({"search_distance", "m", "from one search for a loop to the next"},
+  visitor.number({"search_distance", "m", "distance between two searches for a loop"},
                  search_distance, {0.1, 1000.0});
-  visitor.number({"min_loop", "m", "a loop is no shorter than this drive"}, min_loop,
+  visitor.number({"min_loop", "m", "a loop is no shorter than this distance driven"}, min_loop,
                  {1.0, 100000.0});
   visitor.number({"max_distance", "m",
-                  "between the poses of a loop, beside what may have drifted since the last one"},
+                  "distance between the poses of a loop, in addition to the possible drift since "
+                  "the last loop"},
                  max_distance, {0.1, 1000.0});
   visitor.number({"trusted_sigma", "m",
-                  "where more may have drifted (standard deviation), a loop needs a second one "
+                  "where the drift may be larger (standard deviation), a loop needs a second one "
                   "that confirms it"},
                  trusted_sigma, {0.0, 1000.0});
   visitor.number({"max_sigma", "m",
-                  "where more may have drifted no loop is looked for: some place like it is found "
-                  "in so wide an area"},
+                  "where the drift may be larger, no loop is searched for: in so wide an area some "
+                  "place looks similar"},
                  max_sigma, {0.1, 1000.0});
   visitor.number({"position_drift", "m/m^0.5",
-                  "of the live SLAM along the drive, beside what it claims (standard deviation)"},
+                  "drift of the live SLAM along the drive, in addition to its own covariance "
+                  "(standard deviation)"},
                  position_drift, {0.0001, 10.0});
-  visitor.number({"heading_drift", "rad/m^0.5", "the same of the heading"}, heading_drift,
+  visitor.number({"heading_drift", "rad/m^0.5", "the same for the heading"}, heading_drift,
                  {0.00001, 1.0});
   visitor.integer({"max_scans", "1",
-                   "that are kept; of more each second one is dropped, and half as many are kept "
-                   "from then on"},
+                   "maximum number of scans that are kept; beyond it, every second one is dropped, "
+                   "and from then on half as many are kept"},
                   max_scans, {10, 10000000});
   visitor.group("graph", [&] { graph.visit(visitor); });
   submaps.visit(visitor);

@@ -27,44 +27,42 @@ constexpr double kMaxInterval = 0.5;
 }  // namespace
 
 void MapRecoveryOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"from_position_sigma", "m",
-       "a gap that makes the position this uncertain (standard deviation) needs a search "
-       "of the map; after shorter ones the next scan is matched as usual"},
-      from_position_sigma, {0.01, 1000.0});
+  visitor.number({"from_position_sigma", "m",
+                  "a gap that makes the position this uncertain (standard deviation) requires a "
+                  "search of the map; after shorter ones the next scan is matched as usual"},
+                 from_position_sigma, {0.01, 1000.0});
   visitor.number({"from_heading_sigma", "rad", "the same for the heading"}, from_heading_sigma,
                  {0.001, 10.0});
+  visitor.number({"first_search_after", "s",
+                  "how long the new map needs to learn what is stationary (map/static_after) and "
+                  "what is free"},
+                 first_search_after, {0.0, 60.0});
+  visitor.number({"search_period", "s", "time between two searches"}, search_period, {0.0, 60.0});
+  visitor.number({"give_up_after", "s", "after this time the new map becomes the map"},
+                 give_up_after, {0.0, 3600.0});
   visitor.number(
-      {"first_search_after", "s",
-       "what the new map needs to know what stands still (map/static_after) and what is free"},
-      first_search_after, {0.0, 60.0});
-  visitor.number({"search_period", "s", "between two searches"}, search_period, {0.0, 60.0});
-  visitor.number({"give_up_after", "s", "then the new map is the map"}, give_up_after,
-                 {0.0, 3600.0});
-  visitor.number({"lost_from_sigma", "m",
-                  "standard deviation of the position from which on no search is made"},
-                 lost_from_sigma, {0.01, 1000.0});
-  visitor.number(
-      {"min_contradiction_rise", "1",
-       "the vehicle may have been carried elsewhere when the share of beams that the map "
-       "contradicts rises by more from one scan to the next; 1: never"},
-      min_contradiction_rise, {0.05, 1.0});
+      {"lost_from_sigma", "m", "standard deviation of the position above which no search is made"},
+      lost_from_sigma, {0.01, 1000.0});
+  visitor.number({"min_contradiction_rise", "1",
+                  "the vehicle may have been kidnapped if the share of beams that contradict the "
+                  "map rises by more from one scan to the next; 1: never"},
+                 min_contradiction_rise, {0.05, 1.0});
   visitor.number({"kidnapped_after", "s",
-                  "and it stays higher than before by a quarter of that for so long; a vehicle "
-                  "pitches at a bump, "
-                  "or when it brakes, for less"},
+                  "and if it stays higher than before by a quarter of that for this long; a "
+                  "vehicle that pitches at a bump, or when it brakes, does so for less"},
                  kidnapped_after, {0.0, 60.0});
-  visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
-                  boxes_per_scan, {1, 1000000});
+  visitor.integer(
+      {"boxes_per_scan", "1", "maximum number of boxes of poses that a search examines per scan"},
+      boxes_per_scan, {1, 1000000});
   visitor.group("search", [&] { search.visit(visitor); });
   visitor.integer(
       {"prior_boxes_per_second", "1/s",
-       "the same of a search in a prior map, by the time between scans; one takes about "
-       "1.5 us"},
+       "the same for a search in a prior map, per second between scans; a box takes about 1.5 us"},
       prior_boxes_per_second, {1, 100000000});
-  visitor.number({"confirmed_after", "m",
-                  "a place in a prior map is taken when it is found again after this distance"},
-                 confirmed_after, {0.0, 1000.0});
+  visitor.number(
+      {"confirmed_after", "m",
+       "a pose found in a prior map is accepted when it is found again after this distance"},
+      confirmed_after, {0.0, 1000.0});
   visitor.number({"confirmed_after_turn", "rad", "or after this turn"}, confirmed_after_turn,
                  {0.0, kPi});
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });

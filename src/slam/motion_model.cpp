@@ -25,7 +25,7 @@ Eigen::Matrix2d OdometryNoiseOptions::covariance(const Twist2& twist) const {
 
 void MotionModelOptions::visit(OptionVisitor& visitor) {
   OdometryNoiseOptions::visit(visitor);
-  visitor.number({"side_slip_noise", "m/s", "standard deviation of the speed sideways"},
+  visitor.number({"side_slip_noise", "m/s", "standard deviation of the lateral speed"},
                  side_slip_noise, {0.0001, 5.0});
   visitor.number({"acceleration_noise", "m/s^1.5", "without odometry: random walk of the speed",
                   Tier::kPublic},

@@ -28,8 +28,8 @@ constexpr double kYawRateBiasSigma = 0.02;
 
 void PoseFilterOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"calibrate_odometry", "",
-                  "estimate the odometry's scale error and yaw-rate bias online; false: take it "
-                  "as unbiased (thesis)"},
+                  "estimate the odometry's scale error and yaw-rate bias online; false: assume "
+                  "that it is unbiased (thesis)"},
                  calibrate_odometry);
 }
 

@@ -49,10 +49,12 @@ Pose2 toPose(const Parameters& parameters) { return {parameters[0], parameters[1
 }  // namespace
 
 void PoseGraphOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"loss_scale", "1",
-                  "a loop with an error of this many standard deviations counts half (Cauchy)"},
-                 loss_scale, {0.1, 100.0});
-  visitor.integer({"max_iterations", "1", "of one optimization"}, max_iterations, {1, 1000});
+  visitor.number(
+      {"loss_scale", "1",
+       "a loop with an error of this many standard deviations has half the weight (Cauchy)"},
+      loss_scale, {0.1, 100.0});
+  visitor.integer({"max_iterations", "1", "most iterations of one optimization"}, max_iterations,
+                  {1, 1000});
 }
 
 PoseGraph::PoseGraph(const Checked<PoseGraphOptions>& options) : options_(*options) {}

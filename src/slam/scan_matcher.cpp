@@ -122,11 +122,11 @@ struct ScanMatcher::Normal {
 };
 
 void ScanMatcherOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"samples", "1", "poses drawn for each scan (thesis 3.3.1: 300)"}, samples,
+  visitor.integer({"samples", "1", "poses sampled for each scan (thesis 3.3.1: 300)"}, samples,
                   {1, 100000});
   visitor.integer(
       {"refinement_steps", "1",
-       "Gauss-Newton steps at each resolution at the most; 0: the best sample as it is (thesis)"},
+       "most Gauss-Newton steps at each resolution; 0: the best sample as it is (thesis)"},
       refinement_steps, {0, 100});
   visitor.number({"point_sigma", "m", "standard deviation of an end point about the surface it hit",
                   Tier::kPublic},
@@ -136,17 +136,16 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   "independent (shape of the surface, pose of earlier scans)"},
                  information_share, {0.001, 1.0});
   visitor.number({"degenerate_sigma", "m",
-                  "a direction in which the scan alone would place the vehicle worse than this "
+                  "a direction in which the scan alone would locate the vehicle worse than this "
                   "(along a corridor, a guard rail) is left to the prediction"},
                  degenerate_sigma, {0.01, 1000.0});
-  visitor.number(
-      {"min_maturity", "1",
-       "with odometry: weight of surfaces that have just come into view, and so may move, "
-       "where the visible ones that have been hit longest, up to static_after, have 1; "
-       "1: all alike (thesis)"},
-      min_maturity, {0.001, 1.0});
-  visitor.integer({"min_points", "1", "end points on known surfaces that make a match"}, min_points,
-                  {1, 10000});
+  visitor.number({"min_maturity", "1",
+                  "with odometry: weight of surfaces that have just come into view, and so may "
+                  "move, relative to the visible ones that have been hit longest, up to "
+                  "static_after; 1: all are equal (thesis)"},
+                 min_maturity, {0.001, 1.0});
+  visitor.integer({"min_points", "1", "least number of end points on known surfaces for a match"},
+                  min_points, {1, 10000});
 }
 
 ScanMatcher::ScanMatcher(const Checked<ScanMatcherOptions>& options) : options_(*options) {}

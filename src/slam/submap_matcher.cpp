@@ -32,12 +32,14 @@ void SubmapMatcherOptions::visit(OptionVisitor& visitor) {
       "search", [&] { search.visit(visitor); }, Tier::kExpert);
   visitor.group(
       "matcher", [&] { match.visit(visitor); }, Tier::kExpert);
-  visitor.number({"max_step", "m", "neighboring end points this near lie on one surface"}, max_step,
-                 {0.01, 100.0});
-  visitor.number({"position_sigma", "m",
-                  "least standard deviation of a loop: what both submaps are bent by themselves"},
-                 position_sigma, {0.001, 10.0});
-  visitor.number({"heading_sigma", "rad", "the same of the heading"}, heading_sigma, {0.0001, 1.0});
+  visitor.number({"max_step", "m", "neighboring end points this close lie on one surface"},
+                 max_step, {0.01, 100.0});
+  visitor.number(
+      {"position_sigma", "m",
+       "least standard deviation of a loop: by how much both submaps are distorted themselves"},
+      position_sigma, {0.001, 10.0});
+  visitor.number({"heading_sigma", "rad", "the same for the heading"}, heading_sigma,
+                 {0.0001, 1.0});
 }
 
 SubmapMatcher::SubmapMatcher(const Checked<SubmapMatcherOptions>& options)

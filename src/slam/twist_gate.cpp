@@ -15,15 +15,16 @@ constexpr double kNoiseSigmas = 5.0;
 }  // namespace
 
 void TwistGateOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_acceleration", "m/s^2",
-                  "no odometry changes its speed faster, but by noise; one that does is left out, "
-                  "and followed when the next one goes on from it; 1.2 g: the best road tires"},
-                 max_acceleration, {0.1, 1000.0});
+  visitor.number(
+      {"max_acceleration", "m/s^2",
+       "odometry does not change its speed faster, except by noise; one that does is dropped, and "
+       "accepted when the next one agrees with it; 1.2 g: the best road tires"},
+      max_acceleration, {0.1, 1000.0});
   visitor.number({"max_yaw_acceleration", "rad/s^2",
-                  "the same of its yaw rate; those tires at half of a car's wheelbase of 2.7 m"},
+                  "the same for its yaw rate; those tires at half of a car's wheelbase of 2.7 m"},
                  max_yaw_acceleration, {0.1, 1000.0});
   visitor.number({"min_turn_radius", "m",
-                  "yaw rates of wider turns may come at once, as far as the tires hold sideways "
+                  "yaw rates of wider turns may occur at once, as far as the tires grip laterally "
                   "(max_acceleration); half of a car's turning circle of 10 m, at its rear axle"},
                  min_turn_radius, {0.01, 1000.0});
 }

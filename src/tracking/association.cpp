@@ -91,19 +91,18 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   "the 99.9 % quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
   visitor.number({"min_same_class", "1",
-                  "an object is not of a target where the probability that both are of one class "
-                  "is smaller (thesis 3.3.4: classes that differ)"},
+                  "an object is not associated with a target if the probability that they are of "
+                  "the same class is smaller (thesis 3.3.4: classes that differ)"},
                  min_same_class, {0.0, 1.0});
   visitor.integer({"max_candidates", "1",
-                   "objects that one target may be seen as in one scan, the nearest ones; bounds "
-                   "the time of a step"},
+                   "maximum number of objects that a target may be associated with in one scan, "
+                   "the nearest ones; bounds the time of a step"},
                   max_candidates, {1, 1000});
-  visitor.integer({"max_targets", "1", "targets followed at a time; bounds the time of a step"},
+  visitor.integer({"max_targets", "1", "maximum number of targets; bounds the time of a step"},
                   max_targets, {1, 5000});
   visitor.integer({"max_work", "1",
-                   "pairs, rows and columns looked at for one assignment (1 ns to 2 ns each) "
-                   "before the targets that "
-                   "are left take the nearest free object"},
+                   "pairs, rows and columns examined for one assignment (1 ns to 2 ns each) before "
+                   "the remaining targets take the nearest free object"},
                   max_work, {1000, 1e9});
 }
 

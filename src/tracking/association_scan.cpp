@@ -57,11 +57,12 @@ std::optional<TransitionModel> AssociationScan::transitionsOf(ObjectClass object
 
 void ScanIntakeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"new_density", "1/m^2",
-                  "objects of no target in one scan, new ones and false alarms, where none were "
-                  "seen of late: an object must be likelier for its target"},
+                  "density of objects of no target in one scan, new ones and false alarms, where "
+                  "none were seen recently: an object must be likelier for its target"},
                  new_density, {1e-9, 10.0});
   visitor.integer({"max_objects", "1",
-                   "objects taken from one list, the nearest ones; bounds the time of a step"},
+                   "maximum number of objects taken from one list, the nearest ones; bounds the "
+                   "time of a step"},
                   max_objects, {1, 10000});
 }
 

@@ -76,8 +76,9 @@ double ingest(const VisibleExtent& seen, double noise, double& mean, double& var
 void SizePrior::visit(OptionVisitor& visitor, const std::string& kind, const std::string& source) {
   constexpr Bounds kSize{0.05, 30.0};
   visitor.group(kind, [&] {
-    visitor.number({"share", "1", "of the objects of unknown class, relative to the other kinds"},
-                   share, {1e-6, 1.0});
+    visitor.number(
+        {"share", "1", "prior share of objects of this kind, relative to the other kinds"}, share,
+        {1e-6, 1.0});
     visitor.number({"length", "m", "mean; " + source}, length, kSize);
     visitor.number({"length_std", "m", "standard deviation of the length"}, length_std,
                    {0.01, 30.0});
@@ -89,25 +90,25 @@ void SizePrior::visit(OptionVisitor& visitor, const std::string& kind, const std
 void BoxSizeOptions::visit(OptionVisitor& visitor) {
   vehicle.visit(visitor, "vehicle",
                 "cars and vans (KITTI: 3.9 x 1.6 m, Europe's new cars: 4.4 x 1.8 m)");
-  lorry.visit(visitor, "lorry", "and buses (EU directive 96/53/EC: up to 12 m, 2.55 m wide)");
+  lorry.visit(visitor, "lorry",
+              "trucks and buses (EU directive 96/53/EC: up to 12 m, 2.55 m wide)");
   two_wheeler.visit(visitor, "two_wheeler", "with its rider (KITTI: 1.8 x 0.6 m)");
   person.visit(visitor, "person", "walking (KITTI: 0.8 x 0.6 m)");
   other.visit(visitor, "other", "anything else: prams, animals, trailers");
+  visitor.number({"extent_std", "m",
+                  "standard deviation of the extent of a rigid body from scan to scan beyond the "
+                  "variances of its sides: mirrors, round corners, another height"},
+                 extent_std, {0.001, 2.0});
+  visitor.number({"correlation_time", "s",
+                  "time over which the observed extent of a body has the same error, so that all "
+                  "scans within it count as one"},
+                 correlation_time, {0.0, 10.0});
   visitor.number(
-      {"extent_std", "m",
-       "by how much the extent of a rigid body differs from scan to scan beyond what its "
-       "sides' variances: mirrors, round corners, another height"},
-      extent_std, {0.001, 2.0});
+      {"wrong_size", "1",
+       "share of sizes that do not depend on the class: several objects merged, or a part of one"},
+      wrong_size, {1e-3, 1.0});
   visitor.number(
-      {"correlation_time", "s",
-       "in which what is seen of a body errs alike, so that all scans of it count as one"},
-      correlation_time, {0.0, 10.0});
-  visitor.number({"wrong_size", "1",
-                  "share of sizes that say nothing of the class: of several things as one, or of a "
-                  "part"},
-                 wrong_size, {1e-3, 1.0});
-  visitor.number(
-      {"drift", "m^2/s", "growth of the variance of each size: other parts come in view"}, drift,
+      {"drift", "m^2/s", "growth of the variance of each size: other parts come into view"}, drift,
       {0.0, 10.0});
 }
 

@@ -55,8 +55,8 @@ bool reaches(Box2 box, const Box2& other, double scale) {
 
 void DuplicateOptions::visit(OptionVisitor& visitor) {
   visitor.number({"reach", "1",
-                  "two targets may be parts of one object where the box of one, this many times as "
-                  "large, holds the center of the other"},
+                  "two targets may be parts of one object if the box of one, enlarged by this "
+                  "factor, contains the center of the other"},
                  reach, {0.0, 10.0});
   visitor.number({"velocity_gate", "1",
                   "they are if their velocities are within this Mahalanobis distance squared: 5.99 "

@@ -8,8 +8,8 @@ namespace datmo {
 
 void ExistenceOptions::visit(OptionVisitor& visitor) {
   visitor.number({"birth_probability", "1",
-                  "that a new object of no target is something that will be followed, and not a "
-                  "false alarm"},
+                  "probability that a new object of no target is something that will be tracked, "
+                  "and not a false alarm"},
                  birth_probability, {1e-4, 0.9999});
   visitor.number(
       {"clutter_density", "1/m^2",
@@ -17,15 +17,15 @@ void ExistenceOptions::visit(OptionVisitor& visitor) {
        "its cells are coarser than a row of parked cars"},
       clutter_density, {0.0, 100.0});
   visitor.number({"scan_limit", "1",
-                  "most that one object may add to the score, or take from it: what misleads a "
-                  "sensor does so from scan to scan; misses count in full"},
+                  "most that one object may add to the score, or subtract: errors of a sensor "
+                  "persist from scan to scan; misses count in full"},
                  scan_limit, {0.1, 100.0});
-  visitor.number({"max_score", "1",
-                  "to which the score is limited, so that a track that lost its object ends"},
-                 max_score, {0.0, 100.0});
+  visitor.number(
+      {"max_score", "1", "upper limit of the score, so that a track that has lost its object ends"},
+      max_score, {0.0, 100.0});
   visitor.number({"min_score", "1",
-                  "below which the score does not fall: 0 forgets that the first objects of a "
-                  "target did not belong together"},
+                  "lower limit of the score: 0 forgets that the first objects of a target did not "
+                  "belong together"},
                  min_score, {-100.0, 0.0});
 }
 

@@ -58,7 +58,7 @@ void HypothesisOptions::visit(OptionVisitor& visitor) {
        "scans after which a decision is final (N-scan pruning, thesis 3.3.4): 0 decides "
        "at once"},
       scan_history, {0, static_cast<double>(kMaxScanHistory)});
-  visitor.integer({"max_leaves", "1", "observation sequences of one target that are kept"},
+  visitor.integer({"max_leaves", "1", "maximum number of observation sequences of one target"},
                   max_leaves, {1, 1000});
   visitor.number({"min_ratio", "1",
                   "a hypothesis that is less likely than this share of the best one is dropped"},

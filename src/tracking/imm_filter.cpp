@@ -46,8 +46,8 @@ void ImmOptions::visit(OptionVisitor& visitor) {
   ClassMotionOptions::visit(visitor);
   visitor.group("transitions", [&] { transitions.visit(visitor); });
   visitor.number({"outlier_probability", "1",
-                  "that a measurement is of another part of the object or of another thing, and "
-                  "says nothing of how the object moves"},
+                  "probability that a measurement is of another part of the object or of something "
+                  "else, and does not depend on how the object moves"},
                  outlier_probability, {0.0, 0.5});
 }
 

@@ -23,12 +23,12 @@ double oddsOfMotion(const ClassProbabilities& weights, const ClassProbabilities&
 void MotionByClassOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kShare{0.01, 0.99};
   const auto share = [&](const char* name, const char* called, double& value) {
-    visitor.number({name, "1",
-                    std::string("share of what is called ") + called +
-                        " that moves, were half of all that is detected moving; measured on KITTI "
-                        "raw drive 0005 and in simulated streets, which agree within a factor of 2 "
-                        "of the odds"},
-                   value, kShare);
+    visitor.number(
+        {name, "1",
+         std::string("share of objects classified as ") + called +
+             " that move, if half of all detected objects were moving; measured on KITTI raw drive "
+             "0005 and in simulated streets, which agree within a factor of 2 of the odds"},
+        value, kShare);
   };
   share("other", "none of the following", other);
   share("pedestrian", "a pedestrian", pedestrian);

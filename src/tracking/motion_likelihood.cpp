@@ -132,48 +132,48 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kProbability{0.01, 0.99};
   constexpr Bounds kError{1e-6, 0.5};
   visitor.number({"window", "s",
-                  "how far back beams are asked what they saw where a target was seen; slow ones "
-                  "need longer to leave their position"},
+                  "how far back the beams are examined that crossed positions where a target was "
+                  "seen; slow targets need longer to leave their position"},
                  window, {0.1, 60.0});
-  visitor.number({"detection", "1", "that a beam ends on a surface that it meets, on average"},
-                 detection, kProbability);
-  visitor.number({"detection_strength", "1",
-                  "how alike surfaces reflect: the beta distribution of their detection counts as "
-                  "many beams; few: what was missed may be an edge or a hedge that reflects badly"},
-                 detection_strength, {0.1, 1e6});
-  visitor.number({"echo_detection", "1",
-                  "the same near a single echo, of which it is not known how far it reaches"},
+  visitor.number(
+      {"detection", "1", "probability that a beam ends on a surface that it meets, on average"},
+      detection, kProbability);
+  visitor.number(
+      {"detection_strength", "1",
+       "how similarly surfaces reflect: the beta distribution of their detection has the weight of "
+       "this many beams; few: a missed beam may be due to an edge or a hedge that reflects badly"},
+      detection_strength, {0.1, 1e6});
+  visitor.number({"echo_detection", "1", "the same near a single echo, whose extent is unknown"},
                  echo_detection, kProbability);
-  visitor.number({"background", "1", "that a beam ends where nothing is that was seen before"},
+  visitor.number({"background", "1", "probability that a beam ends where nothing was seen before"},
                  background, kProbability);
   visitor.number(
       {"grazing_share", "1",
-       "of single echoes that stand and keep their bearing: ends of a beam along a wall"},
+       "share of single stationary echoes that keep their bearing: ends of a beam along a wall"},
       grazing_share, kProbability);
   visitor.number({"free_path", "m",
-                  "to each side of the vehicle's course, where no such wall stands: half of a lane "
+                  "distance to each side of the vehicle's path without such a wall: half of a lane "
                   "of 3.5 m; indoors half of what the robot needs"},
                  free_path, {0.0, 10.0});
   visitor.number({"apparent_motion", "1",
-                  "that what stands seems to move: what is seen of it slides, or echoes of "
-                  "different things were joined"},
+                  "probability that a stationary object seems to move: its visible part slides, or "
+                  "echoes of different objects were joined"},
                  apparent_motion, kError);
   visitor.number({"apparent_box_motion", "1",
-                  "the same of objects at which no beam ended: boxes of a camera or of another "
+                  "the same for objects on which no beam ended: boxes of a camera or of another "
                   "detector, which slide less than the few echoes of a scanner"},
                  apparent_box_motion, kError);
   visitor.number({"wrong_velocity", "1",
-                  "the same of what a sensor measures the velocity of: what it measured is of "
+                  "the same for objects whose velocity a sensor measures: the velocity was that of "
                   "something else"},
                  wrong_velocity, kError);
-  visitor.number(
-      {"moving_prior", "1",
-       "that what starts a target moves, before its beams are asked: what the map knows as "
-       "static starts none"},
-      moving_prior, kProbability);
+  visitor.number({"moving_prior", "1",
+                  "prior probability that a new target moves, before any beam is considered: "
+                  "objects that the map knows to be static start none"},
+                 moving_prior, kProbability);
   visitor.number({"required_probability", "1",
-                  "that a target moves, from which on it does: its sweep draws the operating curve "
-                  "of missed frames against false tracks",
+                  "probability from which a target is considered moving: sweeping it draws the "
+                  "operating curve of missed frames against false tracks",
                   Tier::kLive},
                  required_probability, {0.5, 0.9999});
 }

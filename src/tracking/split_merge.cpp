@@ -168,18 +168,18 @@ Interpretation replaced(const Interpretation& objects, const Alternative& altern
 
 void SplitMergeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"split_probability", "1",
-                  "that a confirmed target is seen as one more object than it is (thesis figure "
-                  "4.11 d); 0: never"},
+                  "probability that a confirmed target is seen as one object too many (thesis "
+                  "figure 4.11 d); 0: never"},
                  split_probability, {0.0, 1.0});
   visitor.number({"merge_probability", "1",
-                  "that two confirmed targets close by are seen as one object (thesis figure 4.11 "
-                  "e); 0: never"},
+                  "probability that two confirmed targets close by are seen as one object (thesis "
+                  "figure 4.11 e); 0: never"},
                  merge_probability, {0.0, 1.0});
   visitor.number({"margin", "m", "how far outside of a target's box its parts may lie"}, margin,
                  {0.01, 10.0});
   visitor.integer({"max_readings", "1",
-                   "readings of a cluster's objects, of each by itself and others; bounds the time "
-                   "of a step"},
+                   "maximum number of interpretations of a cluster's objects: unchanged, split or "
+                   "merged; bounds the time of a step"},
                   max_readings, {1, 100});
 }
 

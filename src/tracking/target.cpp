@@ -42,8 +42,8 @@ double velocityEvidence(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
 
 void SensorClassOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"class_by_size", "",
-                  "whether the classes of its objects are told by their size: then it does not "
-                  "count once more; sensors not listed: true"},
+                  "whether the classes of its objects are inferred from their size, so that size "
+                  "is not counted twice; sensors not listed: true"},
                  class_by_size);
 }
 
@@ -57,9 +57,9 @@ void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.number({"birth_speed_std", "m/s",
                   "standard deviation of each component of the velocity of a new object"},
                  birth_speed_std, {0.1, 100.0});
-  visitor.number({"stop_speed", "m/s", "a moving object stands when it is slower"}, stop_speed,
-                 {0.01, 100.0});
-  visitor.each({"sensors", "", "that see the objects"}, sensors);
+  visitor.number({"stop_speed", "m/s", "a moving object becomes stationary below this speed"},
+                 stop_speed, {0.01, 100.0});
+  visitor.each({"sensors", "", "sensors that see the objects"}, sensors);
 }
 
 bool TargetOptions::hasClassBySize(const Object& object) const {

@@ -44,44 +44,43 @@ TrackCovariance withCentripetal(double turn_rate) {
 
 void TargetMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"turn_rate", "rad/s",
-                  "turn rate of the left and the right turn model; a car at a crossing turns with "
-                  "0.3 to 0.6 (8 m/s on 15 to 25 m of radius), a cyclist with 0.6 (4 m/s on 6 m to "
-                  "7 m), a pedestrian with 0.75 (1.3 m/s, 1 m/s^2 to the side)"},
+                  "turn rate of the left and the right turn model; a car at a crossing turns at "
+                  "0.3 to 0.6 (8 m/s on a radius of 15 to 25 m), a cyclist at 0.6 (4 m/s on 6 m to "
+                  "7 m), a pedestrian at 0.75 (1.3 m/s, 1 m/s^2 lateral)"},
                  turn_rate, {0.05, 2.0});
-  visitor.number(
-      {"acceleration_density", "m^2/s^3",
-       "power of the white acceleration of the constant velocity and turn models "
-       "(Bar-Shalom et al. 2001, 6.2.2): its root is the change of speed in one second; "
-       "of pedestrians twice the variance of their speeds, 0.26 m/s (Weidmann 1993), over "
-       "0.5 s for which they keep them (Helbing and Molnar 1995)"},
-      acceleration_density, {1e-6, 100.0});
+  visitor.number({"acceleration_density", "m^2/s^3",
+                  "power of the white acceleration of the constant velocity and turn models "
+                  "(Bar-Shalom et al. 2001, 6.2.2): its root is the change of speed in one second; "
+                  "for pedestrians, twice the variance of their speeds, 0.26 m/s (Weidmann 1993), "
+                  "over the 0.5 s for which they keep them (Helbing and Molnar 1995)"},
+                 acceleration_density, {1e-6, 100.0});
   visitor.number({"jerk_density", "m^2/s^5",
                   "power of the white jerk of the constant acceleration model (ibid., 6.2.3): its "
                   "root is the change of acceleration in one second"},
                  jerk_density, {1e-6, 100.0});
   visitor.number({"acceleration_std", "m/s^2",
-                  "acceleration that the constant velocity and turn models leave unexplained"},
+                  "standard deviation of the acceleration that the constant velocity and turn "
+                  "models do not explain"},
                  acceleration_std, {1e-3, 10.0});
   visitor.number(
       {"acceleration_fading", "s", "time constant with which these models forget an acceleration"},
       acceleration_fading, {1e-2, 10.0});
   visitor.number({"standing_speed_std", "m/s",
-                  "velocity that the standing model leaves open; also its acceleration, in m/s^2"},
+                  "standard deviation of the velocity in the standing model; also of its "
+                  "acceleration, in m/s^2"},
                  standing_speed_std, {1e-3, 1.0});
-  visitor.number(
-      {"standing_density", "m^2/s",
-       "power of the random walk of a standing object's position: its root is the change "
-       "in one second"},
-      standing_density, {0.0, 1.0});
+  visitor.number({"standing_density", "m^2/s",
+                  "power of the random walk of a stationary object's position: its root is the "
+                  "change in one second"},
+                 standing_density, {0.0, 1.0});
   visitor.number({"standing_fading", "s",
                   "time constant with which the standing model forgets velocity and acceleration; "
                   "well below the time between two scans"},
                  standing_fading, {1e-3, 1.0});
-  visitor.number(
-      {"start_speed_std", "m/s",
-       "standard deviation of each component of the velocity of an object that ceases to "
-       "stand, in the scan in which it does; three times this: of one that comes to stand"},
-      start_speed_std, {1e-2, 10.0});
+  visitor.number({"start_speed_std", "m/s",
+                  "standard deviation of each component of the velocity of an object that starts "
+                  "to move, in the scan in which it does; three times this for one that stops"},
+                 start_speed_std, {1e-2, 10.0});
 }
 
 TargetMotionOptions pedestrianMotion() {

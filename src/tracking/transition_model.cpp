@@ -77,19 +77,20 @@ double strengthAfter(const ModeVector& mean, const ModeVector& change, double st
 void TransitionLearningOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kExposure{1.0, 1e5};
   visitor.number({"prior_exposure", "s",
-                  "weight of the prior of a target's transition probabilities, as the time in each "
-                  "mode that it stands for"},
+                  "weight of the prior of a target's transition probabilities, as equivalent time "
+                  "in each mode"},
                  prior_exposure, kExposure);
+  visitor.number({"class_exposure", "s",
+                  "maximum time in each mode that a class remembers; older targets fade"},
+                 class_exposure, kExposure);
   visitor.number(
-      {"class_exposure", "s", "most time in each mode that a class remembers; older targets fade"},
-      class_exposure, kExposure);
-  visitor.number({"forgetting", "s", "time constant with which a target forgets what it has shown"},
-                 forgetting, {0.1, 1e6});
+      {"forgetting", "s", "time constant with which a target forgets the transitions it has made"},
+      forgetting, {0.1, 1e6});
   visitor.number({"min_sojourn", "s", "no mode lasts less on average, whatever is learned"},
                  min_sojourn, {0.01, 10.0});
   visitor.number({"max_sojourn", "s", "no mode lasts longer on average, whatever is learned"},
                  max_sojourn, {1.0, 1e6});
-  visitor.number({"min_share", "1", "of all jumps from a mode, each goes to each other mode"},
+  visitor.number({"min_share", "1", "least share of each other mode in the jumps from a mode"},
                  min_share, {0.0, 0.2});
 }
 
@@ -100,8 +101,8 @@ void TransitionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"accelerating_sojourn", "s", "how long it accelerates or brakes, on average"},
                  accelerating_sojourn, kSojourn);
   visitor.number({"turn_sojourn", "s", "how long it turns, on average"}, turn_sojourn, kSojourn);
-  visitor.number({"standing_sojourn", "s", "how long it stands, on average"}, standing_sojourn,
-                 kSojourn);
+  visitor.number({"standing_sojourn", "s", "how long it is stationary, on average"},
+                 standing_sojourn, kSojourn);
   visitor.toggle({"standing", "", "whether standing is a mode; false: the four of thesis 3.3.4"},
                  standing);
   visitor.toggle({"adaptive", "",

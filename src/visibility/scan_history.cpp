@@ -20,18 +20,17 @@ constexpr double kBearingTolerance = 0.005;
 }  // namespace
 
 void ScanHistoryOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"memory", "s", "how far back the observations of scans are kept"}, memory,
-                 {0.1, 60.0});
-  visitor.integer({"max_scans", "1", "and how many scans at the most"}, max_scans, {1, 10000});
+  visitor.number({"memory", "s", "how far back scans are kept"}, memory, {0.1, 60.0});
+  visitor.integer({"max_scans", "1", "and at most how many scans"}, max_scans, {1, 10000});
   visitor.number({"tolerance", "m",
-                  "a beam that ends nearer to the line through a point than this has hit it: twice "
+                  "a beam that ends closer to the line through a point than this has hit it: twice "
                   "the standard deviation of the range"},
                  tolerance, {0.05, 5.0});
   visitor.number({"lit_share", "1",
-                  "part of the angle between two beams that a beam covers: a point beside that is "
-                  "not seen free"},
+                  "share of the angle between two beams that a beam covers: a point outside of it "
+                  "is not seen as free"},
                  lit_share, {0.05, 1.0});
-  visitor.number({"min_incidence", "rad", "least angle of incidence of a beam at a line"},
+  visitor.number({"min_incidence", "rad", "smallest angle of incidence of a beam on a line"},
                  min_incidence, {0.001, 1.0});
 }
 

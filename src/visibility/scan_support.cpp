@@ -70,11 +70,11 @@ bool passesThrough(double range, const Point2& direction, double motion_std, con
 
 void ScanSupportOptions::visit(OptionVisitor& visitor) {
   visitor.number({"static_share", "1",
-                  "an object that the scanner does not list stands still if at least this share "
+                  "an object that the scanner does not list is stationary if at least this share "
                   "of the beams at its position end there on static points"},
                  static_share, {0.01, 1.0});
   visitor.number({"max_static_reach", "m",
-                  "how far from the near side of an object static points end at most"},
+                  "greatest distance of such static points from the near side of the object"},
                  max_static_reach, {0.0, 20.0});
 }
 

@@ -54,22 +54,23 @@ void Visibility::Outline::forEachLook(std::size_t parts, const Use& use) const {
 
 void VisibilityOptions::visit(OptionVisitor& visitor) {
   visitor.number({"beam_detection", "1",
-                  "chance that one beam that meets an object returns; it falls from the scan's "
-                  "free_range on to 0 at the scanner's reach"},
+                  "probability that a beam that meets an object returns; it falls from the scan's "
+                  "free_range to 0 at the scanner's reach"},
                  beam_detection, {0.01, 0.999});
   visitor.number({"max_probability", "1",
-                  "that an object is detected which many beams meet: segmentation may still join "
-                  "it to something else"},
+                  "probability that an object that many beams meet is detected: segmentation may "
+                  "still join it to something else"},
                  max_probability, {0.1, 0.999});
-  visitor.number({"min_probability", "1",
-                  "that an object is detected which no beam can reach: the view may be wrong"},
-                 min_probability, {0.0, 0.1});
+  visitor.number(
+      {"min_probability", "1",
+       "probability that an object that no beam can reach is detected: the view may be wrong"},
+      min_probability, {0.0, 0.1});
   visitor.number({"unknown_probability", "1",
-                  "that an object is detected when nothing is known of the sensor's view"},
+                  "probability that an object is detected when the sensor's view is unknown"},
                  unknown_probability, {0.1, 0.999});
   visitor.number({"blocking_distance", "m",
-                  "a beam that ends nearer than an object by more than this is blocked; less may "
-                  "be the object itself, which is not quite where it is expected"},
+                  "a beam that ends in front of an object by more than this is blocked; by less, "
+                  "it may have hit the object itself, which is not exactly where it is expected"},
                  blocking_distance, {0.0, 10.0});
 }
 

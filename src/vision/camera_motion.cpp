@@ -167,12 +167,16 @@ double excessResidual(const Equations& equations) {
 
 void CameraMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"moving_share", "1", "features that are on what moves, or mismatched, where there are many"},
+      {"moving_share", "1",
+       "share of features that are on moving objects or mismatched, where there are many"},
       moving_share, {0.01, 0.9});
-  visitor.number({"max_residual", "px", "their flow and disparity differ up to this from standing"},
-                 max_residual, {1.0, 1000.0});
-  visitor.number({"min_inliers", "1", "features that stand, below which the motion is not known"},
-                 min_inliers, {3.0, 1e4});
+  visitor.number(
+      {"max_residual", "px",
+       "their flow and disparity deviate from those of stationary features by up to this"},
+      max_residual, {1.0, 1000.0});
+  visitor.number(
+      {"min_inliers", "1", "least number of stationary features; with fewer the motion is unknown"},
+      min_inliers, {3.0, 1e4});
 }
 
 CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d& mounted_earlier,

@@ -21,15 +21,16 @@ constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
 }  // namespace
 
 void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
-  visitor.numbers({"scores", "1", "reliability curve: scores of the detector, rising"}, scores,
-                  {-1e3, 1e3});
+  visitor.numbers({"scores", "1", "reliability curve: scores of the detector, in rising order"},
+                  scores, {-1e3, 1e3});
   visitor.numbers(
       {"right", "1",
-       "share of the reports of such a score whose class is right (written by calibrate_classes)"},
+       "share of the reports with this score whose class is right (written by calibrate_classes)"},
       right, {0.0, 1.0});
   visitor.numbers({"mistaken", "1",
-                   "what wrongly reported objects are, relative: rows pedestrian, cyclist, vehicle "
-                   "as reported; columns unknown, pedestrian, cyclist, vehicle, pole as they are"},
+                   "relative frequencies of what wrongly reported objects really are: rows "
+                   "pedestrian, cyclist, vehicle as reported; columns unknown, pedestrian, "
+                   "cyclist, vehicle, pole as they are"},
                   mistaken, {0.0, 1e9});
 }
 
@@ -37,10 +38,10 @@ void ClassReliabilityOptions::check() const {
   if (scores.empty() || scores.size() != right.size()) {
     throw OptionError("scores of " + std::to_string(scores.size()) + " and right of " +
                       std::to_string(right.size()) +
-                      " numbers: expected one share for each score, and one score at least");
+                      " numbers: expected one share for each score, and at least one score");
   }
   if (std::adjacent_find(scores.begin(), scores.end(), std::greater_equal<>()) != scores.end()) {
-    throw OptionError("scores: expected each to be more than the one before it");
+    throw OptionError("scores: expected each to be larger than the one before");
   }
   if (mistaken.size() != kReported.size() * kObjectClasses) {
     throw OptionError("mistaken of " + std::to_string(mistaken.size()) +

@@ -56,24 +56,26 @@ std::optional<Pairing> pairingOf(const ProjectedObject& object, const ImageDetec
 }  // namespace
 
 void DetectionAssociationOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_coverage", "1",
-                  "share of an object's columns that a detection must have for both to be one"},
-                 min_coverage, {0.01, 1.0});
-  visitor.number({"column_share", "1",
-                  "standard deviation between the middles of an object and of a detection of it, "
-                  "of the detection's width: the scanner sees a side, the image the whole"},
-                 column_share, {0.01, 10.0});
+  visitor.number(
+      {"min_coverage", "1",
+       "least share of an object's columns that a detection must cover to be associated with it"},
+      min_coverage, {0.01, 1.0});
+  visitor.number(
+      {"column_share", "1",
+       "standard deviation between the centers of an object and its detection, as a share of the "
+       "detection's width: the scanner sees one side, the image the whole object"},
+      column_share, {0.01, 10.0});
   visitor.number({"range_gate", "1",
-                  "largest Mahalanobis distance squared between the ranges by scanner and image"},
+                  "largest squared Mahalanobis distance between the ranges from scanner and image"},
                  range_gate, {0.1, 1000.0});
   visitor.number({"unrelated_density", "1",
-                  "unrelated objects at the same columns, for a factor e of range: a pair must be "
-                  "likelier than one of them"},
+                  "density of unrelated objects at the same columns, per factor e of range: a pair "
+                  "must be likelier than one of them"},
                  unrelated_density, {1e-6, 100.0});
-  visitor.number({"piece_coverage", "1",
-                  "an object that no detection was left for is a piece of the vehicle that has so "
-                  "much of its columns"},
-                 piece_coverage, {0.01, 1.0});
+  visitor.number(
+      {"piece_coverage", "1",
+       "an object without a detection is part of a vehicle that covers this share of its columns"},
+      piece_coverage, {0.01, 1.0});
 }
 
 std::vector<std::optional<std::size_t>> associate(const std::vector<ProjectedObject>& objects,

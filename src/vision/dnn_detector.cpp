@@ -62,7 +62,7 @@ std::vector<NetworkLabel> labelsFrom(const std::string& file) {
   if (std::all_of(labels.begin(), labels.end(),
                   [](NetworkLabel one) { return one == NetworkLabel::kOther; })) {
     throw ModelError("labels '" + file + "': " + std::to_string(labels.size()) +
-                     " names, none of a road user: expected one name a line, as in coco.names");
+                     " names, none of a road user: expected one name per line, as in coco.names");
   }
   return labels;
 }
@@ -117,7 +117,7 @@ class DnnDetector::State {
     const std::string& model = options_.model;
     is_darknet_ = endsWith(model, ".weights");
     if (model.empty() || (!is_darknet_ && !endsWith(model, ".onnx"))) {
-      refuse(model, "no such kind of file");
+      refuse(model, "unknown kind of file");
     }
     checkFile(model);
     try {
@@ -238,26 +238,31 @@ class DnnDetector::State {
 
 void DnnDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.text({"model", "",
-                "path of a YOLO of Darknet (.weights, its .cfg beside it) or a YOLOX (.onnx), "
-                "trained on COCO or on what `labels` says"},
+                "path of a Darknet YOLO (.weights, its .cfg beside it) or a YOLOX (.onnx), trained "
+                "on COCO or on the classes of `labels`"},
                model, {});
-  visitor.text({"labels", "", "path of the names of its labels, one a line; empty: COCO's 80"},
-               labels, {});
-  visitor.integer({"width", "px", "of the network's input, a multiple of 32"}, width,
+  visitor.text(
+      {"labels", "", "path of the names of its classes, one per line; empty: the 80 of COCO"},
+      labels, {});
+  visitor.integer({"width", "px", "width of the network's input, a multiple of 32"}, width,
                   {64.0, 4096.0});
-  visitor.integer({"height", "px", "the same"}, height, {64.0, 4096.0});
-  visitor.number({"min_score", "1", "least score of what is reported"}, min_score, {0.01, 1.0});
+  visitor.integer({"height", "px", "height of the network's input, a multiple of 32"}, height,
+                  {64.0, 4096.0});
+  visitor.number({"min_score", "1", "least score of reported detections"}, min_score, {0.01, 1.0});
   visitor.number({"max_overlap", "1",
-                  "of two things of one class, intersection over union: the surer one stays"},
+                  "intersection over union of two detections of one class above which only the "
+                  "surer one is kept"},
                  max_overlap, {0.0, 1.0});
   visitor.integer({"close_look", "px",
-                   "persons are looked at a second time, enlarged to a square of this, to see "
-                   "whether they ride; a multiple of 32, 0: not"},
+                   "persons are examined again, enlarged to a square of this size, to see whether "
+                   "they ride; a multiple of 32, 0: they are not"},
                   close_look, {0.0, 1024.0});
-  visitor.number({"close_margin", "1", "size of that square's part of the image, of the person's"},
-                 close_margin, {1.0, 4.0});
-  visitor.integer({"max_close_looks", "1", "of an image, at the largest: bounds its time"},
-                  max_close_looks, {0.0, 100.0});
+  visitor.number(
+      {"close_margin", "1", "size of that square in the image, relative to the person's"},
+      close_margin, {1.0, 4.0});
+  visitor.integer(
+      {"max_close_looks", "1", "maximum number per image, the largest first: bounds its time"},
+      max_close_looks, {0.0, 100.0});
 }
 
 void DnnDetectorOptions::check() const {

@@ -18,7 +18,7 @@ inline void checkImage(const cv::Mat& image) {
     throw std::invalid_argument("image of " + std::to_string(image.cols) + " x " +
                                 std::to_string(image.rows) + " px, OpenCV type " +
                                 std::to_string(image.type()) +
-                                ": expected a gray or BGR one of 8 bit that is not empty");
+                                ": expected a gray or BGR image of 8 bit that is not empty");
   }
 }
 

@@ -161,15 +161,18 @@ ClassSize sizeOf(ObjectClass object_class) {
 
 void ImageRangeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"edge_share", "1",
-                  "standard deviation of a rectangle's upper and lower edge, of its height"},
+                  "standard deviation of a rectangle's edges, as a share of its height, or width "
+                  "for the sides"},
                  edge_share, {0.0, 1.0});
-  visitor.number({"edge_sigma", "px", "the same that small rectangles have as well"}, edge_sigma,
-                 {0.1, 100.0});
+  visitor.number(
+      {"edge_sigma", "px", "the part of it that does not depend on the size, added in quadrature"},
+      edge_sigma, {0.1, 100.0});
   visitor.number({"pitch_sigma", "rad",
                   "standard deviation of the camera's pitch over the road: springs and slopes"},
                  pitch_sigma, {0.0001, 0.2});
-  visitor.number({"max_range", "m", "what the image alone sees farther away is not reported"},
-                 max_range, {1.0, 500.0});
+  visitor.number(
+      {"max_range", "m", "detections from the image alone that are farther away are not reported"},
+      max_range, {1.0, 500.0});
 }
 
 std::optional<ImageRange> rangeOf(const MountedCamera& camera, const ImageDetection& detection,

@@ -78,19 +78,19 @@ MonoClassifierOptions::MonoClassifierOptions() {
 }
 
 void MonoClassifierOptions::visit(OptionVisitor& visitor) {
-  visitor.choice(
-      {"method", "",
-       "what the detector sees is associated with the objects, or each object's rectangle "
-       "of each class is looked at (thesis 4.2.3)"},
-      method, {{"association", MonoMethod::kAssociation}, {"thesis", MonoMethod::kThesis}});
+  visitor.choice({"method", "",
+                  "association: the detector's detections are associated with the objects; thesis: "
+                  "each object's rectangle is examined for each class (thesis 4.2.3)"},
+                 method,
+                 {{"association", MonoMethod::kAssociation}, {"thesis", MonoMethod::kThesis}});
   visitor.choice(
       {"detector", "",
        "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
        "needs dnn/model"},
       detector, {{"hog", ImageDetectorKind::kHog}, {"dnn", ImageDetectorKind::kDnn}});
-  visitor.toggle(
-      {"calibrated", "", "off: the detector's class and score as they are, for calibrate_classes"},
-      calibrated);
+  visitor.toggle({"calibrated", "",
+                  "off: the class and score of the detector, unchanged, for calibrate_classes"},
+                 calibrated);
   visitor.group("hog", [&] {
     hog.visit(visitor);
     visitor.group("reliability", [&] { hog_reliability.visit(visitor); });
@@ -101,19 +101,21 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
   });
   visitor.group("range", [&] { range.visit(visitor); });
   visitor.group("association", [&] { association.visit(visitor); });
-  visitor.number({"default_height", "m", "of an object whose height is not measured"},
+  visitor.number({"default_height", "m", "height of an object whose height is not measured"},
                  default_height, {0.1, 10.0});
-  visitor.number({"min_size", "m", "an object that was seen smaller is this long and wide"},
-                 min_size, {0.01, 10.0});
+  visitor.number(
+      {"min_size", "m", "an object with a smaller measured size is assumed this long and wide"},
+      min_size, {0.01, 10.0});
   visitor.number({"region_sigmas", "1",
-                  "standard deviations of an object's position that its region has room for"},
+                  "standard deviations of an object's position for which its region leaves room"},
                  region_sigmas, {0.0, 10.0});
   visitor.number({"min_alone", "1",
-                  "what the image alone sees is an object if its class is at least as probable; 1: "
-                  "none is"},
+                  "a detection from the image alone is an object if its class is at least this "
+                  "probable; 1: none is"},
                  min_alone, {0.0, 1.0});
   visitor.number({"thesis_overlap", "1",
-                  "method thesis: a detection is a rectangle's if intersection over union is more"},
+                  "method thesis: a detection belongs to a rectangle if their intersection over "
+                  "union is larger"},
                  thesis_overlap, {0.0, 1.0});
 }
 

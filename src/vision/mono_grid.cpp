@@ -46,42 +46,43 @@ void addColors(const cv::Mat& image, const cv::Rect& patch, PixelColors& colors)
 
 void MonoGridOptions::visit(OptionVisitor& visitor) {
   visitor.group("window", [&] { window.visit(visitor); });
-  visitor.choice(
-      {"method", "",
-       "lines: patches of the image along lines of sight, bounded by the scan's depth and "
-       "by what stands on the road; thesis: the pixel of each beam's end decides for its "
-       "whole line (thesis 4.1.4)"},
-      method, {{"lines", MonoGridMethod::kLines}, {"thesis", MonoGridMethod::kThesis}});
-  visitor.number({"occupied_probability", "1", "of an occupied cell (thesis 4.1.4: high)"},
-                 occupied_probability, {0.51, 0.99});
-  visitor.number({"free_probability", "1", "of a free cell being occupied (thesis 4.1.4: low)"},
+  visitor.choice({"method", "",
+                  "lines: patches of the image along lines of sight, bounded by the scan's depth "
+                  "and by obstacles on the road; thesis: the pixel at each beam's end decides for "
+                  "its whole line (thesis 4.1.4)"},
+                 method, {{"lines", MonoGridMethod::kLines}, {"thesis", MonoGridMethod::kThesis}});
+  visitor.number(
+      {"occupied_probability", "1", "occupancy of an occupied cell (thesis 4.1.4: high)"},
+      occupied_probability, {0.51, 0.99});
+  visitor.number({"free_probability", "1", "occupancy of a free cell (thesis 4.1.4: low)"},
                  free_probability, {0.01, 0.49});
   visitor.number(
       {"beam_width", "rad",
        "opening angle of a beam of the scanner; 0: it reaches half way to its neighbors"},
       beam_width, {0.0, 0.2});
+  visitor.number({"effective_range", "m",
+                  "cells farther from the camera are unknown (lines only): there, a cell is less "
+                  "than a row of the image",
+                  Tier::kPublic},
+                 effective_range, {1.0, 100.0});
   visitor.number(
-      {"effective_range", "m",
-       "nothing is said farther from the camera (lines only): there, a cell is less than "
-       "a row of the image",
-       Tier::kPublic},
-      effective_range, {1.0, 100.0});
-  visitor.number({"learning_range", "m",
-                  "the road's colors are learned from cells up to here that the scanner sees free"},
-                 learning_range, {1.0, 100.0});
-  visitor.number({"min_road_share", "1",
-                  "a cell is of the road's colors if so many of its pixels are (lines only)"},
-                 min_road_share, {0.01, 1.0});
+      {"learning_range", "m",
+       "the road's colors are learned from cells up to this range that the scanner sees free"},
+      learning_range, {1.0, 100.0});
   visitor.number(
-      {"min_obstacle_height", "m", "what is lower is no obstacle: paint, curbs (lines only)"},
+      {"min_road_share", "1",
+       "a cell has the road's colors if at least this share of its pixels does (lines only)"},
+      min_road_share, {0.01, 1.0});
+  visitor.number(
+      {"min_obstacle_height", "m", "lower objects are not obstacles: paint, curbs (lines only)"},
       min_obstacle_height, {0.01, 2.0});
   visitor.number({"pitch_sigma", "rad",
                   "standard deviation of the camera's pitch over the road: springs and slopes "
                   "(lines only)"},
                  pitch_sigma, {0.0, 0.2});
   visitor.number({"thesis_distance", "1",
-                  "method thesis: a pixel so many standard deviations from the road's colors is an "
-                  "object's (thesis eq. 4.1.6: a threshold of the density)"},
+                  "method thesis: a pixel this many standard deviations from the road's colors "
+                  "belongs to an object (thesis eq. 4.1.6: a threshold of the density)"},
                  thesis_distance, {0.1, 100.0});
   visitor.group("color", [&] { color.visit(visitor); });
 }

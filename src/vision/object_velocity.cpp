@@ -57,11 +57,13 @@ BodyCenter centerOf(const Object& object) {
 }  // namespace
 
 void ObjectVelocityOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"margin", "m", "points so far outside of an object's box may be on it"}, margin,
-                 {0.0, 5.0});
-  visitor.number({"min_height", "m", "lower points are on the road, or on a shadow on it"},
+  visitor.number(
+      {"margin", "m", "points up to this far outside of an object's box may belong to it"}, margin,
+      {0.0, 5.0});
+  visitor.number({"min_height", "m", "lower points belong to the road, or to a shadow on it"},
                  min_height, {0.0, 2.0});
-  visitor.number({"max_height", "m", "higher ones are on no road user"}, max_height, {0.5, 20.0});
+  visitor.number({"max_height", "m", "higher points do not belong to road users"}, max_height,
+                 {0.5, 20.0});
   shared.visit(visitor);
 }
 

@@ -179,19 +179,20 @@ Eigen::Matrix2d turnCovariance(double turn_rate, const Eigen::Matrix2d& lever) {
 }  // namespace
 
 void SharedVelocityOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"outlier_share", "1",
-                  "features in an object's box that are not the object's, or mismatched"},
-                 outlier_share, {0.001, 0.999});
-  visitor.number({"max_speed", "m/s", "velocities of outliers are uniform up to it"}, max_speed,
-                 {0.1, 200.0});
   visitor.number(
-      {"turn_rate", "rad/s",
-       "standard deviation of the rates at which objects turn: the side that is seen moves "
-       "otherwise than the center"},
-      turn_rate, {0.0, 10.0});
+      {"outlier_share", "1",
+       "share of features in an object's box that do not belong to the object, or are mismatched"},
+      outlier_share, {0.001, 0.999});
+  visitor.number(
+      {"max_speed", "m/s", "velocities of outliers are uniformly distributed up to this"},
+      max_speed, {0.1, 200.0});
+  visitor.number({"turn_rate", "rad/s",
+                  "standard deviation of objects' turn rates: the visible side moves differently "
+                  "from the center"},
+                 turn_rate, {0.0, 10.0});
   visitor.number({"curvature", "1/m",
-                  "standard deviation of that of objects' paths: what is slow turns no faster than "
-                  "this times its speed"},
+                  "standard deviation of the curvature of objects' paths: a slow object turns no "
+                  "faster than this times its speed"},
                  curvature, {0.0, 10.0});
 }
 

@@ -79,7 +79,7 @@ class Circle {
 void check(const cv::Mat& left, const cv::Mat& right) {
   if (left.empty() || left.type() != CV_8UC1 || right.type() != CV_8UC1 ||
       left.size() != right.size()) {
-    throw std::invalid_argument("image pair: expected two gray images of 8 bit and one size");
+    throw std::invalid_argument("image pair: expected two gray images of 8 bit and the same size");
   }
 }
 
@@ -91,22 +91,26 @@ struct QuadMatcher::Pyramids {
 };
 
 void QuadMatcherOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"max_features", "1", "corners of an image that are followed, the best ones"},
-                  max_features, {10, 10000});
-  visitor.number({"min_distance", "px", "between two of them"}, min_distance, {1.0, 100.0});
-  visitor.number({"min_quality", "1", "of a corner, over that of the best one of the image"},
-                 min_quality, {1e-5, 1.0});
+  visitor.integer(
+      {"max_features", "1", "maximum number of corners tracked in an image, the best ones"},
+      max_features, {10, 10000});
+  visitor.number({"min_distance", "px", "least distance between two of them"}, min_distance,
+                 {1.0, 100.0});
+  visitor.number(
+      {"min_quality", "1", "least quality of a corner, relative to the best one of the image"},
+      min_quality, {1e-5, 1.0});
   visitor.integer({"window", "px", "side of the square around a corner that is compared"}, window,
                   {5, 63});
   visitor.integer({"pyramid_levels", "1",
                    "halvings of the image: each doubles how far a feature may have moved"},
                   pyramid_levels, {0, 8});
   visitor.number({"max_closure", "px",
-                  "how far from where it began a feature may end after it was followed through all "
-                  "four images"},
+                  "largest distance from its start at which a feature may end after tracking "
+                  "through all four images"},
                  max_closure, {0.01, 10.0});
-  visitor.number({"max_row_offset", "px", "between the rows of a feature in both images"},
-                 max_row_offset, {0.1, 10.0});
+  visitor.number(
+      {"max_row_offset", "px", "largest difference between the rows of a feature in both images"},
+      max_row_offset, {0.1, 10.0});
 }
 
 QuadMatcher::QuadMatcher(const Checked<QuadMatcherOptions>& options) : options_(*options) {}

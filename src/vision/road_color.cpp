@@ -38,16 +38,16 @@ double uniformDensity(Eigen::Index channels) {
 
 void RoadColorOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"components", "1",
-                   "Gaussians of the mixture of the road's colors: sun, shade, asphalt, grass; "
-                   "thesis (4.1.4): 1"},
+                   "number of Gaussians in the mixture of the road's colors: sun, shade, asphalt, "
+                   "grass; thesis (4.1.4): 1"},
                   components, {1.0, 16.0});
   visitor.number({"learning_time", "s",
-                  "in which what was learned loses all but 1/e of its weight to newer images, "
-                  "whatever their rate: a vehicle is in the shade so soon"},
+                  "time in which learned colors lose all but 1/e of their weight to newer images, "
+                  "at any frame rate: a vehicle enters shade as quickly"},
                  learning_time, {0.01, 1000.0});
   visitor.number({"min_new_share", "1",
-                  "colors that the mixture does not have become its newest component if so many of "
-                  "an image's samples are of them"},
+                  "colors missing in the mixture become its newest component if at least this "
+                  "share of an image's samples has them"},
                  min_new_share, {0.0, 1.0});
   visitor.number({"min_sigma", "1", "smallest standard deviation of a component, gray levels"},
                  min_sigma, {0.1, 100.0});

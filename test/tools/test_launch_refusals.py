@@ -43,7 +43,7 @@ class LaunchRefusals(unittest.TestCase):
 
     def test_a_misspelled_key(self):
         said = self.refusal("perception.launch", self.config("grid_slam: {map_perod: 1.0}\n"))
-        self.assertIn("map_perod = 1: expected a key that is read; the nearest one is map_period", said)
+        self.assertIn("map_perod = 1: expected a known key; the nearest one is map_period", said)
 
     def test_a_file_that_contains_itself(self):
         said = self.refusal("perception.launch", self.config("a: &a {b: *a}\n"))

@@ -6,17 +6,17 @@
 
 namespace datmo {
 
-/// Where a device's bytes come from, one after the other.
+/// Stream of bytes from a device.
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
 
-  /// What has come, at least one byte. Throws DeviceError (`silent_device`, `lost_connection`),
-  /// DeviceStopped.
+  /// Waits for bytes and returns them, at least one. Throws DeviceError (`silent_device`,
+  /// `lost_connection`), DeviceStopped.
   virtual std::string receive() = 0;
 };
 
-/// A device that takes commands, too.
+/// Stream of a device that also accepts commands.
 class CommandStream : public ByteStream {
  public:
   /// Throws DeviceError (`lost_connection`), DeviceStopped.

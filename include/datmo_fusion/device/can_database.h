@@ -7,9 +7,10 @@
 
 namespace datmo {
 
-/// A signal of a DBC file by its name, or by MESSAGE.SIGNAL where several messages have one of that
-/// name. Throws OptionError for a file that cannot be read, a name that none or several have, and
-/// for multiplexed and floating-point signals. `option`: what it is for, for the message.
+/// Returns a signal of a DBC file by its name, or by MESSAGE.SIGNAL if several messages have one of
+/// that name. Throws OptionError for a file that cannot be read, a name that no signal or several
+/// signals have, and for multiplexed and floating-point signals. `option`: name of the option, for
+/// the error message.
 CanSignal canSignalOf(const std::string& option, const std::string& file, const std::string& name);
 
 }  // namespace datmo

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// What names a message on a CAN bus: 11 bits, or 29 of an extended one.
+/// Identifier of a message on a CAN bus: 11 bits, or 29 if extended.
 struct CanId {
   std::uint32_t number = 0;
   bool is_extended = false;
@@ -21,7 +21,7 @@ struct CanId {
   }
 };
 
-/// For people: "0x1A0", "0x18FEF100 (29 bits)".
+/// Returns a readable form: "0x1A0", "0x18FEF100 (29 bits)".
 std::string toText(const CanId& id);
 
 /// A frame of CAN (8 bytes) or CAN FD (64 bytes).
@@ -33,21 +33,21 @@ struct CanFrame {
   std::array<std::uint8_t, kLongest> data{};
   double age = 0.0;                    ///< s, since it was received
   std::uint64_t lost = 0;              ///< frames that the computer lost since the last one
-  std::optional<std::uint32_t> error;  ///< CAN_ERR_… bits of an error frame; none: it is none
+  std::optional<std::uint32_t> error;  ///< CAN_ERR_… bits of an error frame; none: a data frame
 };
 
-/// What came is no frame; the next one may be.
+/// Invalid data were received instead of a frame; the next frame may be valid.
 class CanFrameError : public DeviceError {
  public:
   explicit CanFrameError(const std::string& message) : DeviceError("bad_frame", message) {}
 };
 
-/// Where the frames of a bus come from.
+/// Source of the frames of a bus.
 class CanSource {
  public:
   virtual ~CanSource() = default;
 
-  /// Waits for the next frame of data or errors. Throws CanFrameError, DeviceError, DeviceStopped.
+  /// Waits for the next data or error frame. Throws CanFrameError, DeviceError, DeviceStopped.
   virtual CanFrame next() = 0;
 };
 

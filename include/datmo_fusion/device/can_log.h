@@ -20,13 +20,13 @@ struct LoggedCanFrame {
   CanFrame frame;
 };
 
-/// A line as `candump -L` of can-utils writes it: `(1436509052.249713) can0 1A0#2A366C2B`; `##` and
-/// a digit of flags in place of `#` for CAN FD. None for an empty line and a remote frame, which
-/// has no data. Throws CanFrameError.
+/// Parses a line as `candump -L` of can-utils writes it: `(1436509052.249713) can0 1A0#2A366C2B`;
+/// `##` and a digit of flags in place of `#` for CAN FD. None for an empty line or a remote frame,
+/// which has no data. Throws CanFrameError.
 std::optional<LoggedCanFrame> canLogLine(std::string_view line);
 
-/// The frames of one interface, or of all, in a log of `candump -L`, at the rate at which they
-/// came.
+/// The frames of one interface, or of all, in a log of `candump -L`, played at the rate at which
+/// they were received.
 class CanLog : public CanSource {
  public:
   /// `interface`: "can0"; empty: all. `stop`: true ends all waiting; must outlive the log. Throws
@@ -41,7 +41,7 @@ class CanLog : public CanSource {
   std::string interface_;
   std::ifstream stream_;
   PlaybackClock pace_;
-  std::string other_interface_;  ///< of a frame that was left out; empty: of none
+  std::string other_interface_;  ///< of a frame that was ignored; empty: none was
   double last_ = 0.0;            ///< s, of the last line
   std::uint64_t lines_ = 0;      ///< so far
 };

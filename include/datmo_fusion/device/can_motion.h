@@ -16,11 +16,12 @@
 
 namespace datmo {
 
-/// What the yaw rate is taken from.
+/// Source of the yaw rate.
 enum class CanYaw { kSignal, kWheels, kSteering, kNone };
 
-/// Where a vehicle's CAN bus has its motion. A signal is its id and what a DBC file says of it,
-/// `0x1A0 8|16@1+ (0.01,0) [0|250] "km/h"`, or its name in the DBC file; empty: the bus has none.
+/// Signals of a vehicle's CAN bus that give its motion. A signal is written as its id and its
+/// definition in a DBC file, `0x1A0 8|16@1+ (0.01,0) [0|250] "km/h"`, or its name in the DBC file;
+/// empty: the bus has none.
 struct CanOptions {
   std::string dbc;
   std::string speed;
@@ -47,34 +48,34 @@ struct CanOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The vehicle's motion from the frames of its CAN bus. Each frame with the speed (the last one of
-/// the wheels' where it comes from them) leads to one motion, with the newest values of the other
-/// signals.
+/// Computes the vehicle's motion from the frames of its CAN bus. Each frame with the speed (the
+/// last wheel's frame if the speed is that of the wheels) gives one motion, with the newest values
+/// of the other signals.
 class CanMotion {
  public:
-  /// Something is wrong with a frame, which the rest does without.
+  /// Reports a faulty frame, which is ignored.
   using Warn = std::function<void(const DeviceError& error)>;
 
-  /// Throws OptionError for signals that are missing, or not what they are to be.
+  /// Throws OptionError for missing or invalid signals.
   CanMotion(const Checked<CanOptions>& options, Warn warn);
 
   struct Motion {
     VehicleTwist twist;
     std::uint64_t missed = 0;  ///< frames by their counter, since the last one
   };
-  /// A frame that was received at the stamp; an error frame is none of these. None unless it
-  /// completes a motion. Warns of `bad_frame` (too short), `bad_signal` (out of its limits),
+  /// Processes a frame that was received at the stamp, but not an error frame. Returns a motion if
+  /// the frame completes one. Warns of `bad_frame` (too short), `bad_signal` (out of its limits),
   /// `frozen_counter`, `stale_signal`.
   std::optional<Motion> take(const CanFrame& frame, Stamp stamp);
 
-  /// For people: the id that sets the pace.
+  /// Returns the id of the message that sets the pace, in readable form.
   std::string paceText() const { return toText(pace_); }
 
-  /// Frames in which there is no signal of ours, so far.
+  /// Number of frames without any of the signals, so far.
   std::uint64_t otherFrames() const { return other_frames_; }
 
  private:
-  /// What a signal is for; wheels from the front left one on.
+  /// What a signal measures; wheels from the front left one on.
   enum Role { kSpeed, kYawRate, kSteering, kDirection, kWheel, kRoles = kWheel + 4 };
 
   struct Channel {
@@ -89,17 +90,17 @@ class CanMotion {
     CanSignal signal;
     std::optional<std::uint64_t> last;
     int repeats = 0;
-    bool is_frozen = true;  ///< until it has moved
+    bool is_frozen = true;  ///< until it has changed
   };
 
   void add(Role role, const char* name, const std::string& text, const char* quantity);
-  /// Of a message with one of the signals of these roles.
+  /// Adds the counter of a message with one of the signals of these roles.
   void addCounter(const char* name, const std::string& text, int first, int last);
   void check() const;
   bool isCounting(const CanFrame& frame);
   bool step(Counter& counter, std::uint64_t value);
   void read(Role role, const CanFrame& frame, Stamp stamp);
-  /// The value if it is of the last `max_age`; otherwise none, which is said.
+  /// Returns the value if it is not older than `max_age`; otherwise warns and returns none.
   std::optional<double> newest(int role, Stamp stamp) const;
   std::optional<double> speedAt(Stamp stamp) const;
   std::optional<double> yawRateAt(Stamp stamp, double speed) const;

@@ -10,17 +10,17 @@
 
 namespace datmo {
 
-/// The frames that come to a CAN interface of Linux (SocketCAN, a raw socket), with the kernel's
-/// time of their reception. Error frames come, too; nothing is ever sent.
+/// Receives the frames of a Linux CAN interface (SocketCAN, a raw socket), with the kernel's time
+/// of reception, including error frames; never sends anything.
 class CanSocket : public CanSource {
  public:
-  /// Of an interface, "can0". `timeout`: s, of silence. `stop`: true ends all waiting; must outlive
-  /// the socket. Throws DeviceError (`no_connection`, `interface_down`).
+  /// Opens an interface, "can0". `timeout`: s, of silence. `stop`: true ends all waiting; must
+  /// outlive the socket. Throws DeviceError (`no_connection`, `interface_down`).
   static std::unique_ptr<CanSocket> open(const std::string& interface, double timeout,
                                          const std::atomic<bool>& stop);
 
-  /// Of a socket whose datagrams are frames as the kernel has them (struct can_frame, canfd_frame),
-  /// which is closed with it.
+  /// Takes ownership of a socket whose datagrams are frames of the kernel (struct can_frame,
+  /// canfd_frame).
   CanSocket(int descriptor, std::string name, double timeout, const std::atomic<bool>& stop);
   ~CanSocket() override;
   CanSocket(const CanSocket&) = delete;
@@ -31,14 +31,14 @@ class CanSocket : public CanSource {
   CanFrame next() override;
 
  private:
-  /// False: nothing has come.
+  /// Returns false if nothing has been received.
   bool read(CanFrame& frame);
 
   int socket_;
   std::string name_;
   double timeout_;  ///< s
   const std::atomic<bool>& stop_;
-  std::uint32_t overflow_ = 0;  ///< frames that the kernel had no room for, so far
+  std::uint32_t overflow_ = 0;  ///< frames that the kernel has dropped so far
 };
 
 }  // namespace datmo

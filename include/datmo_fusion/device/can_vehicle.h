@@ -17,24 +17,24 @@ namespace datmo {
 /// Throws DeviceError.
 using CanOpener = std::function<std::unique_ptr<CanSource>()>;
 
-/// A vehicle that says on its CAN bus how it moves (CanMotion). Stamps are the kernel's times of
+/// A vehicle that reports its motion on its CAN bus (CanMotion). Stamps are the kernel's times of
 /// reception; a bus has no clock of its own.
 class CanVehicle : public Device {
  public:
-  /// `name`: of the bus, for people. `timeout`: s without a motion, after which the bus is opened
-  /// anew; none for a recording, which is played once: a bus that was off then, and what is no
-  /// frame, do not begin it anew. Throws OptionError.
+  /// `name`: of the bus, for messages. `timeout`: s without a motion, after which the bus is
+  /// reopened; none for a recording, which is played once: neither a bus that was off nor invalid
+  /// frames restart it. Throws OptionError.
   CanVehicle(CanOpener open, const Checked<CanOptions>& options, std::string name,
              std::optional<double> timeout, const DeviceHost& host);
 
-  /// Connected by the first motion.
+  /// Returns after the first motion.
   std::string connect() override;
   DeviceMeasurement next() override;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// The next valid frame. Invalid ones are reported; many in a row are an error, and end a
+  /// Returns the next valid frame. Invalid ones are reported; many in a row are an error, and end a
   /// recording.
   CanFrame nextFrame();
   /// Throws DeviceError (`bus_off`) unless it is recorded; warns of other errors.

@@ -13,8 +13,9 @@ struct pcap;
 
 namespace datmo {
 
-/// The datagrams to a UDP port in a recording of the network (pcap, pcapng: tcpdump, Wireshark), at
-/// the rate at which they came; as fast as they can be read where that is too fast.
+/// The datagrams to a UDP port in a recording of the network (pcap, pcapng: tcpdump, Wireshark),
+/// played at the rate at which they were received, or as fast as they can be read if that is
+/// slower.
 class CaptureFile : public PacketSource {
  public:
   /// `stop`: true ends all waiting; must outlive the file. Throws DeviceError (`bad_recording`).
@@ -34,8 +35,8 @@ class CaptureFile : public PacketSource {
   PlaybackClock pace_;
 };
 
-/// The data of a frame of the network if it is a whole UDP datagram (IPv4) to the port; none
-/// otherwise. `link`: the kind of frame as a capture file has it (DLT_…).
+/// Returns the data of a network frame if it is a complete UDP datagram (IPv4) to the port; none
+/// otherwise. `link`: link type of the capture file (DLT_…).
 std::optional<std::string_view> datagramOf(std::string_view frame, int link, int port);
 
 }  // namespace datmo

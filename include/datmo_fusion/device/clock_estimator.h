@@ -20,12 +20,12 @@ struct ClockOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The time of a device's clock on the computer's: messages carry the one, arrive at the other, and
-/// are never early. Arrival minus device time is the clocks' offset, which drifts, plus a delay
-/// that is positive; so the offset is a line below all points of the last minute, and of those the
-/// one that is nearest to them all (Moon, Skelly, Towsley, Estimation and removal of clock skew
-/// from network delay measurements, 1999). That line is the edge of the points' convex hull below
-/// their mean time.
+/// Converts the time of a device's clock to the computer's: messages carry the former, arrive at
+/// the latter, and are never early. Arrival minus device time is the offset of the clocks, which
+/// drifts, plus a positive delay; so the offset is a line below all points of the window, namely
+/// the one that is closest to all of them (Moon, Skelly, Towsley, Estimation and removal of clock
+/// skew from network delay measurements, 1999). That line is the edge of the points' convex hull
+/// below their mean time.
 ///
 /// The smallest delay of all cannot be distinguished from the offset: times are later by it.
 class ClockEstimator {
@@ -33,49 +33,49 @@ class ClockEstimator {
   /// Throws OptionError.
   explicit ClockEstimator(const Checked<ClockOptions>& options) : options_(*options) {}
 
-  /// A message with the device's time (s, since any epoch), and when it arrived. Returns when it
-  /// was sent. A clock that was set is found out by a message that is too early at once, by
-  /// messages that are all too late after `confirm`.
+  /// Adds a message with the device's time (s, since any epoch) and its arrival. Returns when it
+  /// was sent. A clock that was set is detected at once by a message that is too early, and after
+  /// `confirm` by messages that are all too late.
   Stamp add(double device, Stamp arrival);
 
-  /// The next message may be of a clock that was set; the drift stays.
+  /// Prepares for a clock that may have been set before the next message; the drift is kept.
   void restart();
 
-  /// s, the computer's time since its epoch minus the device's since its own; none before the first
-  /// message.
+  /// Returns the computer's time since its epoch minus the device's since its own, s; none before
+  /// the first message.
   std::optional<double> offset() const;
 
   /// s/s; positive: the device's clock is slow.
   double drift() const { return drift_; }
 
-  /// How often a clock was set.
+  /// Returns how often a clock was set.
   std::uint64_t steps() const { return steps_; }
 
  private:
-  /// A message in the time since the first one.
+  /// A message, with its time since the first one.
   struct Point {
     double time = 0.0;   ///< s, of the device
     double delay = 0.0;  ///< s, arrival minus device time
   };
 
-  /// Of the line below all points.
+  /// Returns the value of the line below all points.
   double lineAt(double time) const { return intercept_ + drift_ * time; }
   void begin(double device, Stamp arrival);
   void step(double device, Stamp arrival);
-  /// Of each short time the earliest message alone counts.
+  /// Keeps only the earliest message of each short interval.
   void keep(const Point& point);
   void fit();
-  /// The slope of the hull's edge below the points' mean time.
+  /// Returns the slope of the hull's edge below the points' mean time.
   double hullSlope() const;
 
   ClockOptions options_;
   std::optional<Stamp> origin_;  ///< arrival of the first message; none before it
   double device_origin_ = 0.0;   ///< s
   double newest_ = 0.0;          ///< s, of the device, since the first message
-  std::deque<Point> points_;     ///< by rising time
+  std::deque<Point> points_;     ///< by ascending time
   double intercept_ = 0.0;       ///< s
   double drift_ = 0.0;
-  std::optional<double> late_since_;  ///< s, on the computer's clock; none: the last was in time
+  std::optional<double> late_since_;  ///< s, on the computer's clock; none: the last was on time
   std::uint64_t steps_ = 0;
 };
 

@@ -20,7 +20,7 @@ enum class ColaDialect {
   kText     ///< CoLa A: STX, name, fields as words, ETX
 };
 
-/// "CoLa B" or "CoLa A".
+/// Returns "CoLa B" or "CoLa A".
 const char* nameOf(ColaDialect dialect);
 
 ColaDialect otherThan(ColaDialect dialect);
@@ -28,7 +28,7 @@ ColaDialect otherThan(ColaDialect dialect);
 /// The reason of a DeviceError: bytes of the other dialect were received.
 inline constexpr const char* kWrongDialect = "wrong_dialect";
 
-/// The error of bytes or a telegram that cannot be right (`bad_answer`).
+/// Returns the error for invalid bytes or an invalid telegram (`bad_answer`).
 DeviceError badAnswer(const std::string& text);
 
 /// A telegram without its frame: its name, which is the same in both dialects, and its fields.
@@ -36,7 +36,7 @@ struct ColaTelegram {
   ColaDialect dialect = ColaDialect::kBinary;
   std::string bytes;
 
-  /// Whether this is its name: "sSN LMDscandata".
+  /// Returns whether this is its name: "sSN LMDscandata".
   bool isCalled(std::string_view name) const;
 };
 
@@ -50,19 +50,19 @@ struct ColaParameter {
 ColaTelegram colaCommand(ColaDialect dialect, std::string_view name,
                          const std::vector<ColaParameter>& parameters = {});
 
-/// A telegram as it is sent.
+/// Returns the telegram as it is sent.
 std::string colaFrame(const ColaTelegram& telegram);
 
-/// Cuts the bytes of a connection into telegrams of one dialect.
+/// Splits the bytes of a connection into telegrams of one dialect.
 class ColaReader {
  public:
   explicit ColaReader(ColaDialect dialect) : dialect_(dialect) {}
 
   void feed(std::string_view bytes) { waiting_ += bytes; }
 
-  /// The next whole telegram; none if it has not arrived yet. Throws DeviceError: `wrong_dialect`
-  /// for the other dialect, `bad_answer` for bytes that are no telegram, for one that is too long
-  /// and for a wrong checksum.
+  /// Returns the next complete telegram; none if it has not arrived yet. Throws DeviceError:
+  /// `wrong_dialect` for the other dialect, `bad_answer` for bytes that are not a telegram, for one
+  /// that is too long and for a wrong checksum.
   std::optional<ColaTelegram> next();
 
  private:
@@ -73,31 +73,32 @@ class ColaReader {
   std::string waiting_;
 };
 
-/// The fields of a telegram, from the first one on. `name` is what a field is, for messages. All
-/// throw DeviceError (`bad_answer`) if the telegram ends before.
+/// Reads the fields of a telegram, from the first one on. `name`: of a field, for messages. All
+/// functions throw DeviceError (`bad_answer`) if the telegram ends before the field.
 class ColaFields {
  public:
   /// `telegram` must outlive it.
   explicit ColaFields(const ColaTelegram& telegram);
 
-  /// A field of `size` bytes in CoLa B, whatever it is.
+  /// Skips a field of `size` bytes in CoLa B.
   void skip(std::size_t size, const char* name);
 
-  /// An unsigned number of `size` bytes (1 to 4) in CoLa B; in CoLa A hexadecimal, or decimal after
-  /// a sign. Throws DeviceError (`bad_answer`) unless it is a number of 32 bits.
+  /// Reads an unsigned number of `size` bytes (1 to 4) in CoLa B; in CoLa A hexadecimal, or decimal
+  /// after a sign. Throws DeviceError (`bad_answer`) unless it is a number of 32 bits.
   std::uint32_t number(std::size_t size, const char* name);
 
-  /// The two's complement of 4 bytes: FFF92230 is -450000.
+  /// Reads a two's complement of 4 bytes: FFF92230 is -450000.
   std::int32_t signedNumber(const char* name);
 
-  /// A float of 4 bytes (IEEE 754): 3F800000 is 1. Throws DeviceError (`bad_answer`) unless finite.
+  /// Reads a float of 4 bytes (IEEE 754): 3F800000 is 1. Throws DeviceError (`bad_answer`) unless
+  /// finite.
   float real(const char* name);
 
-  /// `count` characters, among them spaces.
+  /// Reads `count` characters, including spaces.
   std::string_view characters(std::size_t count, const char* name);
 
   /// Throws DeviceError (`bad_answer`) unless there can be `count` fields of `size` bytes: to be
-  /// called before memory is taken for them.
+  /// called before memory is allocated for them.
   void require(std::size_t count, std::size_t size, const char* name) const;
 
  private:

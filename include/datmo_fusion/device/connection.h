@@ -11,16 +11,16 @@ struct addrinfo;
 
 namespace datmo {
 
-/// Where a device listens on the network, and how long it may be silent.
+/// Network address of a device, and how long it may be silent.
 struct DeviceAddress {
   std::string host;
   int port = 0;
   double timeout = 1.0;  ///< s
 };
 
-/// A TCP connection to a device, for the thread that serves it. But for the look-up of a name,
-/// which the system bounds, it never waits longer than the timeout at each of the name's addresses.
-/// POSIX alone.
+/// A TCP connection to a device, for the thread that serves it. Except for the name lookup, which
+/// the system limits, it never waits longer than the timeout for each address of the name. POSIX
+/// only.
 class Connection : public CommandStream {
  public:
   /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
@@ -34,7 +34,7 @@ class Connection : public CommandStream {
   std::string receive() override;
 
  private:
-  /// One address of the name; sets the socket, or returns why not (errno).
+  /// Connects to one address of the name; sets the socket, or returns errno.
   int connectTo(const addrinfo& found);
 
   DeviceAddress address_;

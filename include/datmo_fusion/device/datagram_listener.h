@@ -13,18 +13,18 @@
 
 namespace datmo {
 
-/// What a DatagramListener tells, each from its thread.
+/// Callbacks of a DatagramListener, all called from its thread.
 struct DatagramHandlers {
   std::function<void()> listening;
   std::function<void(std::string_view bytes)> received;
   std::function<void(const DeviceError& error)> fault;  ///< it listens again after a second
 };
 
-/// Listens to a UDP port in a thread of its own while it lives. That nobody sends is no fault:
-/// other than a device, other stations come and go.
+/// Listens to a UDP port in a thread of its own during its lifetime. Silence is not a fault: unlike
+/// a device, other stations come and go.
 class DatagramListener {
  public:
-  /// `source`: the port, and who sends; without a host anybody. Its timeout does not count.
+  /// `source`: the port and the sender; without a host, any sender. Its timeout is ignored.
   DatagramListener(const DeviceAddress& source, DatagramHandlers handlers);
   ~DatagramListener();
   DatagramListener(const DatagramListener&) = delete;
@@ -32,7 +32,7 @@ class DatagramListener {
 
  private:
   void run();
-  /// Until something is wrong (DeviceError) or it is to stop (DeviceStopped).
+  /// Listens until a fault (DeviceError) or a request to stop (DeviceStopped).
   void listen();
 
   DeviceAddress source_;

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Sends datagrams (UDP, IPv4) to one address, which may be a broadcast one. POSIX alone.
+/// Sends datagrams (UDP, IPv4) to one address, which may be a broadcast address. POSIX only.
 class DatagramSender {
  public:
   /// Throws DeviceError (`no_connection`).
@@ -17,7 +17,7 @@ class DatagramSender {
   DatagramSender(const DatagramSender&) = delete;
   DatagramSender& operator=(const DatagramSender&) = delete;
 
-  /// Without waiting; that nobody listens there is not found out. Throws DeviceError
+  /// Sends without waiting; whether anybody listens there is not checked. Throws DeviceError
   /// (`not_sent`).
   void send(std::string_view bytes) const;
 
@@ -26,15 +26,15 @@ class DatagramSender {
   int socket_ = -1;
 };
 
-/// The same to a host whose name is looked up when something is first sent: that may take a while,
-/// so where it fails it is tried again after a pause only.
+/// The same for a host whose name is looked up when something is first sent: that may take a while,
+/// so it is only tried again after a pause if it fails.
 class DatagramDestination {
  public:
-  /// An empty host is nobody. `pause`: s.
+  /// An empty host: no destination. `pause`: s.
   DatagramDestination(std::string host, int port, double pause);
 
-  /// Whether it was sent: not to nobody, and not during the pause. Throws DeviceError
-  /// (`no_connection`, `not_sent`).
+  /// Returns whether it was sent: not without a destination, and not during the pause. Throws
+  /// DeviceError (`no_connection`, `not_sent`).
   bool send(std::string_view bytes);
 
  private:

@@ -11,11 +11,11 @@
 
 namespace datmo {
 
-/// Datagrams that come to a UDP port (IPv4), of one device or of any. POSIX alone.
+/// Receives datagrams at a UDP port (IPv4), from one device or from any. POSIX only.
 class DatagramSocket : public PacketSource {
  public:
-  /// `device`: the port at which they come, and who sends them; without a host anybody. `stop`:
-  /// true ends all waiting; must outlive the socket. Throws DeviceError (`no_connection`).
+  /// `device`: the port and the sender; without a host, any sender. `stop`: true ends all waiting;
+  /// must outlive the socket. Throws DeviceError (`no_connection`).
   DatagramSocket(const DeviceAddress& device, const std::atomic<bool>& stop);
   ~DatagramSocket() override;
   DatagramSocket(const DatagramSocket&) = delete;
@@ -27,11 +27,11 @@ class DatagramSocket : public PacketSource {
  private:
   void open();
 
-  static constexpr std::size_t kLongest = 2048;  ///< longer ones are cut
+  static constexpr std::size_t kLongest = 2048;  ///< longer ones are truncated
 
   DeviceAddress device_;
   const std::atomic<bool>& stop_;
-  std::optional<std::uint32_t> sender_;  ///< address in network order; none: anybody
+  std::optional<std::uint32_t> sender_;  ///< address in network byte order; none: any sender
   int socket_ = -1;
   std::array<char, kLongest> bytes_{};
 };

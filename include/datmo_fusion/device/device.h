@@ -11,24 +11,24 @@
 
 namespace datmo {
 
-/// What a device has of who serves it; all of it outlives the device.
+/// What the thread that serves a device provides; all of it outlives the device.
 struct DeviceHost {
   const std::atomic<bool>& stop;  ///< true ends all waiting by DeviceStopped
-  DeviceClock& clock;             ///< to be restarted by each connection
-  /// Something is wrong that does not end the connection.
+  DeviceClock& clock;             ///< to be restarted for each connection
+  /// Reports a fault that does not end the connection.
   std::function<void(const DeviceError& error)> warn;
 };
 
-/// One connection with a device, by the protocol of its make. Whoever serves it connects anew by
-/// another one.
+/// One connection with a device, by the manufacturer's protocol. To reconnect, a new object is
+/// created.
 class Device {
  public:
   virtual ~Device() = default;
 
-  /// Returns what the device is, for people. Throws DeviceError, DeviceStopped.
+  /// Connects, and returns a readable description of the device. Throws DeviceError, DeviceStopped.
   virtual std::string connect() = 0;
 
-  /// Waits for what it measures next. Throws DeviceError, DeviceStopped.
+  /// Waits for the next measurement. Throws DeviceError, DeviceStopped.
   virtual DeviceMeasurement next() = 0;
 };
 

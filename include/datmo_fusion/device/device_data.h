@@ -9,8 +9,8 @@
 
 namespace datmo {
 
-/// A scan of a planar scanner. Bearings are about it, in rad, positive to the left; 0 is straight
-/// ahead.
+/// A scan of a planar scanner. Bearings are relative to it, in rad, positive to the left; 0 is
+/// straight ahead.
 struct DeviceScan {
   double first_bearing = 0.0;      ///< rad
   double beam_spacing = 0.0;       ///< rad
@@ -19,9 +19,9 @@ struct DeviceScan {
   double min_range = 0.0;          ///< m
   double max_range = 0.0;          ///< m
   std::vector<float> ranges;       ///< m; +inf: no return; NaN: no valid measurement
-  std::vector<float> intensities;  ///< in units of the device's own; empty: it tells none
+  std::vector<float> intensities;  ///< in the device's own units; empty: not reported
 
-  /// s, from the first beam to the last.
+  /// Returns the time from the first beam to the last, s.
   double sweep() const {
     return ranges.empty() ? 0.0 : beam_time * static_cast<double>(ranges.size() - 1);
   }
@@ -35,21 +35,21 @@ struct CloudPoint {
   float intensity = 0.0F;  ///< 0 to 255
   float time = 0.0F;       ///< s after the stamp
   std::uint16_t ring = 0;  ///< from the lowest laser, 0
-  /// In place of padding, which would be left to chance: points are published as they are here.
+  /// Instead of padding, which would be uninitialized: points are published as stored here.
   std::uint16_t unused = 0;
 };
 
-/// One turn of a rotating lidar: what had a return.
+/// One turn of a rotating lidar: all points with a return.
 struct DeviceCloud {
   std::vector<CloudPoint> points;
 };
 
-/// Where a satellite receiver is.
+/// Position of a satellite receiver.
 struct SatelliteFix {
   enum class Kind { kNone, kSatellites, kDifferential, kRealTimeKinematic };
 
   Kind kind = Kind::kNone;
-  double latitude = 0.0;        ///< deg, WGS 84; NaN: not known, as the next two
+  double latitude = 0.0;        ///< deg, WGS 84; NaN: unknown, also for the next two
   double longitude = 0.0;       ///< deg
   double altitude = 0.0;        ///< m above the ellipsoid
   double sigma = 0.0;           ///< m, along each horizontal axis
@@ -57,23 +57,23 @@ struct SatelliteFix {
   int satellites = 0;
 };
 
-/// How a satellite receiver moves over the ground.
+/// Velocity of a satellite receiver over the ground.
 struct GroundVelocity {
   double speed = 0.0;   ///< m/s, 0 or more
   double course = 0.0;  ///< rad, clockwise from north
 };
 
-/// How the vehicle moves, as its own bus says.
+/// Motion of the vehicle, as reported on its bus.
 struct VehicleTwist {
   double speed = 0.0;              ///< m/s, ahead
-  double yaw_rate = 0.0;           ///< rad/s, positive to the left; NaN: not known
-  std::uint64_t other_frames = 0;  ///< of the bus, so far, without anything of it
+  double yaw_rate = 0.0;           ///< rad/s, positive to the left; NaN: unknown
+  std::uint64_t other_frames = 0;  ///< on the bus so far that are not used
 };
 
 using DeviceData =
     std::variant<DeviceScan, DeviceCloud, SatelliteFix, GroundVelocity, VehicleTwist>;
 
-/// What a device has measured, on the computer's clock.
+/// A measurement of a device, stamped on the computer's clock.
 struct DeviceMeasurement {
   Stamp stamp;  ///< of the first beam or firing
   DeviceData data;

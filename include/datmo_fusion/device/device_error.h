@@ -8,11 +8,11 @@
 
 namespace datmo {
 
-/// What a device did that it should not have done: its connection is given up.
+/// A fault of a device, after which its connection is closed.
 class DeviceError : public std::runtime_error {
  public:
   /// `reason`: a short, fixed name that is counted (`silent_device`); `message`: what is wrong, its
-  /// value, what was expected.
+  /// value, what is expected.
   DeviceError(std::string reason, const std::string& message)
       : std::runtime_error(message), reason_(std::move(reason)) {}
 
@@ -22,16 +22,16 @@ class DeviceError : public std::runtime_error {
   std::string reason_;
 };
 
-/// A recording is at its end: there is nothing to connect with again.
+/// The end of a recording: there is nothing to reconnect to.
 class RecordingEnd : public DeviceError {
  public:
   explicit RecordingEnd(const std::string& message) : DeviceError("recording_end", message) {}
 };
 
-/// It is to stop, and waits no more: no error.
+/// Thrown to end waiting when a device is stopped: not an error.
 struct DeviceStopped {};
 
-/// What can be shown, in quotes, of bytes that may be anything: the first 40.
+/// Returns arbitrary bytes in printable form, in quotes: the first 40.
 std::string shownBytes(std::string_view bytes);
 
 }  // namespace datmo

@@ -12,7 +12,7 @@
 namespace datmo {
 
 struct DeviceConnected {
-  std::string device;  ///< what it is, for people
+  std::string device;  ///< readable description
 };
 
 struct DeviceFault {

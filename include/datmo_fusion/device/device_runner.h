@@ -22,7 +22,7 @@ struct DeviceRunnerOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a device tells, each from the runner's thread.
+/// Callbacks for the events of a device, all called from the runner's thread.
 struct DeviceHandlers {
   std::function<void(const std::string& device)> connected;
   std::function<void(DeviceMeasurement measurement, const ClockState& clock)> measured;
@@ -33,12 +33,11 @@ struct DeviceHandlers {
 
 using DeviceMaker = std::function<std::unique_ptr<Device>(const DeviceHost& host)>;
 
-/// Serves a device in a thread of its own while it lives. Whatever goes wrong, it connects again,
-/// first at once and then more and more seldom, up to `max_backoff`; but for the end of a
-/// recording.
+/// Serves a device in a thread of its own during its lifetime. After any fault it reconnects, first
+/// at once and then after increasing pauses, up to `max_backoff`; not after the end of a recording.
 class DeviceRunner {
  public:
-  /// `make`: another connection each time. Throws OptionError.
+  /// `make`: creates a new connection each time. Throws OptionError.
   DeviceRunner(const Checked<DeviceRunnerOptions>& options, DeviceMaker make,
                DeviceHandlers handlers);
   ~DeviceRunner();
@@ -47,7 +46,7 @@ class DeviceRunner {
 
  private:
   void run();
-  /// One connection, until something is wrong (DeviceError) or it is to stop (DeviceStopped).
+  /// Serves one connection, until a fault (DeviceError) or a request to stop (DeviceStopped).
   void serve();
   void waitBeforeNext();
 

@@ -12,16 +12,16 @@
 
 namespace datmo {
 
-/// The makes whose protocols are spoken here.
+/// The supported protocols.
 enum class DeviceKind { kHokuyo, kSickLms, kVelodyne, kNmea, kCan };
 
-/// Which device is where.
+/// Kind, address and options of a device.
 struct DeviceSetup {
   DeviceKind kind = DeviceKind::kHokuyo;
   std::string address = "192.168.0.10";
-  int port = 0;           ///< 0: the make's own
+  int port = 0;           ///< 0: the default of the kind
   double timeout = 1.0;   ///< s
-  std::string recording;  ///< of a lidar's packets, a bus's frames; empty: there is none
+  std::string recording;  ///< of a lidar's packets or a bus's frames; empty: none
   DeviceRunnerOptions runner;
   HokuyoOptions hokuyo;
   VelodyneOptions velodyne;

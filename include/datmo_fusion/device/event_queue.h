@@ -11,13 +11,13 @@
 
 namespace datmo {
 
-/// What one thread reports to another. If nobody takes it, newer events of the `Bounded` kinds
-/// replace older ones of their kind; those of other kinds are rare, and kept. Thread safe.
-/// `Event`: a std::variant; the first of `Bounded` is what is counted when it is discarded.
+/// Queue of events from one thread to another. If they are not taken, newer events of the `Bounded`
+/// kinds replace older ones of their kind; those of other kinds are rare, and kept. Thread safe.
+/// `Event`: a std::variant; discarded events of the first `Bounded` kind are counted.
 template <typename Event, typename First, typename... Bounded>
 class EventQueue {
  public:
-  /// `max_waiting`: events that wait at most, of each bounded kind.
+  /// `max_waiting`: maximum number of waiting events of each bounded kind.
   explicit EventQueue(std::size_t max_waiting) : max_waiting_(max_waiting) {}
 
   void put(Event event) {
@@ -28,10 +28,10 @@ class EventQueue {
   }
 
   struct Taken {
-    std::deque<Event> events;     ///< in their order
-    std::uint64_t discarded = 0;  ///< of the first bounded kind, ever
+    std::deque<Event> events;     ///< in order
+    std::uint64_t discarded = 0;  ///< of the first bounded kind, in total
   };
-  /// All that waits.
+  /// Returns all waiting events.
   Taken takeAll() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return {std::exchange(events_, {}), discarded_};

@@ -17,12 +17,12 @@ struct HokuyoOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A scanner of Hokuyo's on Ethernet (UST, UTM-30LX-EW, ...), or at a serial port, as which one on
-/// USB appears (URG-04LX, UTM-30LX, ...), by SCIP 2.0.
+/// A Hokuyo scanner on Ethernet (UST, UTM-30LX-EW, ...), or at a serial port, as which USB scanners
+/// appear (URG-04LX, UTM-30LX, ...), by SCIP 2.0.
 ///
-/// A scan arrives when all of it is measured: its stamp is the device's time on the computer's
-/// clock, minus the time from the first beam to the last; it is late by the shortest time that a
-/// scan takes through the network.
+/// A scan arrives when it is complete: its stamp is the device's time on the computer's clock,
+/// minus the time from the first beam to the last; it is late by the minimum network delay of a
+/// scan.
 class HokuyoScanner : public Device {
  public:
   static constexpr int kPort = 10940;
@@ -33,11 +33,12 @@ class HokuyoScanner : public Device {
   DeviceMeasurement next() override;
 
  private:
-  /// The answer to a command. What a scanner still sends that was not told to stop is passed over.
+  /// Returns the answer to a command. Data that a scanner still sends because it was not stopped
+  /// are skipped.
   ScipAnswer ask(const std::string& command);
   ScipAnswer nextAnswer();
-  /// At a serial port nobody tells the scanner that the one who asked before has gone: it may be
-  /// in the middle of a scan, and old firmware begins by SCIP 1.1.
+  /// Resets the scanner: at a serial port it does not notice that an earlier client has left. It
+  /// may be in the middle of a scan, and old firmware starts with SCIP 1.1.
   void beginAtSerialPort();
 
   DeviceAddress address_;

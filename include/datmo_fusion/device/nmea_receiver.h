@@ -24,28 +24,29 @@ struct NmeaOptions {
 /// Throws DeviceError.
 using StreamOpener = std::function<std::unique_ptr<ByteStream>()>;
 
-/// A satellite receiver that speaks NMEA 0183: positions of GGA, velocities of RMC, or of VTG where
-/// there is no RMC. Sentences carry the time of the measurement, which they all have in common; the
-/// first of them to arrive tells the receiver's clock. A VTG, which has none, belongs to the GGA
-/// nearer to it in time of arrival, and waits for it if that is the next one.
+/// A satellite receiver that speaks NMEA 0183: positions from GGA, velocities from RMC, or from VTG
+/// if there is no RMC. All sentences of a measurement carry its time; the first of them to arrive
+/// is used to estimate the receiver's clock. A VTG, which has no time, belongs to the GGA closer to
+/// it in arrival time, and waits for it if that is the next one.
 class NmeaReceiver : public Device {
  public:
-  static constexpr int kPort = 10110;  ///< of NMEA 0183 over TCP (IANA)
+  static constexpr int kPort = 10110;  ///< default of NMEA 0183 over TCP (IANA)
 
   NmeaReceiver(StreamOpener open, const NmeaOptions& options, const DeviceHost& host);
 
-  /// Connected by the first sentence.
+  /// Returns after the first sentence.
   std::string connect() override;
   DeviceMeasurement next() override;
 
  private:
-  /// Sentences that are none are counted; many in a row are no receiver's.
+  /// Returns the next valid sentence. Invalid ones are counted; many in a row are an error: the
+  /// device is not a receiver.
   NmeaSentence nextSentence();
-  /// What a sentence says; none: nothing that is published.
+  /// Returns the measurement in a sentence; none if it has nothing to publish.
   std::optional<DeviceMeasurement> measurementOf(const NmeaSentence& sentence);
-  /// Whether it is of the newest time, which it may bring.
+  /// Updates the newest time, and returns whether the sentence belongs to it.
   bool takeTime(const std::string& field);
-  /// Whether a sentence that arrives now is nearer to the next time than to the newest one.
+  /// Returns whether a sentence that arrives now is closer to the next time than to the newest one.
   bool isOfNextTime() const;
 
   StreamOpener open_;
@@ -56,7 +57,7 @@ class NmeaReceiver : public Device {
   Stamp stamp_;                                     ///< of the newest time
   Stamp arrival_;                                   ///< of its first sentence
   std::optional<GroundVelocity> waiting_velocity_;  ///< of the next time
-  std::optional<DeviceMeasurement> pending_;        ///< after what was returned
+  std::optional<DeviceMeasurement> pending_;        ///< to be returned next
   bool has_time_ = false;                           ///< of this connection
   bool has_rmc_ = false;                            ///< the same
 };

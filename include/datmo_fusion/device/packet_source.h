@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// Where a device's datagrams come from.
+/// Source of a device's datagrams.
 class PacketSource {
  public:
   virtual ~PacketSource() = default;

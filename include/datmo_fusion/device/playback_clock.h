@@ -7,22 +7,24 @@
 
 namespace datmo {
 
-/// The pace of a recording that is played: each part when it is due, at once where that is past.
+/// Paces the playback of a recording: each part is played when it is due, or at once if it is
+/// overdue.
 class PlaybackClock {
  public:
   /// `stop`: true ends all waiting; must outlive the clock.
   explicit PlaybackClock(const std::atomic<bool>& stop) : stop_(stop) {}
 
-  /// Until what was recorded then (s) is due; the first call sets the pace. Throws DeviceStopped.
+  /// Waits until what was recorded at this time (s) is due; the first call sets the pace. Throws
+  /// DeviceStopped.
   void waitUntil(double recorded);
 
-  /// What comes next is due at once, and sets the pace anew.
+  /// The next part is due at once, and sets the pace again.
   void restart() { start_.reset(); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// What happens first of a recording, on both clocks.
+  /// Time of the first part of a recording, on both clocks.
   struct Start {
     double recorded;  ///< s
     Clock::time_point played;

@@ -11,38 +11,38 @@
 namespace datmo {
 
 /// SCIP 2.0, the protocol of Hokuyo's scanners (Hokuyo Automatic, Communication protocol
-/// specification for SCIP2.0 standard, UTM-30LX, 2008): lines of text, each answer closed by an
-/// empty one.
+/// specification for SCIP2.0 standard, UTM-30LX, 2008): lines of text, each answer ended by an
+/// empty line.
 struct ScipAnswer {
-  std::string command;             ///< that it answers, as the device repeats it
+  std::string command;             ///< that it answers, as repeated by the device
   std::string status;              ///< two characters; "00": done
   std::vector<std::string> lines;  ///< with their checksums
 };
 
-/// The last character of a line: of the sum of all others.
+/// Returns the last character of a line, which depends on the sum of all others.
 char scipChecksum(std::string_view text);
 
-/// Cuts what comes from the device into answers.
+/// Splits the bytes from the device into answers.
 class ScipReader {
  public:
   void feed(std::string_view bytes) { waiting_ += bytes; }
 
-  /// The next whole answer; none if it has not come. Throws DeviceError (`bad_answer`) for one
-  /// without a valid status, or that does not end.
+  /// Returns the next complete answer; none if it has not arrived yet. Throws DeviceError
+  /// (`bad_answer`) for one without a valid status, or that does not end.
   std::optional<ScipAnswer> next();
 
  private:
   std::string waiting_;
 };
 
-/// What a scanner says of itself (PP).
+/// Properties that a scanner reports (PP).
 struct ScipModel {
   std::string name;
   int min_range = 0;   ///< mm
   int max_range = 0;   ///< mm
   int turn_steps = 0;  ///< of a whole turn
-  int first_step = 0;  ///< that it measures
-  int last_step = 0;   ///< the same
+  int first_step = 0;  ///< first one measured
+  int last_step = 0;   ///< last one measured
   int front_step = 0;  ///< straight ahead
   double speed = 0.0;  ///< turns a minute
 
@@ -55,10 +55,11 @@ struct ScipModel {
   static constexpr double kSecondsOfMinute = 60.0;
 };
 
-/// Throws DeviceError (`wrong_device`) if the answer lacks a value, or has one that no scanner has.
+/// Decodes an answer to PP. Throws DeviceError (`wrong_device`) if a value is missing, or
+/// impossible for a scanner.
 ScipModel scipModel(const ScipAnswer& answer);
 
-/// Asks for all scans of all steps.
+/// Returns a request for all scans with all steps.
 std::string scipScanRequest(const ScipModel& model);
 
 struct ScipScan {
@@ -68,8 +69,8 @@ struct ScipScan {
 
 inline constexpr unsigned kScipClockBits = 24;
 
-/// The answer that a scan is. Throws DeviceError: `device_fault` for a status that says that the
-/// device cannot measure, `bad_answer` for a wrong checksum or number of beams.
+/// Decodes a scan. Throws DeviceError: `device_fault` for a status with which the device reports
+/// that it cannot measure, `bad_answer` for a wrong checksum or number of beams.
 ScipScan scipScan(const ScipAnswer& answer, const ScipModel& model);
 
 }  // namespace datmo

@@ -11,13 +11,13 @@ namespace datmo {
 
 struct SerialSettings {
   std::string file;       ///< "/dev/ttyUSB0"
-  int baud = 9600;        ///< bits per second, one that the system has a name for
+  int baud = 9600;        ///< bits per second, a rate that the system supports
   double timeout = 1.0;   ///< s
   bool commands = false;  ///< whether anything is sent to it
 };
 
 /// A serial port (8 data bits, no parity, 1 stop bit), for the thread that serves it; also a pipe,
-/// which has no such settings, and a scanner on USB, which needs none. POSIX alone.
+/// which has no such settings, and a USB scanner, which needs none. POSIX only.
 class SerialLine : public CommandStream {
  public:
   /// `stop`: true ends all waiting; must outlive the line. Throws DeviceError (`no_connection`).

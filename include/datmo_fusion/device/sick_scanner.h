@@ -14,11 +14,11 @@
 
 namespace datmo {
 
-/// A scanner of SICK's on Ethernet (LMS1xx, LMS5xx, TiM5xx, TiM7xx), in the dialect of CoLa that it
-/// answers in. Each dialect is tried on a connection of its own.
+/// A SICK scanner on Ethernet (LMS1xx, LMS5xx, TiM5xx, TiM7xx), in the dialect of CoLa in which it
+/// answers. Each dialect is tried on a connection of its own.
 ///
-/// A scan says when it began and when it was sent, both by the scanner's clock: it arrives at the
-/// latter, and its stamp is the former.
+/// A scan contains the times when it began and when it was sent, both on the scanner's clock: the
+/// latter is compared with its arrival, the former is its stamp.
 class SickScanner : public Device {
  public:
   static constexpr int kPort = 2111;
@@ -31,22 +31,23 @@ class SickScanner : public Device {
   DeviceMeasurement next() override;
 
  private:
-  /// Finds out the dialect and the model. Throws DeviceError, DeviceStopped.
+  /// Determines the dialect and the model. Throws DeviceError, DeviceStopped.
   void identify();
   void identifyIn(ColaDialect dialect);
   void send(std::string_view command, const std::vector<ColaParameter>& parameters = {});
-  /// The answer to a command, which is called `expected`. Scans that still arrive are passed over.
-  /// Throws DeviceError (`device_fault`) for another one, an error (sFA) among them.
+  /// Returns the answer to a command, whose name must be `expected`. Scans that still arrive are
+  /// skipped. Throws DeviceError (`device_fault`) for any other answer, including errors (sFA).
   ColaTelegram ask(std::string_view command, std::string_view expected,
                    const std::vector<ColaParameter>& parameters = {});
-  /// The same, for an answer that begins with this number of one byte, or it is a `device_fault`.
+  /// The same, for an answer that must begin with this number of one byte; otherwise
+  /// `device_fault`.
   void command(std::string_view command, std::string_view expected, std::uint32_t result,
                const std::vector<ColaParameter>& parameters = {});
   ColaTelegram nextTelegram();
-  /// Silence is no fault as long as the scanner says that it is not measuring yet, which an LMS1xx
-  /// takes a while for after it was switched on.
+  /// Returns the next telegram. Silence is not a fault as long as the scanner reports that it is
+  /// not measuring yet: an LMS1xx takes a while after it was switched on.
   ColaTelegram nextTelegramOnceWarm();
-  /// Asks the scanner for its state; false also for one that does not know the question.
+  /// Asks the scanner for its state; also false for one that does not know the command.
   bool isWarmingUp();
   void warnOf(SickState state) const;
 

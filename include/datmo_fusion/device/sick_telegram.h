@@ -15,8 +15,8 @@ struct SickModel {
   double max_range = 0.0;  ///< m
 };
 
-/// The model in an answer to `sRN DeviceIdent`. Throws DeviceError: `wrong_device` for a scanner
-/// whose range and bearings are not known here, `bad_answer` for an answer that is not whole.
+/// Returns the model in an answer to `sRN DeviceIdent`. Throws DeviceError: `wrong_device` for a
+/// scanner whose range and bearings are not known here, `bad_answer` for an incomplete answer.
 SickModel sickModel(const ColaTelegram& answer);
 
 /// What a scanner reports about itself.
@@ -30,12 +30,12 @@ struct SickScan {
   DeviceScan scan;
 };
 
-/// A scan (`sSN LMDscandata`): the first echoes (DIST1), and their remission (RSSI1) if present. No
-/// echo is +inf; the values that stand for errors, and ranges below them, are NaN. Throws
-/// DeviceError (`bad_answer`) for a telegram that is not whole, or has no such channel.
+/// Decodes a scan (`sSN LMDscandata`): the first echoes (DIST1), and their remission (RSSI1) if
+/// present. No echo is +inf; error codes, and ranges below them, are NaN. Throws DeviceError
+/// (`bad_answer`) for a telegram that is incomplete, or has no such channel.
 SickScan sickScan(const ColaTelegram& telegram, const SickModel& model);
 
-/// Whether an answer to `sRN STlms` reports a scanner that will measure without being asked to;
+/// Returns whether an answer to `sRN STlms` reports a scanner that will measure without a command;
 /// false for one that was stopped. Throws DeviceError (`bad_answer`).
 bool isSickWarmingUp(const ColaTelegram& answer);
 

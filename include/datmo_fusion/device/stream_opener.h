@@ -8,10 +8,10 @@
 
 namespace datmo {
 
-/// Whether an address is the file of a serial port: it begins by a slash.
+/// Returns whether an address is the file of a serial port: it begins with a slash.
 bool isSerial(const DeviceAddress& address);
 
-/// A device at a serial port or on the network. `baud`: of a serial port; `commands`: whether
+/// Opens a device at a serial port or on the network. `baud`: of a serial port; `commands`: whether
 /// anything is sent to it. Throws DeviceError (`no_connection`), DeviceStopped.
 std::unique_ptr<CommandStream> openStream(const DeviceAddress& address, int baud, bool commands,
                                           const std::atomic<bool>& stop);

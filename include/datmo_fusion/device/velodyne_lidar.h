@@ -15,7 +15,7 @@
 namespace datmo {
 
 struct VelodyneOptions {
-  std::string model = "auto";  ///< name of a VelodyneModel, or auto: as the packets say
+  std::string model = "auto";  ///< name of a VelodyneModel, or auto: as reported in the packets
   double min_range = 0.4;      ///< m
   double max_range = 130.0;    ///< m
   double seam = 3.14159;       ///< rad
@@ -26,8 +26,8 @@ struct VelodyneOptions {
 /// Throws DeviceError.
 using PacketOpener = std::function<std::unique_ptr<PacketSource>()>;
 
-/// A rotating lidar of Velodyne's (VLP-16, Puck LITE, Puck Hi-Res, VLP-32C, HDL-32E): a cloud each
-/// turn, of one or two returns. The first turn, which is not whole, is left out.
+/// A rotating Velodyne lidar (VLP-16, Puck LITE, Puck Hi-Res, VLP-32C, HDL-32E): one cloud per
+/// turn, with one or two returns. The first turn, which is incomplete, is dropped.
 ///
 /// The stamp of a cloud is that of its first firing. Packets carry the lidar's time, and arrive
 /// when their last firing is done.
@@ -35,7 +35,7 @@ class VelodyneLidar : public Device {
  public:
   static constexpr int kPort = 2368;
 
-  /// `open`: where its packets come from.
+  /// `open`: opens the source of its packets.
   VelodyneLidar(PacketOpener open, VelodyneOptions options, const DeviceHost& host);
 
   std::string connect() override;
@@ -48,15 +48,16 @@ class VelodyneLidar : public Device {
     DeviceCloud cloud;
   };
 
-  /// The next packet that is a lidar's. Others are counted; many in a row are none of a lidar's.
+  /// Returns the next valid packet. Invalid ones are counted; many in a row are an error: there is
+  /// no lidar.
   VelodynePacket nextPacket();
   const VelodyneModel& modelOf(const VelodynePacket& packet) const;
-  /// Whether a packet may be one of the model's.
+  /// Returns whether a packet may come from this model.
   bool isOf(const VelodyneModel& model, const VelodynePacket& packet) const;
-  /// Older than the last one, or the same again; it is said.
+  /// Returns whether a packet is older than the last one, or a duplicate; warns if so.
   bool isLate(const VelodynePacket& packet) const;
   void takeTime(const VelodynePacket& packet);
-  /// Takes the blocks of the packet up to the end of a turn, or of the packet.
+  /// Processes the blocks of the packet up to the end of a turn, or of the packet.
   std::optional<DeviceMeasurement> takeBlocks();
   std::optional<DeviceMeasurement> endTurn(std::size_t block);
 
@@ -65,13 +66,13 @@ class VelodyneLidar : public Device {
   DeviceHost host_;
   std::unique_ptr<PacketSource> source_;
   const VelodyneModel* model_ = nullptr;
-  std::optional<VelodynePacket> packet_;  ///< which is taken at present
+  std::optional<VelodynePacket> packet_;  ///< currently processed
   std::size_t next_block_ = 0;            ///< of it
   Stamp packet_stamp_;                    ///< of its first firing
   unsigned seam_ = 0;                     ///< hundredths of a degree, clockwise from straight ahead
   unsigned last_angle_ = 0;               ///< the same from the seam, of the last block
   std::optional<Turn> turn_;              ///< none before the first seam
-  double age_ = 0.0;                      ///< s, since the seam when the packet's first firing was
+  double age_ = 0.0;                      ///< s, from the seam to the packet's first firing
   std::size_t last_points_ = 0;           ///< of the last turn
   std::uint64_t missed_ = 0;              ///< packets, since the last cloud
 };

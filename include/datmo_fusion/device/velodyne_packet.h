@@ -12,7 +12,7 @@
 namespace datmo {
 
 /// A data packet of Velodyne's lidars (VLP-16 User Manual, 63-9243 Rev. E, 9.3): 12 blocks of 32
-/// measurements, a time and what they are.
+/// measurements, a time, the return mode and the product.
 class VelodynePacket {
  public:
   static constexpr std::size_t kSize = 1206;
@@ -24,16 +24,17 @@ class VelodynePacket {
   explicit VelodynePacket(std::string_view bytes);
 
   std::uint32_t time() const;    ///< us past the hour
-  std::uint8_t product() const;  ///< but of old firmware (VLP-16: before 3.0.29)
+  std::uint8_t product() const;  ///< not with old firmware (VLP-16: before 3.0.29)
   bool isDual() const;           ///< two blocks of each firing
 
-  /// Hundredths of a degree, clockwise from straight ahead, of a block's first firing.
+  /// Returns the azimuth of a block's first firing, hundredths of a degree, clockwise from straight
+  /// ahead.
   unsigned azimuth(std::size_t block) const;
 
-  /// The same from a block's first firing to that of the next one, at most a half turn.
+  /// Returns the angle from a block's first firing to that of the next one, at most half a turn.
   unsigned azimuthStep(std::size_t block) const;
 
-  /// In the model's unit; 0: no return.
+  /// Returns the distance in the model's unit; 0: no return.
   unsigned distance(std::size_t block, std::size_t channel) const;
   std::uint8_t intensity(std::size_t block, std::size_t channel) const;
 
@@ -43,21 +44,21 @@ class VelodynePacket {
   std::string_view bytes_;
 };
 
-/// When a packet's block was measured, s after the packet's first firing.
+/// Returns when a packet's block was measured, s after the packet's first firing.
 double blockOffset(const VelodyneModel& model, bool is_dual, std::size_t block);
 
-/// s, from the first firing of a packet to the last.
+/// Returns the time from the first firing of a packet to the last, s.
 double packetSpan(const VelodyneModel& model, bool is_dual);
 
-/// Returns nearer or farther (m) are left out.
+/// Nearer or farther returns (m) are ignored.
 struct RangeLimits {
   double min = 0.4;
   double max = 130.0;
 };
 
 /// Appends the points of a block, in the lidar's frame (REP 103), with times from `time` (s) on.
-/// The azimuth of each firing is interpolated to the next block's, and that of each laser has its
-/// offset. Of two equal returns one counts.
+/// The azimuth of each firing is interpolated to that of the next block, and the offset of each
+/// laser is added. Of two equal returns, one is used.
 void appendPoints(const VelodynePacket& packet, std::size_t block, const VelodyneModel& model,
                   const RangeLimits& limits, double time, std::vector<CloudPoint>& points);
 

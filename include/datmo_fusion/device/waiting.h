@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// Waits until a file or socket has one of the events of poll(); false after the timeout (s), or
-/// when it is to stop.
+/// Waits until a file or socket has one of the events of poll(); returns false after the timeout
+/// (s), or when `stop` is set.
 bool waitForEvents(int descriptor, short events, double timeout, const std::atomic<bool>& stop);
 
 }  // namespace datmo

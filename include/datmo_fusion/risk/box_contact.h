@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Where a rectangle's middle is and how it is turned, with the direction of its length at hand.
+/// Center and heading of a rectangle, with the direction of its length precomputed.
 struct BodyPose {
   Point2 center = Point2::Zero();       ///< m, fixed frame
   double heading = 0.0;                 ///< rad, continuous: it may exceed pi
@@ -17,34 +17,34 @@ struct BodyPose {
 
 BodyPose bodyPose(const Point2& center, double heading);
 
-/// Half the measures of a rectangle.
+/// Half the size of a rectangle.
 struct BodySize {
   double half_length = 0.0;  ///< m, at least 0
   double half_width = 0.0;   ///< m, at least 0
 
-  /// Of the circle about the middle that holds all of it, m.
+  /// Radius of the circle about the center that encloses the rectangle, m.
   double radius() const;
 };
 
 BodySize bodySize(const Box2& box);
 
-/// How far a rectangle reaches from its middle along an axis of length 1, m.
+/// Returns how far a rectangle extends from its center along an axis of length 1, m.
 double reachAlong(const Point2& axis, const BodyPose& pose, const BodySize& size);
 
 /// A gap between two rectangles along a direction that separates them.
 struct Separation {
-  double gap = 0.0;               ///< m; 0 or less: they touch or overlap, by so much at most
+  double gap = 0.0;               ///< m; 0 or less: they touch or overlap, by at most this much
   Point2 axis = Point2::UnitX();  ///< of length 1, from the first to the second
 };
 
-/// The largest gap of two rectangles along the directions of their sides. It is never more than
-/// their distance, and more than 0 exactly where they have no point in common (separating axis
+/// Returns the largest gap between two rectangles along the directions of their sides. It never
+/// exceeds their distance, and is positive exactly if they have no point in common (separating axis
 /// theorem; Ericson, Real-Time Collision Detection, 2005, 4.4.1).
 Separation separation(const BodyPose& a, const BodySize& size_a, const BodyPose& b,
                       const BodySize& size_b);
 
-/// A rectangle that moves evenly from one pose to another: its middle along a line, turning at one
-/// rate.
+/// A rectangle that moves uniformly from one pose to another: its center along a line, with a
+/// constant turn rate.
 struct BodyMove {
   BodyPose from;
   BodyPose to;
@@ -54,29 +54,31 @@ struct BodyMove {
   BodyPose at(double share) const;
 };
 
-/// A circle that moves evenly along a line.
+/// A circle that moves uniformly along a line.
 struct CircleMove {
   Point2 from = Point2::Zero();  ///< m
   Point2 to = Point2::Zero();    ///< m
   double radius = 0.0;           ///< m
 };
 
-/// Whether two circles that move at the same time touch: where those about two rectangles do not,
-/// the rectangles do not either.
+/// Returns whether two circles that move at the same time touch: if the circles around two
+/// rectangles do not, neither do the rectangles.
 bool circlesMeet(const CircleMove& a, const CircleMove& b);
 
-/// The share (0 to 1) of two simultaneous moves at which the rectangles first touch, to within
-/// 1 cm; none if they do not. No contact is missed, however long the moves: by conservative
-/// advancement along the separating axis (Mirtich, Impulse-based Dynamic Simulation, 1996, 2.3.2).
+/// Returns the share (0 to 1) of two simultaneous moves at which the rectangles first touch, to
+/// within 1 cm; none if they do not. No contact is missed, however long the moves are, thanks to
+/// conservative advancement along the separating axis (Mirtich, Impulse-based Dynamic Simulation,
+/// 1996, 2.3.2).
 std::optional<double> firstContact(const BodyMove& a, const BodyMove& b);
 
 /// Side of a rectangle that faces a touching one; values as in Risk.msg.
 enum class StruckSide : std::uint8_t { kNone, kFront, kRear, kLeft, kRight };
 
-/// One lower-case word.
+/// Returns one lower-case word.
 const char* nameOf(StruckSide side);
 
-/// Which side of `a` touches `b`: that of the least overlap, as its own sides measure it.
+/// Returns the side of `a` that touches `b`: the one with the least overlap, measured along the
+/// sides of `a`.
 StruckSide struckSide(const BodyPose& a, const BodySize& size_a, const BodyPose& b,
                       const BodySize& size_b);
 

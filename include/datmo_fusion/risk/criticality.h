@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// The host, as it would go, and what it would touch.
+/// The host on its predicted path, and the body that it would touch.
 struct Encounter {
   const BodyPath& host;
   const BodySize& host_size;
@@ -13,37 +13,37 @@ struct Encounter {
   const BodySize& other_size;
 };
 
-/// The host's path if it brakes with `deceleration` (m/s^2, at least 0) from `start` (s) on, on the
-/// same line: it comes to rest, and stays.
+/// Returns the host's path if it brakes with `deceleration` (m/s^2, at least 0) from `start` (s)
+/// on, along the same line: it comes to rest and remains stationary.
 BodyPath braked(const BodyPath& host, double start, double deceleration);
 
-/// The host's path if it steers aside from now on with that lateral acceleration (m/s^2, positive
-/// to the left) on top of its own.
+/// Returns the host's path if it evades from now on with this lateral acceleration (m/s^2, positive
+/// to the left) in addition to its own.
 BodyPath steered(const BodyPath& host, double lateral);
 
-/// How long the host can wait until it must brake with `max_braking` (m/s^2, more than 0) so that
-/// there is no contact, s: 0 where that comes too late, the paths' duration where nothing is
-/// touched (time to brake; Hillenbrand, Spieker, Kroschel, A Multilevel Collision Mitigation
-/// Approach, IEEE Trans. ITS 7(4), 2006).
+/// Returns how long the host can wait before it must brake with `max_braking` (m/s^2, more than 0)
+/// to avoid contact, s: 0 if braking is too late, the duration of the paths if there is no contact
+/// (time to brake; Hillenbrand, Spieker, Kroschel, A Multilevel Collision Mitigation Approach, IEEE
+/// Trans. ITS 7(4), 2006).
 double timeToBrake(const Encounter& encounter, double max_braking);
 
-/// The deceleration that avoids contact if the host brakes now, over `max_braking`: more than 1
-/// cannot be reached (brake threat number; Brännström, Coelingh, Sjöberg, Model-Based Threat
-/// Assessment for Avoiding Arbitrary Vehicle Collisions, IEEE Trans. ITS 11(3), 2010). 0: no
+/// Returns the deceleration that avoids contact if the host brakes now, divided by `max_braking`:
+/// more than 1 cannot be reached (brake threat number; Brännström, Coelingh, Sjöberg, Model-Based
+/// Threat Assessment for Avoiding Arbitrary Vehicle Collisions, IEEE Trans. ITS 11(3), 2010). 0: no
 /// contact without braking; kHopeless: not even four times as much is enough.
 double brakeThreat(const Encounter& encounter, double max_braking);
 
-/// The same for the lateral acceleration that avoids contact to the left or to the right, the
-/// smaller one, over `max_lateral` (steer threat number).
+/// Returns the same for the smaller of the lateral accelerations to the left or right that avoid
+/// contact, divided by `max_lateral` (steer threat number).
 double steerThreat(const Encounter& encounter, double max_lateral);
 
-/// A threat number of what nothing avoids.
+/// Threat number of an unavoidable contact.
 inline constexpr double kHopeless = 4.0;
 
-/// The time between one body leaving the ground that both paths share and the other reaching it, s:
-/// the least time by which one of them must be shifted for them to touch (post-encroachment time;
-/// Allen, Shin, Cooper, Analysis of Traffic Conflicts and Collisions, TRR 667, 1978, predicted). 0:
-/// they touch; infinite: their paths share no ground.
+/// Returns the time between one body leaving the area that both paths share and the other reaching
+/// it, s: the least time by which one of them must be shifted for them to touch (post-encroachment
+/// time; Allen, Shin, Cooper, Analysis of Traffic Conflicts and Collisions, TRR 667, 1978,
+/// predicted). 0: they touch; infinite: their paths do not cross.
 double postEncroachmentTime(const Encounter& encounter);
 
 }  // namespace datmo

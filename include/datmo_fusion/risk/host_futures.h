@@ -27,37 +27,37 @@ struct HostFutureOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A steering to come to, and its standard deviation.
+/// The intended steering angle, and its standard deviation.
 struct CourseSteering {
   double angle = 0.0;  ///< rad
   double sigma = 0.0;  ///< rad
 };
 
-/// The steering that follows the course of the road: pure pursuit (Coulter 1992) of the point ahead
-/// that lies beside each border as the vehicle does now; the mean over the borders, weighted by
-/// their probability and, inversely, by the variance that follows from that of their points. None
-/// where that is vaguer than a steering of its own (`max_steering_spread`), without borders
-/// that are likely enough, are not of a side street, and reach from beside the vehicle to that far
-/// ahead.
+/// Returns the steering angle that follows the course of the road: pure pursuit (Coulter 1992) of
+/// the point ahead at the vehicle's present distance from each border, averaged over the borders
+/// with their probability and the inverse of the variance that results from that of their points as
+/// weights. None if its standard deviation exceeds `max_steering_spread`, or if no border is
+/// probable enough, does not belong to a side street, and extends from beside the vehicle to that
+/// far ahead.
 std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
                                              const HostVehicleOptions& vehicle,
                                              const HostFutureOptions& options);
 
-/// Possible futures of the host: it keeps its acceleration and its steering, or turns to the course
-/// of the road. Its acceleration varies about the present one (first-order Gauss-Markov). About its
-/// course it sways as a driver does who keeps his lane: the deviation is pulled back, so that it
-/// stays that of a lane however far the futures reach (critically damped, driven by white noise).
-/// What is not known of the course itself is a constant lateral acceleration, which leads away from
+/// Possible futures of the host: it keeps its acceleration and its steering, or steers to the
+/// course of the road. Its acceleration varies about the current one (first-order Gauss-Markov). It
+/// sways about its course like a driver who keeps the lane: the deviation is pulled back, so that
+/// it stays within a lane however far the futures reach (critically damped, driven by white noise).
+/// The uncertainty of the course itself is a constant lateral acceleration, which leads away from
 /// it.
 class HostFutures {
  public:
-  /// `course`: the steering to come to; none: the present one.
+  /// `course`: the intended steering; none: the current one.
   HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
               const HostVehicleOptions& vehicle, const HostFutureOptions& options,
               const HorizonOptions& horizon, const RandomDraws& draws);
 
   const std::vector<BodyPath>& paths() const { return paths_; }
-  /// Without spread.
+  /// The path without random deviations.
   const BodyPath& nominal() const { return nominal_; }
   /// Mean curvature of the nominal path, 1/m, positive to the left; 0 if the path is too short.
   double curvature() const { return curvature_; }

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// The host vehicle: its outline about base_link (below the rear axle), and what it can do.
+/// The host vehicle: its outline about base_link (below the rear axle), and its limits.
 struct HostVehicleOptions {
   double length = 4.6;             ///< m
   double width = 1.85;             ///< m
@@ -22,11 +22,11 @@ struct HostVehicleOptions {
   void visit(OptionVisitor& visitor);
 
   BodySize size() const { return {0.5 * length, 0.5 * width}; }
-  /// From base_link ahead to the middle of the outline, m.
+  /// Distance from base_link forward to the center of the outline, m.
   double middleAhead() const { return 0.5 * length - rear_overhang; }
 };
 
-/// The host as it is at one time: base_link in the fixed frame.
+/// State of the host at one time: base_link in the fixed frame.
 struct HostState {
   Pose2 pose;
   double speed = 0.0;         ///< m/s, forward; negative: it reverses
@@ -34,11 +34,11 @@ struct HostState {
   double acceleration = 0.0;  ///< m/s^2, along the heading
 };
 
-/// Steering (rad, within the vehicle's) at which it turns as fast as that (rad/s). A vehicle that
-/// hardly moves shows none.
+/// Returns the steering angle (rad, within the vehicle's limits) that gives this yaw rate (rad/s).
+/// 0 for a vehicle that hardly moves: it cannot be observed.
 double steeringOf(double speed, double yaw_rate, const HostVehicleOptions& vehicle);
 
-/// What moves a bicycle model: both held over a step.
+/// Inputs of the bicycle model, both constant over a step.
 struct HostCommand {
   double acceleration = 0.0;   ///< m/s^2
   double steering_rate = 0.0;  ///< rad/s
@@ -54,28 +54,30 @@ struct BicycleState {
 
 BicycleState bicycleState(const HostState& host);
 
-/// The state after `seconds` (at least 0) of the kinematic bicycle model (Rajamani, Vehicle
+/// Returns the state after `seconds` (at least 0) of the kinematic bicycle model (Rajamani, Vehicle
 /// Dynamics and Control, 2012, 2.2; rear axle), integrated by the 4th-order Runge-Kutta method with
-/// acceleration and steering rate as inputs (thesis 5.3.5). Who brakes comes to rest and does not
-/// reverse, nor the other way round, and who stands stays; the steering stays within its limits,
-/// and where the tires would slide (max_lateral) the path is as wide as they hold it.
+/// acceleration and steering rate as inputs (thesis 5.3.5). A braking vehicle comes to rest and
+/// does not reverse, nor vice versa, and a stationary one remains stationary; the steering stays
+/// within its limits, and if the tires would slide (max_lateral) the path is as wide as their grip
+/// requires.
 BicycleState afterStep(const BicycleState& state, const HostCommand& command, double seconds,
                        const HostVehicleOptions& vehicle);
 
-/// Where the outline is.
+/// Returns the pose of the outline.
 BodyPose outlineOf(const BicycleState& state, const HostVehicleOptions& vehicle);
 
-/// Poses of a body and its speeds at equal steps of time.
+/// Poses of a body at equal time steps.
 struct BodyPath {
   double step = 0.0;            ///< s, more than 0
-  std::vector<BodyPose> poses;  ///< the first at time 0; one at least
+  std::vector<BodyPose> poses;  ///< the first at time 0; at least one
 
-  /// m/s, over the step that begins at an index; 0 beyond the last.
+  /// Returns the velocity over the step that begins at an index, m/s; 0 beyond the last.
   Point2 velocity(std::size_t index) const;
   double duration() const { return step * static_cast<double>(poses.size() - 1); }
 };
 
-/// The first time at which two bodies on paths of equal steps touch, s; none within them.
+/// Returns the first time at which two bodies on paths with equal steps touch, s; none if they do
+/// not.
 std::optional<double> firstContact(const BodyPath& a, const BodySize& size_a, const BodyPath& b,
                                    const BodySize& size_b);
 

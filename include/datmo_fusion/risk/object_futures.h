@@ -15,7 +15,7 @@
 
 namespace datmo {
 
-/// How far and how finely futures are looked at.
+/// Length, step and number of the futures.
 struct HorizonOptions {
   double horizon = 4.0;  ///< s
   double step = 0.2;     ///< s
@@ -43,52 +43,52 @@ struct ObjectFutureOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The most likely class of an object: the first of equally likely ones.
+/// Returns the most likely class of an object: the first of equally likely ones.
 ObjectClass likeliestClass(const Track& track);
 MotionMode likeliestMode(const Track& track);
 
 /// Possible futures of one tracked object.
 ///
-/// Each is drawn from the track's state and covariance and from its mode probabilities; the modes
-/// switch by their sojourn times (Markov jumps, as the tracker's IMM has them). In a mode the
-/// object goes as that mode says, with the tracker's noise on its speed, and turns at random as its
-/// class does: pedestrians freely, who drives or rides about his course, to which he comes back.
-/// Who drives or rides may follow the road (RoadFollowingOptions): then he bends with it, and does
-/// not turn off it; or he may turn into it, and follows it once his course leads along it.
-/// Beyond the tracker's models an object that brakes comes to rest and does not reverse, one that
-/// comes to stand brakes until it does, and no turn is sharper than tires hold.
+/// Each is sampled from the track's state and covariance and from its mode probabilities; the modes
+/// switch according to their sojourn times (Markov jumps, as in the tracker's IMM). In a mode the
+/// object moves according to that mode, with the tracker's noise on its speed, and turns randomly
+/// according to its class: pedestrians freely, drivers and riders about their course, to which they
+/// return. Drivers and riders may follow the road (RoadFollowingOptions): then they follow its
+/// bends, and do not turn off it; or they may turn into it, and follow it once their course leads
+/// along it. Beyond the tracker's models, a braking object comes to rest and does not reverse, one
+/// that is stopping brakes until it is stationary, and no turn is sharper than tires allow.
 class ObjectFutures {
  public:
-  /// `track`: valid (isValid), at the time at which the futures begin. `road`: beside it;
-  /// none: not known. All must outlive this.
+  /// `track`: valid (isValid), at the time at which the futures begin. `road`: beside it; none:
+  /// unknown. All must outlive this.
   ObjectFutures(const Track& track, const std::optional<RoadCourse>& road,
                 const ObjectFutureOptions& options, const HorizonOptions& horizon,
                 const RandomDraws& draws);
 
-  /// One object at one time of one future.
+  /// State of the object at one time of one future.
   struct State {
     Point2 position = Point2::Zero();  ///< m
     Point2 course = Point2::UnitX();   ///< of length 1, along the velocity
     double speed = 0.0;                ///< m/s, at least 0
     double heading = 0.0;              ///< rad, of the box
     double acceleration = 0.0;         ///< m/s^2, along the course
-    double sway = 0.0;                 ///< rad, of the course from where the mode leads
+    double sway = 0.0;                 ///< rad, deviation of the course from that of the mode
     MotionMode mode = MotionMode::kConstantVelocity;
-    bool follows_road = false;  ///< it does not turn off
-    double into_road = 0.0;     ///< rad, by which it has still to turn until it is along the road
+    bool follows_road = false;  ///< it does not turn off the road
+    double into_road = 0.0;     ///< rad, remaining turn until it moves along the road
     double curvature = 0.0;     ///< 1/m, of the road, in its direction
   };
 
-  /// Where a future begins.
+  /// Returns the initial state of a future.
   State begin(std::size_t future) const;
-  /// One step later; `step`: how many were taken before.
+  /// Returns the state one step later; `step`: number of steps before.
   State next(const State& state, std::size_t future, std::size_t step) const;
 
-  /// A whole future.
+  /// Returns a whole future.
   BodyPath path(std::size_t future) const;
-  /// What the likeliest mode leads to, without noise or switching.
+  /// Returns the path of the likeliest mode, without noise or switching.
   BodyPath nominalPath() const;
-  /// The same of any mode.
+  /// Returns the same for any mode.
   BodyPath nominalPath(MotionMode mode) const;
 
  private:

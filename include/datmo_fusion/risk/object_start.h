@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Who drives or rides keeps to the direction of the road, more often than not.
+/// Prior that drivers and riders follow the direction of the road.
 struct RoadFollowingOptions {
   double probability = 0.9;       ///< 1
   double turning = 0.15;          ///< 1
@@ -19,13 +19,13 @@ struct RoadFollowingOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Direction of the road beside an object, either way along it.
+/// Direction of the road beside an object, in either direction along it.
 struct RoadCourse {
   double direction = 0.0;  ///< rad, fixed frame
-  double curvature = 0.0;  ///< 1/m, by which the direction rises along it
+  double curvature = 0.0;  ///< 1/m, rate of change of the direction along it
 };
 
-/// What the futures of one object are drawn from.
+/// Initial distribution from which the futures of one object are sampled.
 struct ObjectStart {
   TrackState state = TrackState::Zero();               ///< fixed frame
   TrackCovariance root = TrackCovariance::Identity();  ///< Cholesky factor of its covariance
@@ -33,31 +33,32 @@ struct ObjectStart {
   double heading_sigma = 0.0;                          ///< rad
 };
 
-/// The track as it is. `max_heading_sigma`: rad.
+/// Returns the current state of the track. `max_heading_sigma`: rad.
 ObjectStart startOf(const Track& track, double max_heading_sigma);
 
-/// The same object, if it follows the road.
+/// The same object under the hypothesis that it follows the road.
 struct RoadFollower {
   ObjectStart start;
   double probability = 0.0;  ///< that it does
-  double joining = 0.0;      ///< that it does not yet, and turns into the road
+  double joining = 0.0;      ///< that it does not yet, but turns into the road
 };
 
-/// By how much a course (rad) must turn to lead along the road, the nearer way, rad.
+/// Returns the angle (rad) by which a course (rad) must turn to lead along the road, in its nearer
+/// direction.
 double turnIntoRoad(double course, double road);
 
-/// Whether an object follows the road, either way: who drives or rides does so by a prior, and
-/// whose velocity leads off the road does not. Bayes over two hypotheses: along the road the
-/// velocity across it is a Gaussian and no mode is a turn, else all directions are alike and turns
-/// are as frequent as by their share of time; in the first one state and heading are conditioned on
-/// it (Kalman). None for what is a pedestrian for sure, or is slower than `min_speed`.
+/// Returns whether an object follows the road, in either direction: drivers and riders do so with a
+/// prior probability, unless their velocity leads off the road. Bayes over two hypotheses: along
+/// the road, the velocity across it is Gaussian and no mode is a turn; otherwise all directions are
+/// equally likely and turns are as frequent as their share of time. In the first one, state and
+/// heading are conditioned on it (Kalman). None for a certain pedestrian, or below `min_speed`.
 ///
-/// Who drives and does not follow it crosses it, or turns into it or off it. Who crosses goes
-/// straight on about a right angle to it (`crossing_sigma`), who turns does so at any angle; which
-/// way the modes turn decides between the two that turn.
+/// Drivers that do not follow it cross it, or turn into it or off it. Crossing vehicles move
+/// straight at about a right angle to it (`crossing_sigma`), turning ones at any angle; the
+/// direction in which the modes turn decides between turning in and turning off.
 ///
 /// `road`: direction of the road beside the object, rad, fixed frame. `turn_share`: 0 to 1, of
-/// turns among the motion modes of an object of which nothing is known.
+/// prior share of turns among the motion modes.
 std::optional<RoadFollower> roadFollower(const Track& track, const ObjectStart& start, double road,
                                          double turn_share, const RoadFollowingOptions& options);
 

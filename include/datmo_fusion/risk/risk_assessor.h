@@ -20,7 +20,7 @@
 
 namespace datmo {
 
-/// How risks are assessed: seeded joint futures, or one to compare with (rule_methods.h).
+/// How risks are assessed: seeded joint futures, or a method for comparison (rule_methods.h).
 enum class RiskMethod { kFutures, kThesis, kBoxes, kRss };
 
 struct RiskOptions {
@@ -40,23 +40,24 @@ struct RiskOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What risks are assessed from, all in one fixed frame.
+/// Input of an assessment, all in one fixed frame.
 struct RiskInput {
-  Stamp stamp;  ///< of the host's state: tracks are brought to it
+  Stamp stamp;  ///< of the host's state: tracks are predicted to it
   HostState host;
   TrackList tracks;
-  std::vector<Point2> standing;   ///< m, end points of beams on what stands
-  std::optional<RoadModel> road;  ///< none: not known
+  std::vector<Point2> standing;   ///< m, end points of beams on stationary obstacles
+  std::optional<RoadModel> road;  ///< none: unknown
 };
 
-/// Tracks, what stands, and the host's motion -> the risk of each, and one level (thesis 5.3.5).
+/// Assesses the risk of each track and of stationary obstacles, given the host's motion, and one
+/// overall level (thesis 5.3.5).
 ///
-/// By default over seeded joint futures of the host (HostFutures) and of each object that it could
-/// reach at all (ObjectFutures); `method` chooses one to compare with instead (rule_methods.h). The
-/// futures' boxes meet at their first contact; the share of futures with contact, weighted by the
-/// object's existence, is the probability. Time to brake, threat numbers and how it is struck are
-/// those of the future whose contact is the median one. What stands and is no track is one object
-/// more, by the same rule.
+/// By default it uses seeded joint futures of the host (HostFutures) and of each object that it
+/// could reach (ObjectFutures); `method` selects a method for comparison instead (rule_methods.h).
+/// Each future ends at the first contact of the boxes; the share of futures with contact, weighted
+/// by the object's existence, is the probability. Time to brake, threat numbers and the struck side
+/// are those of the future with the median contact. Stationary obstacles that are not tracks are
+/// treated as one more object.
 ///
 /// Not thread safe.
 class RiskAssessor {
@@ -64,8 +65,8 @@ class RiskAssessor {
   /// Throws OptionError.
   explicit RiskAssessor(const Checked<RiskOptions>& options);
 
-  /// Stamps rise. The host's state must be finite; tracks that are not valid are left out, and
-  /// counted.
+  /// Assesses the risks at one stamp, which must not decrease. The host's state must be finite;
+  /// invalid tracks are ignored and counted.
   RiskReport assess(const RiskInput& input);
 
   /// Forgets the level.

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// Methods without probabilities, to compare with.
+/// Options of methods without probabilities, for comparison.
 struct RuleOptions {
   double driver_time = 1.0;            ///< s
   double vehicle_time = 1.0;           ///< s
@@ -29,21 +29,23 @@ struct RuleOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The thesis's circles (5.3.5): host and object are circles by class, an object's grows with the
-/// distance that it has gone; a vehicle keeps its speed and direction, of a pedestrian the circle
-/// stays and grows at his speed. The first time at which they meet is the time to collision; the
-/// risk is 1 up to driver_time + vehicle_time, and falls evenly to 0 at the horizon (the curve of
-/// figure 5.11 has no numbers: our assumption, as are radii and growth). `host`: as it would go.
+/// Assesses the risk with the circles of the thesis (5.3.5): host and object are circles with a
+/// radius by class; an object's circle grows with the distance traveled. A vehicle keeps its speed
+/// and direction, a pedestrian's circle stays in place and grows at the pedestrian's speed. The
+/// first time at which they meet is the time to collision; the risk is 1 up to driver_time +
+/// vehicle_time, and falls linearly to 0 at the horizon (the curve of figure 5.11 has no numbers:
+/// our assumption, as are radii and growth). `host`: predicted path.
 ObjectRisk thesisRisk(const Track& track, const BodyPath& host, const RuleOptions& options);
 
-/// Boxes that keep their velocity: contact is certain from the first time on at which they meet.
+/// Assesses the risk of boxes at constant velocity: contact is certain from the first time at which
+/// they meet.
 ObjectRisk boxRisk(const Track& track, const BodyPath& host, const BodySize& host_size,
                    const RuleOptions& options);
 
-/// Responsibility-sensitive safety: certain where both the longitudinal and the lateral distance
-/// are below those that the braking distances of both ask for, by class (Shalev-Shwartz, Shammah,
-/// Shashua, On a Formal Model of Safe and Scalable Self-driving Cars, 2017, lemmas 2 and 4).
-/// `host`: as it would go; its first pose is where it is.
+/// Assesses the risk by responsibility-sensitive safety: certain if both the longitudinal and the
+/// lateral distance are below those that the braking distances of both require, by class
+/// (Shalev-Shwartz, Shammah, Shashua, On a Formal Model of Safe and Scalable Self-driving Cars,
+/// 2017, lemmas 2 and 4). `host`: predicted path, from its current pose.
 ObjectRisk rssRisk(const Track& track, const BodyPath& host, const BodySize& host_size,
                    const RuleOptions& options);
 

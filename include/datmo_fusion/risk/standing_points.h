@@ -9,12 +9,12 @@
 
 namespace datmo {
 
-/// What stands and is no track: end points of beams, thinned and in an order in which a moving body
-/// finds those near it.
+/// Stationary obstacles that are not tracks: end points of beams, thinned out and ordered so that
+/// those near a moving body are found quickly.
 class StandingPoints {
  public:
-  /// `points`: m, fixed frame; those that are not finite are left out. `spacing`: m, more than 0:
-  /// of several in a cell of this size the first is kept.
+  /// `points`: m, fixed frame; those that are not finite are ignored. `spacing`: m, more than 0: of
+  /// several in a cell of this size, the first is kept.
   StandingPoints(const std::vector<Point2>& points, double spacing);
 
   struct Contact {
@@ -22,7 +22,7 @@ class StandingPoints {
     Point2 point = Point2::Zero();
   };
 
-  /// The first that a body touches on its path; none if it touches none.
+  /// Returns the first point that a body touches on its path; none if it touches none.
   std::optional<Contact> firstContact(const BodyPath& path, const BodySize& size) const;
 
   std::size_t size() const { return points_.size(); }
@@ -31,7 +31,7 @@ class StandingPoints {
   void checkMove(const BodyMove& move, double start, double step,
                  std::optional<Contact>& first) const;
 
-  std::vector<Point2> points_;  ///< by rising x
+  std::vector<Point2> points_;  ///< by ascending x
 };
 
 }  // namespace datmo

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// When a driver is warned.
+/// Thresholds for warning the driver.
 struct WarningOptions {
   double information_probability = 0.3;  ///< 1
   double warning_probability = 0.6;      ///< 1
@@ -25,25 +25,24 @@ struct WarningOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The level that one object asks for. A warning needs both: contact is likelier than
-/// `warning_probability`, and the time to brake ends within `warning_time` or contact comes within
-/// `warning_ttc`, or every parked car in a bend would warn. Braking must help: of who is struck
-/// from behind, or stands, the driver is informed only.
+/// Returns the level that one object requires. A warning requires both that contact is likelier
+/// than `warning_probability`, and that the time to brake is within `warning_time` or contact
+/// within `warning_ttc`; otherwise every parked car in a bend would cause a warning. Braking must
+/// help: if the host is stationary or struck from behind, the driver is only informed.
 ///
-/// `host_speed`: m/s, below 0 in reverse, where behind is its front. `ease`: 1, or more to keep a
-/// level: probabilities count so many times, times the inverse.
+/// `host_speed`: m/s, negative in reverse, when behind means its front. `ease`: 1, or more to keep
+/// a level: probabilities are multiplied by it, times divided.
 RiskLevel levelOf(const ObjectRisk& risk, double host_speed, const WarningOptions& options,
                   double ease = 1.0);
 
-/// The overall level with hysteresis. It rises when it has been asked for over `raise_time`, and
-/// falls when it has not been asked for, by thresholds that are eased by `release`, over
-/// `hold_time`.
+/// The overall level with hysteresis. It rises after an object has required it for `raise_time`,
+/// and falls after none has required it, by thresholds eased by `release`, for `hold_time`.
 class WarningLevel {
  public:
   /// Throws OptionError.
   explicit WarningLevel(const Checked<WarningOptions>& options);
 
-  /// Puts level, cause and reason into the report; `host_speed`: m/s. Stamps rise.
+  /// Writes level, cause and reason to the report; `host_speed`: m/s. Stamps must not decrease.
   void judge(RiskReport& report, double host_speed);
 
   void reset();
@@ -51,14 +50,14 @@ class WarningLevel {
  private:
   WarningOptions options_;
   RiskLevel level_ = RiskLevel::kNone;
-  std::optional<Stamp> asked_since_;   ///< that a higher level is asked for
-  std::optional<Stamp> kept_at_;       ///< the level was last asked for
-  std::uint32_t cause_ = kStandingId;  ///< of what was last asked for
+  std::optional<Stamp> asked_since_;   ///< a higher level is required
+  std::optional<Stamp> kept_at_;       ///< the level was last required
+  std::uint32_t cause_ = kStandingId;  ///< object that last required the level
   std::string reason_;
 };
 
-/// The reason of a level in words: "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): brake
-/// within 0.4 s"; of braking only where it helps at `host_speed` (m/s).
+/// Returns the reason for a level in words: "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82
+/// %): brake within 0.4 s"; braking is mentioned only if it helps at `host_speed` (m/s).
 std::string reasonOf(const ObjectRisk& risk, double host_speed);
 
 }  // namespace datmo

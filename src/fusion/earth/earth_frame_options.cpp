@@ -8,33 +8,36 @@ void EarthFrameOptions::visit(OptionVisitor& visitor) {
                   "share of a fix's variance that the fixes of correlation_time have in common "
                   "(atmosphere, multipath)"},
                  correlated_share, {0.0, 1.0});
-  visitor.number({"correlation_time", "s", "time constant of that error"}, correlation_time,
+  visitor.number({"correlation_time", "s", "time constant of that common error"}, correlation_time,
                  {0.1, 3600.0});
   visitor.number({"map_drift", "m / sqrt(m)", "how far the map drifts with the distance driven"},
                  map_drift, {0.0, 10.0});
-  visitor.number({"map_turn", "rad / sqrt(m)", "how it turns"}, map_turn, {0.0, 1.0});
+  visitor.number({"map_turn", "rad / sqrt(m)", "how far the map turns with it"}, map_turn,
+                 {0.0, 1.0});
   visitor.number({"gate", "1",
-                  "squared Mahalanobis distance of a fix from which on it is left out; chi-square "
-                  "with two degrees of freedom, 99.9 %"},
+                  "squared Mahalanobis distance above which a fix is rejected; chi-square with two "
+                  "degrees of freedom, 99.9 %"},
                  gate, {1.0, 1000.0});
-  visitor.integer({"restart_after", "", "so many fixes left out in a row: starts over"},
-                  restart_after, {1.0, 1000.0});
+  visitor.integer(
+      {"restart_after", "", "after this many rejected fixes in a row the filter restarts"},
+      restart_after, {1.0, 1000.0});
   visitor.number({"start_heading_sigma", "rad",
-                  "standard deviation of the map's heading from which on it is taken to be known"},
+                  "standard deviation of the map's heading below which it counts as known"},
                  start_heading_sigma, {0.001, 0.5});
   visitor.number({"start_spread", "m",
-                  "root mean square distance of the first fixes from their mean, below which poses "
-                  "that tremble could pass for a drive"},
+                  "RMS distance of the first fixes from their mean; below it, jittering poses "
+                  "could pass for a drive"},
                  start_spread, {0.01, 1000.0});
   visitor.integer({"start_fixes", "",
-                   "so many first fixes that fit together at least: with fewer one that is far off "
-                   "bends the rest to itself"},
+                   "least number of first fixes that are consistent: with fewer, an outlier bends "
+                   "the rest to itself"},
                   start_fixes, {3.0, 400.0});
-  visitor.number({"start_share", "1", "share of the first fixes that fit together at least"},
+  visitor.number({"start_share", "1", "least share of the first fixes that are consistent"},
                  start_share, {0.5, 1.0});
   visitor.number(
-      {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
-      {0.1, 3600.0});
+      {"max_gap", "s",
+       "after a longer time without a fix, the filter restarts if the next one is far off"},
+      max_gap, {0.1, 3600.0});
 }
 
 }  // namespace datmo

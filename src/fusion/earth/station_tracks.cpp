@@ -55,35 +55,39 @@ bool isOwn(const Track& track, const OwnVehicle& own, double gate) {
 }  // namespace
 
 void StationTrackOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_age", "s", "a list that is older when it comes is left out"}, max_age,
+  visitor.number({"max_age", "s", "a list that is older on arrival is dropped"}, max_age,
                  {0.05, 60.0});
-  visitor.number({"max_ahead", "s", "a stamp so far in the future is left out: its clock is wrong"},
+  visitor.number({"max_ahead", "s",
+                  "a list with a stamp farther in the future is dropped: its clock is wrong"},
                  max_ahead, {0.0, 60.0});
-  visitor.number({"max_speed", "m/s", "a track that is faster is left out"}, max_speed,
-                 {1.0, 200.0});
-  visitor.number({"min_position_sigma", "m", "no track's position is taken to be surer"},
+  visitor.number({"max_speed", "m/s", "a faster track is dropped"}, max_speed, {1.0, 200.0});
+  visitor.number({"min_position_sigma", "m", "least standard deviation of a track's position"},
                  min_position_sigma, {0.001, 10.0});
-  visitor.number({"min_velocity_sigma", "m/s", "the same of its velocity"}, min_velocity_sigma,
-                 {0.001, 10.0});
-  visitor.number({"clock_sigma", "s", "of a station that does not say how sure its clock is"},
-                 clock_sigma, {0.0, 10.0});
-  visitor.number({"acceleration_sigma", "m/s^2", "of objects, along each axis"}, acceleration_sigma,
-                 {0.1, 50.0});
+  visitor.number({"min_velocity_sigma", "m/s", "least standard deviation of a track's velocity"},
+                 min_velocity_sigma, {0.001, 10.0});
+  visitor.number(
+      {"clock_sigma", "s", "standard deviation of the clock of a station that does not report it"},
+      clock_sigma, {0.0, 10.0});
+  visitor.number({"acceleration_sigma", "m/s^2",
+                  "standard deviation of objects' acceleration, along each axis"},
+                 acceleration_sigma, {0.1, 50.0});
   visitor.number({"gate", "1",
-                  "squared Mahalanobis distance from where its last message led to from which on a "
-                  "track has jumped, and within which a track is our own vehicle; chi-square with "
-                  "two degrees of freedom, 99.9 %"},
+                  "squared Mahalanobis distance from the prediction from its last message above "
+                  "which a track has jumped, and within which a track is our own vehicle; "
+                  "chi-square with two degrees of freedom, 99.9 %"},
                  gate, {1.0, 1000.0});
-  visitor.integer({"probation", "",
-                   "a track that has jumped is left out until so many messages in a row fit "
-                   "together"},
-                  probation, {1.0, 100.0});
-  visitor.number({"forget_after", "s", "a track that is not reported for so long is another one"},
+  visitor.integer(
+      {"probation", "",
+       "a track that has jumped is ignored until this many messages in a row are consistent"},
+      probation, {1.0, 100.0});
+  visitor.number({"forget_after", "s", "a track that was not reported for longer is a new one"},
                  forget_after, {0.1, 600.0});
-  visitor.integer({"max_tracks", "", "of one list; the others are left out"}, max_tracks,
-                  {1.0, 10000.0});
-  visitor.number({"serves_for", "s", "how long a station's list is predicted, while others' come"},
-                 serves_for, {0.0, 5.0});
+  visitor.integer(
+      {"max_tracks", "", "maximum number of tracks of one list; the others are dropped"},
+      max_tracks, {1.0, 10000.0});
+  visitor.number(
+      {"serves_for", "s", "how long a station's list is predicted while those of others arrive"},
+      serves_for, {0.0, 5.0});
   visitor.group("prediction", [&] { prediction.visit(visitor); });
   visitor.group("comparison", [&] { comparison.visit(visitor); });
 }

@@ -25,9 +25,9 @@ GridFuserOptions::GridFuserOptions() {
 void GridFuserOptions::visit(OptionVisitor& visitor) {
   visitor.choice(
       {"rule", "",
-       "how the evidence of several sensors on a cell is combined: their mean by weight "
-       "(thesis eq. 3.2.5), the value of the first that sees it (3.2.6), the most occupied "
-       "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)",
+       "how the evidence of several sensors on a cell is combined: weighted mean (thesis eq. "
+       "3.2.5), the value of the first that sees it (3.2.6), the most occupied (4.1.8), Bayes for "
+       "independent sensors, or evidence theory (perspective of 6.2)",
        Tier::kLive},
       rule,
       {{"weighted_sum", FusionRule::kWeightedSum},
@@ -36,7 +36,7 @@ void GridFuserOptions::visit(OptionVisitor& visitor) {
        {"log_odds", FusionRule::kLogOdds},
        {"dempster_shafer", FusionRule::kDempsterShafer}});
   visitor.number({"mover_speed", "m/s",
-                  "a cell is not called free where something this fast may have come between a "
+                  "a cell is not marked free if something this fast may have entered it between a "
                   "source's stamp and the reference's (thesis: 0)",
                   Tier::kPublic},
                  mover_speed, {0.0, 100.0});

@@ -178,14 +178,14 @@ void checkWindows(const std::vector<WeighedGrid>& grids) {
 void GridSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "whether this source is fused", Tier::kPublic}, use);
   visitor.integer({"priority", "1",
-                   "rule priority: of the sources that see a cell the highest decides (thesis "
-                   "eq. 3.2.6: vision before the lidar)"},
+                   "rule priority: among the sources that see a cell, the one with the highest "
+                   "priority decides (thesis eq. 3.2.6: vision before the lidar)"},
                   priority, {-100, 100});
-  visitor.number({"weight", "1", "rule weighted_sum: share in the mean (thesis eq. 3.2.5: alpha)"},
+  visitor.number({"weight", "1", "rule weighted_sum: weight in the mean (thesis eq. 3.2.5: alpha)"},
                  weight, {0.01, 1.0});
   visitor.number({"reliability", "1",
                   "rules log_odds and dempster_shafer, and the conflict: how often the source is "
-                  "right; the rest of its evidence is taken for none (Shafer 1976: discounting)"},
+                  "right; the rest of its evidence is discounted (Shafer 1976)"},
                  reliability, {0.0, 1.0});
 }
 

@@ -25,7 +25,7 @@ void GridMatcher::checkWindow(const std::string& source, const GridWindow& windo
   if (window_ && *window_ != window) {
     if (source != reference_) {
       throw WrongWindowError("window of " + source + ": " + describe(window) +
-                             ", expected as the other grids have it: " + describe(*window_));
+                             ", expected that of the other grids: " + describe(*window_));
     }
     matcher_.forgetSamples();
   }

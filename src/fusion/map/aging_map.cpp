@@ -12,17 +12,16 @@ namespace datmo {
 
 void AgingMapOptions::visit(OptionVisitor& visitor) {
   visitor.number({"time_constant", "s",
-                  "after which evidence of a cell that is not seen again is worth 1/e: less than a "
-                  "parked car stays, and far more than a cell is hidden by what drives by "
+                  "time after which the evidence of a cell that is not seen again has decayed to "
+                  "1/e: shorter than a car parks, and far longer than passing traffic hides a cell "
                   "(exponential forgetting: Meyer-Delius et al. 2012)"},
                  time_constant, {0.1, 1e6});
   visitor.number({"hit_probability", "1",
-                  "occupancy of a cell that a grid has occupied, as in "
-                  "grid_slam's map"},
+                  "occupancy of a cell that is occupied in a grid, as in grid_slam's map"},
                  hit_probability, {0.51, 0.99});
   visitor.number({"free_probability", "1",
-                  "occupancy of a cell that a grid has free, as there: weak, for thin things are "
-                  "missed more often than they are seen"},
+                  "occupancy of a cell that is free in a grid, as there: weak, since thin objects "
+                  "are missed more often than they are seen"},
                  free_probability, {0.01, 0.49});
   visitor.number({"min_probability", "1",
                   "a cell's occupancy stays between this and 1 - this, as in grid_slam's map"},

@@ -44,15 +44,14 @@ class PoseReach {
 }  // namespace
 
 void MapChangeOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"sure", "1",
-       "probability from which on a cell counts as occupied, and 1 - it as free, to have "
-       "changed: more than a stereo camera alone, discounted, can say, whose depth's error puts "
-       "what is occupied where it is free"},
-      sure, {0.51, 0.99});
+  visitor.number({"sure", "1",
+                  "probability above which a cell counts as occupied, and below 1 - it as free, to "
+                  "have changed: more than a stereo camera alone can reach when discounted, since "
+                  "its depth error shifts occupied cells into free space"},
+                 sure, {0.51, 0.99});
   visitor.number({"same_within", "cells",
-                  "what is occupied this near in the other map has not changed: the next cell, "
-                  "diagonally, too"},
+                  "an occupied cell has not changed if one is this close in the other map: the "
+                  "next cell, including diagonally"},
                  same_within, {0.0, 100.0});
 }
 

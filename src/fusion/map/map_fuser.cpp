@@ -71,30 +71,28 @@ MapFuserOptions::MapFuserOptions() {
 }
 
 void MapSourceOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"use", "", "whether this source has a map that is fused"}, use);
-  visitor.number(
-      {"reliability", "1",
-       "share of the occupied cells of the source's own map that are right (evaluate maps "
-       "with this source alone); the rest of its evidence is taken for none (Shafer 1976: "
-       "discounting); 0: it is no source"},
-      reliability, {0.0, 1.0});
+  visitor.toggle({"use", "", "whether the map of this source is fused"}, use);
+  visitor.number({"reliability", "1",
+                  "share of the occupied cells of the source's own map that are right (evaluate "
+                  "maps with this source alone); the rest of its evidence is discounted (Shafer "
+                  "1976); 0: it is not a source"},
+                 reliability, {0.0, 1.0});
 }
 
 void MapFuserOptions::visit(OptionVisitor& visitor) {
   visitor.group("map", [&] { map.visit(visitor); });
   visitor.group("changes", [&] { changes.visit(visitor); });
-  visitor.number(
-      {"prior_reliability", "1",
-       "of the prior map; less than the scanner's, which sees what is there now; 0: it is "
-       "not fused"},
-      prior_reliability, {0.0, 1.0});
+  visitor.number({"prior_reliability", "1",
+                  "reliability of the prior map; less than the scanner's, which sees the current "
+                  "state; 0: it is not fused"},
+                 prior_reliability, {0.0, 1.0});
   visitor.number({"conflict_from", "1",
-                  "share of evidence that contradicts itself from which on a cell is counted as in "
-                  "conflict: two sources, each half sure of the opposite"},
+                  "share of contradictory evidence above which a cell is counted as in conflict: "
+                  "two sources, each half sure of the opposite"},
                  conflict_from, {0.01, 1.0});
   visitor.number({"mover_margin", "m",
-                  "what is occupied so near to an end point that moves is not taken into the maps: "
-                  "the rest of its body, and the depth's error of a camera"},
+                  "occupied cells this close to a moving end point are not added to the maps: the "
+                  "rest of the moving body, and a camera's depth error"},
                  mover_margin, {0.0, 10.0});
   visitor.each({"sources", "", "the sensors whose maps are fused"}, sources);
 }

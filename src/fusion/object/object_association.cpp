@@ -182,8 +182,8 @@ std::vector<int> assignNearest(const std::vector<Object>& known, const std::vect
 
 void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.choice({"association", "",
-                  "which objects of two sensors are one: the likeliest assignment over all pairs, "
-                  "or each to its nearest neighbor (thesis 3.3.3)"},
+                  "how objects of two sensors are associated: the most likely assignment over all "
+                  "pairs, or each to its nearest neighbor (thesis 3.3.3)"},
                  association,
                  {{"optimal", ObjectAssociationMethod::kOptimal},
                   {"nearest_neighbor", ObjectAssociationMethod::kNearestNeighbor}});
@@ -192,28 +192,27 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
                   "quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
   visitor.number({"unrelated_density", "1/m^2",
-                  "optimal: objects of one sensor that the other one does not see, around an "
-                  "object: a pair must be likelier than one of them"},
+                  "optimal: density of objects of one sensor that the other does not see, around "
+                  "an object: a pair must be likelier than one of them"},
                  unrelated_density, {1e-9, 10.0});
   visitor.number({"object_speed", "m/s",
-                  "standard deviation of the speed of what moves by itself between the times of "
-                  "two sensors; what is known to stand has none"},
+                  "standard deviation of the speed of moving objects between the stamps of two "
+                  "sensors; objects known to be stationary have none"},
                  object_speed, {0.0, 100.0});
   visitor.number({"body_std", "m",
-                  "optimal: standard deviation between the sides that two sensors see of a body "
-                  "at different heights"},
+                  "optimal: standard deviation between the sides of a body that two sensors see at "
+                  "different heights"},
                  body_std, {0.0, 10.0});
   visitor.number({"unknown_size_std", "m",
-                  "optimal: how far an object reaches beyond what was seen of it, as a standard "
-                  "deviation: allowed where two sensors saw no side in common"},
+                  "optimal: standard deviation of how far an object extends beyond its visible "
+                  "part: allowed where two sensors saw no side in common"},
                  unknown_size_std, {0.0, 20.0});
   visitor.integer({"max_work", "1",
-                   "optimal: pairs, rows and columns looked at (1 ns to 2 ns each) before the "
-                   "objects that are left take the "
-                   "best one that is free"},
+                   "optimal: pairs, rows and columns examined (1 ns to 2 ns each) before the "
+                   "remaining objects take the best free one"},
                   max_work, {1000, 1e9});
   visitor.number({"min_distance", "m",
-                  "nearest_neighbor: two objects at min_range are one if they are nearer than "
+                  "nearest_neighbor: two objects at min_range are one if they are closer than "
                   "this, others in proportion to their range (thesis 3.3.3: 5)"},
                  min_distance, {0.1, 100.0});
   visitor.number(

@@ -50,17 +50,17 @@ bool isPole(const Object& object) {
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its objects are not read", Tier::kPublic}, use);
   visitor.number({"detection_probability", "1",
-                  "that it lists an object that it could see: one that it does not list is so much "
-                  "less likely",
+                  "probability that the source lists an object that it could see; an object that "
+                  "it does not list is accordingly less likely to exist",
                   Tier::kPublic},
                  detection_probability, {0.01, 0.99});
   visitor.number({"false_agreement_probability", "1",
-                  "that a false object of another source has one of this source in its gate, by "
-                  "chance"},
+                  "probability that a false object of another source has one of this source in its "
+                  "gate, by chance"},
                  false_agreement_probability, {0.001, 1.0});
   visitor.number({"late_by", "s",
-                  "more than 0: the reference does not wait for its lists, which count when they "
-                  "come, up to this much later"},
+                  "if more than 0, the reference does not wait for this source's lists, which are "
+                  "used when they arrive, up to this much later"},
                  late_by, {0.0, 5.0});
   visitor.group("covariance", [&] { covariance.visit(visitor); });
 }
@@ -73,11 +73,11 @@ ObjectFuserOptions::ObjectFuserOptions() {
 void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose objects are fused"}, sources);
   visitor.text(
-      {"scanner", "",
-       "the source whose list the labeled scan belongs to; it lists nothing that is static"},
+      {"scanner", "", "source whose list the labeled scan belongs to; it lists no static objects"},
       scanner, {});
   visitor.integer({"max_objects", "1",
-                   "objects taken from one list, the nearest ones; bounds the time of a step"},
+                   "maximum number of objects taken from one list, the nearest ones; bounds the "
+                   "time of a step"},
                   max_objects, {1, 10000});
   association.visit(visitor);
   visitor.group("visibility", [&] { visibility.visit(visitor); });

@@ -16,11 +16,12 @@ constexpr Bounds kVariance{1e-9, 1e6};
 }  // namespace
 
 void PositionCovarianceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"bin_width", "m", "of the range bins of both lists, from 0 on (thesis 3.3.3)"},
-                 bin_width, {0.1, 100.0});
+  visitor.number(
+      {"bin_width", "m", "width of the range bins of both lists, starting at 0 (thesis 3.3.3)"},
+      bin_width, {0.1, 100.0});
   visitor.numbers({"range_variance", "m^2",
-                   "variance of an object's range from this sensor, by range bin; empty: the "
-                   "covariance that each object has is taken"},
+                   "variance of an object's range from this sensor, by range bin; empty: each "
+                   "object's own covariance is used"},
                   range_variance, kVariance);
   visitor.numbers({"bearing_variance", "rad^2",
                    "variance of an object's bearing about this sensor, by range bin"},

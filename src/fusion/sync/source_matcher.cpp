@@ -5,15 +5,17 @@ namespace datmo {
 
 void SourceMatcherOptions::visit(OptionVisitor& visitor) {
   visitor.text({"reference", "",
-                "source whose stamps the fused result has; while it is silent, the next one by "
-                "name sets them"},
+                "source that sets the stamps of the fused result; while it is silent, the next one "
+                "by name sets them"},
                reference, {});
-  visitor.number({"tolerance", "s", "what is this near in time is fused with the reference's"},
+  visitor.number({"tolerance", "s", "data this close in time are fused with the reference's"},
                  tolerance, {0.0, 1.0});
-  visitor.number({"max_wait", "s", "the reference's waits for the others' at most", Tier::kPublic},
+  visitor.number({"max_wait", "s", "longest time that the reference's data wait for the others",
+                  Tier::kPublic},
                  max_wait, {0.0, 1.0});
-  visitor.number({"silent_after", "s", "a source that says nothing for as long is not waited for"},
-                 silent_after, {0.05, 10.0});
+  visitor.number(
+      {"silent_after", "s", "a source that has sent nothing for this long is not waited for"},
+      silent_after, {0.05, 10.0});
 }
 
 void checkReference(const SourceMatcherOptions& options, const std::vector<std::string>& sources) {

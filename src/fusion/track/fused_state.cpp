@@ -90,19 +90,19 @@ StateEstimate barShalomCampo(const JointAxes& joint, const StateEstimate& a, con
 }  // namespace
 
 void TrackCombinationOptions::visit(OptionVisitor& visitor) {
-  visitor.choice({"method", "",
-                  "of fusing the states of two trackers: covariance_intersection, which is "
-                  "consistent however their errors are correlated (Julier and Uhlmann 1997); "
-                  "bar_shalom_campo, by the correlation that the process noise which they share "
-                  "makes (Bar-Shalom and Campo 1986); or information, as if there were none, "
-                  "which is over-confident"},
-                 method,
-                 {{"covariance_intersection", TrackCombinationMethod::kCovarianceIntersection},
-                  {"bar_shalom_campo", TrackCombinationMethod::kBarShalomCampo},
-                  {"information", TrackCombinationMethod::kInformation}});
+  visitor.choice(
+      {"method", "",
+       "how the states of two trackers are fused: covariance_intersection, which is consistent "
+       "however their errors are correlated (Julier and Uhlmann 1997); bar_shalom_campo, with the "
+       "correlation caused by their common process noise (Bar-Shalom and Campo 1986); or "
+       "information, as if there were none, which is overconfident"},
+      method,
+      {{"covariance_intersection", TrackCombinationMethod::kCovarianceIntersection},
+       {"bar_shalom_campo", TrackCombinationMethod::kBarShalomCampo},
+       {"information", TrackCombinationMethod::kInformation}});
   visitor.number({"max_correlation", "1",
-                  "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
-                  "both would be known exactly"},
+                  "correlation of the errors of two trackers in bar_shalom_campo; at 1 their "
+                  "difference would be known exactly"},
                  max_correlation, {0.01, 0.999});
 }
 

@@ -17,8 +17,8 @@ constexpr double kAssociationHysteresis = 10.0;
 
 void TrackAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.choice({"test", "",
-                  "when two tracks are one: by their likelihoods, summed over a window, or by the "
-                  "thesis's test of parallel trajectories (3.4.2)"},
+                  "how it is decided that two tracks are one object: by their likelihoods, summed "
+                  "over a window, or by the thesis's test of parallel trajectories (3.4.2)"},
                  test,
                  {{"accumulated", TrackAssociationTest::kAccumulated},
                   {"parallel", TrackAssociationTest::kParallel}});
@@ -26,8 +26,8 @@ void TrackAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.group("evidence", [&] { evidence.visit(visitor); });
   visitor.group("parallel", [&] { parallel.visit(visitor); });
   visitor.number({"required", "1",
-                  "sum of log-likelihood ratios from which two tracks are one (Wald 1947: the "
-                  "logarithm of the inverse rate of false pairs)"},
+                  "sum of log-likelihood ratios above which two tracks are one object (Wald 1947: "
+                  "the logarithm of the inverse rate of false pairs)"},
                  required, {0.0, 100.0});
 }
 

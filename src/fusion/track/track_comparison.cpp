@@ -99,22 +99,21 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
                   "and velocity: 18.5 is the 99.9 % quantile of chi-square with four degrees of "
                   "freedom"},
                  gate, {0.0, 1000.0});
-  visitor.number({"body_std", "m",
-                  "standard deviation of where a sensor takes a body's center to be: no road user "
-                  "is a box"},
-                 body_std, {0.0, 5.0});
-  visitor.number({"extent_share", "1",
-                  "the same along each axis of the box, on top, as a share of its size: sensors "
-                  "see other parts of it"},
-                 extent_share, {0.0, 1.0});
   visitor.number(
-      {"velocity_std", "m/s",
-       "standard deviation between the velocities that two trackers estimate for one object, "
-       "beyond what they say: the parts that are seen slide along it"},
-      velocity_std, {0.0, 10.0});
-  visitor.number({"unrelated_density", "1/m^2",
-                  "tracks that are another object than the one looked at, where there are many"},
-                 unrelated_density, {1e-6, 1.0});
+      {"body_std", "m",
+       "standard deviation of where a sensor locates a body's center: no road user is a box"},
+      body_std, {0.0, 5.0});
+  visitor.number({"extent_share", "1",
+                  "the same along each axis of the box, in addition, as a share of its size: "
+                  "sensors see different parts of it"},
+                 extent_share, {0.0, 1.0});
+  visitor.number({"velocity_std", "m/s",
+                  "standard deviation between the velocities that two trackers estimate for one "
+                  "object, beyond their covariances: the visible parts slide along it"},
+                 velocity_std, {0.0, 10.0});
+  visitor.number(
+      {"unrelated_density", "1/m^2", "density of tracks of other objects, where there are many"},
+      unrelated_density, {1e-6, 1.0});
 }
 
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options) {
@@ -139,9 +138,9 @@ TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOpt
 }
 
 void ParallelTracksOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"heading", "rad", "mean difference of the headings of parallel tracks, at most"},
+  visitor.number({"heading", "rad", "largest mean difference of the headings of parallel tracks"},
                  heading, {0.0, kPi});
-  visitor.number({"distance", "m", "mean difference of their x, and of their y, at most"}, distance,
+  visitor.number({"distance", "m", "largest mean difference of their x, and of their y"}, distance,
                  {0.0, 50.0});
 }
 

@@ -30,9 +30,10 @@ struct RoadUserShares {
 }  // namespace
 
 void ClassDetectionOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"near", "1", "that it has a track of one close by that moves"}, near,
-                 {0.01, 0.99});
-  visitor.number({"half_range", "m", "at which that has fallen to half"}, half_range, {1.0, 300.0});
+  visitor.number({"near", "1", "probability that the source has a track of a moving one close by"},
+                 near, {0.01, 0.99});
+  visitor.number({"half_range", "m", "range at which that has fallen to half"}, half_range,
+                 {1.0, 300.0});
 }
 
 double ClassDetectionOptions::probability(double range) const {
@@ -56,12 +57,12 @@ double TrackDetectionOptions::probability(const ClassProbabilities& classes, dou
 void TrueShareOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kShare{0.01, 0.999};
   visitor.number({"pedestrian", "1",
-                  "of its tracks of pedestrians, those of what moves: it is not believed more than "
-                  "that alone"},
+                  "share of its tracks of pedestrians that are of moving objects: alone, it is not "
+                  "believed more than that"},
                  pedestrian, kShare);
-  visitor.number({"cyclist", "1", "the same of cyclists"}, cyclist, kShare);
-  visitor.number({"vehicle", "1", "the same of vehicles"}, vehicle, kShare);
-  visitor.number({"other", "1", "the same of anything else, and of no class"}, other, kShare);
+  visitor.number({"cyclist", "1", "the same for cyclists"}, cyclist, kShare);
+  visitor.number({"vehicle", "1", "the same for vehicles"}, vehicle, kShare);
+  visitor.number({"other", "1", "the same for anything else, and for no class"}, other, kShare);
 }
 
 double TrueShareOptions::of(const ClassProbabilities& classes) const {
@@ -75,11 +76,12 @@ void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.group("detection", [&] { detection.visit(visitor); });
   visitor.group("true_share", [&] { true_share.visit(visitor); });
   visitor.number({"false_agreement_probability", "1",
-                  "that it has one, by chance, that agrees with a false track of another source"},
+                  "probability that it has a track that agrees, by chance, with a false track of "
+                  "another source"},
                  false_agreement_probability, {0.001, 1.0});
   visitor.toggle({"class_by_speed", "",
-                  "whether the classes of its tracks take their speed in, as `tracker` does by "
-                  "options that are as those here: it is one evidence for all sources"},
+                  "whether the classes of its tracks use their speed, as in `tracker`, whose "
+                  "options are the same as here: this evidence counts once for all sources"},
                  class_by_speed);
 }
 
@@ -90,36 +92,34 @@ TrackFuserOptions::TrackFuserOptions() {
 
 void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
-  visitor.choice(
-      {"scheme", "",
-       "which tracks are published: those that exist, by what all sources report; or one of the "
-       "thesis's (3.4.2): those of all sources that can see the position and those of `beyond` "
-       "where no other can, the first of these alone, or all",
-       Tier::kLive},
-      scheme,
-      {{"by_existence", TrackScheme::kByExistence},
-       {"fused_plus_fallback", TrackScheme::kFusedPlusFallback},
-       {"confirmed_by_all", TrackScheme::kConfirmedByAll},
-       {"union", TrackScheme::kUnion}});
-  visitor.text({"beyond", "", "the source whose tracks are published also where no other can see",
+  visitor.choice({"scheme", "",
+                  "which tracks are published: those that exist according to all sources; or a "
+                  "scheme of the thesis (3.4.2): those of all sources that can see the position "
+                  "and those of `beyond` where no other can, the first of these alone, or all",
+                  Tier::kLive},
+                 scheme,
+                 {{"by_existence", TrackScheme::kByExistence},
+                  {"fused_plus_fallback", TrackScheme::kFusedPlusFallback},
+                  {"confirmed_by_all", TrackScheme::kConfirmedByAll},
+                  {"union", TrackScheme::kUnion}});
+  visitor.text({"beyond", "", "source whose tracks are also published where no other can see",
                 Tier::kPublic},
                beyond, {});
   visitor.integer({"max_tracks", "1",
-                   "tracks taken from one list, the likeliest ones; bounds the time of a step"},
+                   "maximum number of tracks taken from one list, the likeliest ones; bounds the "
+                   "time of a step"},
                   max_tracks, {1, 2000});
   visitor.number({"misses", "1",
-                  "what is published of `beyond` alone stays when it comes into view, until a "
-                  "source without a track of it would have detected it at least so probably, "
-                  "lately: no tracker confirms at once"},
+                  "a track published from `beyond` alone is kept when it comes into view, until a "
+                  "source without a track of it would recently have detected it with this "
+                  "probability: no tracker confirms at once"},
                  misses, {0.0, 1.0});
-  visitor.number(
-      {"published_existence", "1",
-       "existence probability from which one is published by_existence; the other schemes take "
-       "what is likelier to exist than not",
-       Tier::kLive},
-      published_existence, {0.5, 1.0});
-  visitor.number({"memory", "s",
-                  "an object that all sources have lost is known again, by its id, for this time"},
+  visitor.number({"published_existence", "1",
+                  "existence probability above which a track is published by_existence; the other "
+                  "schemes publish tracks that are likelier to exist than not",
+                  Tier::kLive},
+                 published_existence, {0.5, 1.0});
+  visitor.number({"memory", "s", "an object that all sources have lost keeps its id for this time"},
                  memory, {0.0, 60.0});
   visitor.number({"history_time", "s", "how much of its path is published with a track"},
                  history_time, {0.0, 60.0});

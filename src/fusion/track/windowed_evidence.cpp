@@ -6,13 +6,12 @@
 namespace datmo {
 
 void WindowedEvidenceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"window", "s", "what was seen before this time counts no more"}, window,
-                 {0.0, 60.0});
+  visitor.number({"window", "s", "evidence older than this does not count"}, window, {0.0, 60.0});
   visitor.number({"correlation_time", "s",
-                  "in which the errors of a track become others: looks in quicker succession count "
-                  "by their share of it"},
+                  "time in which the errors of a track change: observations in quicker succession "
+                  "count by their share of it"},
                  correlation_time, {0.001, 10.0});
-  visitor.number({"look_limit", "1", "most that one look may add to the sum, or take from it"},
+  visitor.number({"look_limit", "1", "most that one observation may add to the sum, or subtract"},
                  look_limit, {0.1, 1000.0});
 }
 

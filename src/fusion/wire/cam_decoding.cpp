@@ -57,7 +57,7 @@ void moveToCenter(const std::optional<ItsDirection>& heading, StationTrack& trac
 StationMessage decode(const Cam& cam, Stamp now, const StationMessageOptions& options) {
   const ReferencePosition reference = referencePositionOf(cam.position, options);
   if (!cam.is_vehicle) {
-    throw WireError("no_track", "a CAM of a unit beside the road, which is no track: left out");
+    throw WireError("no_track", "a CAM of a roadside unit, which is not a track: dropped");
   }
   const std::optional<ItsDirection> heading = fromNorth(cam.heading, options.heading_sigma);
   StationTrack track;

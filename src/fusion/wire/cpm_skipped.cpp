@@ -41,7 +41,7 @@ void skipGroup(Uper& uper) {
   const bool has_id = uper.present(false);
   if (uper.present(false)) {
     throw WireError("bad_message",
-                    "a group of people with a bounding box: TS 102 894-2 has none in ObjectClass");
+                    "a group of people with a bounding box: ObjectClass of TS 102 894-2 has none");
   }
   const bool has_profiles = uper.present(false);
   if (has_id) {

@@ -39,7 +39,7 @@ ReferencePosition referencePositionOf(const ItsPosition& position,
   if (position.latitude == ItsPosition::kNoLatitude ||
       position.longitude == ItsPosition::kNoLongitude || !covariance) {
     throw WireError("no_position",
-                    "a station that does not know where it is, or only to 41 m: left out");
+                    "a station whose position is unknown, or known only to 41 m: dropped");
   }
   GeodeticPosition geodetic = geodeticOf(position.latitude, position.longitude);
   geodetic.altitude = position.altitude == ItsPosition::kNoAltitude

@@ -30,7 +30,7 @@ void walk(Uper& uper, ItsHeader& header) {
   walkFields(uper, header);
   if (header.message != ItsHeader::kCam && header.message != ItsHeader::kCpm) {
     throw WireError("other_message", "a message of kind " + std::to_string(header.message) +
-                                         ": CAM (2) and CPM (14) are taken");
+                                         ": expected CAM (2) or CPM (14)");
   }
   checkVersion(header);
 }

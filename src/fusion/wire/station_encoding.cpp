@@ -130,8 +130,9 @@ std::vector<std::string> encodeStation(const StationTrackList& list, const Local
   const auto own = std::find_if(list.tracks.begin(), list.tracks.end(),
                                 [](const auto& track) { return track.id == 0 && isFinite(track); });
   if (own == list.tracks.end()) {
-    throw WireError("no_own_position",
-                    "tracks without ourselves: expected a pose on the earth, to tell others where");
+    throw WireError(
+        "no_own_position",
+        "tracks without our own vehicle: expected a pose on the earth to send to others");
   }
   const Point2 front =
       own->position + 0.5 * own->length * Point2(std::cos(own->heading), std::sin(own->heading));

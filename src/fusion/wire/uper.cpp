@@ -120,7 +120,8 @@ void UperReader::length(std::int64_t& value) {
   } else if (!present(false)) {
     integer(value, 0, kLong - 1);
   } else {
-    throw WireError("bad_message", "a length of 16,384 or more: expected what a datagram can have");
+    throw WireError("bad_message",
+                    "a length of 16,384 or more: expected one that fits in a datagram");
   }
 }
 

@@ -148,7 +148,7 @@ TEST_F(CanDatabaseTest, ASignalIsFoundByItsName) {
 
 TEST_F(CanDatabaseTest, WhatCannotBeUsedIsNamed) {
   EXPECT_NE(errorOfName("Speed").find("in several messages"), std::string::npos);
-  EXPECT_NE(errorOfName("Yaw").find("is not there"), std::string::npos);
+  EXPECT_NE(errorOfName("Yaw").find("does not exist"), std::string::npos);
   EXPECT_NE(errorOfName("Odometer").find("multiplexed"), std::string::npos);
   EXPECT_NE(errorOfName("Torque").find("a float"), std::string::npos);
   EXPECT_NE(errorOf([] {
