@@ -32,7 +32,7 @@ def _git(source, *words):
     done = subprocess.run(["git", "-C", str(source), *words], check=False, capture_output=True,
                           encoding="utf-8")  # fmt: skip
     if done.returncode != 0:
-        raise InputError(f"{source}: no commit of its own, expected a git checkout: {done.stderr}")
+        raise InputError(f"{source}: no git commit, expected a git checkout: {done.stderr}")
     return done.stdout.strip()
 
 
