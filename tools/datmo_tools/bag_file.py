@@ -27,8 +27,7 @@ class BagFile:
         self._bag.write(topic, message, to_ros_time(stamp))
 
     def write_latched(self, topic, stamp, message):
-        """Like write(), but marks the topic's connection as latched, so that rosbag play latches
-        it."""
+        """Like write(), but marks the connection as latched, so that rosbag play latches it."""
         self._bag.write(
             topic,
             message,

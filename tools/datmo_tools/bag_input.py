@@ -62,8 +62,7 @@ def opened(path):
 
 
 def fault_of(path):
-    """Returns what is wrong with a file (Path) before it is opened as a ROS 1 bag; None if nothing
-    is."""
+    """Returns what is wrong with a file (Path) before it is opened as a ROS 1 bag, or None."""
     if not path.exists():
         return "no such file"
     if path.is_dir():

@@ -17,8 +17,7 @@ NOT_MEASURED = 1e6
 
 
 def header(stamp, frame):
-    """Header at `stamp` (ns); its sequence number stays 0, so that equal content gives equal
-    bytes."""
+    """Header at `stamp` (ns); its sequence number stays 0, so equal content gives equal bytes."""
     return Header(stamp=to_ros_time(stamp), frame_id=frame)
 
 
@@ -68,8 +67,7 @@ def planar_transform(stamp, parent, child, pose):
 
 
 def transform(stamp, parent, child, matrix, quaternion):
-    """Returns a TransformStamped with the translation of a 4 x 4 `matrix` and a `quaternion` (x, y,
-    z, w)."""
+    """Returns the TransformStamped of a 4 x 4 `matrix`'s translation and a `quaternion` (xyzw)."""
     message = TransformStamped(header=header(stamp, parent), child_frame_id=child)
     message.transform.translation = Vector3(*matrix[:3, 3])
     message.transform.rotation = Quaternion(*quaternion)

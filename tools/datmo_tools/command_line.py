@@ -81,8 +81,7 @@ def output_file(text):
 
 
 def output_folder(text):
-    """Returns the Path of a folder that can be written or created; otherwise argparse reports the
-    option."""
+    """Returns the Path of a folder that can be written or created; else argparse reports it."""
     path = Path(text)
     try:
         check_folder(path)

@@ -54,8 +54,7 @@ class Images:
 
 
 def _numbers(tree, key, count, file):
-    """Returns the numbers of {rows: ..., cols: ..., data: [...]}; count None: any number of
-    them."""
+    """Returns the numbers of {rows: ..., cols: ..., data: [...]}; count None: any number."""
     data = tree.get(key, {}).get("data") if isinstance(tree.get(key), dict) else None
     good = isinstance(data, list) and all(isinstance(value, (int, float)) for value in data)
     if not good or count not in (None, len(data)):

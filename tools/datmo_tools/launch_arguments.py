@@ -117,8 +117,7 @@ def missing_configuration(words, folder):
 
 
 def missing_device(words):
-    """Returns a sentence on the first device (lidar:=KIND) that is unknown or cannot work, or
-    None."""
+    """Returns a sentence on the first device (lidar:=KIND) that is unknown or unusable, or None."""
     given = dict(word.split(":=", 1) for word in words)
     for name, kinds in DEVICES.items():
         kind = given.get(name, kinds[0])
@@ -137,8 +136,8 @@ def missing_device(words):
 
 
 def unreadable(file):
-    """Returns a sentence on a yaml file (path; None or empty: none) that roslaunch must not load,
-    or None."""
+    """Returns a sentence on a yaml file (path; None or empty: none) that is not loadable, or
+    None."""
     try:
         if file:
             load_yaml(file)

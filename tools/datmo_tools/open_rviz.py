@@ -30,8 +30,7 @@ def display_opens():
 
 
 def vehicle_view(file, prefix):
-    """Returns the file to show: `file` for a single vehicle, else a copy for this one. Raises
-    InputError."""
+    """Returns the file to show: `file` for a single vehicle, else a copy. Raises InputError."""
     namespace = os.environ.get("ROS_NAMESPACE", "")
     if not prefix and not namespace.strip("/"):
         return file

@@ -83,8 +83,7 @@ def _stamped(messages):
 
 
 def read_messages(bag_path, topic):
-    """Returns a list of (message, type name) on `topic`. Raises InputError if the bag is
-    unreadable."""
+    """Returns a list of (message, type name) on `topic`. Raises InputError for a bad bag."""
     with opened(bag_path) as bag:
         return [
             (message, message._type)  # pylint: disable=protected-access

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the registrations of a ROS master, and registers them with another one through the master
-API.
+"""Reads the registrations of a ROS master, and registers them with another one by the master API.
 
 Nodes register at startup and never again, so a restarted master knows none of the running nodes.
 They stay connected to each other, but new nodes cannot find them, and their parameters are gone.
@@ -31,8 +30,7 @@ NOTHING = Registrations({}, [], [], {}, {}, {})
 
 
 def read(master, before=NOTHING):
-    """Returns the Registrations of a rosgraph.Master; with `before`, it asks only about what is
-    new.
+    """Returns the Registrations of a rosgraph.Master; with `before`, asks only for what is new.
 
     Raises OSError if it does not answer, MasterError if a node shut down meanwhile.
     """
@@ -50,7 +48,7 @@ def read(master, before=NOTHING):
 
 
 def write(master, before):
-    """Registers with a new rosgraph.Master what `before` has, except what is newer there and dead
+    """Registers with a new rosgraph.Master what `before` has, but nothing outdated and no dead
     nodes.
 
     Returns the names of the nodes that are registered again.

@@ -28,14 +28,12 @@ def _changed(key, value, prefix, namespace):
 
 
 def view_of_vehicle(view, prefix, namespace):
-    """Returns a view, as read from yaml, with `prefix` ("car1/") on its frames and its topics in
-    `namespace` ("/car1")."""
+    """Returns a view, read from yaml, with `prefix` ("car1/") on frames, topics in `namespace`."""
     return _changed("", view, prefix, namespace)
 
 
 def write_view(file, prefix, namespace, folder):
-    """Writes a view for a vehicle into a folder, which is created if needed; returns the new file's
-    path.
+    """Writes a view for a vehicle into a folder, which is created if needed; returns its path.
 
     Each vehicle has one such file, which its next start replaces. Raises InputError.
     """

@@ -30,8 +30,7 @@ def heading_of(pose):
 
 
 def pose_covariance(track):
-    """Returns the 36 numbers of geometry_msgs/PoseWithCovariance: those of x, y, and the heading's
-    variance."""
+    """Returns the 36 numbers of geometry_msgs/PoseWithCovariance: x, y and heading variance."""
     covariance = [0.0] * 36
     covariance[0], covariance[1] = track.covariance[0], track.covariance[1]
     covariance[6], covariance[7] = track.covariance[STATES], track.covariance[STATES + 1]

@@ -62,8 +62,7 @@ def quaternion_of(rotation):
 
 
 def compose(pose, local):
-    """Transforms planar pose(s) `local` (..., 3: x, y, yaw) from the frame of `pose` (3) to its
-    parent."""
+    """Transforms planar pose(s) `local` (..., 3: x, y, yaw) from `pose` (3) to its parent."""
     local = np.asarray(local, dtype=float)
     cosine, sine = math.cos(pose[2]), math.sin(pose[2])
     x = pose[0] + cosine * local[..., 0] - sine * local[..., 1]
@@ -72,7 +71,7 @@ def compose(pose, local):
 
 
 def relative(origin, pose):
-    """Returns planar pose(s) `pose` (..., 3) relative to the planar pose `origin` (3) in the same
+    """Returns planar pose(s) `pose` (..., 3) relative to a planar `origin` (3) in the same
     frame."""
     pose = np.asarray(pose, dtype=float)
     cosine, sine = math.cos(origin[2]), math.sin(origin[2])
@@ -97,16 +96,15 @@ def _with_yaw(points):
 
 
 def arc(speed, yaw_rate, duration):
-    """Returns the motion (x, y, yaw) at constant `speed` (m/s) and `yaw_rate` (rad/s) for
-    `duration` (s)."""
+    """Returns the motion (x, y, yaw) at a `speed` (m/s) and `yaw_rate` (rad/s) for `duration`
+    (s)."""
     yaw = yaw_rate * duration
     chord = speed * duration * np.sinc(0.5 * yaw / math.pi)
     return np.array([chord * math.cos(0.5 * yaw), chord * math.sin(0.5 * yaw), yaw])
 
 
 def rates_of(motion, duration):
-    """Returns speed (m/s) and yaw rate (rad/s) of the arc that a planar `motion` describes in
-    `duration` (s).
+    """Returns speed (m/s) and yaw rate (rad/s) of the arc of a planar `motion` in `duration` (s).
 
     The component of the motion across the arc's chord is ignored: a vehicle does not slip sideways.
     """

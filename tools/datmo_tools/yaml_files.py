@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads untrusted yaml files within the bounds of src/ros/bounded_yaml.cpp, with the same
-messages."""
+"""Reads untrusted yaml within the bounds of src/ros/bounded_yaml.cpp, with the same messages."""
 
 from pathlib import Path
 
@@ -51,8 +50,7 @@ def load_yaml(file):
 
 
 def parse_yaml(name, text):
-    """Returns the content of a text (str or bytes), called `name` in messages. Raises
-    InputError."""
+    """Returns the content of a text (str or bytes); `name` is for messages. Raises InputError."""
     try:
         _check_size(name, text)
         return yaml.load(text, _Loader)
