@@ -99,7 +99,7 @@ def add_arguments(parser):
     for name, default, text in (
         ("--gate", GATE, "distance from the true border beyond which no error counts, m"),
         ("--found-within", FOUND_WITHIN, "distance within which the true border is found, m"),
-        ("--false-from", FALSE_FROM, "farther from everything that ends a road, a border is false, m"),
+        ("--false-from", FALSE_FROM, "farther from all that ends a road, a border is false, m"),
         ("--curve-radius", CURVE_RADIUS, "radius below which a road is a curve, m"),
         ("--bridged", RowOptions().bridged, "longest gap that the line of a row bridges, m"),
         ("--car-length", RowOptions().car_length, "longest gap in which the curb is not right, m"),

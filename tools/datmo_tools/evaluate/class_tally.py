@@ -29,8 +29,7 @@ class Report(NamedTuple):
 
 
 def reports_of(objects, truths, score, region):
-    """Returns a list of Report of the objects in the region with a class, of one true object or
-    none.
+    """Returns a list of Report: objects in the region with a class, of one true object or none.
 
     objects, truths, score: as in score_lists; region: in which objects count.
     """

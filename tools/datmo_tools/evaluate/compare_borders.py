@@ -24,7 +24,7 @@ def main(arguments=None, program=None):
 
 
 def compare(without, with_borders, drive=None, program=None):
-    """Returns the comparison() of two bags (Path); drive: bag with the truth, default: each its
+    """Returns the comparison() of two bags (Path); drive: bag with the truth, default: each one's
     own.
 
     Raises InputError without score_run, and SystemExit if it fails.

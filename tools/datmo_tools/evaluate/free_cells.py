@@ -46,8 +46,7 @@ class Image(NamedTuple):
     size: tuple  # px: columns, rows
 
     def ranges(self, points):
-        """Returns ground distances (n, m) of road points (n x 2, base_link); inf: not in the
-        image."""
+        """Returns ground distances (n, m) of road points (n x 2, base_link); inf: not in view."""
         on_road = np.column_stack([points, np.zeros(len(points))])
         seen = transforms.apply(transforms.inverse(self.camera_in_base), on_road)
         ahead = seen[:, 2] > 0.0
@@ -115,7 +114,7 @@ def _band(near, far, counts):
 
 
 def _read_drive(path):
-    """Returns a dictionary stamp (ns) -> its cloud's obstacles and road (n x 2, base_link, m);
+    """Returns a dictionary stamp (ns) -> its cloud's obstacles and road (n x 2 each), and the
     Image."""
     kept = {MOUNTS: [], CLOUDS: [], CAMERA_INFOS[0]: []}
     with opened(path) as bag:
