@@ -103,5 +103,5 @@ def add_arguments(parser):
     command_line.add_number(parser, "--effective-range", EFFECTIVE_RANGE, "M",
                             "effective range of the camera, m")  # fmt: skip
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
-                            "standard deviation of disparities, px: tolerance for poles along the line of "
+                            "standard deviation of disparities, px: how far poles may be off along the line of "
                             "sight")  # fmt: skip

@@ -99,8 +99,7 @@ def _box(item):
 
 def score(run, drive, topic="/map/fused", conflicts="/map/conflicts"):
     """Returns the score of the maps on `topic` in the bag `run` (Path) against the drive's bag
-    (Path), as a dictionary that JSON can hold. Raises InputError, also without truth near in
-    time."""
+    (Path), as a dictionary that JSON can hold. Raises InputError, also without such truth."""
     truth = _Truth(drive)
     counts, maps = NOTHING, 0
     for stamp, grid in base_grids(run, topic):

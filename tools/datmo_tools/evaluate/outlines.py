@@ -85,8 +85,7 @@ class Outline:
         return found
 
     def hit(self, bearing):
-        """Returns the Hit of the line of sight at a bearing (rad); None if outside, or from
-        inside."""
+        """Returns the Hit of the line of sight at a bearing (rad); None: a miss, or from inside."""
         along = np.array([np.cos(bearing), np.sin(bearing)])
         facing = -self._normals @ along
         best = None

@@ -165,8 +165,7 @@ def _side(stations, turn, curbs, boxes, rows, curve_radius):
 
 
 def _curb(stations, rays, curbs):
-    """Returns distance and heading (along the path) of the nearest curb; NaN: none or turning
-    off."""
+    """Returns distance and heading (along the path) of the nearest curb; NaN: not along it."""
     curb, headings = np.full((2, len(rays)), np.nan)
     if not len(curbs.begin):
         return curb, headings
