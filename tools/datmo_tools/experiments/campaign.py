@@ -120,7 +120,7 @@ def _campaign(values):
 
 
 def _all_faults(values, played, inputs):
-    """Returns results (dict) of a drive, of all its inputs' faults (all, None: also all at
+    """Returns results (dict) of a drive with each fault of its inputs (all, None: also all at
     once)."""
     begin = played.messages[0].recorded + values.begin
     runs, clean = [], None
@@ -180,7 +180,7 @@ def _run(values, played, fault, begin, clean):
 
 def _path(run):
     """Returns stamps and errors as pose_errors does, by the clock before a jump or in the new
-    map."""
+    one."""
     jump = run.fault.jump
     if not jump:
         return pose_errors(run.computed, run.drive)

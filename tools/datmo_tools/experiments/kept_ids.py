@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks whether moving objects in a camera's view keep their ids during another sensor's
-outage."""
+"""Checks whether moving objects in a camera's view keep their ids while another sensor is off."""
 
 import collections
 

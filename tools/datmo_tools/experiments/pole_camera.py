@@ -78,7 +78,7 @@ def _drive(values, seed):
 
 class MapOfRun:
     """Returns true positions in a run's (drifting) map, by the vehicle's true and estimated
-    poses."""
+    pose."""
 
     def __init__(self, bag, truth):
         self.truth = truth

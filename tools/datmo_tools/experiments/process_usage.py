@@ -41,7 +41,7 @@ def _mebibytes(text):
 
 
 def summarize(samples, begin, end):
-    """Returns the usage between two times (s) from samples in order, at least two of them in
+    """Returns the usage between two times (s) from samples in order, two or more of them in
     between.
 
     Memory growth counts from the end of the first quarter on: by then one-time allocations are
