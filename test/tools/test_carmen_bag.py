@@ -171,7 +171,7 @@ class Clocks(Conversion):
         )
         logged = [round(m.time_ref.to_sec() - START, 6) for m in self.messages("/log_stamps")]
         self.assertEqual(logged, [0.0, 0.9, 0.4, 0.6])
-        self.assertIn("their stamps moved", said)
+        self.assertIn("their stamps were moved", said)
 
     def test_stamps_that_rise_are_the_same_with_both(self):
         lines = [flaser(0.2 * i, (0.1 * i, 0, 0)) for i in range(30)]

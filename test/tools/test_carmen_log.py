@@ -234,7 +234,7 @@ class Mounts(unittest.TestCase):
         pose, note = self.mount("PARAM robot_frontlaser_offset 0.3", *lines)
         np.testing.assert_allclose(pose, [0.3, 0.0, 0.0])
         self.assertIn("not those of a fixed mount", note)
-        with self.assertRaisesRegex(InputError, r"moves by 0.50 m on the robot.*expected --mount"):
+        with self.assertRaisesRegex(InputError, r"on the robot varies by 0.50 m.*expected --mount"):
             self.mount(*lines)
 
     def test_setting_that_is_no_number(self):
