@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Step data_sets: simulated data sets with several seeds, with and without borders; thesis's
-terms."""
+"""Step data_sets: simulated data sets with several seeds, without and with borders, as in the
+thesis."""
 
 import statistics
 from functools import partial

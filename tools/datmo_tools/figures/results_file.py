@@ -22,8 +22,7 @@ LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|nul
 
 
 def commit_of(source):
-    """Returns the short name of the last commit of SOURCES in a checkout (Path). Raises
-    InputError."""
+    """Returns the abbreviated last commit of SOURCES in a checkout (Path). Raises InputError."""
     name = _git(source, "log", "-1", "--abbrev=8", "--format=%h", "--", *SOURCES)
     changes = _git(source, "status", "--porcelain", "--", *SOURCES)
     return name + (CHANGED if changes else "")

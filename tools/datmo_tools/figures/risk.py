@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Step risk: encounters of public test protocols by all methods; false warnings in dense
-traffic."""
+"""Step risk: encounters of test protocols by all methods, and false warnings in dense traffic."""
 
 from functools import partial
 
