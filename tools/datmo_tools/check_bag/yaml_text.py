@@ -62,7 +62,7 @@ def imu_frame_without_mount(recording, roles):
 
 
 def _tilt(up):
-    """Returns the mount of an IMU from gravity along `up` (unit vector in its frame, or None).
+    """Returns the mount of an IMU by `up`: unit vector opposite to gravity in its frame, or None.
 
     A yaw rate needs neither its position nor its yaw.
     """

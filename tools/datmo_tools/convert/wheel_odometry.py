@@ -36,7 +36,7 @@ def has_topics(recording, *topics):
 def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
     """Returns a list of OdometrySample at the IMU's stamps.
 
-    The speed is the median of the four wheels' latest (fields FL, FR, BL, BR, rad/s), which is
+    The speed is the median of the wheels' latest speeds (fields FL, FR, BL, BR, rad/s), which is
     robust to an encoder that counts double; the yaw rate is the rotation about the vertical, by
     gravity, however the IMU is mounted, minus its mean while no wheel turns. Raises InputError if a
     topic has another type or is empty.

@@ -62,7 +62,7 @@ class TrackFrame(NamedTuple):
 
 
 class Scene:
-    """The true objects around the vehicle, in the run's frame: tracks are aligned with the truth by
+    """True objects around the vehicle, as seen from the run's pose: tracks are aligned to truth by
     the vehicle's estimated and true pose, so that the drift of the map does not count. score_run
     decides which track is of which object."""
 
