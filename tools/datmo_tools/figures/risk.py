@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Step risk: encounters of test protocols by all methods, and false warnings in dense traffic."""
+"""Step risk: encounters after public test protocols by all methods, and false warnings in dense traffic."""
 
 from functools import partial
 
@@ -10,19 +10,19 @@ from datmo_tools.experiments.encounters import METHODS, OWN, RESULT, TRUE
 from datmo_tools.figures.step import Job, read_json
 
 OURS = METHODS[0]
-RELIABILITY = "4"  # s, horizon of the probability of contact in the diagram
+RELIABILITY = "4"  # s within which contact is said, for the diagram
 TRAFFIC = "traffic"  # the simulated data sets, one seed
 
 
 def jobs(bench):
-    """Returns a job for the encounters by each kind of tracks, and one for each data set."""
+    """A job for the encounters by each kind of tracks, and one for each data set."""
     drives = [Job(f"{TRAFFIC}_{number}", partial(_traffic, bench, number))
               for number in range(len(PUBLISHED), 0, -1)]  # fmt: skip
     return [*drives, *(Job(tracks, partial(_encounters, bench, tracks)) for tracks in (OWN, TRUE))]
 
 
 def figures(results):
-    """Returns figures by kind of tracks and method; for data sets, total warnings and duration."""
+    """By kind of tracks and method; of the data sets together the warnings and their duration."""
     found = {name: figure for name, figure in results if name != TRAFFIC}
     drives = [figure for name, figure in results if name == TRAFFIC]
     found[TRAFFIC] = {key: sum(drive[key] for drive in drives) for key in ("warnings", "seconds")}
