@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How tests in Python, and of the tools in Python, find what they test.
+# How Python tests, and tests of the Python tools, find what they test.
 
-# datmo_fusion_run_in_tree(TEST [FOLDER...]): the test finds the modules of the sources, of the built messages
-# and of the folders, and the built programs. Further variables are appended by the caller.
+# datmo_fusion_run_in_tree(TEST [FOLDER...]): the test finds the modules of the sources, of the
+# built messages and of the folders, and the built programs. The caller may append further variables.
 function(datmo_fusion_run_in_tree name)
   set(modules ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages ${PROJECT_SOURCE_DIR}/tools ${ARGN} "$ENV{PYTHONPATH}")
   list(JOIN modules ":" modules)

@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Functions that show a drive in rviz, on the display or on a virtual one; sourced after lib.sh.
 
-started=() # process ids, to be ended with the script
+started=() # process ids, terminated when the script ends
 
 # start NAME COMMAND...: runs the command in the background, with its output in a log.
 start() {
@@ -29,7 +29,7 @@ wait_for() {
     if "$@" >/dev/null 2>&1; then return; fi
     sleep 1
   done
-  fail "$what; what its programs said is in $log_dir"
+  fail "$what; the output of its programs is in $log_dir"
 }
 
 start_virtual_display() {
@@ -53,7 +53,7 @@ rviz_is_drawn() {
 no_result() {
   local log=$log_dir/$1.log
   grep -m 3 -i error "$log" >&2 || true
-  fail "$2; all that was said: $log"
+  fail "$2; full log: $log"
 }
 
 start_master() {

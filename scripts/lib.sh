@@ -9,8 +9,8 @@ if [[ $build_dir == "$repository/build" ]]; then devel_dir=$repository/devel; el
 program_dir=$devel_dir/lib/datmo_fusion
 log_dir=$build_dir/log
 
-# job_count: number of parallel compilers: one per core, limited by the free memory, as a file that
-# includes roscpp and pluginlib takes about 1.2 GB.
+# job_count: prints the number of parallel compilers: one per core, limited by the available memory,
+# as compiling a file that includes roscpp and pluginlib takes about 1.2 GB.
 job_count() {
   local cores jobs_in_memory
   cores=$(nproc)
@@ -19,7 +19,7 @@ job_count() {
   echo $((jobs > 0 ? jobs : 1))
 }
 
-# Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
+# Debian's ROS requires Debian's Python: another python3 that comes first on PATH breaks it.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 
 # Ubuntu's ROS is in a folder of its own, Debian's is not.
@@ -46,7 +46,7 @@ fail() {
   exit 1
 }
 
-# run_logged NAME COMMAND...: writes the command's output to a log, the end of which is shown only on
+# run_logged NAME COMMAND...: writes the command's output to a log, and shows its end only on
 # failure. Returns the command's own exit code.
 run_logged() {
   local name=$1 log started=$SECONDS code=0
@@ -66,8 +66,8 @@ run_logged() {
 }
 
 # configure_tree FOLDER CMAKE_OPTION...: configures a build tree. Files of a folder are compiled
-# together, unless DATMO_FUSION_UNITY=OFF is set in the environment. Debian 12's compiler is known, so
-# its warnings can be errors.
+# together, unless DATMO_FUSION_UNITY=OFF is set in the environment. Warnings are errors only with
+# Debian 12's compiler, which the code is tested with.
 configure_tree() {
   local options=(-S "$repository" -B "$1" "-DDATMO_FUSION_UNITY=${DATMO_FUSION_UNITY:-ON}")
   if grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
@@ -80,8 +80,8 @@ configure_tree() {
   ROS_LANG_DISABLE=geneus:genlisp:gennodejs cmake "${options[@]}" "${@:2}"
 }
 
-# Sets the environment of a built tree, for everything that uses ROS. A separate master on a free port
-# does not interfere with one that is already running.
+# Sets the environment of a built tree, for everything that uses ROS. The master's port is a free
+# one, so that it does not interfere with a master that is already running.
 use_ros() {
   set +u # catkin's setup.bash reads unset variables
   # shellcheck disable=SC1091

@@ -206,7 +206,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(len({one.id for one in found}), 3)
         self.assertEqual([one.truth is not None for one in found], [True, False, False])
         self.assertEqual([one.config.name for one in found], ["sensors.yaml", "b.yaml", "sensors.yaml"])
-        with self.assertRaisesRegex(InputError, "no sensor set, expected a.yaml beside it"):
+        with self.assertRaisesRegex(InputError, "no sensor set, expected a.yaml next to it"):
             find_recordings(self.drives, out, None)
 
     def test_nothing_to_do_is_reported(self):

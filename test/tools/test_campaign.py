@@ -215,7 +215,7 @@ class Script(unittest.TestCase):
                 (scripts / step).chmod(0o755)
             done = subprocess.run([scripts / "campaign"], env={**os.environ, "GIT_CEILING_DIRECTORIES": name}, text=True,
                                   capture_output=True, check=False)  # fmt: skip
-        self.assertIn(f"error: {name}/sources: no commit of its own", done.stderr)
+        self.assertIn(f"error: {name}/sources: no git commit", done.stderr)
         self.assertEqual((done.returncode, done.stdout), (1, "setup\n"))
 
 

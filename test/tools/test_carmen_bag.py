@@ -171,7 +171,7 @@ class Clocks(Conversion):
         )
         logged = [round(m.time_ref.to_sec() - START, 6) for m in self.messages("/log_stamps")]
         self.assertEqual(logged, [0.0, 0.9, 0.4, 0.6])
-        self.assertIn("their stamps moved", said)
+        self.assertIn("their stamps were moved", said)
 
     def test_stamps_that_rise_are_the_same_with_both(self):
         lines = [flaser(0.2 * i, (0.1 * i, 0, 0)) for i in range(30)]
@@ -184,7 +184,7 @@ class Clocks(Conversion):
     def test_stamp_that_is_there_twice(self):
         lines = flaser(0.0, ORIGIN), flaser(0.5, ORIGIN), flaser(0.5, (1, 0, 0)), flaser(1, ORIGIN)
         said = self.convert(*lines, options=["--clock", "log"])
-        self.assertIn("1 with a stamp twice left out", said)
+        self.assertIn("1 with a repeated stamp skipped", said)
         self.assertEqual(self.times("/scan"), [0.0, 0.5, 1.0])
         self.convert(*lines, options=["--clock", "order"])
         self.assertEqual(len(self.times("/scan")), 4)
@@ -230,7 +230,7 @@ class Errors(Conversion):
     def test_malformed_line(self):
         self.assert_refused(flaser(0, ORIGIN), "ODOM 1", text=f"{self.log}:2: ODOM with 1 fields")
         said = self.convert(flaser(0, ORIGIN), "ODOM 1", options=["--skip-malformed"])
-        self.assertIn(f"1 malformed lines left out, the first: {self.log}:2", said)
+        self.assertIn(f"1 malformed lines skipped, the first: {self.log}:2", said)
 
     def test_options(self):
         good = flaser(0, ORIGIN)

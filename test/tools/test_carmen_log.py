@@ -68,7 +68,7 @@ class Lines(unittest.TestCase):
     def test_other_kinds(self):
         for kind in ("SYNC", "TRUEPOS", "RAWLASER1", "NMEA-GGA", "GPSGGA", "ROBOTLASER5"):
             self.assertIsNone(self.parse(f"{kind} tag 1 host 0"), kind)
-        self.assert_refused("WHATSIT 1 2 3", "WHATSIT is no kind of line of a CARMEN log")
+        self.assert_refused("WHATSIT 1 2 3", "WHATSIT is not a kind of line of a CARMEN log")
 
     def test_no_return_may_be_infinite(self):
         self.assertEqual(self.parse(flaser(0, ORIGIN, ranges=(1, "inf"))).ranges[1], np.inf)
@@ -162,7 +162,7 @@ class Logs(unittest.TestCase):
             read_log(self.path)
         message = str(caught.exception)
         self.assertIn(f"{self.path}:1: ", message)
-        self.assertIn("is no kind of line of a CARMEN log", message)
+        self.assertIn("is not a kind of line of a CARMEN log", message)
         self.assertTrue(message.isascii() and message.isprintable())
         self.assertLess(len(message) - len(str(self.path)), 300)
 
@@ -192,7 +192,7 @@ class Logs(unittest.TestCase):
         self.assert_refused(
             flaser(20, ORIGIN),
             flaser(9, ORIGIN),
-            texts=[f"{self.path}:2: FLASER is stamped 11.000 s before", "expected rising stamps"],
+            texts=[f"{self.path}:2: FLASER is stamped 11.000 s before", "expected increasing"],
         )
 
 
@@ -234,7 +234,7 @@ class Mounts(unittest.TestCase):
         pose, note = self.mount("PARAM robot_frontlaser_offset 0.3", *lines)
         np.testing.assert_allclose(pose, [0.3, 0.0, 0.0])
         self.assertIn("not those of a fixed mount", note)
-        with self.assertRaisesRegex(InputError, r"moves by 0.50 m on the robot.*expected --mount"):
+        with self.assertRaisesRegex(InputError, r"on the robot varies by 0.50 m.*expected --mount"):
             self.mount(*lines)
 
     def test_setting_that_is_no_number(self):

@@ -93,12 +93,12 @@ class Cameras(Tool):
         alone = without(simulated.recording(), self.RIGHT, "/stereo/right/image_rect")
         _, out, _ = self.run_tool(alone)
         self.assertRegex(out, r"mono \(classes, with a network\) +ready")
-        self.assertRegex(out, r"object +missing: .*take level mono")
+        self.assertRegex(out, r"object +missing: .*use level mono")
 
     def test_one_camera_of_which_something_is_missing(self):
         alone = without(simulated.recording(), self.RIGHT, "/stereo/right/image_rect")
         _, out, _ = self.run_tool(without(alone, "/stereo/left/camera_info"))
-        self.assertRegex(out, r"mono \(classes, with a network\) +missing: camera_info beside /stereo/left")
+        self.assertRegex(out, r"mono \(classes, with a network\) +missing: camera_info of /stereo")
         _, out, _ = self.run_tool(without(alone, "/stereo/left/image_rect"))
         self.assertRegex(out, r"mono \(classes, with a network\) +missing: a camera's images")
         raw = [item._replace(topic=item.topic.replace("image_rect", "image_raw")) for item in alone]

@@ -73,7 +73,7 @@ class Modules(unittest.TestCase):
         with contextlib.redirect_stderr(said), mock.patch("importlib.import_module",
                                                           side_effect=error):  # fmt: skip
             self.assertEqual(run_tool("check_bag", "check_bag.main"), 1)
-        self.assertEqual(said.getvalue(), "check_bag: Python module rosbag is not there, expected "
+        self.assertEqual(said.getvalue(), "check_bag: Python module rosbag not found, expected "
                                           "Debian's package python3-rosbag\n")  # fmt: skip
 
     def test_tool_that_is_no_program(self):

@@ -205,7 +205,7 @@ class Runs(unittest.TestCase):
         self.assertIn("--images", self.words_of("drive_0005", "drive.bag"))
 
     def test_drive_that_is_not_there_is_reported(self):
-        self.assertIn("missing: not there, so no KITTI drive", self.compare("--sets", "1")[1])
+        self.assertIn("missing: not found, so there is no KITTI", self.compare("--sets", "1")[1])
 
     def test_failed_run_is_reported_and_the_others_go_on(self):
         self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')

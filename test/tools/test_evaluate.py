@@ -108,7 +108,7 @@ class CommandLine(unittest.TestCase):
         other = self.bag("b.bag", objects=3)
         code, out, err = self.evaluate("--compare", self.bag("a.bag"), other)
         self.assertEqual((code, out), (1, ""))
-        self.assertIn("b.bag: 3 true objects, others than the 2 of", err)
+        self.assertIn("b.bag: 3 true objects, different from the 2 of", err)
         self.assertFalse(self.out.exists())
 
     def test_failure_of_score_run_is_ours_and_leaves_nothing(self):

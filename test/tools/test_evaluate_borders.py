@@ -161,7 +161,7 @@ class Tool(EvaluateCase):
         write_drive(self.bag, [border(2, (0.0, 5.0), (9.0, 5.0))])
         self.assertIn("a border of side 2", self.run_tool(code=1)[1])
         write_drive(self.bag, [left(math.nan)])
-        self.assertIn("a border that is not finite", self.run_tool(code=1)[1])
+        self.assertIn("a border is not finite", self.run_tool(code=1)[1])
         write_drive(self.bag, [left(5.0)])
         self.assertIn("no such file", self.run_tool("--truth", "/nowhere", code=1)[1])
 

@@ -99,7 +99,7 @@ class Pages(InFolder):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
             self.assertEqual(check(self.folder), 1)
-        self.assertIn("doc/results.md: not what doc/results.json makes of it", said.getvalue())
+        self.assertIn("doc/results.md: does not agree with doc/results.json", said.getvalue())
 
     def test_readme_without_marks_is_refused(self):
         (self.folder / "README.md").write_text("# A\n")

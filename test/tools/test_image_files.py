@@ -69,10 +69,10 @@ class ImageFiles(unittest.TestCase):
     def test_what_is_no_source_is_reported(self):
         with self.assertRaisesRegex(InputError, "no image in it"):
             Images(self.folder)
-        with self.assertRaisesRegex(InputError, "expected a folder of images, or a video file"):
+        with self.assertRaisesRegex(InputError, "expected a folder of images or a video file"):
             Images(self.folder / "missing")
         (self.folder / "text.avi").write_text("no video")
-        with self.assertRaisesRegex(InputError, "no video that OpenCV reads"):
+        with self.assertRaisesRegex(InputError, "not a video that OpenCV can read"):
             Images(self.folder / "text.avi")
 
     def test_a_calibration_becomes_camera_info(self):

@@ -181,7 +181,7 @@ class Contents(Conversion):
         for frame in range(tiny_drive.FRAMES):
             self.write_unusable_cloud(frame)
         said = self.run_tool(expected_code=1)
-        self.assertIn("no cloud of the drive leads to a scan", said)
+        self.assertIn("no cloud of the drive gives a scan", said)
         self.assertFalse(self.bag.exists())
 
     def test_part_of_a_drive_starts_at_its_own_origin(self):

@@ -125,7 +125,7 @@ class RawDrive(TinyDrive):
         path.write_text("yesterday\n")
         self.assert_named(f"{path}:1", "expected YYYY-MM-DD", Drive, self.folder)
         path.write_text("".join(reversed(good.splitlines(keepends=True))))
-        self.assert_named(path, "do not rise", Drive, self.folder)
+        self.assert_named(path, "do not increase", Drive, self.folder)
         path.write_text("\n")
         self.assert_named(path, "empty", Drive, self.folder)
         path.write_text(good.splitlines()[0])

@@ -91,7 +91,7 @@ class LaunchArguments(unittest.TestCase):
             server.register_function(lambda caller: (1, "", 7), "getPid")
             threading.Thread(target=server.serve_forever, daemon=True).start()
             self.assertTrue(launch_arguments.runs("/perception", uri))
-            self.assertIn("/left/perception runs on", launch_arguments.second_stack(
+            self.assertIn("/left/perception already runs on", launch_arguments.second_stack(
                 ["a.launch"], {"ROS_MASTER_URI": uri, "ROS_NAMESPACE": "/left/"}))
             self.assertIsNone(launch_arguments.second_stack(["--nodes", "a.launch"], {"ROS_MASTER_URI": uri}))
             server.register_function(lambda caller, name: (-1, "unknown node", ""), "lookupNode")

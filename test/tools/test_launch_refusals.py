@@ -81,7 +81,7 @@ class LaunchRefusals(unittest.TestCase):
             threading.Thread(target=server.serve_forever, daemon=True).start()
             said = self.refusal("perception.launch", master=master)
             server.shutdown()
-        self.assertIn(f"/perception runs on {master} already", said)
+        self.assertIn(f"/perception already runs on {master}", said)
 
 
 if __name__ == "__main__":

@@ -228,10 +228,12 @@ class MissingDevice(unittest.TestCase):
 
     def test_the_sentence_says_what_there_is_and_what_to_do(self):
         said = missing_device(["lidar:=ouster"])
-        self.assertIn("lidar:=ouster: no driver of ours, expected one of external, hokuyo, sick_lms, velodyne; ",
+        self.assertIn("lidar:=ouster: no driver in this package, expected one of external, hokuyo, sick_lms, "
+                      "velodyne; ",
                       said)
         self.assertIn("ouster_ros", said)
-        self.assertIn("odometry:=magic: no driver of ours, expected one of external, can, can_imu, gps_imu, none",
+        self.assertIn("odometry:=magic: no driver in this package, expected one of external, can, can_imu, "
+                      "gps_imu, none",
                       missing_device(["lidar:=external", "odometry:=magic"]))
 
 

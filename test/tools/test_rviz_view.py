@@ -160,7 +160,7 @@ class ViewOfAVehicle(unittest.TestCase):
 
     def test_a_view_that_is_none_is_named(self):
         file = Path(self.home, "a.rviz")
-        for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected a configuration")):
+        for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected an rviz")):
             file.write_text(text)
             said = io.StringIO()
             with mock.patch.object(open_rviz, "display_opens", lambda: True), contextlib.redirect_stderr(said), \

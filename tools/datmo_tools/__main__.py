@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts a tool that is no program of its own: python3 -m datmo_tools ROOM.TOOL ARGUMENT..."""
+"""Starts a tool that has no program of its own: python3 -m datmo_tools ROOM.TOOL ARGUMENT..."""
 
 import sys
 

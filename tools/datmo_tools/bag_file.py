@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bag that is either whole or not there."""
+"""Writes bags that either are complete or do not exist."""
 
 import contextlib
 import os
@@ -9,13 +9,13 @@ import rosbag
 from datmo_tools.errors import InputError
 from datmo_tools.stamps import to_ros_time
 
-# The mounts stand in a bag this much before the first measurement, so that no reader meets a scan
-# first.
+# The mounts are recorded this long before the first measurement, so that no reader receives a scan
+# before them.
 MOUNTS_LEAD = 1_000_000  # ns
 
 
 class BagFile:
-    """Writes messages to an open rosbag.Bag, each recorded at the stamp given with it."""
+    """Writes messages to an open rosbag.Bag, each recorded at its given stamp."""
 
     def __init__(self, bag, writer):
         """writer: name of the tool that writes."""
@@ -27,7 +27,7 @@ class BagFile:
         self._bag.write(topic, message, to_ros_time(stamp))
 
     def write_latched(self, topic, stamp, message):
-        """As write, and marks the topic's connection as latched, so that rosbag play latches it."""
+        """Like write(), but marks the connection as latched, so that rosbag play latches it."""
         self._bag.write(
             topic,
             message,
@@ -43,7 +43,7 @@ class BagFile:
         )
 
     def copy(self, message):
-        """Writes a raw message as it was read from another bag, with its connection's header."""
+        """Writes a raw message as read from another bag, with its connection's header."""
         header = message.connection_header
         self._bag.write(
             message.topic, message.message, message.timestamp, raw=True, connection_header=header
@@ -52,9 +52,9 @@ class BagFile:
 
 @contextlib.contextmanager
 def whole_bag(path, writer):
-    """Context of a BagFile that is named `path` (Path) when all went well, and gone otherwise.
+    """Context manager of a BagFile that is named `path` (Path) on success, and deleted otherwise.
 
-    writer: name of the tool. Raises InputError where the file cannot be written.
+    writer: name of the tool. Raises InputError if the file cannot be written.
     """
     if path.is_dir():
         raise InputError(f"{path}: is a folder, expected the name of a bag")

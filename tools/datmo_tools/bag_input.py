@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags that are read: opened, or refused with what is wrong and what to do about it.
+"""Opens bags for reading, or raises an error with what is wrong and what to do about it.
 
-tools/input_bag.cpp says the same in the same words.
+tools/input_bag.cpp has the same messages.
 """
 
 import contextlib
@@ -17,7 +17,7 @@ from datmo_tools.errors import InputError
 BAG_MAGIC = b"#ROSBAG"
 ROS2_MAGICS = (b"SQLite format 3\0", b"\x89MCAP0\r\n")
 ROS2_SUFFIXES = (".db3", ".mcap")
-# The first bytes of packed files, and with what they are unpacked.
+# The first bytes of compressed files, and the command that unpacks them.
 PACKED = {
     b"PK\x03\x04": "unzip",
     b"\x1f\x8b": "gunzip",
@@ -26,15 +26,15 @@ PACKED = {
     b"\x28\xb5\x2f\xfd": "unzstd",
     b"7z\xbc\xaf\x27\x1c": "7z x",
 }
-MAX_NAMES = 3  # of the bags in a folder, in a message
+MAX_NAMES = 3  # of the bags in a folder that a message lists
 
 
 @contextlib.contextmanager
 def opened(path):
-    """Context of a rosbag.Bag to read, uncompressed, bz2 or lz4.
+    """Context manager of a rosbag.Bag that is read; uncompressed, bz2 or lz4.
 
-    path: of the bag (Path or text). Raises InputError that names the file, what is wrong with it and
-    what to do: also if reading fails later, within the context.
+    path: of the bag (Path or str). Raises InputError, with the file, what is wrong and what to do,
+    also if reading fails later within the context.
     """
     path = Path(path)
     fault = fault_of(path)
@@ -62,7 +62,7 @@ def opened(path):
 
 
 def fault_of(path):
-    """What is wrong with a file (Path) before it is opened as a bag of ROS 1; None: nothing."""
+    """Returns what is wrong with a file (Path) before it is opened as a ROS 1 bag, or None."""
     if not path.exists():
         return "no such file"
     if path.is_dir():
@@ -112,7 +112,7 @@ def _ros2_fault(path):
 
 
 def _reason(error):
-    """What rosbag says; it names a missing module where a compression is not supported."""
+    """Returns rosbag's error text; for an unsupported compression it names the missing module."""
     if "lz4" in str(error) and isinstance(error, rosbag.ROSBagException):
         return f"{error}: expected the package python3-roslz4"
     return str(error) or type(error).__name__

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Messages and frames of the stack's data contract that every converter writes."""
+"""Messages and frames of the stack's data contract that all converters write."""
 
 import numpy as np
 from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
@@ -12,17 +12,17 @@ from datmo_tools.stamps import to_ros_time
 
 MAP, ODOM, BASE, SCANNER = "map", "odom", "base_link", "scanner"
 
-# rad^2 and m^2 of what is not measured, as a large number: an infinite one upsets matrix code.
+# rad^2 and m^2, variance of what is not measured: large, as infinity breaks matrix computations.
 NOT_MEASURED = 1e6
 
 
 def header(stamp, frame):
-    """Header at `stamp` (ns); its sequence number stays 0: only the content makes the bytes."""
+    """Header at `stamp` (ns); its sequence number stays 0, so equal content gives equal bytes."""
     return Header(stamp=to_ros_time(stamp), frame_id=frame)
 
 
 def odometry(sample):
-    """Odometry of an OdometrySample: pose in odom, rates in base_link."""
+    """Returns the Odometry of an OdometrySample: pose in odom, rates in base_link."""
     message = planar_odometry(sample.stamp, ODOM, BASE, sample.pose, sample.speed, sample.yaw_rate)
     pose_covariance = np.diag([0.0, 0.0, NOT_MEASURED, NOT_MEASURED, NOT_MEASURED, 0.0])
     planar = np.ix_([0, 1, 5], [0, 1, 5])
@@ -46,12 +46,12 @@ def odometry(sample):
 
 
 def odometry_transform(sample):
-    """TFMessage odom -> base_link of an OdometrySample."""
+    """Returns the TFMessage odom -> base_link of an OdometrySample."""
     return TFMessage([planar_transform(sample.stamp, ODOM, BASE, sample.pose)])
 
 
 def planar_odometry(stamp, frame, child, pose, speed, yaw_rate):
-    """Odometry of `child` at the planar `pose` in `frame`, without covariances."""
+    """Returns an Odometry of `child` at the planar `pose` in `frame`, without covariances."""
     message = Odometry(header=header(stamp, frame), child_frame_id=child)
     message.pose.pose.position = Point(pose[0], pose[1], 0.0)
     message.pose.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(pose[2]))
@@ -61,13 +61,13 @@ def planar_odometry(stamp, frame, child, pose, speed, yaw_rate):
 
 
 def planar_transform(stamp, parent, child, pose):
-    """TransformStamped of a planar `pose` (x, y, yaw) in `parent`."""
+    """Returns the TransformStamped of a planar `pose` (x, y, yaw) in `parent`."""
     matrix = transforms.rigid(np.eye(3), [pose[0], pose[1], 0.0])
     return transform(stamp, parent, child, matrix, transforms.quaternion_of_yaw(pose[2]))
 
 
 def transform(stamp, parent, child, matrix, quaternion):
-    """TransformStamped with the translation of a 4 x 4 `matrix` and a `quaternion` (x, y, z, w)."""
+    """Returns the TransformStamped of a 4 x 4 `matrix`'s translation and a `quaternion` (xyzw)."""
     message = TransformStamped(header=header(stamp, parent), child_frame_id=child)
     message.transform.translation = Vector3(*matrix[:3, 3])
     message.transform.rotation = Quaternion(*quaternion)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the command lines of the tools share: how they end, and options that are numbers."""
+"""What the tools' command lines share: exit codes, and options that are numbers or paths."""
 
 import argparse
 import json
@@ -15,8 +15,8 @@ from datmo_tools.whole_files import check_folder, write_whole
 def run(name, work, product="bag"):
     """Calls `work()`, which writes a `product`; returns the exit code of the tool `name`.
 
-    An InputError and an interruption end with one line on standard error and the code 1. A kill
-    counts as Ctrl-C, so that `work` cleans up.
+    An InputError or an interruption prints one line to standard error and returns 1. SIGTERM is
+    handled like Ctrl-C, so that `work` can clean up.
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
@@ -31,7 +31,7 @@ def run(name, work, product="bag"):
 
 
 def new_parser(program, description):
-    """An argparse.ArgumentParser whose help has the description's own lines."""
+    """Returns an argparse.ArgumentParser whose help keeps the description's line breaks."""
     return argparse.ArgumentParser(
         prog=program,
         description=description,
@@ -40,7 +40,7 @@ def new_parser(program, description):
 
 
 def add_number(group, name, default, metavar, description):
-    """An option of one number, or of as many as the default (a list) has."""
+    """Adds an option with one number, or with as many as the default (a list) has."""
     group.add_argument(
         name,
         type=number,
@@ -52,7 +52,7 @@ def add_number(group, name, default, metavar, description):
 
 
 def check_positive(values, *names):
-    """Raises InputError unless these options, as argparse names them, are more than 0."""
+    """Raises InputError unless these options, by their argparse names, are greater than 0."""
     for name in names:
         value = getattr(values, name)
         if value <= 0.0:
@@ -60,19 +60,19 @@ def check_positive(values, *names):
 
 
 def add_json(parser):
-    """The option --json, for write_json()."""
-    help_text = "writes the score there too"
+    """Adds the option --json, for write_json()."""
+    help_text = "also write the score to this file"
     parser.add_argument("--json", type=output_file, metavar="FILE", help=help_text)
 
 
 def write_json(path, result):
-    """Writes a dictionary to the file that --json names; nothing where it names none (None)."""
+    """Writes a dictionary to the file that --json names; does nothing for None."""
     if path is not None:
         write_whole(path.parent, {path.name: json.dumps(result, indent=2) + "\n"})
 
 
 def output_file(text):
-    """Path of a file that can be written; argparse names the option where it cannot, at once."""
+    """Returns the Path of a writable output file; otherwise argparse reports the option at once."""
     path = Path(text)
     if path.is_dir():
         raise argparse.ArgumentTypeError(f"{path}: is a folder, expected the name of a file")
@@ -81,7 +81,7 @@ def output_file(text):
 
 
 def output_folder(text):
-    """Path of a folder that can be written, or made; argparse names the option otherwise."""
+    """Returns the Path of a folder that can be written or created; else argparse reports it."""
     path = Path(text)
     try:
         check_folder(path)
@@ -91,14 +91,14 @@ def output_folder(text):
 
 
 def count(text):
-    """A whole number of 1 or more; argparse names the option where it is none."""
+    """Returns a whole number of 1 or more; otherwise argparse reports the option."""
     if not (text.isascii() and text.isdigit() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"'{text}', expected a whole number of 1 or more")
     return int(text)
 
 
 def number(text):
-    """A finite number; argparse names the option where it is none."""
+    """Returns a finite number; otherwise argparse reports the option."""
     try:
         value = float(text)
     except ValueError:

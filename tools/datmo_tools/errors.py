@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error that a tool shows to its user instead of a traceback."""
+"""The error that a tool shows its user instead of a traceback."""
 
 
 class InputError(Exception):
-    """A file or a value that cannot be used: which, its state, and what was expected."""
+    """An unusable file or value: which one, its state, and what was expected."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images of a camera from a folder or a video file, and its calibration from a yaml file as
-camera_calibration writes it."""
+"""Images of a camera from a folder or a video file, and its calibration from a yaml file as written
+by camera_calibration."""
 
 from pathlib import Path
 
@@ -15,9 +15,9 @@ MATRICES = {"camera_matrix": 9, "rectification_matrix": 9, "projection_matrix": 
 
 
 class Images:
-    """Goes through the images once; each is a numpy array, gray (rows, columns) or BGR (rows, columns, 3).
+    """Iterates once over the images: numpy arrays, gray (rows, columns) or BGR (rows, columns, 3).
 
-    skipped: how many files of the folder could not be read.
+    skipped: number of files in the folder that could not be read.
     """
 
     def __init__(self, path):
@@ -26,11 +26,11 @@ class Images:
         if self.path.is_dir():
             self._files = sorted(file for file in self.path.iterdir() if file.suffix.lower() in IMAGE_FILES)
             if not self._files:
-                raise InputError(f"{path}: no image in it: expected files of {', '.join(sorted(IMAGE_FILES))}")
+                raise InputError(f"{path}: no image in it, expected files of {', '.join(sorted(IMAGE_FILES))}")
         elif not self.path.is_file():
-            raise InputError(f"{path}: expected a folder of images, or a video file")
+            raise InputError(f"{path}: expected a folder of images or a video file")
         elif not cv2.VideoCapture(str(path)).isOpened():
-            raise InputError(f"{path}: no video that OpenCV reads: expected one, or a folder of images")
+            raise InputError(f"{path}: not a video that OpenCV can read, expected one or a folder of images")
 
     def __iter__(self):
         return self._from_folder() if self.path.is_dir() else self._from_video()
@@ -54,7 +54,7 @@ class Images:
 
 
 def _numbers(tree, key, count, file):
-    """The numbers of {rows: ..., cols: ..., data: [...]}; count None: any number of them."""
+    """Returns the numbers of {rows: ..., cols: ..., data: [...]}; count None: any number."""
     data = tree.get(key, {}).get("data") if isinstance(tree.get(key), dict) else None
     good = isinstance(data, list) and all(isinstance(value, (int, float)) for value in data)
     if not good or count not in (None, len(data)):
@@ -64,7 +64,7 @@ def _numbers(tree, key, count, file):
 
 
 def read_calibration(file):
-    """The fields of a sensor_msgs/CameraInfo (dict) of a yaml file. Raises InputError."""
+    """Returns the fields of a sensor_msgs/CameraInfo (dict) from a yaml file. Raises InputError."""
     tree = load_yaml(file)
     if not isinstance(tree, dict):
         raise InputError(f"{file}: expected a calibration: image_width, camera_matrix and others")
@@ -80,7 +80,7 @@ def read_calibration(file):
 
 
 def check_size(image, calibration, file):
-    """Raises InputError unless the image is of the calibration's size."""
+    """Raises InputError unless the image has the calibration's size."""
     size, expected = image.shape[1::-1], (calibration["width"], calibration["height"])
     if size != expected:
         raise InputError(f"{file}: images of {size[0]} x {size[1]}: expected {expected[0]} x {expected[1]}, "

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Registers all nodes, topics, services and parameters again when the master was restarted.
+"""Registers all nodes, topics, services and parameters again after the master was restarted.
 
 usage: keep_registrations [ROS remappings]
 
-Nodes register once, at their start. When roscore ends and is started again with the same URI, they stay
-connected with each other, but nobody new finds them, and what is respawned later comes back without its
-parameters. This node asks the master each second whether it is still known there, and keeps what the
+Nodes register only once, at startup. If roscore ends and is restarted with the same URI, they stay
+connected to each other, but new nodes cannot find them, and respawned nodes lack their parameters.
+This node asks the master every second whether it is still registered there, and remembers what the
 master knows.
 """
 
@@ -18,11 +18,11 @@ import rospy
 
 from datmo_tools import registrations
 
-PERIOD = 1.0  # s; what registers in the last one before the master ends is not registered again
+PERIOD = 1.0  # s; what registers in the last period before the master ends is not registered again
 
 
 class Keeper:
-    """What the master knew when it was asked last."""
+    """Remembers what the master knew at the last query."""
 
     def __init__(self, uri, own_name):
         self._master = rosgraph.Master(own_name, uri)
@@ -30,15 +30,15 @@ class Keeper:
         self._is_there = True
 
     def step(self):
-        """Asks once; says what is new."""
+        """Queries the master once; logs what is new."""
         try:
             self._ask()
             self._is_there = True
         except rosgraph.MasterException:
-            pass  # a node went away between two questions: the next time
+            pass  # a node shut down between two queries: retry next time
         except (OSError, http.client.HTTPException) as error:
             if self._is_there:
-                rospy.logwarn("no master answers at %s (%s), expected roscore there: nodes that are connected go on",
+                rospy.logwarn("no master answers at %s (%s), expected roscore there: connected nodes keep running",
                               self._master.master_uri, error)
             self._is_there = False
 
@@ -51,7 +51,7 @@ class Keeper:
                           self._master.master_uri, len(nodes))
 
     def _is_known_to_master(self):
-        """Whether it is still the one with which this node has registered."""
+        """Whether this is still the master with which this node registered."""
         try:
             self._master.lookupNode(self._master.caller_id)
         except rosgraph.MasterError:
@@ -60,7 +60,7 @@ class Keeper:
 
 
 def main():
-    """The exit code: 1 for a command line that is not understood."""
+    """Returns the exit code: 1 for an invalid command line."""
     words = rospy.myargv()[1:]
     if words:
         is_question = words in (["-h"], ["--help"])
@@ -70,5 +70,5 @@ def main():
     keeper = Keeper(rosgraph.get_master_uri(), rospy.get_name())
     while not rospy.is_shutdown():
         keeper.step()
-        time.sleep(PERIOD)  # of the computer's clock: that of messages may stand still
+        time.sleep(PERIOD)  # wall time: ROS time may stand still
     return 0

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What roslaunch does not check in a command line: arguments that no launch file takes, values that no
-argument has, names of sensor sets without a file, and a stack that already runs on the same master.
+"""Checks what roslaunch does not check in a command line: unknown arguments, invalid values, names
+of sensor sets without a file, and a stack that already runs on the same master.
 
 usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC
                     merge_scans:=BOOL camera:=KIND odometry:=KIND can_signals:=FILE.yaml]
 
-A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
-included by pass_all_args takes arguments, too; includes of other packages' launch files without it
-are checked by roslaunch itself.
+A launch file runs this by <param command>, as a child of roslaunch, before any node starts. Files
+that are included by pass_all_args take arguments, too; includes of other packages' launch files
+without it are checked by roslaunch itself.
 """
 
 import difflib
@@ -23,10 +23,10 @@ from datmo_tools.yaml_files import load_yaml
 
 MANAGER = "perception"
 CALLER = "/check_launch"
-# Arguments that take one of a few words: roslaunch takes any.
+# Arguments that take one of a few words; roslaunch accepts any value.
 CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
            "v2x_part": ("perception", "sensors", "stereo", "risk")}
-# Devices of live.launch: the kinds that there are, and what to do for others that people have.
+# Devices of live.launch: the supported kinds, and what to do for other common devices.
 DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "rear_lidar": ("none", "external", "hokuyo", "sick_lms"),
            "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 CAN = ("can", "can_imu")  # odometry that reads can_signals
@@ -34,8 +34,8 @@ INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
 }
-# s, for an answer of a node; one that has ended is known at once. Long enough for a busy machine: a stack that does
-# not answer in time counts as none.
+# s, to wait for a node to answer; one that has ended is noticed at once. Long enough for a busy
+# machine: a stack that does not answer in time is taken for absent.
 TIMEOUT = 10.0
 
 
@@ -45,7 +45,8 @@ def is_argument(word):
 
 
 def launch_words(command_line):
-    """The words after roslaunch's name; none if another program (a test, an editor) loads the file."""
+    """Returns the words after roslaunch's name; none if another program (a test, an editor) loads
+    the file."""
     for i, word in enumerate(command_line[:2]):
         if os.path.basename(word) == "roslaunch":
             return command_line[i + 1:]
@@ -53,7 +54,7 @@ def launch_words(command_line):
 
 
 def parent_words(process):
-    """The command line of a process, by its number; empty where there is no /proc."""
+    """Returns the command line of a process, by its id; empty without /proc."""
     try:
         text = Path(f"/proc/{process}/cmdline").read_bytes().decode(errors="replace")
     except OSError:
@@ -62,10 +63,10 @@ def parent_words(process):
 
 
 def arguments_of(file, resolve):
-    """The names of the arguments that a launch file takes, those that it passes on included.
+    """Returns the names of the arguments that a launch file takes, including those it passes on.
 
-    `resolve` replaces substitutions in a file name, e.g. $(find PACKAGE). A name in which an argument
-    stands cannot be resolved here and is left out: raises what `resolve` raises for it.
+    `resolve` replaces substitutions in a file name, e.g. $(find PACKAGE). A name that contains an
+    argument cannot be resolved here and is skipped: raises what `resolve` raises for it.
     """
     root = ElementTree.parse(file).getroot()
     names = {tag.get("name") for tag in root.findall("arg") if tag.get("value") is None}
@@ -76,7 +77,7 @@ def arguments_of(file, resolve):
 
 
 def refusal(given, known):
-    """A sentence on the first given name that is not known, or None."""
+    """Returns a sentence on the first unknown argument name, or None."""
     for name in given:
         if name not in known:
             near = difflib.get_close_matches(name, sorted(known), n=1)
@@ -86,7 +87,7 @@ def refusal(given, known):
 
 
 def bad_choice(words):
-    """A sentence on the first argument whose value is not one of its choices, or None."""
+    """Returns a sentence on the first argument whose value is not one of its choices, or None."""
     for name, value in (word.split(":=", 1) for word in words if is_argument(word)):
         if name in CHOICES and value not in CHOICES[name]:
             return f"{name}:={value}: expected one of {', '.join(CHOICES[name])}"
@@ -94,7 +95,7 @@ def bad_choice(words):
 
 
 def missing_configuration(words, folder):
-    """A sentence on the first of sensors, preset and config without a file, or None.
+    """Returns a sentence on the first of sensors, preset and config without a file, or None.
 
     folder: the sensor sets and presets (Path). sensors counts only without config, as in
     perception.launch.
@@ -116,26 +117,27 @@ def missing_configuration(words, folder):
 
 
 def missing_device(words):
-    """A sentence on the first device (lidar:=KIND) of an unknown kind, or that cannot work, or None."""
+    """Returns a sentence on the first device (lidar:=KIND) that is unknown or unusable, or None."""
     given = dict(word.split(":=", 1) for word in words)
     for name, kinds in DEVICES.items():
         kind = given.get(name, kinds[0])
         if kind not in kinds:
             remedy = f"; {INSTEAD[kind]} (doc/live.md)" if kind in INSTEAD else ""
-            return f"{name}:={kind}: no driver of ours, expected one of {', '.join(kinds)}{remedy}"
+            return f"{name}:={kind}: no driver in this package, expected one of {', '.join(kinds)}{remedy}"
     rear = given.get("rear_lidar", "none")
     if rear != "none" and given.get("cloud"):
-        return (f"rear_lidar:={rear} with clouds on {given['cloud']}: expected two planar scanners, the scan is made of "
+        return (f"rear_lidar:={rear} with clouds on {given['cloud']}: expected two planar scanners, as the scan is made of "
                 "the clouds alone")
     if rear != "none" and given.get("merge_scans", "true").lower() in ("false", "0"):
-        return f"rear_lidar:={rear} with merge_scans:={given['merge_scans']}: expected merge_scans:=true, or nothing takes its scans"
+        return f"rear_lidar:={rear} with merge_scans:={given['merge_scans']}: expected merge_scans:=true, as nothing else uses its scans"
     if rear not in ("none", "external") and not given.get("rear_lidar_address"):
-        return f"rear_lidar:={rear} without rear_lidar_address: expected where it is"
+        return f"rear_lidar:={rear} without rear_lidar_address: expected its address"
     return unreadable(given.get("can_signals")) if given.get("odometry") in CAN else None
 
 
 def unreadable(file):
-    """A sentence on a yaml file (path; None or empty: none) that roslaunch must not load, or None."""
+    """Returns a sentence on a yaml file (path; None or empty: none) that is not loadable, or
+    None."""
     try:
         if file:
             load_yaml(file)
@@ -145,17 +147,18 @@ def unreadable(file):
 
 
 def words_without_options(words):
-    """The words that are no options of roslaunch (-p 11311): its own parser knows which take a value."""
+    """Returns the words that are not options of roslaunch (-p 11311): its own parser knows which
+    take a value."""
     import roslaunch
     return roslaunch._get_optparse().parse_args(list(words))[1]
 
 
 def check_words(words):
-    """A sentence on what is wrong with the words after roslaunch's name, or None."""
+    """Returns a sentence on what is wrong with the words after roslaunch's name, or None."""
     given = [word.split(":=")[0] for word in words if is_argument(word)]
     if not given:
         return None
-    # Half a second to load: only where there is something to check.
+    # Takes half a second to load, so only if there is something to check.
     from roslaunch.rlutil import resolve_launch_arguments
     from roslaunch.substitution_args import resolve_args
     plain = [word for word in words_without_options(words) if ":=" not in word]
@@ -182,8 +185,8 @@ def runs(manager, master_uri):
 
 
 def second_stack(words, environment):
-    """A sentence if a stack of the same name runs on the master already, or None: both restart their
-    manager whenever the other's has ended it.
+    """Returns a sentence if a stack of the same name already runs on the master, or None: each
+    would restart its manager whenever the other one ends it.
 
     environment: that of roslaunch (dict).
     """
@@ -194,12 +197,13 @@ def second_stack(words, environment):
     manager = "/" + "/".join(part for part in manager.split("/") if part)
     if not runs(manager, master):
         return None
-    return (f"{manager} runs on {master} already: the two would end each other's nodes again and again. "
+    return (f"{manager} already runs on {master}: the two would keep ending each other's nodes. "
             "End the other one first, or give this one another ROS_MASTER_URI or ROS_NAMESPACE")
 
 
 def main():
-    """Prints the words checked; 1 and a sentence on standard error if roslaunch must not go on."""
+    """Prints the words checked; returns 1, with a sentence on standard error, if roslaunch must not
+    continue."""
     if sys.argv[1:] in (["-h"], ["--help"]):
         print(__doc__)
         return 0

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts a tool, or says which Debian package the module that it lacks is in."""
+"""Starts a tool, or names the Debian package of a missing module."""
 
 import importlib
 import sys
 
-# Modules whose packages are not called after them.
+# Modules whose packages are named differently.
 PACKAGES = {"cv2": "python3-opencv"}
 
 
 def run_tool(tool, module=None):
     """Calls main() of a module of datmo_tools; returns the exit code.
 
-    module: its name, where it is not the tool's. A module that is not installed is named on standard
-    error, in one line, with the code 1.
+    module: its name if it differs from the tool's. A module that is not installed is reported in
+    one line on standard error, with the exit code 1.
     """
     try:
         main = importlib.import_module(f"datmo_tools.{module or tool}").main
@@ -23,9 +23,9 @@ def run_tool(tool, module=None):
 
 
 def missing(module):
-    """What to do about a module (dotted name) that is not there."""
+    """Returns what to do about a missing module (dotted name)."""
     package = module.split(".")[0]
     if package.startswith("datmo_"):
-        return f"Python module {module} is not there, expected 'source devel/setup.bash' before"
+        return f"Python module {module} not found, expected 'source devel/setup.bash' before"
     name = PACKAGES.get(package, f"python3-{package.replace('_', '-')}")
-    return f"Python module {package} is not there, expected Debian's package {name}"
+    return f"Python module {package} not found, expected Debian's package {name}"

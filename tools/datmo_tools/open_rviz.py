@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rviz with the arguments given; without a display it says so and ends well, so that the rest goes on.
+"""Starts rviz with the given arguments; without a display it says so and exits with 0, so that the
+rest runs.
 
 usage: open_rviz [--frame-prefix PREFIX] [-d FILE] [ARGUMENT OF RVIZ]...
 
-With a prefix, or in a namespace, rviz shows a copy of FILE whose frames have the prefix and whose topics are
-in the namespace: one of several vehicles on one master.
+With a prefix, or in a namespace, rviz shows a copy of FILE with prefixed frames and namespaced
+topics: one of several vehicles on one master.
 """
 
 import argparse
@@ -29,7 +30,7 @@ def display_opens():
 
 
 def vehicle_view(file, prefix):
-    """The file to show: `file` itself where one vehicle is alone, else a copy for this one. Raises InputError."""
+    """Returns the file to show: `file` for a single vehicle, else a copy. Raises InputError."""
     namespace = os.environ.get("ROS_NAMESPACE", "")
     if not prefix and not namespace.strip("/"):
         return file
@@ -37,13 +38,13 @@ def vehicle_view(file, prefix):
 
 
 def main():
-    """Becomes rviz; returns an exit code where it does not."""
+    """Replaces this process by rviz; returns an exit code if it does not."""
     if sys.argv[1:] in (["-h"], ["--help"]):
         print(__doc__)
         return 0
     if not display_opens():
-        print(f"rviz is not opened: DISPLAY is '{os.environ.get('DISPLAY', '')}', which is no display "
-              "that can be reached; the rest goes on (rviz:=false: without this message; over ssh: "
+        print(f"rviz is not opened: DISPLAY is '{os.environ.get('DISPLAY', '')}', not a display "
+              "that can be reached; the rest runs (rviz:=false: without this message; over ssh: "
               "ssh -X)", file=sys.stderr)
         return 0
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Publishes the images of one camera, or of a stereo pair, from folders or video files, as a driver would.
+"""Publishes images of one camera or a stereo pair, from folders or video files, as a driver would.
 
 usage: play_images [--rate HZ] [--loop] [--frame NAME] [--raw] LEFT LEFT.yaml [RIGHT RIGHT.yaml]
 
-Out: stereo/left/image_rect (with --raw image_raw), stereo/left/camera_info, and the same of right. Both
-cameras' images, by their order, have one stamp: the time at which they are published.
+Out: stereo/left/image_rect (with --raw image_raw), stereo/left/camera_info, and the same for right.
+The images of both cameras are paired by their order, and stamped with the time of publication.
 """
 
 import sys
@@ -17,11 +17,11 @@ from datmo_tools.command_line import check_positive, new_parser, number, run
 from datmo_tools.errors import InputError
 from datmo_tools.image_files import Images, check_size, read_calibration
 
-QUEUE = 5  # images, some tenths of a second
+QUEUE = 5  # images, a few tenths of a second
 
 
 def image_message(image, stamp, frame):
-    """A sensor_msgs/Image of a numpy array."""
+    """Returns a sensor_msgs/Image of a numpy array."""
     message = Image(height=image.shape[0], width=image.shape[1], is_bigendian=0)
     message.header.stamp, message.header.frame_id = stamp, frame
     message.encoding = "mono8" if image.ndim == 2 else "bgr8"
@@ -31,7 +31,7 @@ def image_message(image, stamp, frame):
 
 
 def info_message(calibration, stamp, frame):
-    """A sensor_msgs/CameraInfo of a calibration (read_calibration)."""
+    """Returns a sensor_msgs/CameraInfo of a calibration (read_calibration)."""
     message = CameraInfo(**calibration)
     message.header.stamp, message.header.frame_id = stamp, frame
     return message
@@ -45,7 +45,7 @@ class Camera:
         self.calibration = read_calibration(calibration)
         first = next((image for image in self.images if image is not None), None)
         if first is None:
-            raise InputError(f"{path}: no image that can be read: expected 8 bit, gray or color")
+            raise InputError(f"{path}: no readable image, expected 8 bit, gray or color")
         check_size(first, self.calibration, path)
         self._image = rospy.Publisher(f"stereo/{side}/{topic}", Image, queue_size=QUEUE)
         self._info = rospy.Publisher(f"stereo/{side}/camera_info", CameraInfo, queue_size=QUEUE)
@@ -58,9 +58,9 @@ class Camera:
 
 def arguments_of(words):
     parser = new_parser("play_images", __doc__)
-    parser.add_argument("--rate", type=number, default=12.0, metavar="HZ", help="images a second (default 12)")
-    parser.add_argument("--loop", action="store_true", help="again and again")
-    parser.add_argument("--frame", default="camera", help="frame of the left camera, optical (default camera)")
+    parser.add_argument("--rate", type=number, default=12.0, metavar="HZ", help="images per second (default 12)")
+    parser.add_argument("--loop", action="store_true", help="repeat")
+    parser.add_argument("--frame", default="camera", help="optical frame of the left camera (default camera)")
     parser.add_argument("--raw", action="store_true", help="the images are not rectified")
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
     values = parser.parse_args(words)
@@ -93,10 +93,10 @@ def play(words):
         _play_once(cameras, values, rate)
     for camera in cameras:
         if camera.images.skipped:
-            rospy.logwarn("%s: %d files that are no 8 bit images: left out", camera.images.path, camera.images.skipped)
+            rospy.logwarn("%s: %d files that are not 8 bit images were skipped", camera.images.path, camera.images.skipped)
 
 
 def main():
-    """The exit code."""
+    """Returns the exit code."""
     words = rospy.myargv()[1:]
     return run("play_images", lambda: play(words), "image")

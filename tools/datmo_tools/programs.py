@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The programs of the package that its Python tools call."""
+"""Finds and runs the package's programs that its Python tools call."""
 
 import os
 import shutil
@@ -11,24 +11,24 @@ from datmo_tools.errors import InputError
 
 
 class StepFailed(Exception):
-    """A program that gave up: which one, and the last that it said."""
+    """A program failed: which one, and the last line of its error output."""
 
     def __init__(self, step, said, code=1):
-        """code: of its exit; negative: of the signal that ended it."""
+        """code: exit code; negative: the signal that ended it."""
         self.code = code
         lines = said.strip().splitlines()
         if code < 0:
             super().__init__(f"{step}: ended by signal {-code} ({signal.strsignal(-code)})")
         else:
-            super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
+            super().__init__(lines[-1] if lines else f"{step}: failed without a message")
 
 
 def find(name, tool):
-    """Path (string) of a program of the package that the file `tool` calls.
+    """Returns the path (str) of a program of the package that the file `tool` calls.
 
-    Looked for in the folder of the tool (devel space and installed tree hold both in one folder),
-    in the workspaces that are sourced, from CMAKE_PREFIX_PATH (a tool run from the source tree),
-    and on PATH. Raises InputError if it is in none of them.
+    Searches the folder of the tool (devel space and installed tree have both in one folder), the
+    sourced workspaces by CMAKE_PREFIX_PATH (for a tool that runs from the source tree), and PATH.
+    Raises InputError if it is not found.
     """
     prefixes = filter(None, os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep))
     folders = [Path(tool).parent, *(Path(p) / "lib" / "datmo_fusion" for p in prefixes)]
@@ -50,12 +50,12 @@ def check(folder, names):
 
 
 def call(program, *words):
-    """Runs a program (Path) to its end, in silence. Raises StepFailed."""
+    """Runs a program (Path) to its end, without output. Raises StepFailed."""
     _run(program, words, subprocess.DEVNULL)
 
 
 def output_of(program, *words):
-    """What it prints, as text; the same otherwise."""
+    """Like call(), but returns the program's output as text."""
     return _run(program, words, subprocess.PIPE).stdout
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Publishes the topic `tracks` in another package's messages, for nodes that know those.
+"""Publishes the topic `tracks` in another package's messages, for nodes that expect those.
 
 usage: publish_tracks_as vision_msgs|derived_object_msgs [tracks:=TOPIC] [ROS remappings]
 
 Out: tracks/vision_msgs (vision_msgs/Detection3DArray) or tracks/derived_object_msgs
-(derived_object_msgs/ObjectArray), while somebody listens. The package must be installed: Ubuntu has
-both, Debian 12 neither.
+(derived_object_msgs/ObjectArray), while there is a subscriber. The package must be installed:
+Ubuntu has both, Debian 12 has neither.
 """
 
 import importlib
@@ -18,11 +18,11 @@ from datmo_tools import track_bridge
 
 BRIDGES = {"vision_msgs": ("Detection3DArray", track_bridge.to_detections),
            "derived_object_msgs": ("ObjectArray", track_bridge.to_derived_objects)}
-QUEUE = 20  # a second of tracks: enough for a hiccup, and bounded
+QUEUE = 20  # one second of tracks: enough for a short delay, and bounded
 
 
 def main():
-    """The exit code: 1 for a command line that is not understood or a package that is not there."""
+    """Returns the exit code: 1 for an invalid command line or a missing package."""
     words = rospy.myargv()[1:]
     if words in (["-h"], ["--help"]):
         print(__doc__)
@@ -34,7 +34,7 @@ def main():
     try:
         module = importlib.import_module(f"{package}.msg")
     except ImportError:
-        print(f"publish_tracks_as: the package {package} is not there: expected it on PYTHONPATH "
+        print(f"publish_tracks_as: the package {package} not found, expected it on PYTHONPATH "
               f"(Ubuntu: ros-noetic-{package.replace('_', '-')})", file=sys.stderr)
         return 1
     name, convert = BRIDGES[package]

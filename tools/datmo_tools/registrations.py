@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a ROS master knows, read from one and registered with another by the master's own API.
+"""Reads the registrations of a ROS master, and registers them with another one by the master API.
 
-Nodes register when they start, and never again: a master that was started anew knows none of those that
-run. They are connected with each other and go on, but nobody new finds them, and their parameters are gone.
+Nodes register at startup and never again, so a restarted master knows none of the running nodes.
+They stay connected to each other, but new nodes cannot find them, and their parameters are gone.
 """
 
 import socket
@@ -11,8 +11,8 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-ANY_TYPE = "*"  # of a topic whose type nobody has said
-PATIENCE = 1.0  # s, for a node on the network to take a connection
+ANY_TYPE = "*"  # for a topic whose type is not known
+PATIENCE = 1.0  # s, to wait for a node on the network to accept a connection
 
 
 class Registrations(NamedTuple):
@@ -30,9 +30,9 @@ NOTHING = Registrations({}, [], [], {}, {}, {})
 
 
 def read(master, before=NOTHING):
-    """The Registrations of a rosgraph.Master; what it said `before` saves it most questions.
+    """Returns the Registrations of a rosgraph.Master; with `before`, asks only for what is new.
 
-    Raises OSError if it does not answer, MasterError if a node went away meanwhile.
+    Raises OSError if it does not answer, MasterError if a node shut down meanwhile.
     """
     publishers, subscribers, services = (
         [(name, node) for name, nodes in part for node in nodes] for part in master.getSystemState())
@@ -48,7 +48,8 @@ def read(master, before=NOTHING):
 
 
 def write(master, before):
-    """Tells a new rosgraph.Master what the one `before` knew, but for what is newer there and nodes that are gone.
+    """Registers with a new rosgraph.Master what `before` has, but nothing outdated and no dead
+    nodes.
 
     Returns the names of the nodes that are registered again.
     """
@@ -59,14 +60,15 @@ def write(master, before):
     publishers, subscribers, services = ([each for each in part if each[1] in nodes]
                                          for part in (before.publishers, before.subscribers, before.services))
     as_node = {node: rosgraph.Master(node, master.master_uri) for node in nodes}
-    # Publishers come first: a subscriber that gets a part of them would leave the others.
+    # Publishers first: a subscriber that learns of only some of them would drop the others.
     for topic, node in publishers:
         as_node[node].registerPublisher(topic, before.types.get(topic, ANY_TYPE), nodes[node])
     for topic, node in subscribers:
         as_node[node].registerSubscriber(topic, before.types.get(topic, ANY_TYPE), nodes[node])
     for service, node in services:
         as_node[node].registerService(service, before.services[service, node], nodes[node])
-    # Whoever registers a publisher has the master tell the subscribers of all: also of those that came meanwhile.
+    # Registering a publisher makes the master notify all subscribers, also those that registered
+    # meanwhile.
     after = read(master)
     for topic, node in dict(after.publishers).items():
         kind = after.types.get(topic, ANY_TYPE)
@@ -75,7 +77,7 @@ def write(master, before):
 
 
 def missing(before, now, name=""):
-    """(key, value) of each parameter, or tree of them, that is not there any more."""
+    """Yields (key, value) of each parameter, or tree of parameters, that no longer exists."""
     for key, value in before.items():
         if key not in now:
             yield f"{name}/{key}", value
@@ -84,7 +86,7 @@ def missing(before, now, name=""):
 
 
 def answers(uri):
-    """Whether a node takes a connection; one that stands still does."""
+    """Whether a node accepts a connection; one that is stopped does, too."""
     address = urlsplit(uri)
     try:
         socket.create_connection((address.hostname, address.port), PATIENCE).close()

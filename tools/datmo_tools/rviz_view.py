@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A configuration of rviz for one of several vehicles on one master: frames with its prefix, topics in its
-namespace."""
+"""Creates an rviz configuration for one of several vehicles on one master: prefixed frames,
+namespaced topics."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from datmo_tools.whole_files import write_whole
 from datmo_tools.yaml_files import load_yaml
 
 FRAME_KEYS = ("Fixed Frame", "Target Frame", "Reference Frame")
-# Of rviz: whatever the fixed frame is.
+# rviz's name for the fixed frame, whatever it is.
 SAME_AS_FIXED = "<Fixed Frame>"
 
 
@@ -28,18 +28,18 @@ def _changed(key, value, prefix, namespace):
 
 
 def view_of_vehicle(view, prefix, namespace):
-    """A view, as yaml reads it, with `prefix` ("car1/") before its frames and topics in `namespace` ("/car1")."""
+    """Returns a view, read from yaml, with `prefix` ("car1/") on frames, topics in `namespace`."""
     return _changed("", view, prefix, namespace)
 
 
 def write_view(file, prefix, namespace, folder):
-    """Writes the view of a file for a vehicle into a folder, which is made; returns the new file's path.
+    """Writes a view for a vehicle into a folder, which is created if needed; returns its path.
 
-    Each vehicle has one, which its next start replaces. Raises InputError.
+    Each vehicle has one such file, which its next start replaces. Raises InputError.
     """
     view = load_yaml(file)
     if not isinstance(view, dict):
-        raise InputError(f"{file}: expected a configuration of rviz")
+        raise InputError(f"{file}: expected an rviz configuration")
     vehicle = dict.fromkeys(word for word in f"{namespace}/{prefix}".split("/") if word)
     name = "_".join([Path(file).stem, *vehicle]) + ".rviz"
     text = yaml.safe_dump(view_of_vehicle(view, prefix, namespace), sort_keys=False)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was measured several times: median and range, or added up."""
+"""Summarizes repeated measurements: median and range, or sums."""
 
 import math
 import statistics
 
-DIGITS = 4  # that are kept of a figure
+DIGITS = 4  # significant digits of a figure
 
 
 def spread(values):
-    """[median, min, max] of numbers; None where one of them is missing (None), or none is there."""
+    """Returns [median, min, max] of numbers; None if there are none, or one of them is None."""
     values = list(values)
     if not values or None in values:
         return None
@@ -16,7 +16,7 @@ def spread(values):
 
 
 def spread_of(trees):
-    """One dictionary of equal nested ones, with the spread() of each figure."""
+    """Merges nested dictionaries of equal keys into one, with the spread() of each figure."""
     first = trees[0]
     if isinstance(first, dict):
         return {key: spread_of([tree[key] for tree in trees]) for key in first}
@@ -24,15 +24,15 @@ def spread_of(trees):
 
 
 def pooled_counts(runs, counts):
-    """Of several runs (dictionaries), the sums of these counts, and the MOTA of all as if they were
-    one; required, misses, false_positives and id_switches must be among the counts."""
+    """Returns the sums of these counts over several runs (dictionaries), and the MOTA as if they
+    were one run; required, misses, false_positives and id_switches must be among the counts."""
     total = {key: sum(run[key] for run in runs) for key in counts}
     errors = total["misses"] + total["false_positives"] + total["id_switches"]
     return {**total, "mota": 1.0 - errors / total["required"]}
 
 
 def rounded(tree):
-    """The same with its numbers rounded to DIGITS significant ones."""
+    """Returns the same value with its numbers rounded to DIGITS significant digits."""
     if isinstance(tree, dict):
         return {key: rounded(value) for key, value in tree.items()}
     if isinstance(tree, (list, tuple)):

@@ -10,14 +10,14 @@ LATEST = 2**32 * NANOSECONDS  # ROS has 32 bits for the seconds
 
 
 def to_ros_time(stamp):
-    """genpy.Time of `stamp` (ns)."""
+    """Returns the genpy.Time of `stamp` (ns)."""
     return genpy.Time(stamp // NANOSECONDS, stamp % NANOSECONDS)
 
 
 def parse_seconds(text):
-    """Stamp (ns) of a number of seconds since 1970, exactly as written.
+    """Returns the stamp (ns) of a decimal number of seconds since 1970, without rounding error.
 
-    Raises ValueError if `text` is not a number above 0 that a ROS time can hold.
+    Raises ValueError if `text` is not a positive number that a ROS time can hold.
     """
     try:
         stamp = int(Decimal(text) * NANOSECONDS)

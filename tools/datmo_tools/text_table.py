@@ -3,11 +3,11 @@
 
 from tabulate import tabulate
 
-NO_VALUE = "-"  # of what was not measured
+NO_VALUE = "-"  # for what was not measured
 
 
 def aligned(rows):
-    """Rows of cells as columns that line up, the first of them to the left; empty rows are left out.
+    """Returns rows of cells as aligned columns, the first one left-aligned; empty rows are dropped.
     """
     rows = [row for row in rows if any(row)]
     alignment = ("left", *["right"] * (len(rows[0]) - 1))
@@ -15,13 +15,13 @@ def aligned(rows):
 
 
 def rounded(value, digits):
-    """A number, or NO_VALUE for None."""
+    """Formats a number; NO_VALUE for None."""
     return NO_VALUE if value is None else f"{value:.{digits}f}"
 
 
 def spread_text(values, digits=0, scale=1.0):
-    """[median, min, max] as `median (min to max)`, or the median alone where they look the same;
-    NO_VALUE for None."""
+    """Formats [median, min, max] as `median (min to max)`, or as the median alone if the rounded
+    values are equal; NO_VALUE for None."""
     if values is None:
         return NO_VALUE
     median, lowest, highest = (f"{value * scale:.{digits}f}" for value in values)
@@ -29,5 +29,5 @@ def spread_text(values, digits=0, scale=1.0):
 
 
 def percent(share, digits=1):
-    """A share as percent, or NO_VALUE for None."""
+    """Formats a share as percent; NO_VALUE for None."""
     return NO_VALUE if share is None else f"{100.0 * share:.{digits}f}"

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tracks in the messages of other packages: vision_msgs and derived_object_msgs.
+"""Converts tracks to messages of other packages: vision_msgs and derived_object_msgs.
 
-Both write into messages that the caller makes, so that neither package is needed to load this module.
-Positions, velocities and frames stay as they are: m, m/s, rad, the TrackArray's frame.
+Both functions fill messages of the module that the caller passes, so that this module can be loaded
+without either package. Positions, velocities and frames are unchanged: m, m/s, rad, the
+TrackArray's frame.
 """
 
 import math
@@ -24,12 +25,12 @@ MAX_CERTAINTY = 255
 
 
 def heading_of(pose):
-    """rad, of a pose on the ground."""
+    """Returns the yaw (rad) of a planar pose."""
     return 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def pose_covariance(track):
-    """The 36 numbers of geometry_msgs/PoseWithCovariance: x, y and the heading's variance."""
+    """Returns the 36 numbers of geometry_msgs/PoseWithCovariance: x, y and heading variance."""
     covariance = [0.0] * 36
     covariance[0], covariance[1] = track.covariance[0], track.covariance[1]
     covariance[6], covariance[7] = track.covariance[STATES], track.covariance[STATES + 1]
@@ -38,7 +39,7 @@ def pose_covariance(track):
 
 
 def corners(track):
-    """The box's corners on the ground, counterclockwise from the front left one."""
+    """Returns the box's corners on the ground, counterclockwise from the front left one."""
     heading = heading_of(track.pose)
     cosine, sine = math.cos(heading), math.sin(heading)
     at = track.pose.position
@@ -51,11 +52,11 @@ def corners(track):
 
 
 def to_detections(tracks, module):
-    """vision_msgs/Detection3DArray; `module`: vision_msgs.msg.
+    """Returns a vision_msgs/Detection3DArray; `module`: vision_msgs.msg.
 
-    One hypothesis for each class with a probability above 0, with its name where the id is a string
-    (later versions) and else its number of Object.CLASS_*. The track's id stands where the version
-    has a field for it: Detection3D.tracking_id or ObjectHypothesisWithPose.object_id.
+    One hypothesis per class with a probability above 0: by name if the id is a string (later
+    versions), else by number of Object.CLASS_*. The track's id is in the field that the version has
+    for it: Detection3D.tracking_id or ObjectHypothesisWithPose.object_id.
     """
     array = module.Detection3DArray()
     array.header = tracks.header
@@ -64,7 +65,7 @@ def to_detections(tracks, module):
 
 
 def to_detection(track, header, module):
-    """vision_msgs/Detection3D of one track."""
+    """Returns the vision_msgs/Detection3D of one track."""
     detection = module.Detection3D()
     detection.header = header
     detection.bbox.center = track.pose
@@ -80,7 +81,7 @@ def to_detection(track, header, module):
 
 
 def to_hypothesis(track, number, probability, module):
-    """vision_msgs/ObjectHypothesisWithPose of one class."""
+    """Returns the vision_msgs/ObjectHypothesisWithPose of one class."""
     hypothesis = module.ObjectHypothesisWithPose()
     hypothesis.id = CLASS_NAMES[number] if isinstance(hypothesis.id, str) else number
     if hasattr(hypothesis, "object_id"):
@@ -92,9 +93,9 @@ def to_hypothesis(track, number, probability, module):
 
 
 def to_derived_objects(tracks, module):
-    """derived_object_msgs/ObjectArray; `module`: derived_object_msgs.msg.
+    """Returns a derived_object_msgs/ObjectArray; `module`: derived_object_msgs.msg.
 
-    Twist and acceleration are in the tracks' frame, as the pose. classification_age: hits.
+    Twist and acceleration are in the tracks' frame, like the pose. classification_age: hits.
     """
     array = module.ObjectArray()
     array.header = tracks.header
@@ -103,7 +104,7 @@ def to_derived_objects(tracks, module):
 
 
 def to_derived_object(track, header, module):
-    """derived_object_msgs/Object of one track."""
+    """Returns the derived_object_msgs/Object of one track."""
     derived = module.Object()
     derived.header = header
     derived.id = track.id

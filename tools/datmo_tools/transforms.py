@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 
 
 def normalize_angle(angle):
-    """Angle(s) in rad, brought to [-pi, pi)."""
+    """Normalizes angle(s) (rad) to [-pi, pi)."""
     return (np.asarray(angle) + math.pi) % (2.0 * math.pi) - math.pi
 
 
 def rigid(rotation, translation):
-    """4 x 4 transform from a 3 x 3 rotation and a translation (3, m)."""
+    """Returns the 4 x 4 transform of a 3 x 3 rotation and a translation (3, m)."""
     transform = np.eye(4)
     transform[:3, :3] = rotation
     transform[:3, 3] = translation
@@ -21,48 +21,48 @@ def rigid(rotation, translation):
 
 
 def inverse(transform):
-    """Inverse of a rigid 4 x 4 transform."""
+    """Returns the inverse of a rigid 4 x 4 transform."""
     rotation = transform[:3, :3].T
     return rigid(rotation, -rotation @ transform[:3, 3])
 
 
 def apply(transform, points):
-    """`points` (n x 3) through a 4 x 4 transform."""
+    """Transforms `points` (n x 3) by a 4 x 4 transform."""
     return points @ transform[:3, :3].T + transform[:3, 3]
 
 
 def yaw_of(transform):
-    """Heading (rad) of the transform's x axis in the target's xy plane."""
+    """Returns the heading (rad) of the transform's x axis in the target's xy plane."""
     return math.atan2(transform[1, 0], transform[0, 0])
 
 
 def rigid_of(pose):
-    """4 x 4 transform of a geometry_msgs/Transform whose quaternion is not 0."""
+    """Returns the 4 x 4 transform of a geometry_msgs/Transform whose quaternion is not 0."""
     shift, turn = pose.translation, pose.rotation
     rotation = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w])
     return rigid(rotation.apply(np.eye(3)).T, [shift.x, shift.y, shift.z])
 
 
 def quaternion_of_yaw(yaw):
-    """Quaternion (x, y, z, w) of a rotation by `yaw` (rad) about z."""
+    """Returns the quaternion (x, y, z, w) of a rotation by `yaw` (rad) about z."""
     return (0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
 
 
 def rotation_of(matrix):
-    """scipy's Rotation of a 3 x 3 matrix."""
-    # Before version 1.4, Ubuntu 20.04's is older, it was called a direction cosine matrix.
+    """Returns scipy's Rotation of a 3 x 3 matrix."""
+    # Before scipy 1.4 (Ubuntu 20.04 has an older one) it was called a direction cosine matrix.
     make = getattr(Rotation, "from_matrix", None) or getattr(Rotation, "from_dcm")
     return make(matrix)
 
 
 def quaternion_of(rotation):
-    """Quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation."""
+    """Returns the quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation."""
     quaternion = rotation_of(rotation).as_quat()
     return tuple(quaternion if quaternion[3] >= 0.0 else -quaternion)
 
 
 def compose(pose, local):
-    """Planar pose(s) `local` (..., 3: x, y, yaw) in the frame of `pose` (3), in its parent."""
+    """Transforms planar pose(s) `local` (..., 3: x, y, yaw) from `pose` (3) to its parent."""
     local = np.asarray(local, dtype=float)
     cosine, sine = math.cos(pose[2]), math.sin(pose[2])
     x = pose[0] + cosine * local[..., 0] - sine * local[..., 1]
@@ -71,7 +71,8 @@ def compose(pose, local):
 
 
 def relative(origin, pose):
-    """Planar pose(s) `pose` (..., 3), seen from the planar pose `origin` (3) in the same frame."""
+    """Returns planar pose(s) `pose` (..., 3) relative to a planar `origin` (3) in the same
+    frame."""
     pose = np.asarray(pose, dtype=float)
     cosine, sine = math.cos(origin[2]), math.sin(origin[2])
     dx, dy = pose[..., 0] - origin[0], pose[..., 1] - origin[1]
@@ -80,12 +81,12 @@ def relative(origin, pose):
 
 
 def points_in_parent(pose, points):
-    """Points (n x 2, m) in the frame of the planar `pose` (3), in its parent."""
+    """Transforms points (n x 2, m) from the frame of the planar `pose` (3) to its parent."""
     return compose(pose, _with_yaw(points))[..., :2]
 
 
 def points_seen_from(origin, points):
-    """Points (n x 2, m) of the frame of the planar pose `origin` (3), as seen from it."""
+    """Returns points (n x 2, m) relative to the planar pose `origin` (3) in the same frame."""
     return relative(origin, _with_yaw(points))[..., :2]
 
 
@@ -95,16 +96,17 @@ def _with_yaw(points):
 
 
 def arc(speed, yaw_rate, duration):
-    """Motion (x, y, yaw) at constant `speed` (m/s) and `yaw_rate` (rad/s) for `duration` (s)."""
+    """Returns the motion (x, y, yaw) at a `speed` (m/s) and `yaw_rate` (rad/s) for `duration`
+    (s)."""
     yaw = yaw_rate * duration
     chord = speed * duration * np.sinc(0.5 * yaw / math.pi)
     return np.array([chord * math.cos(0.5 * yaw), chord * math.sin(0.5 * yaw), yaw])
 
 
 def rates_of(motion, duration):
-    """Speed (m/s) and yaw rate (rad/s) of the arc that a planar `motion` in `duration` (s) is.
+    """Returns speed (m/s) and yaw rate (rad/s) of the arc of a planar `motion` in `duration` (s).
 
-    What the motion has across the arc's chord is left out: a vehicle does not slip sideways.
+    The component of the motion across the arc's chord is ignored: a vehicle does not slip sideways.
     """
     x, y, yaw = motion
     chord = x * math.cos(0.5 * yaw) + y * math.sin(0.5 * yaw)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are written all together or not at all."""
+"""Writes files either all together or not at all."""
 
 import contextlib
 import os
@@ -8,9 +8,9 @@ from datmo_tools.errors import InputError
 
 
 def check_folder(folder):
-    """Raises InputError where nothing can be written to `folder` (Path), which need not exist yet.
+    """Raises InputError if `folder` (Path), which need not exist yet, cannot be written.
 
-    For the start of work whose result it is to hold.
+    To be called before work whose result it will hold.
     """
     there = folder.resolve()
     while not there.exists():
@@ -22,10 +22,10 @@ def check_folder(folder):
 
 
 def write_whole(folder, texts):
-    """Writes files to `folder` (Path), which is made if need be.
+    """Writes files to `folder` (Path), which is created if needed.
 
-    texts: name -> text, or bytes. Each gets its name only when all of them are on the disk; what was there
-    under a name stays until then.
+    texts: name -> str or bytes. Each file gets its name only when all are on disk; until then,
+    existing files of these names remain.
     """
     parts = {name: folder / (name + ".part") for name in texts}
     try:

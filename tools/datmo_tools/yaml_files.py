@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Yaml files of any origin, read within bounds: those of src/ros/bounded_yaml.cpp, in the same words."""
+"""Reads untrusted yaml within the bounds of src/ros/bounded_yaml.cpp, with the same messages."""
 
 from pathlib import Path
 
@@ -9,19 +9,20 @@ from datmo_tools.errors import InputError
 
 MAX_BYTES = 1 << 20
 MAX_DEPTH = 100
-MAX_NODES = 100_000  # aliases count as what they stand for
-# Characters, here alone: PyYAML's time for a sexagesimal number (1:30:00) grows with their square.
+MAX_NODES = 100_000  # an alias counts as many as what it stands for
+# Characters, here only: PyYAML's time for a sexagesimal number (1:30:00) grows with their square.
 MAX_NUMBER = 1000
-# What PyYAML raises for a value that is not what its tag says (!!bool x): it has no error of its own for these.
+# What PyYAML raises for a value that does not match its tag (!!bool x): it has no error of its own
+# for these.
 BAD_VALUES = (ValueError, LookupError, AttributeError, TypeError, ArithmeticError)
 
 
 class _Loader(yaml.SafeLoader):
-    """A loader whose numbers are not too long."""
+    """A loader that rejects numbers that are too long."""
 
 
 def _number(construct):
-    """A constructor of numbers (of PyYAML) with a bound on their length."""
+    """Wraps a number constructor of PyYAML with a bound on the number's length."""
     def bounded(loader, node):
         if len(loader.construct_scalar(node)) > MAX_NUMBER:
             said = f"a number has more than {MAX_NUMBER} characters"
@@ -37,7 +38,7 @@ for _kind in ("int", "float"):
 
 
 def load_yaml(file):
-    """What a yaml file says: a dictionary, a list, a value or None. Raises InputError."""
+    """Returns a yaml file's content: a dictionary, a list, a value or None. Raises InputError."""
     try:
         with Path(file).open("rb") as stream:
             text = stream.read(MAX_BYTES + 1)
@@ -49,25 +50,25 @@ def load_yaml(file):
 
 
 def parse_yaml(name, text):
-    """What a text (str or bytes) says, `name` in messages. Raises InputError."""
+    """Returns the content of a text (str or bytes); `name` is for messages. Raises InputError."""
     try:
         _check_size(name, text)
         return yaml.load(text, _Loader)
     except yaml.YAMLError as error:
         raise InputError(f"{name}: expected yaml, but {error}") from error
-    except BAD_VALUES as error:  # a date that is none, bytes that are no text
+    except BAD_VALUES as error:  # a date that does not exist, bytes that are not text
         raise InputError(f"{name}: expected yaml, but a value is not what its tag or form says ({error!r})") from error
 
 
 def _check_size(name, text):
-    """Goes through what the parser finds: what is too much must not be built first."""
+    """Checks the parser's events, so that what exceeds the bounds is never built."""
     nodes, opened, nodes_of = 0, [], {}
     for event in yaml.parse(text, yaml.SafeLoader):
         where = f"{name}:{event.start_mark.line + 1}: expected yaml, but"
         if isinstance(event, yaml.AliasEvent):
             if event.anchor in nodes_of and nodes_of[event.anchor] is None:
                 raise InputError(f"{where} an alias stands for what it stands in")
-            nodes += nodes_of.get(event.anchor, 0)  # one of nothing is refused by the loader
+            nodes += nodes_of.get(event.anchor, 0)  # the loader rejects unknown aliases
         elif isinstance(event, yaml.NodeEvent):
             is_leaf = isinstance(event, yaml.ScalarEvent)
             nodes_of[event.anchor] = 1 if is_leaf else None  # known when it ends

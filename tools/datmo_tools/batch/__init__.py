@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A folder of recordings through the stack, one report over all."""
+"""Runs a folder of recordings through the stack, and writes one report on all of them."""

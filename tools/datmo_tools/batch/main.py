@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All recordings of a folder through the stack: the command line, and the start of Snakemake."""
+"""Runs all recordings of a folder through the stack: command line, and start of Snakemake."""
 
 import contextlib
 import fcntl
@@ -18,9 +18,9 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate import report
 
 DESCRIPTION = """\
-Takes every recording (*.bag) of a folder through run_bag and, where its truth is in it or beside it
+Runs every recording (*.bag) of a folder through run_bag and, if its truth is in it or next to it
 (NAME.truth.bag), score_run; writes batch.html and batch.json, with the worst moments of all first.
-When restarted it resumes, and repeats only what has changed: recordings, sensor set, options,
+A restart resumes, and repeats only what has changed: recordings, sensor set, options,
 programs. A recording that cannot be used is one line in the report, and the others continue; the
 exit code is then 1. Words after -- are options of run_bag for all recordings."""
 
@@ -28,13 +28,13 @@ HERE = Path(__file__).parent
 PROFILES = HERE / "profiles"
 MIN_VERSION = 7  # of Snakemake
 NEEDED = ("run_bag", "score_run", "check_configuration")
-MIN_FREE = 64 * 2**20  # bytes: with less the disk counts as full
+MIN_FREE = 64 * 2**20  # bytes: with less, the disk counts as full
 
 
 def main(arguments=None):
     """Runs the command line; returns its exit code."""
     words = sys.argv[1:] if arguments is None else arguments
-    # argparse takes what follows "--" for the last positional one only where FOLDER is next to it.
+    # argparse takes what follows "--" as the last positional argument only if FOLDER is next to it.
     end = words.index("--") if "--" in words else len(words)
     values = _parser().parse_args(words[:end])
     values.options = words[end + 1:]
@@ -71,14 +71,14 @@ def _batch(values):
 
 @contextlib.contextmanager
 def _locked(out):
-    """Context in which no other batch works in the folder; a killed one leaves no lock."""
+    """Context manager that locks the folder against other batches; a killed one leaves no lock."""
     try:
         out.mkdir(parents=True, exist_ok=True)
         with (out / "lock").open("w") as file:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
-                raise InputError(f"{out}: another batch works in it; wait for its end") from error
+                raise InputError(f"{out}: another batch is using it; wait until it ends") from error
             yield
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error}") from error
@@ -86,19 +86,19 @@ def _locked(out):
 
 @functools.lru_cache(maxsize=1)
 def find_snakemake():
-    """Path (string) of Snakemake. Raises InputError where there is none, or one that is too old."""
+    """Returns the path (str) of Snakemake. Raises InputError if it is missing or too old."""
     program = shutil.which("snakemake")
     if program is None:
         raise InputError("no snakemake on PATH, expected Debian's package snakemake"
                          " ('scripts/setup batch' installs it)")  # fmt: skip
     version = programs.output_of(Path(program), "--version").strip()
     if int(version.partition(".")[0]) < MIN_VERSION:
-        raise InputError(f"{program} is of version {version}, expected {MIN_VERSION} or newer")
+        raise InputError(f"{program} has version {version}, expected {MIN_VERSION} or newer")
     return program
 
 
 def _snakemake(out, values):
-    """Its exit code; it has ended when this returns, whatever happens."""
+    """Runs Snakemake and returns its exit code; it has ended when this returns, in any case."""
     program = find_snakemake()
     profile = PROFILES / values.profile
     words = [program, "--snakefile", HERE / "Snakefile", "--directory", out, "--nolock", "--quiet",
@@ -112,12 +112,12 @@ def _snakemake(out, values):
         try:
             return process.wait()
         except BaseException:
-            process.terminate()  # it ends its jobs
+            process.terminate()  # Snakemake ends its jobs
             raise
 
 
 def _environment():
-    """Of the jobs, which find this package where this process has it from."""
+    """Returns the environment of the jobs, in which they find this package as this process does."""
     path = [str(HERE.parent.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
     return {**os.environ, "PYTHONPATH": os.pathsep.join(path)}
 
@@ -127,11 +127,11 @@ def _log(out):
 
 
 def _check_disk(out, batch):
-    """Raises InputError where what is left undone has no room."""
+    """Raises InputError if the disk is too full for the remaining work."""
     undone = sum(not one["finished"] for one in batch["failed"])
     disk = os.statvfs(out)
     if undone and disk.f_bavail * disk.f_frsize < MIN_FREE:
-        raise InputError(f"{out}: its disk is full, {undone} recordings are not done; make room and start"
+        raise InputError(f"{out}: its disk is full, {undone} recordings remain; free space and run"
                          " the same command again, it resumes")  # fmt: skip
 
 
@@ -142,14 +142,14 @@ def _parser():
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of run_bag and score_run")  # fmt: skip
     add("--config", type=Path, metavar="CONFIG.yaml",
-        help="the sensor set of recordings that have none beside them (NAME.yaml)")  # fmt: skip
+        help="sensor set of recordings without one of their own (NAME.yaml)")  # fmt: skip
     add("--out", type=command_line.output_folder, metavar="DIR",
         help="report, scores and bags (default FOLDER/batch)")  # fmt: skip
     add("--profile", default="local", metavar="PROFILE",
         help="local, slurm, or a folder with a profile of Snakemake (default %(default)s)")  # fmt: skip
     add("--jobs", type=command_line.count, metavar="N",
-        help="recordings at a time (default: the profile's)")  # fmt: skip
-    add("--no-bags", action="store_true", help="keeps scores alone, not the bags of results")
+        help="parallel recordings (default: the profile's)")  # fmt: skip
+    add("--no-bags", action="store_true", help="keep only the scores, not the bags of results")
     parser.usage = parser.format_usage().removeprefix("usage: ").rstrip() + " [-- OPTION ...]"
     parser.epilog = "What follows -- are options of run_bag."
     return parser

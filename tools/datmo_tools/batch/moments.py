@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""When in a recording things went badly, and how badly.
+"""Finds when in a recording things went badly, and how badly.
 
-All is weighed in seconds of trouble: how long the pose was lost or a sensor silent, and how many
+The weight is in seconds of trouble: how long the pose was lost or a sensor silent, and how many
 object-seconds were missed or false.
 """
 
 WINDOW = 2.0  # s, in which misses, false tracks and drops are counted together
-MAX_WINDOWS = 3  # a recording, that do not overlap
-MAX_MOMENTS = 10  # a recording
-MIN_WEIGHT = 0.2  # s: less is no moment
-UNCERTAIN_WEIGHT = 0.5  # of a second in which results come, but less than all
+MAX_WINDOWS = 3  # per recording, not overlapping
+MAX_MOMENTS = 10  # per recording
+MIN_WEIGHT = 0.2  # s: less does not count as a moment
+UNCERTAIN_WEIGHT = 0.5  # per second in which there are results, but fewer than expected
 
 # Health of a stage as run_bag --report has it.
 NOTHING = "nothing"
 
 
 def worst_moments(run, score):
-    """List of {at_s, for_s, weight_s, why}, the worst first.
+    """Returns a list of {at_s, for_s, weight_s, why}, the worst first.
 
     run: what run_bag --report wrote; score: what score_run wrote, or None.
     """
@@ -46,7 +46,7 @@ def _silences(run):
 
 
 def _gap_of_pose(run):
-    """The longest one, and the wait for the first pose."""
+    """Yields the longest gap, and the wait for the first pose."""
     pose = run["pose"]
     if pose is None:
         yield _moment(0.0, run["duration_s"], run["duration_s"], "no pose at all")
@@ -60,7 +60,7 @@ def _gap_of_pose(run):
 
 
 def _drops(run):
-    """Where most messages of a stage were dropped; each counts as one period of the scans."""
+    """Yields when most messages of a stage were dropped; each one counts as one scan period."""
     period = run["duration_s"] / max(run["scans"], 1)
     for one in run["dropped"]:
         yield _moment(one["max_from_s"], WINDOW, min(WINDOW, one["max_count"] * period),
@@ -68,7 +68,7 @@ def _drops(run):
 
 
 def _windows(series, offset):
-    """Windows with most misses and false tracks. offset: of the score's times to the recording's."""
+    """Yields windows with most misses and false tracks. offset: from score to recording time."""
     times, missed, false = series["time_s"], series["missed"], series["false"]
     if len(times) < 2:
         return
@@ -89,7 +89,7 @@ def _windows(series, offset):
 
 
 def _fullest(times, counts, used):
-    """Range of the frames of the window with most, none of them used; None: nothing is left."""
+    """Returns the unused window with most, as a range of frames; None if nothing is left."""
     best, best_count, first, count = None, 0, 0, 0
     for last, stamp in enumerate(times):
         if used[last]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which recordings a batch takes, and by what settings each is processed."""
+"""Finds the recordings of a batch, and the settings for processing each."""
 
 import hashlib
 import json
@@ -12,25 +12,25 @@ from datmo_tools.errors import InputError
 from datmo_tools.whole_files import write_whole
 
 FORMAT = 1  # of plan and settings
-TRUTH = ".truth.bag"  # ends the name of a bag of ground truth beside its recording
-DIGEST = 8  # hexadecimal digits that tell recordings of one name apart
+TRUTH = ".truth.bag"  # suffix of a ground truth bag next to its recording
+DIGEST = 8  # hexadecimal digits that distinguish recordings of the same name
 UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 
 
 class Recording(NamedTuple):
     """One bag of the folder."""
 
-    id: str  # names its files; of no other recording of the folder
-    name: str  # the bag, below the folder
+    id: str  # names its files; unique in the folder
+    name: str  # the bag, relative to the folder
     bag: Path
-    truth: Optional[Path]  # a bag beside it
+    truth: Optional[Path]  # a bag next to it
     config: Path  # the sensor set
 
 
 def find_recordings(folder, out, config):
-    """List of Recording below `folder` (Path), sorted; what lies in `out` (Path) is none.
+    """Returns a sorted list of Recording below `folder` (Path), without those in `out` (Path).
 
-    config: the sensor set (Path) of those that have none beside them, or None.
+    config: sensor set (Path) of the recordings without one of their own, or None.
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder, expected one with recordings (*.bag)")
@@ -48,14 +48,14 @@ def _recording(bag, folder, config):
     own = bag.with_suffix(".yaml")
     truth = bag.with_name(bag.stem + TRUTH)
     if not own.is_file() and config is None:
-        raise InputError(f"{bag}: no sensor set, expected {own.name} beside it, or --config")
+        raise InputError(f"{bag}: no sensor set, expected {own.name} next to it, or --config")
     return Recording(f"{UNSAFE.sub('_', bag.stem)}-{digest}", name, bag.resolve(),
                      truth.resolve() if truth.is_file() else None,
                      (own if own.is_file() else config).resolve())  # fmt: skip
 
 
 def write_plan(out, recordings, programs, options, keep_bags):
-    """Writes plan and settings to `out` (Path); settings that are the same stay as they are.
+    """Writes plan and settings to `out` (Path); unchanged settings keep their file.
 
     programs: folder (Path) of run_bag and score_run; options: further words (list) for run_bag.
     """
@@ -73,7 +73,7 @@ def write_plan(out, recordings, programs, options, keep_bags):
 
 
 def digest_of(programs):
-    """Of what makes the results: the programs and the libraries that were built with them."""
+    """Returns a digest of what makes the results: the programs and their libraries."""
     libraries = sorted(programs.parent.glob("libdatmo_fusion*.so"))
     digest = hashlib.sha1()
     for file in (programs / "run_bag", programs / "score_run", *libraries):
@@ -82,7 +82,7 @@ def digest_of(programs):
 
 
 def _state(file):
-    """By which a file that has changed is known, without reading it; None: it is not there."""
+    """Returns what identifies a changed file without reading it; None if it does not exist."""
     try:
         state = file.stat()
     except (AttributeError, OSError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One recording of a batch: run_bag, score_run, and what came of it as one file."""
+"""Processes one recording of a batch: run_bag, score_run, and the outcome as one file."""
 
 import argparse
 import contextlib
@@ -19,17 +19,17 @@ from datmo_tools.programs import StepFailed
 from datmo_tools.whole_files import write_whole
 
 FORMAT = 1  # of the outcome
-# What a program says that could not write; the second is rosbag's.
+# Error texts of programs that could not write; the second one is rosbag's.
 DISK_FAULTS = (os.strerror(errno.ENOSPC), "Problem writing data to disk")
-SCORES = ("clear_mot", "identity", "hota", "errors", "pose")  # of score_run, that an outcome has
+SCORES = ("clear_mot", "identity", "hota", "errors", "pose")  # of score_run, copied to an outcome
 
 
 class Unfinished(InputError):
-    """The recording is not to blame: the job has to run again."""
+    """The failure is not the recording's fault: the job has to run again."""
 
 
 def main(arguments=None):
-    """Runs the command line; returns its exit code, 0 also for a recording that cannot be used."""
+    """Runs the command line; returns its exit code, 0 even if the recording cannot be used."""
     parser = argparse.ArgumentParser(prog="batch.recording", description=__doc__)
     parser.add_argument("settings", type=Path)
     parser.add_argument("outcome", type=Path)
@@ -39,10 +39,10 @@ def main(arguments=None):
 
 
 def process(settings, outcome):
-    """Writes the outcome (Path), a JSON file, and beside it the bag and the score.
+    """Writes the outcome (Path), a JSON file, and next to it the bag and the score.
 
-    All is made in a folder of this attempt, so that one whose job was killed, or one that still runs
-    on another machine, is in nobody's way.
+    Everything is created in this attempt's own folder, so that attempts whose jobs were killed, or
+    that still run on another machine, do not interfere.
     """
     started = time.monotonic()
     work = outcome.parent.parent / "work"
@@ -62,12 +62,12 @@ def process(settings, outcome):
 
 
 def cause_file(out, recording):
-    """Path of the file in which the last attempt at a recording (its id) says why it gave up."""
+    """Returns the path of the file with the reason why a recording's (id) last attempt gave up."""
     return out / "work" / f"{recording}.unfinished"
 
 
 def line(result):
-    """What came of a recording, for the console."""
+    """Returns the outcome of a recording as a line for the console."""
     if result["error"]:
         return f"{result['name']}: {result['error']}"
     mota = ((result["score"] or {}).get("clear_mot") or {}).get("mota")
@@ -99,7 +99,7 @@ def _run_and_score(settings, folder):
 
 
 def _call(program, *words):
-    """As programs.call, but what the recording is not to blame for is Unfinished."""
+    """Like programs.call(), but raises Unfinished if the recording is not to blame."""
     try:
         programs.call(program, *words)
     except OSError as error:
@@ -108,12 +108,12 @@ def _call(program, *words):
         if error.code < 0:
             raise Unfinished(str(error)) from error
         if any(fault in str(error) for fault in DISK_FAULTS):
-            raise Unfinished(f"{error}: the disk is full, or broken") from error
+            raise Unfinished(f"{error}: the disk is full or broken") from error
         raise
 
 
 def _keep(settings, folder, outcome):
-    """Gives what was made its final name; the outcome comes after it."""
+    """Gives the files their final names; the outcome comes last."""
     outcome.parent.mkdir(parents=True, exist_ok=True)
     kept = [("score.json", ".score.json")]
     if settings["keep_bags"]:
@@ -123,12 +123,12 @@ def _keep(settings, folder, outcome):
         if (folder / name).exists():
             os.replace(folder / name, final)
         else:
-            final.unlink(missing_ok=True)  # of an earlier attempt at what has changed since
+            final.unlink(missing_ok=True)  # of an earlier attempt, before something changed
     if not settings["keep_bags"]:
         outcome.with_name(settings["id"] + ".bag").unlink(missing_ok=True)
 
 
 def _processor_time():
-    """s, of this process and of the programs that it called."""
+    """Returns the processor time (s) of this process and the programs that it called."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(one.ru_utime + one.ru_stime for one in used)

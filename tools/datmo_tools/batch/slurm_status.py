@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What became of a Slurm job, in the words that Snakemake asks for: running, success or failed."""
+"""Reports the state of a Slurm job in Snakemake's words: running, success or failed."""
 
 import subprocess
 import sys
 
 GOING_ON = ("PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "REQUEUED", "RESIZING")
-UNKNOWN = "running"  # of a job whose state cannot be had now: asked again
+UNKNOWN = "running"  # for a job whose state is not available now: Snakemake asks again
 
 
 def main():
-    """Prints the state of the job that the command line names."""
+    """Prints the state of the job named on the command line."""
     print(state_of(sys.argv[-1]))
     return 0
 
 
 def state_of(job):
-    """By the accounting; where a cluster keeps none, by the controller, which forgets after a while."""
+    """Returns the state from the accounting, else from the controller, which forgets it later."""
     for command, read in ((["sacct", "-nXP", "-o", "State", "-j", job], _accounted),
                           (["scontrol", "-o", "show", "job", job], _controlled)):
         try:
@@ -27,7 +27,7 @@ def state_of(job):
             if state:
                 return _word(state)
         elif "Invalid job id" in done.stderr:
-            return "failed"  # the controller has forgotten it: it ended, and Snakemake looks for its output
+            return "failed"  # forgotten, so it has ended: Snakemake checks its output
     return UNKNOWN
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What came of all recordings of a batch, as one result and as the sections of its report."""
+"""Summarizes all recordings of a batch, as one result and as the sections of its report."""
 
 import json
 from collections import Counter
@@ -15,7 +15,7 @@ AGAIN = "the same command resumes it"
 
 
 def collect(out, recordings):
-    """The result (dict) of what lies in `out` (Path). recordings: list of Recording."""
+    """Returns the result (dict) of the outcomes in `out` (Path). recordings: list of Recording."""
     outcomes = [(one, _outcome(out, one)) for one in recordings]
     done = [outcome for _, outcome in outcomes if outcome and not outcome["error"]]
     failed = [
@@ -38,12 +38,12 @@ def collect(out, recordings):
 
 
 def _outcome(out, recording):
-    """None: there is none of these settings, as the job did not come to its end."""
+    """Returns the outcome; None if the job for these settings did not finish."""
     path = out / "recordings" / f"{recording.id}.json"
     settings = out / "settings" / f"{recording.id}.json"
     try:
         if path.stat().st_mtime_ns < settings.stat().st_mtime_ns:
-            return None  # of former ones
+            return None  # with other settings
         return json.loads(path.read_text())
     except FileNotFoundError:
         return None
@@ -53,7 +53,7 @@ def _why_unfinished(out, recording):
     try:
         return f"not finished: {cause_file(out, recording.id).read_text()}; {AGAIN}"
     except FileNotFoundError:
-        return f"not finished: its job was killed, or had no turn; {AGAIN}"
+        return f"not finished: its job was killed or never started; {AGAIN}"
 
 
 def _totals(done):
@@ -82,7 +82,7 @@ def _totals(done):
 
 
 def sections(batch):
-    """List of Section."""
+    """Returns a list of Section."""
     return list(filter(None, [
         _tiles(batch), _failed(batch), _moments(batch), _recordings(batch), _dropped(batch),
     ]))  # fmt: skip
@@ -96,14 +96,14 @@ def _tiles(batch):
         ("recorded", f"{totals['duration_s'] / HOUR:.2f}", "h"),
         ("driven", f"{totals['distance_m'] / 1e3:.2f}", "km"),
         ("MOTA over all", percent(totals["mota"]), "%"),
-        ("recordings an hour per core", rounded(totals["recordings_per_core_hour"], 0), ""),
+        ("recordings per hour and core", rounded(totals["recordings_per_core_hour"], 0), ""),
     ]
     lines = ["; ".join(f"{name} {figure} {unit}".strip() for name, figure, unit in tiles)]
     return Section(tiles=tiles, lines=lines)
 
 
 def _failed(batch):
-    """Those that have no result, and those whose truth could not be used."""
+    """Returns the section of recordings without result, or without a usable truth."""
     lines = [f"{one['name']}: {one['error']}" for one in batch["failed"]]
     lines += [f"{one['name']}: no score: {one['score_error']}" for one in batch["recordings"]
               if one["score_error"]]  # fmt: skip
@@ -124,14 +124,14 @@ def _moments(batch):
     return Section(
         "Worst moments",
         "Time since the recording's first message. Trouble: seconds in which the pose was lost or a"
-        " sensor silent, object-seconds missed or false; half of the seconds in which a stage had less"
-        f" than all. The worst {len(shown)} of {len(batch['worst_moments'])}.",
+        " sensor silent, object-seconds missed or false, half of the seconds in which a stage had"
+        f" incomplete results. The worst {len(shown)} of {len(batch['worst_moments'])}.",
         rows,
     )
 
 
 def _recordings(batch):
-    """The worst first, by all its moments."""
+    """Returns the recordings by the weight of all their moments, the worst first."""
     if not batch["recordings"]:
         return None
     rows = [("recording", "s", "MOTA %", "misses", "false", "switches", "dropped", "gap of pose s",
@@ -150,7 +150,7 @@ def _recordings(batch):
             f"{trouble[one['id']]:.1f}",
             "" if pose else MISSED,
         ))  # fmt: skip
-    return Section("Recordings", "The one with most trouble first. MOTA where there is truth.", rows)
+    return Section("Recordings", "The one with most trouble first. MOTA if there is truth.", rows)
 
 
 def _dropped(batch):

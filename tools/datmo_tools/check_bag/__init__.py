@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_bag: what a recording holds, what is wrong with it, and the configuration to start with."""
+"""check_bag: what a recording contains, what is wrong with it, and an initial configuration."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All checks in their order, and what comes of them."""
+"""Runs all checks in order, and holds their result."""
 
 from typing import NamedTuple
 
@@ -22,7 +22,7 @@ from datmo_tools.errors import InputError
 
 
 class Result(NamedTuple):
-    """All that is known of a recording."""
+    """Everything that is known about a recording."""
 
     recording: object
     roles: Roles
@@ -35,24 +35,24 @@ class Result(NamedTuple):
 
     @property
     def can_start(self):
-        """Whether there is anything to run the stack on."""
+        """Whether the stack can run on the recording at all."""
         return self.facts is not None
 
     def yaml_text(self):
-        """Text of the first yaml."""
+        """Returns the text of the initial yaml."""
         sections, remarks = configuration.sections(
             self.recording, self.roles, self.results, self.measured
         )
         return yaml_text(self.recording.path.name, sections, remarks)
 
     def start_lines(self, bag, config):
-        """Lines of a shell; of the best level for which everything is there."""
+        """Returns the shell commands to start with, for the highest level whose inputs exist."""
         ready = [level for level in self.levels[:4] if not level.missing]
         best = next((level for level in ready if "object" in level.name), self.levels[0])
         return configuration.start_lines(bag, config, self.roles, self.recording, best)
 
     def as_dictionary(self):
-        """The findings, for JSON."""
+        """Returns the findings, for JSON."""
         return {
             "findings": [
                 {**item._asdict(), "severity": Severity(item.severity).name.lower()}
@@ -63,9 +63,9 @@ class Result(NamedTuple):
 
 
 def check(recording, scan=None, odometry=None):
-    """Result of a Recording; scan, odometry: topics to use, by default those that fit best.
+    """Returns the Result of a Recording; scan, odometry: topics to use, by default the best ones.
 
-    Raises InputError where the recording does not have these topics.
+    Raises InputError if the recording does not have these topics.
     """
     _check_topic(scan, recording.scans, "LaserScan or MultiEchoLaserScan")
     _check_topic(odometry, recording.odometry, "Odometry")
@@ -119,7 +119,7 @@ def _measure(recording, roles, signals, facts):
 
 
 def _stillness(signals):
-    """Function of two stamps: whether no signal moves between them; where none is there, never."""
+    """Returns a function of two stamps: whether no signal moves between them (none: False)."""
 
     def still(start, end):
         if not signals:

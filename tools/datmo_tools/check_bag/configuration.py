@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sections of the yaml and the lines to start with, from all that was measured."""
+"""Creates the sections of the yaml and the commands to start with from the measurements."""
 
 import shlex
 
@@ -9,23 +9,23 @@ from datmo_tools.check_bag.motion_checks import poses_are_better
 from datmo_tools.check_bag.sizing import is_small, settings
 from datmo_tools.check_bag.yaml_text import frames_section, mounts_section
 
-# Stages that wait for a stereo camera unless configured without one.
+# Stages that wait for a stereo camera unless configured to work without one.
 STEREO_FUSIONS = "grid_fusion", "object_fusion"
 
 
 def sections(recording, roles, results, measured):
-    """Sections of the yaml, and remarks for them."""
+    """Returns the sections of the yaml, and remarks on them."""
     items, remarks = {}, {}
     frames = frames_section(roles)
     if frames:
         items["frames"] = frames
-        remarks["frames"] = ["As the recording names them; the others have the names of REP 105."]
+        remarks["frames"] = ["Names from the recording; all others are those of REP 105."]
     mounts = mounts_section(recording, roles)
     if mounts:
         items["mounts"] = mounts
         remarks["mounts"] = [
             "MEASURE THIS: the recording does not say where these sensors are mounted.",
-            "(Of an IMU it is known: roll and pitch by gravity are enough.)",
+            "(For an IMU, roll and pitch from gravity are enough.)",
             f"m and rad, from {roles.base_frame} (below the rear axle, x forward, y left).",
         ]
     motion = motion_section(recording, roles, results)
@@ -37,7 +37,7 @@ def sections(recording, roles, results, measured):
         remarks.update(_size_remarks(measured))
     if pair_offset(recording, roles) > 0.0:
         items["stereo_image_proc"] = {"approximate_sync": True}
-        remarks["stereo_image_proc"] = ["Stamps of left and right images differ."]
+        remarks["stereo_image_proc"] = ["The stamps of left and right images differ."]
     if not roles.camera_clouds and not roles.right_image:
         for name in STEREO_FUSIONS:
             items.setdefault(name, {})["sources"] = {"stereo": {"use": False}}
@@ -46,7 +46,7 @@ def sections(recording, roles, results, measured):
 
 
 def motion_section(recording, roles, results):
-    """Section motion: source of the vehicle's motion."""
+    """Returns the section motion: the source of the vehicle's motion."""
     source = motion_source(roles, recording)
     section = {} if source == "odometry" else {"source": source}
     if source == "odometry" and poses_are_better(results):
@@ -65,27 +65,27 @@ def _motion_period(recording, roles, source):
 
 
 def _size_remarks(measured):
-    noise = "not measured, for the vehicle never stands: the default stays"
+    noise = "not measured, as the vehicle never stands: the default is kept"
     if measured.noise is not None:
         noise = f"{measured.noise:.3f} m, measured while the vehicle stands"
     speed = "not known" if measured.speed is None else f"{measured.speed:.1f} m/s"
     remarks = [
-        f"Measured: reach {measured.reach:.1f} m, speed of the vehicle {speed},",
+        f"Measured: range {measured.reach:.1f} m, vehicle speed {speed},",
         f"range noise {noise};",
-        f"beams come back from surfaces up to {measured.free_range:.0f} m (free_range).",
+        f"beams return from surfaces up to {measured.free_range:.0f} m (free_range).",
     ]
     result = {"scanner": remarks}
     if is_small(measured):
         result["tracker"] = [
-            "A slow vehicle with a short reach is taken to be a robot among people, whose legs",
-            "its scanner sees. What stands is followed as well (require_motion: true: not).",
-            "Other targets (model cars): config/model_car.yaml shows what goes with their size.",
+            "A slow vehicle with a short-range scanner is treated as a robot among people, whose",
+            "legs its scanner sees. Objects at rest are tracked, too (require_motion: true: not).",
+            "Other targets (model cars): config/model_car.yaml shows what depends on their size.",
         ]
     return result
 
 
 def topic_arguments(roles, recording):
-    """Arguments as scan:=/x, of the inputs that have another name than the default."""
+    """Returns arguments such as scan:=/x, for the inputs with another name than the default."""
     source = motion_source(roles, recording)
     names = {("echoes" if roles.scan_is_echoes else "scan"): roles.scan}
     if source == "odometry":
@@ -110,7 +110,7 @@ def _named(names, usual):
 
 
 def start_lines(bag, config, roles, recording, level):
-    """Lines of a shell that run the stack on the recording: without a master, and live."""
+    """Returns shell commands that run the stack on the recording: without a master, and live."""
     topics = [f"{ours}:={theirs}" for ours, theirs in topic_arguments(roles, recording).items()]
     topics = [word for word in topics if word != "points2:=/stereo/points2"]
     switch = [level.switch] if level.switch else []

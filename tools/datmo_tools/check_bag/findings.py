@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What check_bag finds: how bad it is, what it is, and what to do about it."""
+"""Findings of check_bag: how severe each is, what it is, and what to do about it."""
 
 import enum
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from typing import NamedTuple
 class Severity(enum.IntEnum):
     """How much a finding matters."""
 
-    NOTE = 0  # worth knowing; the stack copes
+    NOTE = 0  # worth knowing; the stack handles it
     WARNING = 1  # the result gets worse
     ERROR = 2  # the stack cannot work with it, or its result is wrong
 
@@ -17,14 +17,14 @@ class Finding(NamedTuple):
     """One finding."""
 
     severity: Severity
-    kind: str  # a name for programs, as `stamp_gap`
+    kind: str  # an identifier for programs, e.g. `stamp_gap`
     where: str  # topic, frame, or "" for the whole recording
     what: str  # what was found, with values and what was expected
-    advice: str  # what to do; "" where there is nothing to do
+    advice: str  # what to do; "" if there is nothing to do
 
 
 class Findings:
-    """Collects findings; at most one of a kind for each topic or frame."""
+    """Collects findings; at most one of each kind for each topic or frame."""
 
     def __init__(self):
         self._items = {}
@@ -45,13 +45,13 @@ class Findings:
         self._items.setdefault((finding.kind, finding.where), finding)
 
     def sorted(self):
-        """All of them, the worst first, otherwise in the order in which they were found."""
+        """Returns all of them, the most severe first, otherwise in the order they were found."""
         return sorted(self._items.values(), key=lambda finding: -finding.severity)
 
     def worst(self):
-        """Severity of the worst one; None where there is none."""
+        """Returns the severity of the worst one; None if there is none."""
         return max((finding.severity for finding in self._items.values()), default=None)
 
     def kinds(self):
-        """Set of the kinds that were found."""
+        """Returns the set of the kinds that were found."""
         return {finding.kind for finding in self._items.values()}

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a recording has for each level of fusion, and what is missing."""
+"""Checks what a recording has for each level of fusion, and what is missing."""
 
 from typing import NamedTuple
 
 
 class Level(NamedTuple):
-    """One level, and what it lacks."""
+    """A level of fusion, and what it lacks."""
 
     name: str
     switch: str  # of run_bag; "" for none
@@ -13,7 +13,7 @@ class Level(NamedTuple):
 
 
 def levels(recording, roles):
-    """List of Level."""
+    """Returns a list of Level."""
     base = _missing_for_scanner(recording, roles)
     camera = _missing_for_camera(recording, roles)
     objects = () if "/objects/stereo" in recording.topics else camera
@@ -33,7 +33,7 @@ def _missing_for_scanner(recording, roles):
     if roles.scan is None:
         wanted = "a planar scan (sensor_msgs/LaserScan or MultiEchoLaserScan)"
         if roles.lidar_clouds:
-            wanted += f": make one of {roles.lidar_clouds[0]} by cloud_to_scan"
+            wanted += f": make one from {roles.lidar_clouds[0]} with cloud_to_scan"
         missing += (wanted,)
     elif recording.transforms.between(roles.base_frame, roles.scan_frame) is None:
         mount = f"{roles.base_frame} -> {roles.scan_frame}"
@@ -46,13 +46,13 @@ def _missing_for_camera(recording, roles):
         return ()
     if roles.right_image is None:
         if roles.left_image is None and roles.mono_images:
-            return ("a second camera, or its points: with one camera, take level mono",)
+            return ("a second camera, or its points: with one camera, use level mono",)
         return ("a stereo camera: its points, or a pair of images",)
     lacking = [
         image for image in (roles.left_image, roles.right_image)
         if roles.info_beside(recording, image) is None
     ]  # fmt: skip
-    return tuple(f"camera_info beside {image}" for image in lacking)
+    return tuple(f"camera_info of {image}" for image in lacking)
 
 
 def _missing_for_mono(recording, roles):
@@ -61,14 +61,14 @@ def _missing_for_mono(recording, roles):
         return ("a camera's images",)
     rectified = [name for name in images if "rect" in name]
     if not rectified:
-        return (f"rectified images: image_proc makes them of {images[0]}",)
+        return (f"rectified images: image_proc makes them from {images[0]}",)
     if all(roles.info_beside(recording, image) is None for image in rectified):
-        return (f"camera_info beside {rectified[0]}",)
+        return (f"camera_info of {rectified[0]}",)
     return ()
 
 
 def motion_source(roles, recording):
-    """Value of motion/source that the recording allows: the first that is there."""
+    """Returns the first value of motion/source that the recording has the topics for."""
     if roles.odometry:
         return "odometry"
     joint_states = [

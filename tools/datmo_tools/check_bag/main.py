@@ -15,11 +15,11 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Reports what a recording contains, which problems it has for this package, and how to start.
 
-It reads the bag without a master and reports: what is missing for each level of fusion; rates, gaps
+Reads the bag without a master and reports: what is missing for each level of fusion; rates, gaps
 and order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of
-these, by the motion estimated from the scans; frames and mounts; beams that are dead or see the
+these, from the motion estimated from the scans; frames and mounts; beams that are dead or hit the
 vehicle itself; range compared with the window; calibration of cameras. Then it writes an initial
-yaml with the values that differ from the defaults, and prints the commands to start with.
+yaml with the values that differ from the defaults, and prints the commands to start the stack.
 
 Exit code: 0 nothing worse than a warning, 1 errors, or the yaml cannot be written, 2 the bag cannot
 be read."""
@@ -38,12 +38,12 @@ def main(arguments=None):
 def _parser():
     parser = command_line.new_parser("check_bag", DESCRIPTION)
     add = parser.add_argument
-    add("bag", type=Path, help="recording: a bag")
+    add("bag", type=Path, help="recorded bag")
     add("--out", type=Path, metavar="FILE.yaml",
         help="yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
-    add("--no-yaml", action="store_true", help="writes no yaml")
-    add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or that with most scans)")
-    add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most)")
+    add("--no-yaml", action="store_true", help="do not write a yaml")
+    add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or the most messages)")
+    add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or longest)")
     command_line.add_json(parser)
     return parser
 
@@ -59,7 +59,7 @@ def _run(values):
     _print(recording, result)
     if not values.no_yaml and result.can_start:
         write_whole(out.parent, {out.name: result.yaml_text()})
-        print(f"\nFirst parameters: {out}\nTo start with:")
+        print(f"\nInitial parameters: {out}\nTo start:")
         print("\n".join(f"  {line}" for line in result.start_lines(values.bag, out)))
     command_line.write_json(values.json, result.as_dictionary())
     return 1 if result.findings.worst() == Severity.ERROR else 0

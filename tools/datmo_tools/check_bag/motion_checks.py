@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odometry, IMU and twist against the motion that the scans see."""
+"""Compares odometry, IMU and twist with the motion estimated from the scans."""
 
 import math
 from typing import NamedTuple, Optional
@@ -9,19 +9,19 @@ import numpy as np
 from datmo_tools.check_bag.motion_fit import MotionFit, fit_distances, fit_turns
 from datmo_tools.check_bag.motion_signal import MotionSignal
 
-MAX_SCALE_ERROR = 0.06  # of the scale, from which on it is reported
+MAX_SCALE_ERROR = 0.06  # of the scale, above which it is reported
 SURE = 3.0  # standard deviations
 MAX_DELAY = 0.06  # s
-MIN_GAIN = 1.15  # of the cost, that a delay must bring
+MIN_GAIN = 1.15  # ratio of the costs without and with a delay, for the delay to be reported
 MAX_MOUNT_YAW = math.radians(4.0)
 MIN_MOUNT_PAIRS = 20
-MIN_SHIFT = 0.05  # m, from which on a shift has a direction
+MIN_SHIFT = 0.05  # m, above which a shift has a direction
 STANDING_SPEED = 0.02  # m/s
 STANDING_TURN = 0.01  # rad/s
 
 
 class MotionResult(NamedTuple):
-    """One signal and how it fits the scans."""
+    """A signal and how it fits the scans."""
 
     signal: MotionSignal
     turns: Optional[MotionFit]
@@ -29,7 +29,7 @@ class MotionResult(NamedTuple):
 
     @property
     def misfit(self):
-        """What is left between signal and scans, in units of the floor; inf: not known."""
+        """Residual between signal and scans, in units of the floor; inf: unknown."""
         fits = [(self.turns, 0.0015), (self.distances, 0.005)]
         parts = [
             fit.noise / floor * (1.0 + 10.0 * abs(abs(fit.scale) - 1.0))
@@ -39,7 +39,7 @@ class MotionResult(NamedTuple):
 
 
 def motion_signals(recording, roles):
-    """Dictionary role -> MotionSignal: pose and twist of the odometry, twist, imu."""
+    """Returns a dictionary role -> MotionSignal: pose and twist of the odometry, twist, imu."""
     signals = {}
     if roles.odometry in recording.odometry:
         samples = recording.odometry[roles.odometry]
@@ -54,7 +54,7 @@ def motion_signals(recording, roles):
 
 
 def vehicle_moved(signals):
-    """Whether any signal says that the vehicle moves for a while; True where none can say."""
+    """Whether any signal shows the vehicle moving for a while; True if there is none that could."""
     if not signals:
         return True
     for signal in signals.values():
@@ -67,7 +67,7 @@ def vehicle_moved(signals):
 
 
 def compare(signals, motions, base_motions):
-    """Dictionary role -> MotionResult."""
+    """Returns a dictionary role -> MotionResult."""
     return {
         name: MotionResult(
             signal,
@@ -79,7 +79,7 @@ def compare(signals, motions, base_motions):
 
 
 def check_motion(results, roles, findings):
-    """Adds where odometry, twist and IMU disagree with the scans."""
+    """Adds findings where odometry, twist and IMU disagree with the scans."""
     unused = _unused(results)
     for name, result in results.items():
         if name == unused:
@@ -91,7 +91,7 @@ def check_motion(results, roles, findings):
 
 
 def poses_are_better(results):
-    """Whether the poses of the odometry fit the scans better than its twist; None: no odometry."""
+    """Whether the odometry's poses fit the scans better than its twist; None without odometry."""
     pose, twist = results.get("pose"), results.get("twist_of_odometry")
     if pose is None:
         return None
@@ -101,7 +101,7 @@ def poses_are_better(results):
 
 
 def _unused(results):
-    """That half of the odometry which the yaml does not take."""
+    """Returns the part of the odometry, pose or twist, that the yaml does not use."""
     return "twist_of_odometry" if poses_are_better(results) else "pose"
 
 
@@ -114,13 +114,13 @@ def _check_turns(result, where, findings):
             "yaw_sign", where,
             f"{source} turns left where the scans turn right (scale {fit.scale:.2f})",
             "Either the yaw has the wrong sign (z must point up, left is positive), or the scan is "
-            "mirrored: its scanner hangs upside down, and tf must say so (roll pi).",
+            "mirrored: the scanner is upside down, and tf must state that (roll pi).",
         )  # fmt: skip
     elif abs(fit.scale - 1.0) > max(MAX_SCALE_ERROR, SURE * fit.scale_error):
         findings.warn(
             "yaw_scale", where,
-            f"the scans turn {fit.scale:.2f} times what {source} says",
-            "Correct the track width, or the gyro's scale, in the driver.",
+            f"the scans turn {fit.scale:.2f} times as much as {source}",
+            "Correct the track width or the gyro's scale in the driver.",
         )  # fmt: skip
     _check_delay(fit, result, where, findings)
 
@@ -133,16 +133,16 @@ def _check_distances(result, where, findings):
         findings.error(
             "speed_sign", where,
             f"{source} goes forward where the scans go backward (scale {fit.scale:.2f})",
-            "Either the speed has the wrong sign, or the scanner looks backward, and tf or mounts "
-            "must say so (yaw pi).",
+            "Either the speed has the wrong sign, or the scanner faces backward, and tf or mounts "
+            "must state that (yaw pi).",
         )  # fmt: skip
     elif abs(fit.scale - 1.0) > max(MAX_SCALE_ERROR, SURE * fit.scale_error):
         findings.warn(
             "odometry_scale", where,
-            f"the scans move {fit.scale:.2f} times as far as {source} says",
-            f"Multiply the wheel radius of the odometry's driver by {fit.scale:.2f}.",
+            f"the scans move {fit.scale:.2f} times as far as {source}",
+            f"Multiply the wheel radius in the odometry's driver by {fit.scale:.2f}.",
         )  # fmt: skip
-    # Turns show the delay better: a wrong mount does not change them.
+    # Turning shows the delay better: a wrong mount does not change it.
     if result.turns is None:
         _check_delay(fit, result, where, findings)
 
@@ -153,7 +153,7 @@ def _check_delay(fit, result, where, findings):
             "clock_offset", where,
             f"{result.signal.source} is {abs(fit.delay):.2f} s "
             f"{'later' if fit.delay > 0 else 'earlier'} than the scans, by the motion of both",
-            "Synchronize the clocks, or correct the stamps of the one that is off: at 1 rad/s "
+            "Synchronize the clocks, or correct the wrong stamps: at 1 rad/s "
             f"the scans are turned by {math.degrees(abs(fit.delay)):.0f} degrees.",
         )  # fmt: skip
 
@@ -169,7 +169,7 @@ def _check_pose_against_twist(results, roles, findings):
         return
     if _is_dead(twist.signal) and not _is_dead(pose.signal):
         findings.note(
-            "no_twist", roles.odometry, "its poses move, and its twist is always 0",
+            "no_twist", roles.odometry, "its poses move, but its twist is always 0",
             "The yaml takes the motion from the poses (motion/odometry_pose).",
         )  # fmt: skip
         return
@@ -177,13 +177,13 @@ def _check_pose_against_twist(results, roles, findings):
     if min(distance) > 1.0 and not 0.8 < distance[1] / distance[0] < 1.25:
         findings.warn(
             "twist_against_pose", roles.odometry,
-            f"by its poses the vehicle goes {distance[0]:.1f} m, by its twist {distance[1]:.1f} m",
-            "One of them is wrong; the yaml takes the one that fits the scans better.",
+            f"the vehicle moves {distance[0]:.1f} m by its poses, {distance[1]:.1f} m by its twist",
+            "One of them is wrong; the yaml uses the one that fits the scans better.",
         )  # fmt: skip
 
 
 def check_mount_yaw(result, motions, mount, roles, findings):
-    """Adds where the scanner looks in another direction than its mount says, by where it moves to."""
+    """Adds a finding if the scanner, by its motion, faces another way than its mount says."""
     if result is None or result.signal.positions is None or mount is None:
         return
     starts, ends = motions.starts, motions.ends
@@ -197,19 +197,19 @@ def check_mount_yaw(result, motions, mount, roles, findings):
     angles = angles - mount[2]
     off = float(np.angle(np.median(np.cos(angles)) + 1j * np.median(np.sin(angles))))
     spread = float(np.median(np.abs(np.angle(np.exp(1j * (angles - off))))))
-    # Half a turn is a speed of the wrong sign as well, which is said elsewhere.
+    # Half a turn is also a speed of the wrong sign, which is reported elsewhere.
     is_sign = abs(off) > math.pi - 0.3
     if not is_sign and abs(off) > max(MAX_MOUNT_YAW, SURE * spread / math.sqrt(far.sum())):
         findings.warn(
             "mount_yaw", roles.scan,
-            f"as the vehicle moves, the scans say that the scanner looks "
-            f"{math.degrees(off):+.0f} degrees from where tf or mounts have it",
+            f"judging by the motion, the scanner faces "
+            f"{math.degrees(off):+.0f} degrees away from its mount in tf or the yaml",
             f"Its yaw on {roles.base_frame} should be {mount[2] + off:.2f} rad.",
         )  # fmt: skip
 
 
 def _scanner_shifts(signal, starts, ends, mount):
-    """n x 2, m: how the scanner moves by a signal of the vehicle, along the vehicle's axes."""
+    """Returns the scanner's motion (n x 2, m, in the vehicle's axes) by a signal of the vehicle."""
     turns = signal.turns(starts, ends)
     cosine, sine = np.cos(turns) - 1.0, np.sin(turns)
     x, y = mount[:2]

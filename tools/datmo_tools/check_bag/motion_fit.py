@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How one signal of the vehicle's motion relates to that of the scans: scale, sign, delay."""
+"""Fits a signal of the vehicle's motion to that of the scans: scale, sign, delay."""
 
 from typing import NamedTuple
 
@@ -8,10 +8,10 @@ import numpy as np
 MAX_DELAY = 0.6  # s
 DELAY_STEP = 0.01  # s
 MIN_PAIRS = 15
-MIN_SIGNAL = 5.0  # times the noise, that the motion must have for a fit
-FLOOR_TURN = 0.0015  # rad, below which no match of scans is believed
+MIN_SIGNAL = 5.0  # times the noise, the least motion for a fit
+FLOOR_TURN = 0.0015  # rad, the least error of a match of scans
 FLOOR_SHIFT = 0.005  # m
-MAX_REST = 80.0  # floors, that one pair may cost
+MAX_REST = 80.0  # floors, the most that one pair may cost
 
 
 class MotionFit(NamedTuple):
@@ -19,14 +19,14 @@ class MotionFit(NamedTuple):
 
     scale: float
     scale_error: float  # standard deviation
-    delay: float  # s, by which the signal comes later than the scans
+    delay: float  # s, by which the signal lags behind the scans
     noise: float  # rad or m, of one pair after the fit
-    gain: float  # how often the cost at delay 0 is that at `delay`
+    gain: float  # ratio of the cost at delay 0 to that at `delay`
     pairs: int
 
 
 def fit_turns(signal, motions):
-    """MotionFit of the headings; None where too little turning is in it."""
+    """Returns the MotionFit of the headings; None if there is too little turning."""
     if signal is None or signal.headings is None:
         return None
     return _fit(signal, motions.starts, motions.ends, motions.motions[:, 2], signal.turns,
@@ -34,7 +34,7 @@ def fit_turns(signal, motions):
 
 
 def fit_distances(signal, motions, base_motions):
-    """MotionFit of the forward motion, where the scans know it; None where there is too little."""
+    """Returns the MotionFit of the forward motion that the scans observe; None if too little."""
     if signal is None or signal.positions is None:
         return None
     known = motions.certain
@@ -67,7 +67,7 @@ def _fit(signal, starts, ends, seen, said, floor):
 
 
 def _vertex(delays, costs, best):
-    """The minimum between the steps, by a parabola."""
+    """Refines the minimum between the steps by a parabola."""
     if best in (0, len(delays) - 1):
         return float(delays[best])
     before, at, after = costs[best - 1 : best + 2]
@@ -77,7 +77,7 @@ def _vertex(delays, costs, best):
 
 
 def _regression(said, seen, floor):
-    """Scale, its error, robust cost and noise of seen = scale * said, outliers weighed down."""
+    """Returns scale, its error, robust cost and noise of seen = scale * said."""
     weights = np.ones(len(seen))
     scale, noise = 1.0, floor
     for _ in range(8):

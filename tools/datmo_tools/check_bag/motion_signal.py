@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a sensor of the vehicle's own motion says, as heading and distance over time."""
+"""Heading and distance over time as measured by a sensor of the vehicle's own motion."""
 
 import math
 
@@ -9,10 +9,10 @@ from datmo_tools import transforms
 
 
 class MotionSignal:
-    """Heading, and position where it is known, over time; each at the sensor's own stamps."""
+    """Heading, and position if known, over time; each at the sensor's own stamps."""
 
     def __init__(self, source, stamps, headings, positions):
-        """source: topic and field; stamps: s, rising; headings: rad, unwrapped, or None;
+        """source: topic and field; stamps: s, increasing; headings: rad, unwrapped, or None;
         positions: n x 2, m, in a fixed frame, or None."""
         self.source = source
         self.stamps = stamps
@@ -20,12 +20,12 @@ class MotionSignal:
         self.positions = positions
 
     def turns(self, starts, ends):
-        """rad, between each two times (s)."""
+        """Returns the turn (rad) between each two times (s)."""
         at = np.interp(ends, self.stamps, self.headings)
         return at - np.interp(starts, self.stamps, self.headings)
 
     def motions(self, starts, ends):
-        """n x 2, m: how far between each two times, seen from the vehicle at the first one."""
+        """Returns the motion (n x 2, m) between each two times, in the frame of the first pose."""
         first, last = self._positions(starts), self._positions(ends)
         heading = np.interp(starts, self.stamps, self.headings)
         apart = last - first
@@ -39,11 +39,11 @@ class MotionSignal:
         return np.column_stack(columns)
 
     def covers(self, starts, ends):
-        """Mask of the intervals that lie in the signal."""
+        """Returns a mask of the intervals that are within the signal."""
         return (starts >= self.stamps[0]) & (ends <= self.stamps[-1])
 
     def speeds(self):
-        """m/s between stamps that are at least 0.1 s apart; empty without positions."""
+        """Returns speeds (m/s) between stamps at least 0.1 s apart; empty without positions."""
         if self.positions is None:
             return np.zeros(0)
         times = np.arange(self.stamps[0], self.stamps[-1], 0.1)
@@ -53,13 +53,13 @@ class MotionSignal:
 
 
 def _rising(stamps):
-    """Indices that bring stamps into rising order, each stamp once."""
+    """Returns indices that sort stamps in increasing order, without duplicates."""
     _, indices = np.unique(stamps, return_index=True)
     return indices
 
 
 def integrated(source, stamps, speeds, yaw_rates):
-    """MotionSignal of rates (m/s or None, rad/s or None) at stamps (s); None for too few."""
+    """Returns the MotionSignal of rates (m/s or None, rad/s or None) at stamps (s), or None."""
     order = _rising(stamps)
     stamps = stamps[order]
     if len(stamps) < 3:
@@ -81,7 +81,7 @@ def _sum(steps, rates):
 
 
 class OdometrySamples:
-    """Odometry messages: poses and twists."""
+    """Samples of Odometry messages: poses and twists."""
 
     def __init__(self):
         self._rows = []
@@ -100,11 +100,11 @@ class OdometrySamples:
         )
 
     def table(self):
-        """n x 7: stamp, x, y, yaw, norm of the quaternion, speed, yaw rate."""
+        """Returns n x 7: stamp, x, y, yaw, norm of the quaternion, speed, yaw rate."""
         return np.array(self._rows, dtype=float).reshape(-1, 7)
 
     def by_pose(self, source):
-        """MotionSignal of the poses; None for too few."""
+        """Returns the MotionSignal of the poses; None if too few."""
         table = self._usable(slice(1, 5))
         if len(table) < 3:
             return None
@@ -113,7 +113,7 @@ class OdometrySamples:
         )
 
     def by_twist(self, source):
-        """MotionSignal of the twists; None for too few."""
+        """Returns the MotionSignal of the twists; None if too few."""
         table = self._usable(slice(5, 7))
         return integrated(source + " (twist)", table[:, 0], table[:, 5], table[:, 6])
 
@@ -124,7 +124,7 @@ class OdometrySamples:
 
 
 class TwistSamples:
-    """TwistStamped messages."""
+    """Samples of TwistStamped messages."""
 
     def __init__(self):
         self._rows = []
@@ -135,14 +135,14 @@ class TwistSamples:
         self._rows.append((stamp, twist.linear.x, twist.angular.z))
 
     def signal(self, source):
-        """MotionSignal; None for too few."""
+        """Returns the MotionSignal; None if too few."""
         table = np.array(self._rows, dtype=float).reshape(-1, 3)
         table = table[np.all(np.isfinite(table), axis=1)]
         return integrated(source, table[:, 0], table[:, 1], table[:, 2])
 
 
 class ImuSamples:
-    """Imu messages."""
+    """Samples of Imu messages."""
 
     def __init__(self):
         self._rows = []
@@ -153,31 +153,31 @@ class ImuSamples:
         self._rows.append((stamp, rate.x, rate.y, rate.z, pull.x, pull.y, pull.z))
 
     def table(self):
-        """n x 7: stamp, angular velocity, acceleration; finite rows only."""
+        """Returns n x 7: stamp, angular velocity, acceleration; finite rows only."""
         table = np.array(self._rows, dtype=float).reshape(-1, 7)
         return table[np.all(np.isfinite(table), axis=1)]
 
     def up(self):
-        """Unit vector, in the IMU's frame, against gravity; None where it feels none."""
+        """Returns the unit vector opposite to gravity, in the IMU's frame; None without gravity."""
         table = self.table()
         mean = table[:, 4:].mean(axis=0) if len(table) else np.zeros(3)
         length = np.linalg.norm(mean)
         return mean / length if length > 5.0 else None
 
     def signal(self, source, up=None):
-        """MotionSignal of the turns about `up` (default: its z axis); None for too few."""
+        """Returns the MotionSignal of the turns about `up` (default: z); None if too few."""
         table = self.table()
         axis = np.array([0.0, 0.0, 1.0]) if up is None else up
         return integrated(source, table[:, 0], None, table[:, 1:4] @ axis)
 
 
 def planar_mount(matrix):
-    """(x, y, yaw), upside down, tilt (rad) of a sensor's 4 x 4 transform to the vehicle."""
+    """Returns (x, y, yaw), upside down, tilt (rad) of a sensor's 4 x 4 transform to the vehicle."""
     upside_down = matrix[2, 2] < 0.0
     tilt = math.acos(min(abs(matrix[2, 2]), 1.0))
     return np.array([matrix[0, 3], matrix[1, 3], transforms.yaw_of(matrix)]), upside_down, tilt
 
 
 def euler_degrees(matrix):
-    """Roll, pitch, yaw in degrees of a 4 x 4 transform."""
+    """Returns roll, pitch, yaw in degrees of a 4 x 4 transform."""
     return transforms.rotation_of(matrix[:3, :3]).as_euler("xyz", degrees=True)

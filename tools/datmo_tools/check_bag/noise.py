@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Range noise, and how far a beam without return is free, measured from the scans."""
+"""Measures range noise, and how far a beam without return means free space, from the scans."""
 
 import numpy as np
 
@@ -7,17 +7,17 @@ MIN_STILL_PAIRS = 5
 MIN_BEAMS = 50
 STILL_SHIFT = 0.01  # m between two scans
 STILL_TURN = 0.002  # rad
-SMOOTH = 0.05  # of the range, that neighbors may differ by on one surface
+SMOOTH = 0.05  # of the range, the most by which neighbors on one surface differ
 RANGE_BINS = 8
-MAX_LOST_SHARE = 0.03  # of the beams on a surface, that may lack a return
+MAX_LOST_SHARE = 0.03  # of the beams on a surface, the largest share that may lack a return
 MIN_IN_BIN = 200
 MIN_NOISE = 0.005  # m: no planar scanner is better
 
 
 def range_noise(scans, still):
-    """m, standard deviation of a range while the vehicle stands; None where it never does.
+    """Returns the standard deviation (m) of a range at standstill; None if there is none.
 
-    still: function of two stamps (s), whether the vehicle stands between them.
+    still: function of two stamps (s): whether the vehicle stands between them.
     """
     values = []
     for first, second in zip(scans, scans[1:]):
@@ -33,9 +33,10 @@ def range_noise(scans, still):
 
 
 def free_range(scans, facts):
-    """m, up to which nearly every beam that meets a surface comes back; 0: not even nearby.
+    """Returns the range (m) up to which nearly all beams return from surfaces; 0: not even nearby.
 
-    A beam without return between two beams that end at about the same range has met their surface.
+    A beam without return between two beams of about the same range is assumed to hit the same
+    surface.
     """
     edges = np.linspace(0.0, facts.reach, RANGE_BINS + 1)
     lost, met = np.zeros(RANGE_BINS), np.zeros(RANGE_BINS)

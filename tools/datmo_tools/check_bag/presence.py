@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which sensors a recording has, and what serves in place of those that are missing."""
+"""Checks which sensors a recording has, and what replaces those that are missing."""
 
 from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.yaml_text import imu_frame_without_mount
 
 MOTION_TEXTS = {
-    "twist": "the speeds of {twist} (geometry_msgs/TwistStamped) serve instead",
-    "imu_and_twist": "the yaw rate of {imu} and the speed of {twist} serve instead",
-    "imu_and_wheels": "the yaw rate of {imu} and the wheels of {wheels} serve instead",
-    "imu": "the yaw rate of {imu} serves, the speed comes from the scans",
+    "twist": "the speeds of {twist} (geometry_msgs/TwistStamped) are used instead",
+    "imu_and_twist": "the yaw rate of {imu} and the speed of {twist} are used instead",
+    "imu_and_wheels": "the yaw rate of {imu} and the wheels of {wheels} are used instead",
+    "imu": "the yaw rate of {imu} is used, the speed comes from the scans",
 }
 
 
 def check_presence(recording, roles, findings):
-    """Adds what is missing altogether."""
+    """Adds findings on sensors that are missing altogether."""
     if not recording.topics:
         findings.error("empty", "", "the recording has no messages", "Record again.")
         return
@@ -22,7 +22,7 @@ def check_presence(recording, roles, findings):
     for name, why in recording.undecoded.items():
         findings.error(
             "undecodable", name, f"a message cannot be decoded ({why})",
-            "The recording is damaged there, or was written with another definition.",
+            "The recording is damaged, or was written with another message definition.",
         )  # fmt: skip
 
 
@@ -30,19 +30,19 @@ def _check_scan(recording, roles, findings):
     if roles.scan is None and not roles.lidar_clouds:
         findings.error(
             "no_scan", "", "no planar scan (sensor_msgs/LaserScan or MultiEchoLaserScan)",
-            "The stack begins with one: record the scanner's topic.",
+            "The stack needs one: record the scanner's topic.",
         )  # fmt: skip
     if len(roles.scans) > 1:
         findings.note(
             "several_scanners", roles.scan,
             f"{len(roles.scans)} scanners: {', '.join(roles.scans)}; {roles.scan} is used",
-            "--scan names another one. The stack takes one scanner.",
+            "--scan selects another one. The stack uses one scanner.",
         )  # fmt: skip
     if len(roles.odometries) > 1:
         findings.note(
             "several_odometries", roles.odometry,
             f"{len(roles.odometries)} odometries: {', '.join(roles.odometries)}; {roles.odometry} "
-            "is used", "--odometry names another one.",
+            "is used", "--odometry selects another one.",
         )  # fmt: skip
 
 
@@ -53,8 +53,8 @@ def _check_motion(recording, roles, findings):
     if source == "none":
         findings.warn(
             "no_odometry", "", "no odometry (nav_msgs/Odometry), twist or IMU",
-            "It works without (motion/source: none in the yaml), but in corridors and fast turns "
-            "the pose is lost sooner: record the wheels' odometry.",
+            "It runs without one (motion/source: none in the yaml), but in corridors and fast "
+            "turns the pose is lost sooner: record the wheels' odometry.",
         )  # fmt: skip
     else:
         text = MOTION_TEXTS[source].format(
@@ -62,14 +62,14 @@ def _check_motion(recording, roles, findings):
         )
         findings.warn(
             "no_odometry", "", f"no odometry (nav_msgs/Odometry): {text}",
-            "The yaml says so (motion/source).",
+            "The yaml is set accordingly (motion/source).",
         )  # fmt: skip
     frame = imu_frame_without_mount(recording, roles)
     if frame:
         findings.warn(
             "missing_imu_mount", roles.imu,
-            f"nothing says how {frame} is mounted on {roles.base_frame}",
-            "The yaml has its roll and pitch by gravity under mounts; a yaw rate asks for no more.",
+            f"the mount of {frame} on {roles.base_frame} is not known",
+            "The yaml has roll and pitch from gravity under mounts; a yaw rate needs no more.",
         )  # fmt: skip
     unread = [
         name for name in roles.wheels if recording.topics[name].type != "sensor_msgs/JointState"
@@ -77,7 +77,7 @@ def _check_motion(recording, roles, findings):
     if unread:
         findings.note(
             "wheel_speeds", unread[0],
-            "looks like wheel speeds, of a type that is not read "
+            "looks like wheel speeds, of an unsupported type "
             f"({recording.topics[unread[0]].type})",
             "Publish it as sensor_msgs/JointState (velocity, rad/s) or TwistStamped to use it.",
         )  # fmt: skip

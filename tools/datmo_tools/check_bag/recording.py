@@ -19,7 +19,7 @@ IMAGE = "sensor_msgs/Image"
 CAMERA_INFO = "sensor_msgs/CameraInfo"
 TRANSFORMS = "tf2_msgs/TFMessage", "tf/tfMessage"
 
-# How many messages of a topic are decoded. Scans in blocks, for neighbors are compared.
+# How many messages of a topic are decoded. Scans in blocks, as neighbors are compared.
 MAX_SCANS = 1200
 SCANS_IN_BLOCK = 60
 MAX_MOTIONS = 40000
@@ -28,16 +28,16 @@ MAX_CAMERA_INFOS = 20
 
 
 class Topic:
-    """What the stamps and headers of one topic say."""
+    """Stamps and headers of one topic."""
 
     def __init__(self, name, datatype, with_header):
         self.name = name
         self.type = datatype
         self.with_header = with_header
         self.recorded = []  # s since the start of the recording
-        self.stamps = []  # s likewise, by the header; empty without one
-        self.unstamped = 0  # messages with the stamp 0
-        self.frames = Counter()  # as they are written
+        self.stamps = []  # s since that start, from the header; empty without one
+        self.unstamped = 0  # messages with stamp 0
+        self.frames = Counter()  # as written
         self.children = Counter()  # child_frame_id of odometry
 
     @property
@@ -46,14 +46,14 @@ class Topic:
         return len(self.recorded)
 
     def period(self):
-        """s, median between messages by their stamps, else as recorded; None for too few."""
+        """Returns the median period (s) by stamps, else by record time; None if too few."""
         times = self.stamps if len(self.stamps) > 2 else self.recorded
         steps = np.diff(np.sort(np.asarray(times)))
         steps = steps[steps > 0.0]
         return float(np.median(steps)) if len(steps) else None
 
     def frame(self):
-        """The most frequent frame; "" where there is none."""
+        """Returns the most frequent frame; "" if there is none."""
         return self.frames.most_common(1)[0][0] if self.frames else ""
 
 
@@ -76,12 +76,12 @@ class Recording:
 
     @property
     def duration(self):
-        """s, from the first message to the last as recorded."""
+        """Returns the time (s) from the first message to the last by record time."""
         times = [topic.recorded[-1] for topic in self.topics.values() if topic.count]
         return max(times, default=0.0)
 
     def of_type(self, *types):
-        """Topics of one of these types that have messages, by name."""
+        """Returns the topics of these types that have messages, by name."""
         return sorted(
             (topic for topic in self.topics.values() if topic.type in types and topic.count),
             key=lambda topic: topic.name,
@@ -89,7 +89,7 @@ class Recording:
 
 
 def read_recording(path, bag):
-    """Recording of an open rosbag.Bag with the name `path`."""
+    """Returns the Recording of an open rosbag.Bag called `path`."""
     start = int(round(bag.get_start_time() * 1e9))
     recording = Recording(path, start)
     counts = {}
@@ -111,7 +111,7 @@ def read_recording(path, bag):
 
 
 def _types_with_header(bag):
-    # The index holds each type's definition; there is no public call for all of them.
+    # The index has each type's definition; there is no public call that returns all of them.
     return {
         connection.datatype: _begins_with_header(connection.msg_def)
         for connection in bag._get_connections()  # pylint: disable=protected-access
@@ -125,7 +125,7 @@ def _begins_with_header(definition):
 
 
 def _take_header(topic, data, start):
-    """Adds stamp and frame of a serialized message; returns the stamp (s), None where it is 0."""
+    """Adds stamp and frame of a serialized message; returns the stamp (s), None if it is 0."""
     if len(data) < 16:
         return None
     seconds, nanoseconds, length = struct.unpack_from("<III", data, 4)
@@ -158,7 +158,8 @@ def _decode(recording, topic, pytype, data, stamp, index):
     try:
         message.deserialize(data)
     except Exception as error:  # pylint: disable=broad-except
-        # genpy raises whatever struct and its own checks do; one bad message is no bad bag.
+        # genpy raises whatever struct and its own checks raise; one bad message does not make a bad
+        # bag.
         recording.undecoded.setdefault(topic.name, str(error))
         return
     _keep(recording, topic, message, stamp, index)

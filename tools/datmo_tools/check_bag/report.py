@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report that check_bag prints."""
+"""Formats the report that check_bag prints."""
 
 from datmo_tools.check_bag.findings import Severity
 from datmo_tools.check_bag.yaml_text import mount_text
@@ -9,7 +9,7 @@ ADVICE_INDENT = "         -> "
 
 
 def topics_text(recording):
-    """Table of the topics."""
+    """Returns the table of the topics."""
     rows = [("topic", "type", "messages", "Hz", "frame")]
     for topic in sorted(recording.topics.values(), key=lambda item: item.name):
         period = topic.period()
@@ -21,18 +21,18 @@ def topics_text(recording):
 
 
 def findings_text(findings):
-    """All findings, the worst first."""
+    """Returns all findings, the most severe first."""
     lines = []
     for item in findings.sorted():
         where = f"{item.where}: " if item.where else ""
         lines.append(f"{TITLES[item.severity]:8} {where}{item.what}. [{item.kind}]")
         if item.advice:
             lines.append(ADVICE_INDENT + item.advice)
-    return "\n".join(lines or ["Nothing to remark."])
+    return "\n".join(lines or ["No findings."])
 
 
 def levels_text(levels):
-    """What each level of fusion has."""
+    """Returns what each level of fusion has."""
     lines = []
     for level in levels:
         lacks = "ready" if not level.missing else "missing: " + "; ".join(level.missing)
@@ -41,16 +41,16 @@ def levels_text(levels):
 
 
 def measured_text(facts, measured, mount, results):
-    """What was measured of scanner and motion."""
+    """Returns what was measured of scanner and motion."""
     lines = []
     if facts is not None:
         lines.append(
-            f"  scanner: {facts.beams} beams over {57.2958 * facts.field:.0f} degrees, sees up to "
-            f"{measured.reach:.1f} m, half of it nearer than {facts.typical:.1f} m"
+            f"  scanner: {facts.beams} beams over {57.2958 * facts.field:.0f} degrees, range up to "
+            f"{measured.reach:.1f} m, median {facts.typical:.1f} m"
         )
         if measured.noise is not None:
-            lines.append(f"  range noise {1000 * measured.noise:.0f} mm, while it stands")
-        lines.append(f"  beams on surfaces come back up to {measured.free_range:.0f} m")
+            lines.append(f"  range noise {1000 * measured.noise:.0f} mm, while the vehicle stands")
+        lines.append(f"  beams return from surfaces up to {measured.free_range:.0f} m")
     if mount is not None:
         lines.append(f"  mounted at {mount_text(mount)}")
     for result in results.values():
@@ -66,5 +66,5 @@ def _fit_text(result):
                 f"{name} x {fit.scale:.3f} +- {fit.scale_error:.3f}, {1000 * fit.delay:+.0f} ms"
             )
     if not parts:
-        return "too little motion, or scans that do not match, to compare"
+        return "too little motion, or scans that do not match, for a comparison"
     return "against the scans " + "; ".join(parts)

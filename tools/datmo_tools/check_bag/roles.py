@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which topic of a recording serves as which input of the stack."""
+"""Assigns a recording's topics to the inputs of the stack."""
 
 from datmo_tools.check_bag import recording as kinds
 from datmo_tools.check_bag.transform_table import bare
 
-OPTICAL_FIELDS = {"rgb", "rgba"}  # of clouds that image pipelines make
+OPTICAL_FIELDS = {"rgb", "rgba"}  # of clouds from image pipelines
 LIDAR_FIELDS = {"ring", "intensity", "time", "t", "timestamp", "channel"}
 DEPTH_ENCODINGS = {"16UC1", "32FC1"}
 USUAL_BASE_FRAMES = "base_link", "base_footprint", "base"
 
 
 class Roles:
-    """Topics (names) by role; None where the recording has none."""
+    """Topics (names) by role; None if the recording has none."""
 
     def __init__(self, recording, scan=None, odometry=None):
-        """scan, odometry: topics that the user names instead of those with most messages."""
+        """scan, odometry: topics selected by the user instead of those with most messages."""
         self.scans = [topic.name for topic in recording.of_type(*kinds.SCANS)]
         self.scan = scan or _preferred(recording, self.scans, "/scan")
         self.scan_is_echoes = _type(recording, self.scan) == kinds.SCANS[1]
@@ -37,7 +37,7 @@ class Roles:
         self.scan_frame = bare(recording.topics[self.scan].frame()) if self.scan else ""
 
     def info_beside(self, recording, image):
-        """The camera_info topic in the same namespace as an image; None where there is none."""
+        """Returns the camera_info topic in an image's namespace; None if there is none."""
         if image is None:
             return None
         name = image.rsplit("/", 1)[0] + "/camera_info"
@@ -59,7 +59,7 @@ def _preferred(recording, names, usual):
 
 
 def _wheel_topics(recording):
-    """Topics that look like wheel speeds: joint states, and other types called so."""
+    """Returns topics that look like wheel speeds: joint states, and other types named that way."""
     named = ("wheel", "encoder", "joint_states")
     return [
         topic.name
@@ -71,7 +71,7 @@ def _wheel_topics(recording):
 
 
 def _clouds(recording):
-    """Topics of clouds of cameras, and of 3D lidars."""
+    """Returns the topics of clouds from cameras, and from 3D lidars."""
     cameras, lidars = [], []
     for name, cloud in recording.clouds.items():
         fields = set(cloud.fields)
@@ -90,7 +90,7 @@ def _depth_images(recording):
 
 
 def _stereo_pair(recording):
-    """The left image topic that has a right one beside it, and that one."""
+    """Returns the left image topic that has a right one in the same namespace, and that one."""
     for name in sorted(recording.images, key=lambda name: ("rect" not in name, name)):
         if "left" in name and name.replace("left", "right") in recording.images:
             return name, name.replace("left", "right")

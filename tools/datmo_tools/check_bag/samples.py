@@ -10,7 +10,7 @@ import numpy as np
 class ScanSample(NamedTuple):
     """One planar scan."""
 
-    stamp: float  # s since the start of the recording, by its header
+    stamp: float  # s since the start of the recording, from its header
     index: int  # of the message on its topic
     angle_min: float  # rad
     angle_max: float  # rad
@@ -23,18 +23,18 @@ class ScanSample(NamedTuple):
 
     @property
     def bearings(self):
-        """rad, of each beam."""
+        """Returns the bearing (rad) of each beam."""
         return self.angle_min + self.angle_increment * np.arange(len(self.ranges))
 
     @property
     def sweep(self):
-        """s from the first beam to the last; 0 where the scan does not say."""
+        """Returns the time (s) from the first beam to the last; 0 if the scan does not state it."""
         sweep = self.time_increment * max(len(self.ranges) - 1, 0)
         return sweep if math.isfinite(sweep) and sweep > 0.0 else 0.0
 
     @property
     def hits(self):
-        """Mask of the beams that returned."""
+        """Returns a mask of the beams that returned."""
         return (
             np.isfinite(self.ranges)
             & (self.ranges >= self.range_min)
@@ -50,7 +50,7 @@ class CloudSample(NamedTuple):
     width: int
     height: int
     fields: tuple  # names
-    points: np.ndarray  # n x 3, m, those that are finite, thinned
+    points: np.ndarray  # n x 3, m, finite ones only, subsampled
 
 
 class ImageShape(NamedTuple):
@@ -63,7 +63,7 @@ class ImageShape(NamedTuple):
 
 
 def scan_sample(message, stamp, index):
-    """ScanSample of a LaserScan, or of a MultiEchoLaserScan by its nearest valid echoes."""
+    """Returns the ScanSample of a LaserScan, or of a MultiEchoLaserScan's nearest valid echoes."""
     ranges = message.ranges
     if ranges and hasattr(ranges[0], "echoes"):
         ranges = [_nearest(beam.echoes, message) for beam in ranges]
@@ -87,7 +87,7 @@ def _nearest(echoes, message):
 
 
 def cloud_sample(message, max_points=20000):
-    """CloudSample of a PointCloud2; without points where x, y, z are not three floats."""
+    """Returns the CloudSample of a PointCloud2; without points unless x, y, z are three floats."""
     fields = {field.name: field for field in message.fields}
     points = np.zeros((0, 3))
     if all(name in fields and fields[name].datatype == 7 for name in "xyz"):
@@ -115,5 +115,5 @@ def _points(message, offsets):
 
 
 def image_shape(message):
-    """ImageShape of an Image."""
+    """Returns the ImageShape of an Image."""
     return ImageShape(message.header.frame_id, message.width, message.height, message.encoding)

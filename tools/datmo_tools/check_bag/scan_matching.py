@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motion between two scans by point-to-line registration, from the scans alone.
+"""Estimates the motion between two scans by point-to-line registration, from the scans alone.
 
 Source: Censi, "An ICP variant using a point-to-line metric", ICRA 2008.
 """
@@ -13,20 +13,20 @@ from scipy.spatial import cKDTree
 MAX_POINTS = 300  # of the later scan that are matched
 STEPS = 20
 MIN_PAIRS = 20
-MAX_GAP = 6.0  # of the median distance between neighbors: farther ones are no line
+MAX_GAP = 6.0  # times the median distance between neighbors: farther ones form no line
 
 
 class ScanMatch(NamedTuple):
-    """The later scanner's pose in the earlier one's frame."""
+    """The later scanner's pose in the frame of the earlier one."""
 
     motion: np.ndarray  # x, y (m), yaw (rad)
     residual: float  # m, median distance of matched points from their lines
     share: float  # 0 to 1, of the points that are matched
-    weakest: float  # 0 to 0.5: how much of the lines constrains the direction least known
+    weakest: float  # 0 to 0.5: share of the lines that constrains the least certain direction
 
 
 class Outline:
-    """A scan as points with normals, to match others with."""
+    """A scan as points with normals, for matching other scans with it."""
 
     def __init__(self, scan):
         hits = np.flatnonzero(scan.hits)
@@ -37,7 +37,7 @@ class Outline:
         self._tree = cKDTree(self._line_points) if len(self._line_points) else None
 
     def _lines(self, spacing, ranges):
-        """Points whose neighbors on both sides are near, and the normal there."""
+        """Returns points whose neighbors on both sides are near, and the normals there."""
         if len(self.points) < 3:
             return np.zeros((0, 2)), np.zeros((0, 2))
         before, middle, after = self.points[:-2], self.points[1:-1], self.points[2:]
@@ -51,7 +51,7 @@ class Outline:
         return middle[near][kept], normals
 
     def match(self, later, guesses):
-        """Best ScanMatch of a `later` Outline from several guesses (x, y, yaw); None: none."""
+        """Returns the best ScanMatch of a `later` Outline from guesses (x, y, yaw), or None."""
         if self._tree is None or len(later.points) < MIN_PAIRS:
             return None
         points = later.points[:: max(1, len(later.points) // MAX_POINTS)]
@@ -96,7 +96,7 @@ class Outline:
 
 
 def _step(points, normals, gaps, center):
-    """Gauss-Newton step (x, y, yaw about the scanner) on the distances from the lines."""
+    """Returns the Gauss-Newton step (x, y, yaw about the scanner) on the distances to the lines."""
     arms = points - center
     jacobian = np.column_stack([normals, arms[:, 0] * normals[:, 1] - arms[:, 1] * normals[:, 0]])
     scale = max(1.5 * np.median(np.abs(gaps)), 1e-4)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The vehicle's motion estimated from the scans alone, from a bounded number of pairs of scans."""
+"""Estimates the vehicle's motion from the scans alone, from a bounded number of pairs of scans."""
 
 from typing import NamedTuple
 
@@ -9,31 +9,31 @@ from datmo_tools import transforms
 from datmo_tools.check_bag.scan_matching import Outline
 
 MAX_PAIRS = 400
-PAIR_TIME = 0.3  # s between two scans of a pair, at most
-MAX_TRAVEL = 0.04  # of the reach, between them
-MIN_SHARE = 0.5  # of the points that have to be matched
-MIN_WEAKEST = 0.12  # below: a corridor, along which the motion is not known
+PAIR_TIME = 0.3  # s, maximum between two scans of a pair
+MAX_TRAVEL = 0.04  # of the scanner's range, maximum between them
+MIN_SHARE = 0.5  # of the points that must be matched
+MIN_WEAKEST = 0.12  # below: a corridor, along which the motion is not observed
 
-GUESS_SHIFT, GUESS_TURN = 0.4, 0.04  # m, rad: from nearer starts the matching converges to one pose
+GUESS_SHIFT, GUESS_TURN = 0.4, 0.04  # m, rad: from nearer starts, matching finds one pose
 
 
 class ScanMotions(NamedTuple):
-    """Motions between pairs of scans; arrays of one length."""
+    """Motions between pairs of scans; arrays of equal length."""
 
     starts: np.ndarray  # s, middle of the first scan's sweep
     ends: np.ndarray
-    motions: np.ndarray  # n x 3, the scanner's x, y (m), yaw (rad), seen from the first
+    motions: np.ndarray  # n x 3, the scanner's x, y (m), yaw (rad), relative to the first
     weakest: np.ndarray  # 0 to 0.5, of each match
     residuals: np.ndarray  # m
 
     @property
     def certain(self):
-        """Mask: the position is known in all directions."""
+        """Returns a mask: whether the position is observed in all directions."""
         return self.weakest > MIN_WEAKEST
 
 
 def scan_motions(scans, facts, signals):
-    """ScanMotions of ScanSamples; `signals`: MotionSignals, whose motions are tried as well."""
+    """Returns the ScanMotions of ScanSamples; `signals`: MotionSignals, tried as guesses, too."""
     travel = max((_speed_of(signal) for signal in signals), default=0.0)
     step = _step(facts, travel)
     outlines, rows = {}, []
@@ -57,7 +57,7 @@ def _speed_of(signal):
 
 
 def _step(facts, speed):
-    """How many scans later the second of a pair is."""
+    """Returns how many scans later the second one of a pair is."""
     longest = PAIR_TIME
     if speed > 0.0:
         longest = min(longest, MAX_TRAVEL * facts.reach / speed)
@@ -86,7 +86,7 @@ def _outline(scans, index, facts, outlines):
 
 
 def _guesses(first, second, signals):
-    """No motion, and each signal's turn to either side: the sign of none is believed."""
+    """Returns the guesses: no motion, and each signal's turn to either side: no sign is trusted."""
     guesses = [(0.0, 0.0, 0.0)]
     start, end = np.array([first.stamp]), np.array([second.stamp])
     for signal in signals:
@@ -106,7 +106,7 @@ def _differ(guess, other):
 
 
 def in_base(motions, mount):
-    """n x 3: motions of the scanner as those of the vehicle; mount: x, y, yaw of the scanner."""
+    """Converts motions (n x 3) of the scanner to the vehicle; mount: x, y, yaw of the scanner."""
     back = transforms.relative(mount, np.zeros(3))
     return np.array([
         transforms.compose(transforms.compose(mount, motion), back) for motion in motions

@@ -1,33 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sizes and noises of the stages from what the scanner reaches and how fast the vehicle is."""
+"""Chooses sizes and noises of the stages from the scanner's range and the vehicle's speed."""
 
 import copy
 import math
 from typing import NamedTuple, Optional
 
-# What the stages have by default: a car in a street.
+# Defaults of the stages: a car in a street.
 DEFAULT_LENGTH, DEFAULT_WIDTH, DEFAULT_CELL = 90.0, 108.0, 0.3  # m
 DEFAULT_FREE_RANGE = 40.0  # m
 MIN_NOISE = 0.02  # m: surfaces are rough, and scans take time
 DEFAULT_RANGE_NOISE = 0.1  # m
 
-SMALL_REACH = 20.0  # m: a scanner that reaches less is of a robot, indoors or of a model's size
-SMALL_SPEED = 3.0  # m/s: nothing that drives among people is faster
-FIT_RATIO = 0.45, 3.0  # of the default window's half length, within which a reach fits
+SMALL_REACH = 20.0  # m: a scanner with a shorter range is on a robot, indoors or of a model's size
+SMALL_SPEED = 3.0  # m/s: no vehicle among people is faster
+FIT_RATIO = 0.45, 3.0  # of the default window's half length, within which a range fits
 
 MIN_INITIAL_SPEED = 0.5  # m/s
-STATIC_AFTER = 2.0  # s: people stop for a moment, and are no wall for that
+STATIC_AFTER = 2.0  # s: people stop for a moment, and are not a wall because of that
 ROBOT_ODOMETRY = {
     "yaw_rate_noise": 0.05,  # rad/s
-    "yaw_rate_noise_ratio": 0.3,  # wheels slip when they turn on the spot
+    "yaw_rate_noise_ratio": 0.3,  # wheels slip when they turn in place
 }
 ROBOT_MOTION = {
     "acceleration_noise": 1.0,  # m/s^1.5
     "initial_yaw_rate_sigma": 0.5,  # rad/s
 }
 
-# People as a low scanner sees them: one or two legs, 0.1 m to 0.5 m, that swing by about 0.15 m about
-# the body. A person who stands is one as well, so nothing has to be seen to move first.
+# People as seen by a low scanner: one or two legs, 0.1 m to 0.5 m, that swing by about 0.15 m about
+# the body. A standing person is tracked, too, so nothing has to be seen moving first.
 PEOPLE_OBJECTS = {
     "max_size": 3.0,  # m
     "position_sigma": 0.15,  # m
@@ -59,49 +59,49 @@ PEOPLE_TRACKER = {
 
 
 class Measured(NamedTuple):
-    """Properties of scanner and vehicle from the recording."""
+    """Properties of scanner and vehicle, from the recording."""
 
     reach: float  # m
     spacing: float  # rad
     noise: Optional[float]  # m; None: not measured, the vehicle never stands
-    free_range: float  # m; 0: a beam without return says nothing
-    speed: Optional[float]  # m/s, 95 %; None: not known
+    free_range: float  # m; 0: a beam without return carries no information
+    speed: Optional[float]  # m/s, 95th percentile; None: not known
 
 
 def is_small(measured):
-    """Whether the sizes are those of a robot among people and not of a car among cars."""
+    """Whether the sizes are those of a robot among people instead of a car among cars."""
     slow = measured.speed is None or measured.speed < SMALL_SPEED
     return measured.reach < SMALL_REACH and slow
 
 
 def check_reach(measured, roles, findings):
-    """Adds where the default window does not fit the scanner."""
+    """Adds findings where the default window does not fit the scanner."""
     half = 0.5 * DEFAULT_LENGTH
     ratio = measured.reach / half
     if ratio < FIT_RATIO[0]:
         findings.warn(
             "reach_below_window", roles.scan,
-            f"the scanner sees up to {measured.reach:.1f} m (98 % of its returns), and the default "
-            f"window reaches {half:.0f} m in cells of {DEFAULT_CELL} m: sizes made for cars",
-            "Use the yaml that is written here: its window, cells and sizes are the scanner's.",
+            f"the scanner's range is {measured.reach:.1f} m (98 % of its returns), but the default "
+            f"window reaches {half:.0f} m in cells of {DEFAULT_CELL} m: sizes for cars",
+            "Use the yaml written here: its window, cells and sizes fit the scanner.",
         )  # fmt: skip
     elif ratio > FIT_RATIO[1]:
         findings.warn(
             "reach_beyond_window", roles.scan,
-            f"the scanner sees up to {measured.reach:.1f} m, and the default window ends at "
+            f"the scanner's range is {measured.reach:.1f} m, but the default window ends at "
             f"{half:.0f} m",
-            "What lies beyond is not used. The yaml has a larger window, which costs time.",
+            "Returns beyond it are not used. The yaml has a larger window, which costs time.",
         )  # fmt: skip
     if measured.free_range == 0.0:
         findings.note(
             "lost_returns", roles.scan,
-            "beams between others that return come back from nothing even nearby",
-            "The yaml says free_range 0: a beam without return clears nothing.",
+            "beams between others that return often do not return, even nearby",
+            "The yaml sets free_range to 0: a beam without return clears no cells.",
         )  # fmt: skip
 
 
 def window(measured):
-    """Length (m) and cell size (m) of the square window for the scanner."""
+    """Returns length (m) and cell size (m) of the square window for the scanner."""
     if FIT_RATIO[0] <= measured.reach / (0.5 * DEFAULT_LENGTH) <= 1.2:
         return None
     length = (3.0 if measured.reach < SMALL_REACH else 2.2) * measured.reach
@@ -110,7 +110,7 @@ def window(measured):
 
 
 def settings(measured):
-    """Sections (nested dictionaries) of the yaml that differ from the defaults."""
+    """Returns the sections (nested dictionaries) of the yaml that differ from the defaults."""
     sections = {}
     _set_free_range(sections, measured)
     _set_noise(sections, measured)
@@ -132,7 +132,7 @@ def _at(sections, *path):
 
 
 def _set_free_range(sections, measured):
-    # Whole meters below, for the last one may be seen at a good angle only.
+    # Rounded down to whole meters, as the last one may be seen only at a good angle.
     value = float(math.floor(min(measured.free_range, measured.reach)))
     if abs(value - DEFAULT_FREE_RANGE) >= 1.0:
         _at(sections, "scanner")["free_range"] = value

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stamps of every topic: rate, gaps, jumps, order, and against the time of recording."""
+"""Checks the stamps of every topic: rate, gaps, jumps, order, and against the record time."""
 
 import numpy as np
 
@@ -8,21 +8,21 @@ from datmo_tools.check_bag import recording as kinds
 # A gap is this many periods, and at least this many seconds.
 GAP_PERIODS = 3.5
 MIN_GAP = 0.25
-LOST_PERIODS = 1.6  # a step of so many periods lost a message
-LOST_SHARE = 0.05  # of the messages, from which on that is said
-JUMP_BACK = 1.0  # s: from here on the stack takes it for a restart
+LOST_PERIODS = 1.6  # a step of this many periods lost a message
+LOST_SHARE = 0.05  # of the messages, above which it is reported
+JUMP_BACK = 1.0  # s: from here on the stack treats it as a restart
 MIN_SCAN_RATE = 5.0  # Hz, below which people and cars move too far between two scans
-MAX_LATENCY = 0.5  # s from a header's stamp to the record
-MAX_LEAD = 0.02  # s that a header may be ahead of its record
-MAX_SPREAD = 0.3  # s between the latencies of two sensors, and of one (5 to 95 %)
-RATE_TOLERANCE = 1.5  # of the period that a scan itself claims
+MAX_LATENCY = 0.5  # s, from a header's stamp to its record time
+MAX_LEAD = 0.02  # s, by which a stamp may be ahead of its record time
+MAX_SPREAD = 0.3  # s, between the latencies of two sensors, and of one (5 to 95 %)
+RATE_TOLERANCE = 1.5  # times the period that the scan itself states
 MIN_MESSAGES = 5
-MIN_SCAN_TIME = 0.01  # s: what is less was not filled in
+MIN_SCAN_TIME = 0.01  # s: a smaller value was not set
 SENSORS = (*kinds.SCANS, kinds.ODOMETRY, kinds.IMU, kinds.CLOUD, kinds.IMAGE, *kinds.TWISTS)
 
 
 def check_timing(recording, roles, findings):
-    """Adds what is wrong with the stamps of the sensors' topics."""
+    """Adds findings on the stamps of the sensors' topics."""
     latencies = {}
     for topic in recording.of_type(*SENSORS):
         if topic.name.startswith("/ground_truth"):
@@ -44,7 +44,7 @@ def _check_present(topic, findings):
     if topic.unstamped:
         findings.error(
             "no_stamp", topic.name,
-            f"{topic.unstamped} of {topic.count} messages have the stamp 0",
+            f"{topic.unstamped} of {topic.count} messages have stamp 0",
             "Set header.stamp in the driver; the stack orders everything by it.",
         )  # fmt: skip
 
@@ -59,7 +59,7 @@ def _check_order(topic, stamps, findings):
             "stamp_jump_back", topic.name,
             f"the stamps jump back {len(jumps)} times, first by {-steps[jumps[0]]:.2f} s after "
             f"{stamps[jumps[0]]:.2f} s",
-            "Each jump restarts the stack. Cut the recording there (rosbag filter), or find what "
+            "Each jump restarts the stack. Split the recording there (rosbag filter), or find what "
             "set the clock of that machine while it recorded.",
         )  # fmt: skip
     if len(swaps):
@@ -67,13 +67,13 @@ def _check_order(topic, stamps, findings):
             "stamp_order", topic.name,
             f"{len(swaps)} messages are older than the one before them, first at "
             f"{stamps[swaps[0] + 1]:.2f} s by {-steps[swaps[0]]:.3f} s",
-            "Such messages are dropped. One publisher a topic, and no retransmission.",
+            "Such messages are dropped. Use one publisher per topic, and no retransmission.",
         )  # fmt: skip
     if repeats:
         findings.warn(
             "stamp_repeated", topic.name,
-            f"{repeats} messages have the stamp of the one before them",
-            "The second one is dropped. Look for two publishers, or a driver that stamps in steps.",
+            f"{repeats} messages have the same stamp as the one before them",
+            "The second one is dropped. Look for two publishers, or a driver with coarse stamps.",
         )  # fmt: skip
 
 
@@ -91,7 +91,7 @@ def _check_gaps(topic, stamps, findings):
             "stamp_gap", topic.name,
             f"{len(gaps)} gaps, the longest {gaps.max():.2f} s (period {period:.3f} s), the first "
             f"at {at[0]:.2f} s",
-            "What moves is lost meanwhile. Look at the load of the recording machine and the bus.",
+            "Moving objects are lost meanwhile. Check the load of the recorder and the bus.",
         )  # fmt: skip
     lost = np.count_nonzero((steps > LOST_PERIODS * period) & (steps <= limit))
     if lost > LOST_SHARE * len(steps):
@@ -114,13 +114,13 @@ def _check_latencies(latencies, findings):
                 f"recorded {middle:+.3f} s after the header's stamp (median), expected 0 to "
                 f"{MAX_LATENCY} s",
                 "The sensor's clock differs from the recorder's: synchronize them (chrony, PTP). "
-                "run_bag goes by the record for the order and by the header for the time.",
+                "run_bag takes the order from the record time and the time from the header.",
             )  # fmt: skip
         elif high - low > MAX_SPREAD:
             findings.warn(
                 "latency_varies", name,
-                f"from stamp to record it takes {low:.3f} to {high:.3f} s (5 to 95 %)",
-                "A loaded machine or network, or a clock that drifts: others' messages come first.",
+                f"latency from stamp to record time is {low:.3f} to {high:.3f} s (5 to 95 %)",
+                "A busy machine or network, or a drifting clock: other sensors come first.",
             )  # fmt: skip
     _check_clocks(medians, findings)
 
@@ -146,13 +146,13 @@ def _check_scan_rate(recording, name, findings):
     if 1.0 / period < MIN_SCAN_RATE - 0.1:
         findings.warn(
             "low_rate", name,
-            f"{1.0 / period:.1f} scans a second, expected {MIN_SCAN_RATE:.0f} or more",
-            "What moves is hard to follow from scan to scan: raise the rate, or drive slowly.",
+            f"{1.0 / period:.1f} scans per second, expected {MIN_SCAN_RATE:.0f} or more",
+            "Moving objects are hard to track from scan to scan: raise the rate, or drive slowly.",
         )  # fmt: skip
     claimed = np.median([scan.scan_time for scan in recording.scans.get(name, [])] or [0.0])
     if claimed > MIN_SCAN_TIME and period > RATE_TOLERANCE * claimed:
         findings.warn(
             "rate_below_scan_time", name,
-            f"a scan comes every {period:.3f} s, and scan_time says {claimed:.3f} s",
-            "Every other scan is lost, or scan_time is wrong in the driver.",
+            f"a scan arrives every {period:.3f} s, but scan_time is {claimed:.3f} s",
+            "Every other scan is lost, or the driver's scan_time is wrong.",
         )  # fmt: skip

@@ -7,18 +7,18 @@ from datmo_tools import transforms
 
 
 def bare(frame):
-    """Name of a frame without the leading slash of tf 1."""
+    """Returns a frame's name without tf 1's leading slash."""
     return frame[1:] if frame.startswith("/") else frame
 
 
 class Edge:
-    """All that was published from one parent to one child."""
+    """Everything that was published from one parent to one child."""
 
     def __init__(self, static):
         self.static = static
         self.count = 0
         self.matrix = None  # 4 x 4, the first one
-        self.moved = 0.0  # m, farthest from the first one
+        self.moved = 0.0  # m, largest distance from the first one
         self.turned = 0.0  # rad, likewise
         self.stamps = []  # s since the start of the recording
         self.valid = True  # finite, with a quaternion of norm 1
@@ -42,7 +42,7 @@ class TransformTable:
 
     def __init__(self):
         self.edges = {}
-        self.slashed = set()  # frames as they were written, with their slash
+        self.slashed = set()  # frames as written, with their slash
 
     def add(self, message, static, start):
         """Adds a TFMessage; `start`: of the recording, ns."""
@@ -54,19 +54,19 @@ class TransformTable:
             edge.add(_matrix(item.transform), 1e-9 * (item.header.stamp.to_nsec() - start))
 
     def parents(self, child):
-        """Sorted names of all parents of a frame."""
+        """Returns the sorted names of all parents of a frame."""
         return sorted(parent for parent, name in self.edges if name == child)
 
     def frames(self):
-        """All names."""
+        """Returns the names of all frames."""
         return {name for key in self.edges for name in key}
 
     def children(self):
-        """All names that have a parent."""
+        """Returns the names of all frames that have a parent."""
         return sorted({child for _, child in self.edges})
 
     def ancestors(self, frame):
-        """The frame, its parent, and so on; ends at a root or where a loop closes."""
+        """Returns the frame, its parent, and so on, up to a root or until a loop closes."""
         chain = [frame]
         while True:
             parents = self.parents(chain[-1])
@@ -83,7 +83,7 @@ class TransformTable:
         return False
 
     def between(self, target, source):
-        """4 x 4 transform of points in `source` to `target`, by the first transforms; or None."""
+        """Returns the 4 x 4 transform from `source` to `target`, by the first ones; or None."""
         up_source, up_target = self.ancestors(source), self.ancestors(target)
         common = next((frame for frame in up_source if frame in up_target), None)
         if common is None:
@@ -106,7 +106,7 @@ class TransformTable:
         return matrix
 
     def path(self, target, source):
-        """Edges of the path between two frames; empty where there is none."""
+        """Returns the edges of the path between two frames; empty if there is none."""
         up_source, up_target = self.ancestors(source), self.ancestors(target)
         common = next((frame for frame in up_source if frame in up_target), None)
         if common is None:

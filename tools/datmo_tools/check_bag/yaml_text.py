@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first yaml of a robot: what differs from the defaults, and why."""
+"""Writes the initial yaml of a robot: what differs from the defaults, and why."""
 
 import math
 
@@ -10,7 +10,7 @@ from datmo_tools.check_bag.motion_signal import euler_degrees
 from datmo_tools.check_bag.transform_table import bare
 
 HEADER = """\
-# First parameters of the robot of {bag}, by check_bag.
+# Initial parameters for the robot of {bag}, by check_bag.
 # Only what differs from the defaults; all parameters and defaults: rosrun datmo_fusion list_parameters.
 """
 
@@ -19,7 +19,7 @@ LOOKS_AHEAD = {"yaw": -1.5708, "pitch": 0.0, "roll": -1.5708}  # rad, of an opti
 
 
 def yaml_text(bag, sections, remarks):
-    """Text of the yaml file. remarks: section -> why it is so, above the section."""
+    """Returns the text of the yaml file. remarks: section -> comment lines above the section."""
     parts = [HEADER.format(bag=bag)]
     for name, section in sections.items():
         lines = "".join(f"# {line}\n" for line in remarks.get(name, ()))
@@ -29,7 +29,7 @@ def yaml_text(bag, sections, remarks):
 
 
 def frames_section(roles):
-    """Section frames: names that differ from REP 105."""
+    """Returns the section frames: names that differ from REP 105."""
     section = {}
     if roles.odom_frame != "odom":
         section["odom"] = roles.odom_frame
@@ -39,7 +39,7 @@ def frames_section(roles):
 
 
 def mounts_section(recording, roles):
-    """Section mounts: frames not connected to the base frame, at 0 until they are measured."""
+    """Returns the section mounts: frames not connected to the base, at 0 until measured."""
     section = {}
     if _lacks_mount(recording, roles, roles.scan_frame):
         section[roles.scan_frame] = dict(AT_BASE, yaw=0.0)
@@ -54,7 +54,7 @@ def mounts_section(recording, roles):
 
 
 def imu_frame_without_mount(recording, roles):
-    """Frame of the IMU if it is the source of motion and not connected to the base frame; "" otherwise."""
+    """Returns the frame of the IMU that is the motion source if it has no mount, otherwise ""."""
     if not roles.imu or "imu" not in motion_source(roles, recording).split("_"):
         return ""
     frame = bare(recording.topics[roles.imu].frame())
@@ -62,7 +62,7 @@ def imu_frame_without_mount(recording, roles):
 
 
 def _tilt(up):
-    """Mount of an IMU that feels gravity against `up` (unit vector in its frame, or None).
+    """Returns the mount of an IMU by `up`: unit vector opposite to gravity in its frame, or None.
 
     A yaw rate needs neither its position nor its yaw.
     """
@@ -78,7 +78,7 @@ def _lacks_mount(recording, roles, frame):
 
 
 def mount_text(matrix):
-    """A mount in words."""
+    """Describes a mount in words."""
     x, y, z = matrix[:3, 3]
     roll, pitch, yaw = euler_degrees(matrix)
     return f"x {x:.3f}, y {y:.3f}, z {z:.3f} m, roll {roll:.1f}, pitch {pitch:.1f}, yaw {yaw:.1f} deg"

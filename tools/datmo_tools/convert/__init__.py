@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recordings of other sources become bags of the stack."""
+"""Converts recordings from other sources to bags for the stack."""

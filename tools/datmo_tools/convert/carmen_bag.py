@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A CARMEN log -> a bag of the stack's data contract: the order of the work."""
+"""Converts a CARMEN log to a bag of the stack's data contract: the order of the work."""
 
 import math
 import sys
@@ -18,20 +18,20 @@ from datmo_tools.convert.carmen_mount import scanner_mount
 from datmo_tools.errors import InputError
 from datmo_tools.stamps import to_ros_time
 
-# The log's stamp for each scan's; only where stamps were moved.
+# The log's stamp for each scan; only if stamps were moved.
 LOG_STAMPS_TOPIC = "/log_stamps"
 
-# Nothing is so near to the mirror of a scanner: a reading of 0 is a fault.
+# No obstacle is this close to a scanner's mirror: a reading of 0 is a fault.
 RANGE_MIN = 0.02  # m
 
 
 class Options(NamedTuple):
     """What to convert and how."""
 
-    laser: Optional[str] = None  # kind of line; None: the first that the log holds
-    clock: Optional[str] = None  # see carmen_clock; None: "log" if the stamps rise, else "order"
+    laser: Optional[str] = None  # kind of line; None: the first one in the log
+    clock: Optional[str] = None  # see carmen_clock; None: "log" if stamps increase, else "order"
     field_of_view: Optional[float] = None  # rad, first to last beam; None: see _bearings
-    range_max: float = 80.0  # m; SICK scanners log codes above it where nothing returns
+    range_max: float = 80.0  # m; SICK scanners log codes above it for no return
     mount: Optional[np.ndarray] = None  # x, y, yaw in base_link; None: from the log
     sweep_time: float = 0.0  # s from the first beam to the last
     skip_malformed: bool = False
@@ -40,7 +40,7 @@ class Options(NamedTuple):
 def convert(log_path, bag_path, options, stream=None):
     """Converts the log `log_path` (Path) to `bag_path` (Path); progress and notes go to `stream`.
 
-    Raises InputError, and leaves no bag behind, where the file or an option cannot be used.
+    Raises InputError, without leaving a bag, if the file or an option cannot be used.
     """
     stream = stream if stream is not None else sys.stderr
     if bag_path.exists() and log_path.exists() and bag_path.samefile(log_path):
@@ -86,7 +86,7 @@ def _write_scan(bag, item, options):
 
 
 def laser_scan(stamp, line, options):
-    """LaserScan of a LaserLine at `stamp` (ns); readings at or beyond the greatest range: +inf."""
+    """Returns the LaserScan of a LaserLine at `stamp` (ns); readings from range_max on: +inf."""
     range_max = min(line.range_max, options.range_max)
     first, step = _bearings(line, options.field_of_view)
     last = len(line.ranges) - 1
@@ -104,10 +104,10 @@ def laser_scan(stamp, line, options):
 
 
 def _bearings(line, field_of_view):
-    """Bearing of the first beam and the step to the next (rad).
+    """Returns the bearing of the first beam and the step to the next one (rad).
 
-    A line without it is of a SICK over half a turn from -90 degrees on: an odd number of
-    readings (181, 361) ends at +90 degrees, an even one (180, 360) a step before.
+    A line without it is from a SICK that covers half a turn from -90 degrees: an odd number of
+    readings (181, 361) ends at +90 degrees, an even one (180, 360) one step before.
     """
     count = len(line.ranges)
     if field_of_view is not None:
@@ -118,19 +118,19 @@ def _bearings(line, field_of_view):
 
 
 def _robot_pose(line):
-    """Robot's pose (x, y, yaw) of a LaserLine or an OdometryLine."""
+    """Returns the robot's pose (x, y, yaw) of a LaserLine or an OdometryLine."""
     return line.pose if hasattr(line, "pose") else line.robot_pose
 
 
 def _notes(path, log, scans, timed, options):
-    """What the user should know of the log, as sentences."""
+    """Returns sentences on what the user should know about the log."""
     used = sum(item.is_scan for item in timed)
     notes = [f"{used} scans of {log.laser}, {len(timed) - used} lines of odometry between them"]
     late = out_of_order(scans)
     if late:
         done = {
-            "log": f"sorted by stamp, {len(scans) - used} with a stamp twice left out",
-            "order": f"their stamps moved; {LOG_STAMPS_TOPIC} has the log's",
+            "log": f"sorted by stamp, {len(scans) - used} with a repeated stamp skipped",
+            "order": f"their stamps were moved; {LOG_STAMPS_TOPIC} has the log's",
         }
         notes.append(
             f"{path}: {len(late)} of {len(scans)} scans, the first in line {late[0].number}, are "
@@ -141,6 +141,6 @@ def _notes(path, log, scans, timed, options):
         notes.append(f"{path}: lines of other kinds, not used: {kinds}")
     if log.malformed:
         notes.append(
-            f"{len(log.malformed)} malformed lines left out, the first: {log.malformed[0]}"
+            f"{len(log.malformed)} malformed lines skipped, the first: {log.malformed[0]}"
         )
     return notes

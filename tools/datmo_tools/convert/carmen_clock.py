@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The records of a CARMEN log in an order of rising stamps, which a bag needs.
+"""Puts the records of a CARMEN log into an order with increasing stamps, which a bag needs.
 
-Old logs carry the time at which a message reached the logger, not the time of the measurement:
-with a busy computer the stamps of the lines come in bursts, and mixed up. There are two methods to
-make them rise, and neither is the truth:
+Old logs have the time at which a message reached the logger, not the time of the measurement: on
+a busy computer the stamps of the lines come in bursts, and out of order. There are two methods to
+make them increase, and neither gives the true stamps:
 
 log:   every record keeps its stamp, and the records are sorted by it. Scans may change their order.
 order: the records keep the order of the file, in which they were measured; the scans' stamps are
-       moved, all together by as little as possible, until they rise nearly as evenly as the scanner
-       turns. Stamps that do already stay as they are.
+       moved, all together by as little as possible, until they increase nearly as evenly as the
+       scanner turns. Stamps that already do are not changed.
 """
 
 from typing import NamedTuple
@@ -20,50 +20,50 @@ from datmo_tools.convert.carmen_log import Record
 
 CLOCKS = ("log", "order")
 
-# The typical time between two scans is the median, over a neighborhood of scans to both sides, of
-# spans of so many scans: bursts even out, pauses do not count, and the rate may change.
+# The typical time between two scans is the median, over a neighborhood of scans on both sides, of
+# spans of this many scans: bursts average out, pauses do not count, and the rate may change.
 TYPICAL_OVER = 10
 NEIGHBORHOOD = 100
-# A scanner turns evenly: a scan follows the one before after this share of the typical time, or
+# A scanner turns evenly: a scan follows the previous one after this share of the typical time or
 # later.
 MIN_SHARE = 0.9
 
-# Odometry this close to a scan or to earlier odometry gives no speed, for its stamps and digits are
-# too coarse, and no news.
+# Odometry this close to a scan or to earlier odometry gives no speed, as its stamps and digits are
+# too coarse, and no new information.
 MIN_STEP = 20_000_000  # ns
 
 
 class TimedRecord(NamedTuple):
-    """A record at its time."""
+    """A record and its time."""
 
     stamp: int  # ns
     record: Record
 
     @property
     def is_scan(self):
-        """A scan, else odometry."""
+        """Whether it is a scan, else it is odometry."""
         return not isinstance(self.record.line, OdometryLine)
 
 
 def timeline(records, clock):
-    """TimedRecords in rising order of stamps; `clock`: one of CLOCKS.
+    """Returns TimedRecords with increasing stamps; `clock`: one of CLOCKS.
 
-    records: in the order of the file. All scans are there, but with the clock `log` those with a
-    stamp that was there before. Odometry lines are there where they fit in (MIN_STEP).
+    records: in the order of the file. All scans are kept, except with the clock `log` those with a
+    repeated stamp. Odometry lines are kept if they are at least MIN_STEP from their neighbors.
     """
     timed = _by_stamp(records) if clock == "log" else _by_order(records)
     return _thinned(timed)
 
 
 def rising(stamps, min_steps):
-    """Stamps (ns) nearest to `stamps` in least squares of which each follows the one before by
-    `min_steps` (ns, one for each pair of neighbors) or more.
+    """Returns the stamps (ns) closest to `stamps` in least squares in which each one follows the
+    previous one by at least `min_steps` (ns, one for each pair of neighbors).
 
     Isotonic regression by pooling adjacent violators (Barlow et al., "Statistical inference under
-    order restrictions", 1972), of what the stamps have beyond the least steps.
+    order restrictions", 1972), of the stamps minus the cumulative minimum steps.
     """
     minimum = np.concatenate([[0], np.cumsum(min_steps, dtype=np.int64)])
-    pools = []  # mean and number of stamps that are moved to one line
+    pools = []  # mean and number of stamps that are moved onto one line
     for stamp, offset in zip(stamps, minimum):
         mean, count = float(stamp - stamps[0] - offset), 1
         while pools and pools[-1][0] > mean:
@@ -76,7 +76,7 @@ def rising(stamps, min_steps):
 
 
 def typical_steps(stamps):
-    """Typical time (ns) to the next stamp at each of `stamps` (ns, roughly rising) but the last."""
+    """Returns the typical time (ns) to the next one for each of `stamps` (ns) but the last."""
     over = min(TYPICAL_OVER, len(stamps) - 1)
     spans = np.asarray(stamps[over:]) - np.asarray(stamps[:-over])
     steps = []
@@ -107,7 +107,7 @@ def _by_order(records):
 
 
 def _thinned(timed):
-    """Without the odometry that does not fit between its neighbors."""
+    """Drops odometry that does not fit between its neighbors."""
     kept = []
     next_scan = _next_scans(timed)
     for item, scan in zip(timed, next_scan):
@@ -119,7 +119,7 @@ def _thinned(timed):
 
 
 def _next_scans(timed):
-    """For each record the stamp of the first scan from it on; None after the last."""
+    """Returns for each record the stamp of the next scan, or of its own; None after the last."""
     upcoming, found = None, []
     for item in reversed(timed):
         upcoming = item.stamp if item.is_scan else upcoming

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One line of a CARMEN log -> the record it holds.
+"""Parses one line of a CARMEN log into the record it holds.
 
-Source: the format that CARMEN's logger states in the head of its files and in its manual: a line's
+Source: the format described by CARMEN's logger in the head of its files and in its manual: a line's
 kind, its fields, and then the time at which the message was sent (ipc time, s), the host, and the
 logger's own time. Lengths in m, angles in rad.
 """
@@ -15,27 +15,28 @@ import numpy as np
 from datmo_tools.stamps import parse_seconds
 
 OLD_LASERS = ("FLASER", "RLASER")  # ranges and poses
-NEW_LASERS = ("ROBOTLASER1", "ROBOTLASER2")  # the scanner's angles and limits as well
+NEW_LASERS = ("ROBOTLASER1", "ROBOTLASER2")  # also the scanner's angles and limits
 LASERS = OLD_LASERS + NEW_LASERS
-# Kinds of lines that CARMEN's loggers also write, and of which nothing is used here.
+# Other kinds of lines that CARMEN's loggers write, which are not used here.
 OTHER_KINDS = re.compile(
     r"SYNC|TRUEPOS|POSITION|SCANMARK|MARKER|SONAR|BUMPER|IMU|ARM|WIFI|VISUAL|CELLSIZE|CAMERA\w*"
     r"|GPS\w*|NMEA[-\w]*|[A-Z]*LASER\d*|BASE\w*|ROBOT\w*|NAVIGATOR\w*|MOTION\w*"
 )
-# ROBOTLASER lines of CARMEN's first releases have neither remissions nor the turn axis: behind the
-# readings stand two poses, two speeds, two safety distances, ipc time, host and the logger's time.
+# ROBOTLASER lines of CARMEN's first releases have neither remissions nor the turn axis: the
+# readings are followed by two poses, two speeds, two safety distances, ipc time, host and the
+# logger's time.
 OLD_FORM_FIELDS = 13
 MAX_READINGS = 100_000  # more is a broken line, not a scanner
-# A message on a file that is no log names a kind of its lines by so many letters.
+# Number of letters of an unknown kind that an error message quotes.
 MAX_LETTERS = 30
-MAX_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a turn, however it was rounded
+MAX_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a full turn, however it was rounded
 
 
 class LaserLine(NamedTuple):
     """A scan with the poses that CARMEN logged with it."""
 
     stamp: int  # ns
-    ranges: np.ndarray  # m, from right to left; +inf where the log says so
+    ranges: np.ndarray  # m, from right to left; +inf if the log has it
     first_bearing: float  # rad in the scanner's frame; NaN: not in the line
     step: float  # rad between beams; NaN: not in the line
     range_max: float  # m, +inf: not in the line
@@ -58,9 +59,9 @@ class ParameterLine(NamedTuple):
 
 
 def parse_line(words):
-    """The record of a line that is split into words; None: a kind of line that is not used.
+    """Returns the record of a line that is split into words; None for a kind that is not used.
 
-    Raises ValueError that says what is wrong.
+    Raises ValueError with what is wrong.
     """
     kind = words[0]
     if kind in OLD_LASERS:
@@ -73,17 +74,17 @@ def parse_line(words):
         fields = _Fields(words)
         return ParameterLine(fields.text("a name"), fields.text("a value"))
     if not OTHER_KINDS.fullmatch(kind):
-        raise ValueError(f"{shown(kind)} is no kind of line of a CARMEN log")
+        raise ValueError(f"{shown(kind)} is not a kind of line of a CARMEN log")
     return None
 
 
 def shown(kind):
-    """The name of a kind for a message, without control characters."""
+    """Returns the name of a kind for a message, without control characters."""
     return ascii(kind[:MAX_LETTERS])[1:-1]
 
 
 class _Fields:
-    """Takes the fields of a line one after the other."""
+    """Reads the fields of a line one after another."""
 
     def __init__(self, words):
         self._kind = words[0]
@@ -91,29 +92,29 @@ class _Fields:
         self._at = 0
 
     def text(self, name):
-        """The next field. Raises ValueError, as all of these do, if the line ends before it."""
+        """Returns the next field. Like all of these, raises ValueError at the line's end."""
         return self._next(1, name)[0]
 
     def number(self, name):
-        """The next field, finite."""
+        """Returns the next field, a finite number."""
         return float(self.numbers(1, name)[0])
 
     def count(self, name):
-        """The next field, a number of readings."""
+        """Returns the next field, a number of readings."""
         text = self.text(name)
         if not text.isdigit() or int(text) > MAX_READINGS:
             raise ValueError(f"{name} is '{text}', expected 0 to {MAX_READINGS}")
         return int(text)
 
     def numbers(self, count, name):
-        """The next `count` fields, all finite."""
+        """Returns the next `count` fields, all finite."""
         values = self._numbers(count, name)
         if not np.all(np.isfinite(values)):
             raise ValueError(f"{name}: {_first(values, ~np.isfinite(values))}, expected a number")
         return values
 
     def ranges(self, count):
-        """The next `count` fields: 0 or more, or +inf."""
+        """Returns the next `count` fields: 0 or more, or +inf."""
         values = self._numbers(count, "readings")
         bad = ~(values >= 0.0)  # NaN too
         if np.any(bad):
@@ -121,15 +122,15 @@ class _Fields:
         return values
 
     def skip(self, count, name):
-        """Leaves `count` fields out."""
+        """Skips `count` fields."""
         self._next(count, name)
 
     def left(self):
-        """How many fields were not taken yet."""
+        """Returns how many fields have not been read yet."""
         return len(self._words) - self._at
 
     def stamp(self):
-        """The next field as a stamp (ns)."""
+        """Returns the next field as a stamp (ns)."""
         return parse_seconds(self.text("the ipc time"))
 
     def _numbers(self, count, name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A CARMEN log file -> its records in the order of the file, and what was not used of it."""
+"""Reads a CARMEN log file: its records in the order of the file, and what was not used of it."""
 
 import bz2
 import gzip
@@ -12,34 +12,34 @@ from datmo_tools.errors import InputError
 
 OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
 
-# Stamps of neighboring lines may be mixed up by as much, as messages waited before the
-# logger; a clock that jumps back further was set, or the file holds two recordings.
+# Stamps of neighboring lines may be out of order by this much, as messages waited for the logger; a
+# clock that jumps back further was set, or the file contains two recordings.
 MAX_DISORDER = 10.0  # s
 
 
 class Record(NamedTuple):
     """A line of the log."""
 
-    number: int  # of the line, from 1
+    number: int  # of the line, starting at 1
     line: object  # LaserLine or OdometryLine
 
 
 class CarmenLog(NamedTuple):
-    """What a log holds for a conversion."""
+    """The contents of a log that a conversion needs."""
 
     records: list  # Record of the chosen laser and of the odometry, in the order of the file
     laser: str  # kind of the chosen laser's lines
     parameters: dict  # name -> value, as text
     skipped: dict  # kind of line -> how many were not used
-    malformed: list  # messages, one for each line that was left out
+    malformed: list  # messages, one for each line that was skipped
 
 
 def read_log(path, laser=None, skip_malformed=False):
-    """CarmenLog of the file at `path` (Path; .bz2 and .gz are unpacked).
+    """Reads the file at `path` (Path; .bz2 and .gz are unpacked) into a CarmenLog.
 
-    laser: kind of the laser's lines; None: the first of LASERS that the log holds. Raises
-    InputError with file and line: what cannot be read, a broken line or one of an unknown kind
-    (with `skip_malformed` they are left out), a clock that is set back, no scan.
+    laser: kind of the laser's lines; None: the first of LASERS in the log. Raises InputError with
+    file and line: an unreadable file, a broken line or one of an unknown kind (skipped with
+    `skip_malformed`), a clock that was set back, no scan.
     """
     lines = _Lines(path, skip_malformed)
     chosen = laser or next((kind for kind in LASERS if kind in lines.records), None)
@@ -57,7 +57,7 @@ def read_log(path, laser=None, skip_malformed=False):
 
 
 class _Lines:
-    """All lines of a file, by kind."""
+    """Collects all lines of a file, by kind."""
 
     def __init__(self, path, skip_malformed):
         self.records = {}  # kind -> list of Record
@@ -89,22 +89,22 @@ class _Lines:
 
     def _refuse(self, message):
         if not self._skip_malformed:
-            raise InputError(f"{message} (--skip-malformed leaves such lines out)")
+            raise InputError(f"{message} (--skip-malformed skips such lines)")
         self.malformed.append(message)
 
 
 def scans_of(log):
-    """Records of the log's scans."""
+    """Returns the records of the log's scans."""
     return [record for record in log.records if not isinstance(record.line, OdometryLine)]
 
 
 def out_of_order(records):
-    """Records that are stamped no later than the one before them."""
+    """Returns records that are stamped no later than the previous one."""
     return [b for a, b in zip(records, records[1:]) if b.line.stamp <= a.line.stamp]
 
 
 def _names(kinds):
-    """Kinds of lines for a message."""
+    """Formats kinds of lines for a message."""
     return ", ".join(shown(kind) for kind in sorted(kinds))
 
 
@@ -115,6 +115,6 @@ def _check_order(path, kind, records):
         if back > MAX_DISORDER:
             raise InputError(
                 f"{path}:{record.number}: {kind} is stamped {back:.3f} s before an earlier line, "
-                f"expected rising stamps (at most {MAX_DISORDER:g} s mixed up)"
+                f"expected increasing stamps (out of order by at most {MAX_DISORDER:g} s)"
             )
         latest = max(latest, record.line.stamp)

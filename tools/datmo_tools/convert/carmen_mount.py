@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the scanner of a CARMEN log is mounted on the robot."""
+"""Determines where the scanner of a CARMEN log is mounted on the robot."""
 
 import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.errors import InputError
 
-# The scanner's and the robot's pose in a line are rounded, and interpolated to its stamp.
+# The poses of scanner and robot in a line are rounded, and interpolated to its stamp.
 MAX_POSITION_SPREAD = 0.02  # m
 MAX_YAW_SPREAD = 0.02  # rad
 
-# CARMEN's settings for the pose of the front laser: ahead, to the left, and turned (m, m, rad).
+# CARMEN's parameters for the pose of the front laser: forward, left, and rotation (m, m, rad).
 FRONT_SETTINGS = (
     "robot_frontlaser_offset",
     "robot_frontlaser_side_offset",
@@ -20,11 +20,11 @@ FRONT_LASERS = ("FLASER", "ROBOTLASER1")
 
 
 def scanner_mount(path, log, scans):
-    """Pose (x, y, yaw) of the scanner in base_link, and a note on it for the user (or None).
+    """Returns the pose (x, y, yaw) of the scanner in base_link, and a note for the user (or None).
 
-    Scans have the scanner's pose beside the robot's. Logs that were worked over hold a corrected
-    pose instead, or the robot's; there the settings of the log count. path: of the log, for
-    messages; scans: its LaserLines. Raises InputError where the mount is not known.
+    Scan lines have the scanner's pose and the robot's. Processed logs have a corrected pose
+    instead, or the robot's; then the log's parameters are used. path: of the log, for messages;
+    scans: its LaserLines. Raises InputError if the mount is not known.
     """
     mounts = np.array([transforms.relative(scan.robot_pose, scan.laser_pose) for scan in scans])
     setting = _setting(path, log)
@@ -36,15 +36,15 @@ def scanner_mount(path, log, scans):
         return mounts[0], None
     if setting is None:
         raise InputError(
-            f"{path}: the laser's pose moves by {spread[:, :2].max():.2f} m on the robot, so that "
-            f"it is none of a mount, and no {FRONT_SETTINGS[0]} is set; expected --mount"
+            f"{path}: the laser's pose on the robot varies by {spread[:, :2].max():.2f} m, so it "
+            f"is not a mount's, and {FRONT_SETTINGS[0]} is not set; expected --mount"
         )
-    moves = "" if fixed else ", since the lines' laser poses are not those of a fixed mount"
+    moves = "" if fixed else ", as the laser poses of the lines are not those of a fixed mount"
     return setting, f"mount from {FRONT_SETTINGS[0]}{moves}"
 
 
 def _setting(path, log):
-    """Pose by the log's settings; None without any."""
+    """Returns the pose from the log's parameters; None if there are none."""
     if log.laser not in FRONT_LASERS or FRONT_SETTINGS[0] not in log.parameters:
         return None
     texts = [log.parameters.get(name, "0") for name in FRONT_SETTINGS]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odometry of a robot whose log holds poses: rates from their differences, and covariances."""
+"""Creates odometry for a log that has only poses: rates from differences, and covariances."""
 
 import numpy as np
 
@@ -8,16 +8,16 @@ from datmo_tools.convert import odometry
 from datmo_tools.convert.carmen_clock import MIN_STEP
 from datmo_tools.convert.odometry import OdometrySample
 
-# Standard deviations of the rates that wheels indoors measure: what slips, and rounded encoders.
-SPEED_SIGMA, SPEED_RATIO = 0.02, 0.1  # m/s, and of it for each m/s
-YAW_RATE_SIGMA, YAW_RATE_RATIO = 0.02, 0.1  # rad/s, and of it for each rad/s
+# Standard deviations of the rates measured by wheels indoors: slip, and coarse encoders.
+SPEED_SIGMA, SPEED_RATIO = 0.02, 0.1  # m/s, and per m/s of speed
+YAW_RATE_SIGMA, YAW_RATE_RATIO = 0.02, 0.1  # rad/s, and per rad/s of yaw rate
 
 
 def samples(stamps, poses):
-    """List of OdometrySample of rising stamps (ns) and planar poses (x, y, yaw).
+    """Returns a list of OdometrySample for increasing stamps (ns) and planar poses (x, y, yaw).
 
-    The stack holds a twist until the next odometry comes; so it is the mean to the next pose, or,
-    where that is too near for a speed, to the first one at least MIN_STEP away.
+    The stack holds a twist until the next odometry message; so it is the mean to the next pose, or,
+    if that is too close for a speed, to the first one at least MIN_STEP away.
     """
     rates = _rates(stamps, poses)
     result = []
@@ -34,7 +34,7 @@ def samples(stamps, poses):
 
 
 def _rates(stamps, poses):
-    """(speed, yaw rate) at each stamp; at the end those before go on."""
+    """Returns (speed, yaw rate) at each stamp; the last ones repeat those before."""
     rates = []
     later = np.searchsorted(np.asarray(stamps), np.asarray(stamps) + MIN_STEP)
     for i, (stamp, j) in enumerate(zip(stamps, later)):

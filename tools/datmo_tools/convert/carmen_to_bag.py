@@ -17,11 +17,11 @@ Converts a log of the robot software CARMEN (also .bz2 or .gz) to a bag: /scan, 
 /tf_static.
 
 The scanner's mount is the laser's pose on the robot in the log; a log does not contain its height.
-Readings at or beyond the maximum range become +inf: no return. The odometry is that of the scans'
-lines, and ODOM lines between them; its twist is the mean motion to the next pose.
+Readings at or beyond the maximum range become +inf: no return. The odometry is that of the scan
+lines, and of ODOM lines between them; its twist is the mean motion to the next pose.
 
 Stamps are the log's ipc times, to which relations files refer. If those of the scans do not
-increase, the scans stay in the order of the file, in which they were measured; their stamps are
+increase, the scans keep the order of the file, in which they were measured; their stamps are
 moved as little as necessary to make them increase evenly, and /log_stamps has those of the log, for
 evaluate slam (--clock order). With --clock log the scans are sorted by the log's stamps instead."""
 
@@ -40,20 +40,20 @@ def _parser():
     add = parser.add_argument
     add("log", type=Path, help="CARMEN log")
     add("bag", type=Path, help="bag to write")
-    add("--laser", choices=LASERS, help="kind of line (default: the first of these that there is)")
-    clock = "whose order counts (default: log if the stamps of the scans rise, else order)"
+    add("--laser", choices=LASERS, help="kind of line (default: the first of these in the log)")
+    clock = "order of the scans (default: log if their stamps increase, else order)"
     add("--clock", choices=CLOCKS, help=clock)
     field = (
-        "first to last beam (default: what the line says; a SICK's half turn where it does not)"
+        "first to last beam (default: from the line, or a SICK's half turn)"
     )
     add("--field-of-view", type=command_line.number, metavar="DEG", help=field)
-    reach = "no return from here on, in m, or from the line's own maximum"
+    reach = "range (m) from which a reading means no return; also from the line's own maximum"
     command_line.add_number(parser, "--range-max", defaults.range_max, "M", reach)
-    position = "the scanner's pose on the robot, if not the log's (m, m, degrees)"
+    position = "the scanner's pose on the robot instead of the log's (m, m, degrees)"
     add("--mount", type=command_line.number, nargs=3, metavar=("X", "Y", "YAW"), help=position)
     sweep = "s from the first beam to the last; a SICK LMS takes 1/150 for half a turn"
     command_line.add_number(parser, "--sweep-time", defaults.sweep_time, "S", sweep)
-    add("--skip-malformed", action="store_true", help="leave broken and unknown lines out")
+    add("--skip-malformed", action="store_true", help="skip broken and unknown lines")
     return parser
 
 

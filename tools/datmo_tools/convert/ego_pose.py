@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""GPS/IMU records -> planar poses of base_link in the map, and the pose at any time between.
+"""Converts GPS/IMU records to planar poses of base_link in the map, and interpolates between them.
 
-The heading is the GPS/IMU's. For the position there are two sources: its velocity, integrated, is
-smooth and drifts slowly; its latitude and longitude are absolute, but walk by meters where few
-satellites are seen. Full Velodyne clouds of drive 0005, aligned scan to map, say how far: after 71
-m the velocity is 0.4 m off, the latitude and longitude 2.7 m. A map of one drive needs the first.
+The heading is that of the GPS/IMU. There are two sources for the position: its integrated velocity
+is smooth and drifts slowly; its latitude and longitude are absolute, but wander by meters when few
+satellites are visible. Full Velodyne clouds of drive 0005, aligned scan to map, show how much:
+after 71 m the velocity is off by 0.4 m, latitude and longitude by 2.7 m. A map of one drive needs
+the first.
 """
 
 import math
@@ -13,13 +14,13 @@ import numpy as np
 
 from datmo_tools import transforms
 
-EARTH_RADIUS = 6378137.0  # m, WGS-84 equator, as the KITTI devkit has it
+EARTH_RADIUS = 6378137.0  # m, WGS-84 equator, as in the KITTI devkit
 
 
 def poses_from_velocity(stamps, records):
-    """Planar poses (n x 3: x, y in m, yaw in rad) in the first record's frame, from the speed.
+    """Integrates speed and heading to planar poses (n x 3: x, y in m, yaw in rad), first one 0.
 
-    stamps: ns, rising. Speed and heading between two records are the means of theirs.
+    stamps: ns, increasing. Speed and heading between two records are the means of both.
     """
     yaw = np.unwrap([record.yaw for record in records])
     speed = np.array([record.forward_speed for record in records])
@@ -32,10 +33,10 @@ def poses_from_velocity(stamps, records):
 
 
 def course_offset(records):
-    """Constant angle (rad, to the left) from the GPS/IMU's x axis to where the car goes.
+    """Returns the constant angle (rad, to the left) from the GPS/IMU's x axis to the car's motion.
 
-    A car does not drive sideways: what the leftward speed shares with the speed ahead is how the
-    unit is mounted (0.8 degrees on drive 0005), and the rest of it is noise.
+    A car does not drive sideways: the part of the leftward speed that is correlated with the
+    forward speed is due to the unit's mount (0.8 degrees on drive 0005), and the rest is noise.
     """
     ahead = np.array([record.forward_speed for record in records])
     left = np.array([record.leftward_speed for record in records])
@@ -44,9 +45,9 @@ def course_offset(records):
 
 
 def poses_from_gps(records):
-    """Planar poses (n x 3: x, y in m, yaw in rad) in the first record's frame, from the GPS.
+    """Returns the GPS's planar poses (n x 3: x, y in m, yaw in rad) in the first record's frame.
 
-    Mercator projection scaled at the first latitude, as the KITTI devkit does.
+    Mercator projection scaled at the first latitude, like in the KITTI devkit.
     """
     latitude = np.radians([record.latitude for record in records])
     longitude = np.radians([record.longitude for record in records])
@@ -66,13 +67,13 @@ class EgoMotion:
     """
 
     def __init__(self, stamps, records, poses):
-        """stamps: ns, rising; records: Oxts; poses: n x 3, base_link in the map; of each stamp."""
+        """stamps: ns, increasing; records: Oxts; poses: n x 3, base_link in the map; by stamp."""
         self._stamps = stamps
         self._records = records
         self._poses = poses
 
     def pose_at(self, stamp):
-        """Planar pose (x, y, yaw) at `stamp` (ns)."""
+        """Returns the planar pose (x, y, yaw) at `stamp` (ns)."""
         after = int(np.searchsorted(self._stamps, stamp, side="right"))
         if after in (0, len(self._stamps)):
             return self._extrapolated(0 if after == 0 else -1, stamp)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Labeled boxes -> objects in the map: world velocity, moving or not, and who sees them."""
+"""Converts labeled boxes to objects in the map: velocity, whether they move, and visibility."""
 
 from typing import NamedTuple
 
@@ -7,17 +7,17 @@ import numpy as np
 
 from datmo_tools import transforms
 
-# Half the time over which a line is fitted to the positions: short for the velocity, long for the
-# question whether the object moves at all.
+# Half the time over which a line is fitted to the positions: short for the velocity, long for
+# deciding whether the object moves at all.
 VELOCITY_HALF_WINDOW = 0.5  # s
 MOVING_HALF_WINDOW = 1.0  # s
 
-# Labels of parked cars drift by a few tenths of a meter as the car drives past; nothing that takes
-# part in traffic is slower than half a slow walk.
+# Labels of parked cars drift by a few tenths of a meter as the car drives past; no road user is
+# slower than half a slow walking speed.
 MOVING_SPEED = 0.5  # m/s
 
-# A beam is counted for an object where its cloud point lies within this of the box: the labels are
-# about as exact.
+# A beam is counted for an object if its cloud point is within this distance of the box: the labels
+# are about as accurate.
 BOX_TOLERANCE = 0.2  # m
 
 
@@ -28,15 +28,15 @@ class MapObject(NamedTuple):
     box: object  # the TrueBox of this frame, in the Velodyne's frame
     pose: np.ndarray  # x, y (m), yaw (rad) of the box's center
     z: float  # m, center above the road
-    velocity: np.ndarray  # vx, vy in m/s; 0 where it does not move
+    velocity: np.ndarray  # vx, vy in m/s; 0 if it does not move
     moving: bool
 
 
 def objects_by_frame(objects, base_from_velodyne, stamps, poses):
-    """Dictionary frame -> list of MapObject.
+    """Returns a dictionary frame -> list of MapObject.
 
     objects: TrueObject list; stamps: ns of all frames; poses: n x 3, base_link in the map at the
-    stamps. Boxes of frames that the drive does not have are left out.
+    stamps. Boxes of frames that the drive does not have are dropped.
     """
     frames = {frame: [] for frame in range(len(stamps))}
     for source in objects:
@@ -70,9 +70,9 @@ def _moved_to_map(source, known, base_from_velodyne, stamps, poses):
 
 
 def fitted_velocities(seconds, positions, half_window):
-    """Velocities (n x k, m/s): slope of the line fitted to positions (n x k, m) near each instant.
+    """Returns velocities (n x k, m/s): slopes of lines fitted to nearby positions (n x k, m).
 
-    seconds: n, rising. An instant with no other one within the window gets 0.
+    seconds: n, increasing. A stamp with no other one within the window gets 0.
     """
     velocities = np.zeros(positions.shape)
     for i, instant in enumerate(seconds):
@@ -85,7 +85,7 @@ def fitted_velocities(seconds, positions, half_window):
 
 
 def points_in_box(points, source, box, tolerance=BOX_TOLERANCE):
-    """How many points (n x 2 or more columns, the Velodyne's frame) lie in the box from above."""
+    """Returns how many points (n x 2 or more, the Velodyne's frame) are in the box from above."""
     local = transforms.points_seen_from([box.x, box.y, box.yaw], points[:, :2])
     ends = 0.5 * np.array([source.length, source.width]) + tolerance
     return int(np.count_nonzero(np.all(np.abs(local) <= ends, axis=1)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A KITTI raw drive -> a bag of the stack's data contract: the order of the work."""
+"""Converts a KITTI raw drive to a bag of the stack's data contract: the order of the work."""
 
 import sys
 from pathlib import Path
@@ -26,23 +26,23 @@ class Options(NamedTuple):
     """What to convert and how."""
 
     scanner: ScannerOptions = ScannerOptions()
-    fit_road: bool = True  # else the road is the plane that the calibrated height gives
-    gps_position: bool = False  # truth of the position: else the integrated velocity (see ego_pose)
+    fit_road: bool = True  # otherwise the road is the plane given by the calibrated height
+    gps_position: bool = False  # true position from GPS, not the velocity (see ego_pose)
     points: bool = False
     images: bool = False
     odometry_errors: OdometryErrors = OdometryErrors()
     seed: int = 0
-    labels: Optional[Path] = None  # label_02 file; else the drive's tracklet_labels.xml
+    labels: Optional[Path] = None  # label_02 file; otherwise the drive's tracklet_labels.xml
     start: int = 0  # first frame
     end: Optional[int] = None  # one past the last frame
     allow_missing_scans: bool = False
-    calibration: Optional[Path] = None  # folder; else where it is published, see find_calibration
+    calibration: Optional[Path] = None  # folder; None: where it is published, see find_calibration
 
 
 def convert(folder, bag_path, options, stream=None):
     """Converts the drive in `folder` (Path) to `bag_path` (Path); progress goes to `stream`.
 
-    Raises InputError, and leaves no bag behind, where a file or an option cannot be used.
+    Raises InputError, without leaving a bag, if a file or an option cannot be used.
     """
     kitti_scans.check(options.scanner)
     conversion = _Conversion(folder, options)
@@ -59,7 +59,7 @@ def convert(folder, bag_path, options, stream=None):
 
 
 class _Event(NamedTuple):
-    """Something that is written at a stamp; the data are read then, so that memory stays small."""
+    """Something written at a stamp; its data are read only then, to save memory."""
 
     stamp: int  # ns
     frame: int
@@ -67,7 +67,7 @@ class _Event(NamedTuple):
 
 
 class _Conversion:
-    """One drive with everything that is read before the first message is written."""
+    """One drive, with everything that is read before the first message is written."""
 
     def __init__(self, folder, options):
         self._options = options
@@ -99,10 +99,10 @@ class _Conversion:
         self._written_scans = 0
 
     def notices(self):
-        """Sentences on what is not as in a complete synchronized drive."""
+        """Yields sentences on what differs from a complete synchronized drive."""
         lost_scans = [frame for frame in self._frames if not self._drive.has_cloud(frame)]
         if lost_scans:
-            yield f"{len(lost_scans)} of {len(self._frames)} scans are missing and left out"
+            yield f"{len(lost_scans)} of {len(self._frames)} scans are missing and skipped"
         if self._drive.synced and len(self._motion) < len(self._frames):
             lost = len(self._frames) - len(self._motion)
             yield f"{lost} of {len(self._frames)} GPS/IMU records are missing and interpolated"
@@ -110,7 +110,7 @@ class _Conversion:
             yield "an unsynchronized drive: every sensor at its own rate, without true objects"
 
     def events(self):
-        """All that is to be written, in any order of stamps."""
+        """Returns all events to be written, in any order of stamps."""
         for index in self._motion:
             yield _Event(self._drive.oxts_stamps[index], index, self._write_motion)
         for frame in self._frames:
@@ -125,15 +125,15 @@ class _Conversion:
         bag.write_latched("/tf_static", stamp, self._mounts(stamp))
 
     def check_scans(self):
-        """Raises InputError if not one scan was written."""
+        """Raises InputError if no scan was written."""
         if not self._written_scans:
             raise InputError(
-                "no cloud of the drive leads to a scan, expected points in the scanner's band; "
+                "no cloud of the drive gives a scan, expected points in the scanner's band; "
                 "see --scan-band and --road"
             )
 
     def _mounts(self, stamp):
-        """TFMessage of all mounts."""
+        """Returns the TFMessage of all mounts."""
         height = self._options.scanner.height
         return kitti_messages.static_transforms(stamp, self._calibration, height)
 
@@ -145,7 +145,7 @@ class _Conversion:
         return DriveScans(drive, self._frames, sections, self._mounts(drive.scan_stamps[0]))
 
     def _read_truth(self, folder):
-        """Dictionary frame -> list of MapObject; None where the drive has no labels.
+        """Returns a dictionary frame -> list of MapObject; None if the drive has no labels.
 
         Labels count the frames of the synchronized drive.
         """
@@ -196,9 +196,9 @@ class _Conversion:
             )
 
     def _write_beams(self, bag, stamp, scan):
-        """Writes /scan: stamped with its first beam's time, recorded when its last one is there.
+        """Writes /scan: stamped with its first beam's time, recorded at its last beam's.
 
-        The Velodyne looks ahead at `stamp`, in the middle of the field of view.
+        The Velodyne faces forward at `stamp`, in the middle of the field of view.
         """
         turn_duration = self._drive.turn_duration
         scan.scan_time = turn_duration * 1e-9
@@ -207,7 +207,7 @@ class _Conversion:
         self._written_scans += 1
 
     def _hits(self, scan):
-        """Where (n x 2, m, the Velodyne's frame) the beams of a scan, or of None, ended."""
+        """Returns the end points (n x 2, m, the Velodyne's frame) of a scan, or of None."""
         if scan is None:
             return np.zeros((0, 2))
         ranges = np.array(scan.ranges)
@@ -219,7 +219,7 @@ class _Conversion:
 
 
 def _chosen_frames(drive, options):
-    """Frame numbers from --start to --end, all with a scan unless missing ones are allowed."""
+    """Returns the frames from --start to --end, all with a scan unless some may be missing."""
     end = drive.frames if options.end is None else options.end
     if not 0 <= options.start < end <= drive.frames:
         raise InputError(
@@ -231,6 +231,6 @@ def _chosen_frames(drive, options):
         raise InputError(
             f"{drive.cloud_file(missing[0])} is missing, or its stamp "
             f"({len(missing)} of {len(frames)}), expected one for each frame; "
-            "--allow-missing-scans leaves a few out"
+            "--allow-missing-scans skips a few"
         )
     return frames

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calibration files of a KITTI raw recording day -> mounts and camera matrices.
+"""Reads the calibration files of a KITTI raw recording day: mounts and camera matrices.
 
 Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013, section IV and its devkit.
 """
@@ -16,7 +16,7 @@ VELODYNE_HEIGHT = 1.73  # m above the road (Geiger et al. 2013, figure 3)
 
 
 class Camera(NamedTuple):
-    """A rectified camera: `projection` (3 x 4, from the left one's frame), size; in pixels."""
+    """A rectified camera: `projection` (3 x 4, from the left one's frame) and size, in pixels."""
 
     projection: np.ndarray
     width: int
@@ -24,7 +24,7 @@ class Camera(NamedTuple):
 
 
 class RawCamera(NamedTuple):
-    """A camera before rectification, and how it is rectified."""
+    """A camera before rectification, and its rectification."""
 
     matrix: np.ndarray  # 3 x 3, pixels
     distortion: np.ndarray  # k1, k2, p1, p2, k3
@@ -44,13 +44,13 @@ class Calibration(NamedTuple):
 
     @property
     def baseline(self):
-        """Distance (m) from the left to the right rectified camera, along the left one's x axis."""
+        """Returns the distance (m) from the left to the right rectified camera, along x."""
         return -self.right.projection[0, 3] / self.right.projection[0, 0]
 
 
 def find_calibration(drive):
-    """The folder (Path) of a drive's calibration: above the drive, as it is unpacked, or in it, or in
-    the folder of its day beside it. Raises InputError that says where it was looked for.
+    """Returns the folder (Path) of a drive's calibration: above the drive, as it is unpacked, or in
+    it, or in its day's folder next to it. Raises InputError that lists where it was looked for.
     """
     drive = drive.resolve()
     day = drive.name[: len("2011_09_26")]
@@ -66,13 +66,13 @@ def find_calibration(drive):
 
 
 def read_raw_cameras(folder):
-    """RawCamera of the left and the right gray camera. Raises InputError as read_calibration."""
+    """Returns both gray cameras (RawCamera), left and right. Raises InputError if invalid."""
     cameras = _KeyedFile(folder / CAMERAS_FILE)
     return [_raw_camera(cameras, number) for number in ("00", "01")]
 
 
 def read_calibration(folder):
-    """Reads the three calib_*.txt of `folder` (Path). Raises InputError where one is broken."""
+    """Reads the three calib_*.txt of `folder` (Path). Raises InputError if one is invalid."""
     cameras = _KeyedFile(folder / CAMERAS_FILE)
     velodyne_from_imu = _KeyedFile(folder / "calib_imu_to_velo.txt").rigid()
     camera_from_velodyne = _KeyedFile(folder / "calib_velo_to_cam.txt").rigid()
@@ -88,7 +88,7 @@ def read_calibration(folder):
 
 
 def _base_from_imu(velodyne_from_imu):
-    """base_link: on the road below the IMU, so that the Velodyne is VELODYNE_HEIGHT above it."""
+    """Returns base_link: on the road below the IMU, VELODYNE_HEIGHT below the Velodyne."""
     velodyne_above_imu = transforms.inverse(velodyne_from_imu)[2, 3]
     return transforms.rigid(np.eye(3), [0.0, 0.0, VELODYNE_HEIGHT - velodyne_above_imu])
 
@@ -110,7 +110,7 @@ def _raw_camera(cameras, number):
 
 
 class _KeyedFile:
-    """A text file of lines `key: values`."""
+    """Reads a text file with lines `key: values`."""
 
     def __init__(self, path):
         self._path = path
@@ -123,7 +123,7 @@ class _KeyedFile:
         self._entries = dict(line.split(":", 1) for line in lines if ":" in line)
 
     def values(self, key, count):
-        """The `count` numbers after `key`."""
+        """Returns the `count` numbers after `key`."""
         if key not in self._entries:
             raise InputError(f"{self._path}: key {key} is missing, expected {count} numbers")
         try:
@@ -137,5 +137,5 @@ class _KeyedFile:
         return values
 
     def rigid(self):
-        """The transform that the keys R and T hold."""
+        """Returns the transform given by the keys R and T."""
         return transforms.rigid(self.values("R", 9).reshape(3, 3), self.values("T", 3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The gray stereo images of a KITTI raw drive, rectified where they are not published so."""
+"""The gray stereo images of a KITTI raw drive, rectified if they are not published so."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ class ImagePairs:
     """Images and calibrations of both gray cameras, as messages."""
 
     def __init__(self, drive, calibration_folder, calibration):
-        """drive: Drive; calibration: what stands in the folder. Raises InputError: no images."""
+        """drive: Drive; calibration: contents of the folder. Raises InputError without images."""
         self._drive = drive
         self._cameras = (calibration.left, calibration.right)
         if drive.synced:
@@ -29,7 +29,7 @@ class ImagePairs:
         ]
 
     def events(self, frames):
-        """List of (stamp, index, write) for frames (a range); write: as an event of kitti_bag."""
+        """Returns a list of (stamp, index, write) for frames (a range); write: see kitti_bag."""
         indices = list(frames) if self._drive.synced else self._paired(frames)
         return [
             (self._stamps[camera][index], index, self._writer(camera))
@@ -38,7 +38,7 @@ class ImagePairs:
         ]
 
     def _paired(self, frames):
-        """Numbers of the images that both cameras took while the frames were scanned."""
+        """Returns the numbers of the images that both cameras took during the frames' scans."""
         begin, end = (self._drive.scan_stamps[frames[index]] for index in (0, -1))
         numbers = range(min(len(stream) for stream in self._streams))
         paired = [
@@ -74,7 +74,7 @@ class ImagePairs:
 
 
 def _rectification(raw, camera):
-    """Maps for cv2.remap from a RawCamera's images to those of the rectified Camera."""
+    """Returns maps for cv2.remap from a RawCamera's images to those of the rectified Camera."""
     cv2 = image_library()
     return cv2.initUndistortRectifyMap(
         raw.matrix,

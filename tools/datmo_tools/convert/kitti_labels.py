@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A label_02 file of KITTI tracking (boxes in the rectified camera's frame) -> labeled objects.
+"""Reads a label_02 file of KITTI tracking (boxes in the rectified camera's frame): labeled objects.
 
 Source: the readme of the KITTI tracking devkit: frame, track id, type, truncated, occluded, alpha,
 image box (4), height, width, length, bottom center x y z, rotation about the camera's y axis.
@@ -18,7 +18,7 @@ DONT_CARE = "DontCare"
 
 
 def read_labels(path, left_from_velodyne):
-    """List of TrueObject in the file at `path`, by track id; DontCare regions are left out.
+    """Returns a list of TrueObject in the file at `path`, by track id, without DontCare regions.
 
     left_from_velodyne: 4 x 4, into the rectified left camera. Raises InputError with the line.
     """
@@ -46,7 +46,7 @@ def _fields(where, words):
     except ValueError as error:
         raise InputError(f"{where}: {error}, expected KITTI's {FIELDS} fields") from error
     if not all(math.isfinite(value) for value in values[3:]):
-        raise InputError(f"{where}: a field is not finite, expected {FIELDS} finite ones")
+        raise InputError(f"{where}: a field is not finite, expected {FIELDS} finite fields")
     return values
 
 

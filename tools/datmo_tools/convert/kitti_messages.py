@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What kitti_to_bag writes, as ROS messages in the frames of the stack's data contract."""
+"""Creates kitti_to_bag's ROS messages in the frames of the stack's data contract."""
 
 import numpy as np
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
@@ -13,7 +13,7 @@ LEFT_CAMERA, RIGHT_CAMERA = "stereo_left_optical", "stereo_right_optical"
 
 
 def point_cloud(stamp, cloud):
-    """PointCloud2 (x, y, z, intensity: float32) of a Velodyne cloud (n x 4)."""
+    """Returns the PointCloud2 (x, y, z, intensity: float32) of a Velodyne cloud (n x 4)."""
     fields = [
         PointField(name, 4 * i, PointField.FLOAT32, 1)
         for i, name in enumerate(("x", "y", "z", "intensity"))
@@ -32,12 +32,12 @@ def point_cloud(stamp, cloud):
 
 
 def points(message):
-    """The cloud (n x 4) of a PointCloud2 as point_cloud makes it."""
+    """Returns the cloud (n x 4) of a PointCloud2 made by point_cloud()."""
     return np.frombuffer(message.data, dtype="<f4").reshape(-1, 4)
 
 
 def gray_image(stamp, pixels):
-    """mono8 Image (height x width) in the left rectified camera's frame."""
+    """Returns a mono8 Image (height x width) in the left rectified camera's frame."""
     height, width = pixels.shape
     return Image(
         header=header(stamp, LEFT_CAMERA),
@@ -51,7 +51,7 @@ def gray_image(stamp, pixels):
 
 
 def camera_info(stamp, camera):
-    """CameraInfo of a camera whose images are rectified: no distortion, no rotation, K out of P."""
+    """Returns a rectified camera's CameraInfo: no distortion, no rotation, K from P."""
     projection = camera.projection
     return CameraInfo(
         header=header(stamp, LEFT_CAMERA),
@@ -66,7 +66,7 @@ def camera_info(stamp, camera):
 
 
 def static_transforms(stamp, calibration, scanner_height):
-    """TFMessage base_link -> every sensor."""
+    """Returns the TFMessage base_link -> every sensor."""
     velodyne = calibration.base_from_velodyne
     left = velodyne @ transforms.inverse(calibration.left_from_velodyne)
     right = left @ transforms.rigid(np.eye(3), [calibration.baseline, 0.0, 0.0])
@@ -86,5 +86,5 @@ def static_transforms(stamp, calibration, scanner_height):
 
 
 def scanner_mount(base_from_velodyne, height):
-    """base_link -> scanner (4 x 4): below the Velodyne at `height` (m), in the axes of base_link."""
+    """Returns base_link -> scanner (4 x 4): below the Velodyne at `height` (m), not rotated."""
     return transforms.rigid(np.eye(3), [*base_from_velodyne[:2, 3], height])

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A KITTI raw drive folder -> its frames, checked while read, in both forms that are published.
+"""Reads and checks the frames of a KITTI raw drive folder, in both published forms.
 
 `..._sync` is synchronized and rectified: line and file i of every sensor are one frame, clouds are
 binary. `..._extract` is neither: each sensor has its own rate (the GPS/IMU 100 Hz), clouds are text.
-
 Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013, and its devkit's readme; the
-oxts fields stand in the drive's own oxts/dataformat.txt.
+oxts fields are described in the drive's own oxts/dataformat.txt.
 """
 
 from typing import NamedTuple
@@ -18,14 +17,14 @@ from datmo_tools.stamps import NANOSECONDS
 
 OXTS_FIELDS = 30
 CLOUD_FIELDS = 4  # x, y, z, reflectance
-NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, where a single scan does not contain it
+NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, if a single scan does not tell it
 
-# Records of the GPS/IMU that may be lost, or stamped no later than one before, as in some of the
+# GPS/IMU records that may be lost, or stamped no later than the previous one, as in some of the
 # unsynchronized drives: the pose between them is interpolated.
 MAX_MISSING_MOTION = 0.1  # share
 
-# Of an unsynchronized drive records count from so long before the first scan to so long after the
-# last one: there is then one on both sides of each.
+# For an unsynchronized drive, records count from this long before the first scan to this long after
+# the last one: then there is one on both sides of each.
 MOTION_MARGIN = NANOSECONDS // 20
 
 
@@ -58,27 +57,27 @@ class Drive:
 
     @property
     def frames(self):
-        """How many frames the drive has: one for each line of the Velodyne's stamps."""
+        """Returns how many frames the drive has: one for each line of the Velodyne's stamps."""
         return len(self._scans)
 
     @property
     def oxts_stamps(self):
-        """Stamps (ns) of the GPS/IMU records."""
+        """Returns the stamps (ns) of the GPS/IMU records."""
         return self._oxts.stamps
 
     @property
     def scan_stamps(self):
-        """Stamps (ns) of the frames; of a lost scan what lies between its neighbors."""
+        """Returns the stamps (ns) of the frames; for a lost scan, between its neighbors."""
         return self._scans.stamps
 
     @property
     def turn_duration(self):
-        """Duration (ns) of one turn of the Velodyne: from one scan's stamp to the next one's."""
+        """Returns the duration (ns) of one turn of the Velodyne, from the stamps of two scans."""
         steps = np.diff(self.scan_stamps)
         return int(np.median(steps)) if len(steps) > 0 else NOMINAL_TURN
 
     def motion_records(self, frames):
-        """Numbers of the GPS/IMU records of frames (a range), without those that were lost."""
+        """Returns the numbers of the GPS/IMU records of frames (a range), without lost ones."""
         if self.synced:
             wanted = list(frames)
         else:
@@ -95,7 +94,7 @@ class Drive:
         return found
 
     def oxts(self, index):
-        """The GPS/IMU record (Oxts) of a number; of a synchronized drive that of the frame."""
+        """Returns the GPS/IMU record (Oxts) of a number; in a synchronized drive, of the frame."""
         path = self._oxts.file(index)
         words = read_text(path).split()
         if len(words) < OXTS_FIELDS:
@@ -112,15 +111,15 @@ class Drive:
         return record
 
     def cloud_file(self, frame):
-        """Path of the Velodyne's file of a frame."""
+        """Returns the path of the Velodyne's file of a frame."""
         return self._scans.file(frame)
 
     def has_cloud(self, frame):
-        """False where the Velodyne's file or stamp was lost, as in drive 0009 (four)."""
+        """Whether the frame has the Velodyne's file and stamp; drive 0009 lost four."""
         return self._scans.has(frame)
 
     def cloud(self, frame):
-        """Velodyne points of a frame: n x 4 float32 (x, y, z in m, its frame; reflectance)."""
+        """Returns a frame's Velodyne points: n x 4 float32 (x, y, z in m; reflectance)."""
         path = self._scans.file(frame)
         try:
             return _text_cloud(path) if self._scans.suffix == ".txt" else _binary_cloud(path)
@@ -128,18 +127,18 @@ class Drive:
             raise InputError(f"{path}: expected a Velodyne scan ({error})") from error
 
     def images(self, camera):
-        """Stream of a camera's images, 0 (left) or 1 (right). Raises InputError: they are not there."""
+        """Returns the Stream of a camera's images, 0 (left) or 1 (right). Raises InputError."""
         folder = self.folder / f"image_{camera:02d}"
         if not folder.is_dir():
             found = ", ".join(sorted(path.name for path in self.folder.glob("image_*"))) or "none"
             raise InputError(
-                f"{folder}: missing, expected the gray cameras image_00 and image_01 (images that "
-                f"are there: {found}); without --images the drive is converted without any"
+                f"{folder}: missing, expected the gray cameras image_00 and image_01 (found: "
+                f"{found}); without --images none are converted"
             )
         return Stream(folder, [".png"])
 
     def image_stamps(self, camera):
-        """Stamps (ns) of the images of a camera of a synchronized drive, one for each frame."""
+        """Returns the stamps (ns) of a camera's images of a synchronized drive, one per frame."""
         images = self.images(camera)
         images.check_complete()
         if len(images) < self.frames:
@@ -150,7 +149,7 @@ class Drive:
         return images.stamps
 
     def image(self, camera, frame, width, height):
-        """Gray image (height x width, uint8) of a camera."""
+        """Returns the gray image (height x width, uint8) of a camera."""
         cv2 = image_library()
         path = self.folder / f"image_{camera:02d}" / "data" / f"{frame:010d}.png"
         expected = f"expected a gray PNG of {width} x {height}"
@@ -165,7 +164,7 @@ class Drive:
 
 
 def image_library():
-    """OpenCV: only needed with images, and slow to load."""
+    """Imports OpenCV: only needed with images, and slow to load."""
     try:
         import cv2
     except ImportError as error:
@@ -176,7 +175,7 @@ def image_library():
 
 
 def _check_folder(folder):
-    """Raises InputError unless it is a drive's folder: of what it may be instead it says more."""
+    """Raises InputError unless it is a drive's folder, with hints for common mistakes."""
     expected = "expected the folder of a KITTI raw drive (..._drive_NUMBER_sync or _extract)"
     if folder.is_file() and folder.suffix == ".zip":
         raise InputError(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The planar scans of a KITTI drive, made of its Velodyne's clouds by the program clouds_to_scans.
+"""Makes planar scans from the Velodyne's clouds of a KITTI drive by the program clouds_to_scans.
 
-It is an emulation. The Velodyne looks down from 1.73 m, so it sees over low obstacles into places
-that a scanner at the bumper would not see; and a band of several rows stands in for the scanner's
+It is an emulation. The Velodyne looks down from 1.73 m, so it sees over low obstacles into areas
+that a scanner at the bumper would not see; and a band of several rows replaces the scanner's
 opening angle.
 """
 
@@ -21,17 +21,17 @@ from datmo_tools.bag_messages import SCANNER
 from datmo_tools.convert import kitti_messages
 from datmo_tools.errors import InputError
 
-# The recording car itself in the Velodyne's frame (m): its bonnet and mirrors return too, and a
-# scanner at the bumper does not see them. A VW Passat, with mirrors; the bonnet's returns lie up to
+# The recording car itself in the Velodyne's frame (m): its hood and mirrors return, too, and a
+# scanner at the bumper does not see them. A VW Passat, with mirrors; the hood's returns are up to
 # 2.53 m ahead.
 CAR_REAR, CAR_FRONT, CAR_HALF_WIDTH = -2.7, 2.7, 1.15
 
 FINEST_RESOLUTION = 0.02  # degrees: a fifth of the Velodyne's own; the finest of cloud_to_scan
 COARSEST_RESOLUTION = 10.0  # degrees: the coarsest
 
-CHUNK = 50  # clouds at a time: what is made of a drive in between stays small on the disk
+CHUNK = 50  # clouds at a time, which limits the disk space of intermediate files
 
-# Exit code of clouds_to_scans where no cloud of a chunk leads to a scan.
+# Exit code of clouds_to_scans if no cloud of a chunk gives a scan.
 NO_USABLE_CLOUD = 2
 
 
@@ -41,26 +41,26 @@ class ScannerOptions(NamedTuple):
     resolution: float = 2.0  # degrees from beam to beam
     field_of_view: float = 160.0  # degrees, first to last beam, symmetric about straight ahead
     range_min: float = 1.0  # m
-    range_max: float = 50.0  # m: beyond, one beam at most meets an object (thesis 1.3.3)
-    band_low: float = 0.3  # m above the road: over curbs and over what the road plane misses
+    range_max: float = 50.0  # m: beyond it, at most one beam hits an object (thesis 1.3.3)
+    band_low: float = 0.3  # m above the road: over curbs and over errors of the road plane
     band_high: float = (
-        0.9  # m: two rows of the Velodyne (0.4 degrees) at 40 m, under bonnets and bumpers
+        0.9  # m: two rows of the Velodyne (0.4 degrees) at 40 m, below hoods and bumpers
     )
-    beam_width: float = 0.0  # degrees that a beam covers; 0: the whole way to the next beams
+    beam_width: float = 0.0  # degrees that a beam covers; 0: up to the neighboring beams
 
     @property
     def height(self):
-        """Height (m) of the scanner above the road: the middle of the band."""
+        """Returns the height (m) of the scanner above the road: the middle of the band."""
         return 0.5 * (self.band_low + self.band_high)
 
     @property
     def turn_share(self):
-        """Part of the Velodyne's turn from the first to the last beam."""
+        """Returns the part of the Velodyne's turn from the first to the last beam."""
         return self.field_of_view / 360.0
 
 
 def check(options):
-    """Raises InputError where the options describe no scanner."""
+    """Raises InputError if the options do not describe a scanner."""
     steps = options.field_of_view / options.resolution if options.resolution > 0.0 else 0.0
     rules = (
         (
@@ -96,16 +96,16 @@ def check(options):
 
 
 def on_own_car(x, y):
-    """Whether points (x, y: n, m, the Velodyne's frame) lie on the recording car."""
+    """Whether points (x, y: n, m, the Velodyne's frame) are on the recording car."""
     return (x > CAR_REAR) & (x < CAR_FRONT) & (abs(y) < CAR_HALF_WIDTH)
 
 
 def configuration(options, fit_road, calibration, turn_duration):
-    """The sensor set of clouds_to_scans (dictionary); turn_duration: of the Velodyne (ns).
+    """Returns the sensor set of clouds_to_scans (dictionary); turn_duration: of the Velodyne (ns).
 
-    The Velodyne turns to the right and looks ahead at the stamp, in the middle of its turn: clouds
-    of drive 0005, aligned a second apart, fit best if their beams are taken as 1.1 times a turn's
-    share of time earlier toward the left.
+    The Velodyne turns to the right and faces forward at the stamp, in the middle of its turn:
+    clouds of drive 0005, aligned a second apart, fit best if the beams toward the left are taken to
+    be earlier by 1.1 times their share of a turn.
     """
     ahead, left = (float(arc_length) for arc_length in calibration.base_from_velodyne[:2, 3])
     scan = {
@@ -134,12 +134,12 @@ def configuration(options, fit_road, calibration, turn_duration):
 
 
 class DriveScans:
-    """The scans of a drive's frames, made a chunk of frames at a time, in the order of frames."""
+    """Makes the scans of a drive's frames, a chunk of frames at a time, in the order of frames."""
 
     def __init__(self, drive, frames, sections, mounts):
-        """sections: see configuration(). mounts: TFMessage with that of the Velodyne.
+        """sections: see configuration(). mounts: TFMessage with the Velodyne's.
 
-        Raises InputError if the program is not there.
+        Raises InputError if the program is missing.
         """
         self._drive = drive
         self._frames = [frame for frame in frames if drive.has_cloud(frame)]
@@ -149,14 +149,14 @@ class DriveScans:
         self._scans = {}
 
     def scan_of(self, frame):
-        """LaserScan of a frame (of those with a cloud); None where its cloud is empty."""
+        """Returns the LaserScan of a frame with a cloud; None if its cloud is empty."""
         if frame not in self._scans:
             begin = self._frames.index(frame)
             self._scans = self._convert(self._frames[begin : begin + CHUNK])
         return self._scans[frame]
 
     def _convert(self, frames):
-        """Dictionary frame -> LaserScan or None."""
+        """Returns a dictionary frame -> LaserScan or None."""
         with tempfile.TemporaryDirectory(prefix="kitti_to_bag_") as folder:
             clouds, scans = Path(folder) / "clouds.bag", Path(folder) / "scans.bag"
             config = Path(folder) / "scanner.yaml"
@@ -181,7 +181,7 @@ class DriveScans:
         return found
 
     def _frame_of(self, scan, frames):
-        """The one in whose middle the scan's middle beam is measured."""
+        """Returns the frame in whose middle the scan's middle beam is measured."""
         middle = scan.header.stamp.to_nsec() + round(
             0.5e9 * (len(scan.ranges) - 1) * scan.time_increment
         )

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor's folder of a KITTI raw drive: timestamps.txt and data/0000000000.*, file by line.
+"""Reads one sensor's folder of a KITTI raw drive: timestamps.txt and data/0000000000.* in order.
 
-Source: the readme of the raw data's devkit. Where data were lost the published files have gaps: the
-line of timestamps.txt is blank and the file is missing (drive 2011_09_26_0009: four scans).
+Source: the readme of the raw data's devkit. Where data were lost, the published files have gaps:
+the line of timestamps.txt is blank and the file is missing (drive 2011_09_26_0009: four scans).
 """
 
 import calendar
@@ -14,22 +14,22 @@ from datmo_tools.errors import InputError
 from datmo_tools.stamps import NANOSECONDS
 
 STAMPS = "timestamps.txt"
-# The Velodyne has these too: of the first and the last point of a scan.
+# The Velodyne also has these: of the first and the last point of a scan.
 BOUNDS = ("timestamps_start.txt", "timestamps_end.txt")
 
 
 class Stream:
     """Stamps and files of one sensor.
 
-    stamps: ns, of every line; of a line without stamp what lies between its neighbors.
+    stamps: ns, of every line; interpolated between its neighbors for a line without stamp.
     """
 
     def __init__(self, folder, suffixes, max_disorder=0.0):
-        """folder: Path of the sensor; suffixes: of its data, the one with most files counts.
+        """folder: Path of the sensor; suffixes: of its data, the one with most files is used.
 
-        max_disorder: share of the lines that may be stamped no later than an earlier one; they count
-        as lost. Raises InputError: no folder, no stamp, a line that is none, stamps that do not rise,
-        more files than lines.
+        max_disorder: share of the lines that may be stamped no later than an earlier one; they
+        count as lost. Raises InputError: no folder, no stamp, an invalid line, stamps that do not
+        increase, more files than lines.
         """
         self._data = folder / "data"
         files = {suffix: len(list(self._data.glob(f"*{suffix}"))) for suffix in suffixes}
@@ -46,7 +46,7 @@ class Stream:
         return len(self.stamps)
 
     def file(self, index):
-        """Path of the data of a line (from 0)."""
+        """Returns the path of the data of a line (from 0)."""
         return self._data / f"{index:010d}{self.suffix}"
 
     def has(self, index):
@@ -54,7 +54,7 @@ class Stream:
         return index < len(self) and self._stamped[index] and self.file(index).is_file()
 
     def check_complete(self):
-        """Raises InputError where a line has no file."""
+        """Raises InputError if a line has no file."""
         if self.files < len(self.stamps):
             raise InputError(f"{self._data}: {self._expected()}")
 
@@ -66,7 +66,7 @@ class Stream:
 
 
 def read_text(path):
-    """Text of a file (Path). Raises InputError that names it."""
+    """Returns the text of a file (Path). Raises InputError that names it."""
     try:
         return path.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError) as error:
@@ -74,7 +74,7 @@ def read_text(path):
 
 
 def _read_lines(folder):
-    """The file of the stamps, and its stamps: ns; None: a blank line before the last stamp."""
+    """Returns the stamps' file, and its stamps (ns); None: a blank line before the last stamp."""
     path = folder / STAMPS
     if path.exists() or not all((folder / name).exists() for name in BOUNDS):
         return path, _stamps_in(path)
@@ -93,7 +93,7 @@ def _stamps_in(path):
 
 
 def _rising(path, stamps, max_disorder):
-    """Stamps, with None in place of those that do not rise. Raises InputError where these are more."""
+    """Replaces stamps that do not increase by None. Raises InputError if there are too many."""
     kept, latest = [], -1
     for stamp in stamps:
         rises = stamp is not None and stamp > latest
@@ -101,22 +101,22 @@ def _rising(path, stamps, max_disorder):
         latest = stamp if rises else latest
     disorder = kept.count(None) - stamps.count(None)
     if disorder > max_disorder * len(stamps):
-        raise InputError(f"{path}: stamps do not rise, expected them in the order of the frames")
+        raise InputError(f"{path}: stamps do not increase, expected the order of the frames")
     return kept
 
 
 def _filled(stamps):
-    """Stamps (ns) without gaps."""
+    """Fills gaps in stamps (ns)."""
     known = [index for index, stamp in enumerate(stamps) if stamp is not None]
     values = np.array([stamps[index] for index in known], dtype=np.int64)
-    # Relative to the first, for a float64 does not hold ns since 1970.
+    # Relative to the first one, as a float64 cannot hold ns since 1970.
     between = np.interp(np.arange(len(stamps)), known, values - values[0])
     filled = (values[0] + np.rint(between).astype(np.int64)).tolist()
     return [guess if stamp is None else stamp for stamp, guess in zip(stamps, filled)]
 
 
 def _parse_stamp(path, number, line):
-    """`2011-09-26 13:04:32.349659964` (taken as UTC) -> ns since 1970, exactly; blank: None."""
+    """Converts `2011-09-26 13:04:32.349659964` (taken as UTC) to ns since 1970; blank to None."""
     if not line.strip():
         return None
     try:

@@ -11,20 +11,20 @@ from datmo_tools.convert.kitti_scans import ScannerOptions
 from datmo_tools.convert.odometry import OdometryErrors
 from datmo_tools.errors import InputError
 
-DESCRIPTION = """\
-Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
-/scan, /odometry, /tf, /tf_static, the true pose and, where the drive is labeled, the true objects;
-/points and stereo images on demand. Both published forms are supported: synced+rectified (..._sync)
-and unsynced+unrectified (..._extract), whose sensors keep their own rates and whose images are
-rectified here; it has no true objects, for labels count the frames of the other form.
+DESCRIPTION = """\ Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its
+parent), to a bag: /scan, /odometry, /tf, /tf_static, the true pose and, if the drive is labeled,
+the true objects; /points and stereo images on request. Both published forms are supported:
+synced+rectified (..._sync) and unsynced+unrectified (..._extract), whose sensors keep their own
+rates and whose images are rectified here; it has no true objects, as labels count the frames of the
+other form.
 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
-in a height band above the road, as clouds_to_scans makes it. The Velodyne looks down from 1.73 m
-and therefore sees over low obstacles. Returns from the recording car itself are left out. A beam
+in a height band above the road, as computed by clouds_to_scans. The Velodyne looks down from 1.73 m
+and therefore sees over low obstacles. Returns from the recording car itself are removed. A beam
 extends to its neighbors unless --beam-width makes it narrower; its range is reported at its own
 bearing. The Velodyne turns to the right, and so does the scan: its first beam is the leftmost, each
-beam has its own time, and the middle one that of the drive's stamp, which is also that of points
-and true objects. The scan is recorded when its last beam is there. The same options and seed give
+beam has its own time, and the middle one has the drive's stamp, which is also that of points
+and true objects. The scan is recorded at the time of its last beam. The same options and seed give
 the same bytes."""
 
 
@@ -53,9 +53,9 @@ def _add_contents(group):
     add("--end", type=int, metavar="FRAME", help="one past the last frame (default: all)")
     add("--points", action="store_true", help="write the Velodyne's points too")
     add("--images", action="store_true", help="write the gray stereo images too")
-    calibration = "folder of calib_*.txt (default: above the drive, in it, or in its day's beside it)"
+    calibration = "folder of calib_*.txt (default: above the drive, in it, or its day's next to it)"
     add("--calibration", type=Path, metavar="FOLDER", help=calibration)
-    missing = "go on where Velodyne files are missing, as in drive 0009"
+    missing = "continue if Velodyne files are missing, as in drive 0009"
     add("--allow-missing-scans", action="store_true", help=missing)
 
 
@@ -79,7 +79,7 @@ def _add_scanner(group, scanner):
 
 def _add_odometry(group):
     add_number(group, "--odometry-scale-error", 0.0, "SHARE", "0.03: speed 3 %% too high")
-    add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "added to the yaw rate")
+    add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "bias of the yaw rate")
     noise = "standard deviation of the noise of"
     add_number(group, "--odometry-speed-noise", 0.0, "M_PER_S", f"{noise} the speed")
     add_number(group, "--odometry-yaw-noise", 0.0, "DEG_PER_S", f"{noise} the yaw rate")
@@ -97,8 +97,8 @@ def _add_truth(group):
         "--true-position",
         choices=("velocity", "gps"),
         default="velocity",
-        help="from the integrated velocity of the GPS/IMU, or from latitude and longitude, "
-        "which may walk by meters within a drive (default %(default)s)",
+        help="from the GPS/IMU's integrated velocity, or from latitude and longitude, "
+        "which may wander by meters within a drive (default %(default)s)",
     )
 
 

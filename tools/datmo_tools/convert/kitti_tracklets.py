@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tracklet_labels.xml of a KITTI raw drive -> labeled objects."""
+"""Reads tracklet_labels.xml of a KITTI raw drive: labeled objects."""
 
 import math
 import xml.etree.ElementTree as ElementTree
@@ -9,7 +9,7 @@ from datmo_tools.errors import InputError
 
 
 def read_tracklets(path):
-    """List of TrueObject of the file at `path`, numbered as they stand there. Raises InputError."""
+    """Returns a list of TrueObject in the file at `path`, in its order. Raises InputError."""
     try:
         root = ElementTree.parse(path).getroot()
     except (OSError, ElementTree.ParseError) as error:
@@ -40,7 +40,7 @@ def _object(path, number, item):
 
 
 def _box(path, pose, height, where):
-    """tz is the bottom of the box: rest it on its middle."""
+    """Returns a pose's TrueBox; tz is the bottom of the box."""
     x, y, bottom, yaw, level = (
         _number(path, pose, key, where) for key in ("tx", "ty", "tz", "rz", "occlusion")
     )

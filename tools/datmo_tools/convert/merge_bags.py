@@ -25,8 +25,8 @@ def main(arguments=None):
 def merge(parts, path):
     """Writes all messages of the bags `parts` (Paths) to the bag `path` (Path).
 
-    Raises InputError, and leaves no bag behind: a part cannot be read, is given twice, or is the bag
-    that is to be written.
+    Raises InputError, without leaving a bag: a part cannot be read, is given twice, or is the
+    output bag.
     """
     files = [part.resolve() for part in parts]
     for part, file in zip(parts, files):

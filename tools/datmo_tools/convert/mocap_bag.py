@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bag of a 2D scanner and motion capture -> a bag of the data contract: the order of the work."""
+"""Converts a bag of a 2D scanner and motion capture to a bag of the data contract."""
 
 import math
 import sys
@@ -18,12 +18,12 @@ from datmo_tools.convert.wheel_odometry import has_topics, read_odometry
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import read_messages
 
-# A beam is counted for an object where it ends within this of its box: noise, and the car's corners
-# are round.
+# A beam is counted for an object if it ends within this distance of its box: noise, and the car's
+# corners are round.
 BOX_TOLERANCE = 0.05  # m
 
-# By how much the scanner of the example bags measures short (m), at some ranges (m): the walls of
-# the room are sharpest so in both of them, and in each alone to 0.02 m.
+# By how much the scanner of the example bags measures short (m), at some ranges (m): this makes the
+# walls of the room sharpest in both of them, and in each alone to 0.02 m.
 SHORT_RANGES = (
     (1.0, 0.0),
     (2.0, 0.0),
@@ -43,20 +43,20 @@ NO_CENTER = np.zeros(3)
 
 
 class Options(NamedTuple):
-    """What to convert and how; where the defaults come from is said in mocap_to_bag --help."""
+    """What to convert and how; mocap_to_bag --help explains the defaults."""
 
     scan_topic: str = "/scan"
     ego_topic: str = "/ego_pose"
     object_topics: tuple = ("/red_pose",)
     wheels_topic: str = "/wheel_speeds"
     imu_topic: str = "/imu/data"
-    odometry: bool = True  # where both of these topics are there
+    odometry: bool = True  # if both of these topics are recorded
     wheel_radius: float = 0.031  # m
     mount: np.ndarray = MOUNT
     clockwise: bool = True  # the last beam of a message is the first in time
     sweep_time: Optional[float] = None  # s from the first beam to the last; None: between scans
-    scan_delay: float = -0.015  # s from a scan's stamp to its first beam, on motion capture's clock
-    range_errors: tuple = SHORT_RANGES  # rising (range, by how much it is short), m; linear between
+    scan_delay: float = -0.015  # s from a scan's stamp to its first beam, by motion capture's clock
+    range_errors: tuple = SHORT_RANGES  # increasing (range, how short it is), m; linear between
     object_size: tuple = (0.455, 0.205, 0.2)  # m: length, width, height
     object_center: np.ndarray = np.array([0.07, 0.0, 0.0])  # x, y, yaw from the markers' origin
     moving_speed: float = 0.1  # m/s
@@ -65,7 +65,7 @@ class Options(NamedTuple):
 def convert(recording, bag_path, options, stream=None):
     """Converts the bag `recording` (Path) to `bag_path` (Path); progress and notes go to `stream`.
 
-    Raises InputError, and leaves no bag behind, where the file or an option cannot be used.
+    Raises InputError, without leaving a bag, if the file or an option cannot be used.
     """
     stream = stream if stream is not None else sys.stderr
     if bag_path.exists() and recording.exists() and bag_path.samefile(recording):
@@ -78,7 +78,7 @@ def convert(recording, bag_path, options, stream=None):
 
 
 class _Conversion:
-    """One recording with all that is read before the first message is written."""
+    """One recording, with everything that is read before the first message is written."""
 
     def __init__(self, recording, options):
         self._options = options
@@ -101,7 +101,7 @@ class _Conversion:
         self._without_truth = 0
 
     def write(self, bag, stream):
-        """Writes everything in the order of time."""
+        """Writes everything in order of time."""
         events = [(stamp, self._write_scan, message) for stamp, message in self._scans]
         events += [(stamp, self._write_pose, None) for stamp in self._ego.path.stamps.tolist()]
         events += [(sample.stamp, _write_odometry, sample) for sample in self._odometry]
@@ -111,7 +111,7 @@ class _Conversion:
             write(bag, stamp, message)
 
     def notes(self):
-        """What the user should know, as sentences."""
+        """Yields sentences on what the user should know."""
         if not self._odometry:
             topics = f"{self._options.wheels_topic} and {self._options.imu_topic}"
             yield f"no odometry, which needs {topics}" if self._options.odometry else "no odometry"
@@ -133,7 +133,7 @@ class _Conversion:
         bag.write("/ground_truth/pose", stamp, pose)
 
     def _write_scan(self, bag, stamp, message):
-        """Writes /scan, recorded when its last beam is there, and what was true at its stamp."""
+        """Writes /scan, recorded at its last beam's time, and the truth at its stamp."""
         scan = mocap_scan.converted(message, stamp, self._sweep, self._options)
         bag.write("/scan", stamp + round(self._sweep * 1e9), scan)
         ego, states = self._ego.at(stamp), [item.at(stamp) for item in self._objects]
@@ -161,7 +161,7 @@ class _Conversion:
 
 
 def _read_odometry(recording, options):
-    """List of OdometrySample; empty where it is not wanted, or the recording has none."""
+    """Returns a list of OdometrySample; empty if it is not wanted or the recording has none."""
     topics = (options.wheels_topic, options.imu_topic)
     if not options.odometry or not has_topics(recording, *topics):
         return []
@@ -174,7 +174,7 @@ def _write_odometry(bag, stamp, sample):
 
 
 def _read_scans(recording, options):
-    """Rising list of (stamp of the first beam in ns, recorded LaserScan)."""
+    """Returns a list of (stamp of the first beam in ns, recorded LaserScan), increasing."""
     delay = round(options.scan_delay * 1e9)
     scans = {}
     for message, kind in read_messages(recording, options.scan_topic):
@@ -190,14 +190,14 @@ def _read_scans(recording, options):
 
 
 def _scan_period(recording, scans):
-    """Typical time from a scan to the next, s: the scanner never rests."""
+    """Returns the typical time (s) from one scan to the next: the scanner never pauses."""
     if len(scans) < 2:
         raise InputError(f"{recording}: 1 scan, expected two or more, or --sweep-time")
     return float(np.median(np.diff([stamp for stamp, _ in scans]))) * 1e-9
 
 
 def _beams_on(objects, points, scanner):
-    """How many of the points (n x 2, m, scanner's frame) lie on each of the MapObjects."""
+    """Returns how many of the points (n x 2, m, scanner's frame) are on each of the MapObjects."""
     in_map = transforms.points_in_parent(scanner, points)
     return [
         ground_truth.points_in_box(in_map, item.source, item.box, BOX_TOLERANCE) for item in objects

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A recorded scan -> one with its beams in the order of time, at their own times and ranges."""
+"""Converts a recorded scan: beams in order of time, with corrected times and ranges."""
 
 import math
 
@@ -15,9 +15,9 @@ def usable(message):
 
 
 def converted(message, stamp, sweep_time, options):
-    """LaserScan of a recorded one, stamped with its first beam's time (ns).
+    """Converts a recorded LaserScan; the result is stamped with its first beam's time (ns).
 
-    sweep_time: s from the first beam to the last; options: those of mocap_bag. Readings out of the
+    sweep_time: s from the first beam to the last; options: those of mocap_bag. Readings outside the
     recorded limits become +inf: no return.
     """
     ranges = np.array(message.ranges, dtype=float)
@@ -43,16 +43,16 @@ def converted(message, stamp, sweep_time, options):
 
 
 def corrected(ranges, range_errors):
-    """Range(s) (m) longer by what they are short; nearer and farther than the table, as its ends.
+    """Corrects range(s) (m) that are short; outside the table, its ends are used.
 
-    range_errors: rising pairs (range, error), m, one or more.
+    range_errors: increasing pairs (range, error), m, one or more.
     """
     at, short = zip(*range_errors)
     return ranges + np.interp(ranges, at, short)
 
 
 def end_points(scan):
-    """Where the beams of a converted scan ended (n x 2, m), in its frame."""
+    """Returns the end points (n x 2, m) of a converted scan, in its frame."""
     ranges = np.array(scan.ranges)
     bearings = scan.angle_min + np.arange(len(ranges)) * scan.angle_increment
     hit = np.isfinite(ranges)

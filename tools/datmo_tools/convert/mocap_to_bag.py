@@ -11,18 +11,18 @@ from datmo_tools.convert import mocap_bag
 from datmo_tools.errors import InputError
 
 DESCRIPTION = """\
-Converts a recorded bag of a car with a 2D scanner, whose pose and those of other cars were measured
+Converts a recorded bag of a car with a 2D scanner, with the poses of it and of other cars measured
 by motion capture, to a bag: /scan, /tf_static, /ground_truth/pose, /ground_truth/objects, and,
-where wheel speeds and an IMU were recorded, /odometry and /tf. Run it with config/model_car.yaml;
+if wheel speeds and an IMU were recorded, /odometry and /tf. Run it with config/model_car.yaml;
 without odometry, with motion: {source: none}.
 
 base_link is the frame in which motion capture has the scanner's car, and map its first pose. The
-defaults are those of the example bags of the package datmo (1:10 cars, an RPLIDAR), measured there:
-the last beam of a message is the first in time; the scans' clock is ahead of that of motion capture
-by 15 ms (walls are sharpest so, to 3 ms); ranges are short, by 0.08 m at 4 m and 0.42 m at 5 m (so
-are walls, seen from near and from far); and the origin of the markers is not the middle of the body
-whose outline the scanner saw. Where motion capture repeats a pose to the last bit, it has lost the
-car, and there is no truth."""
+defaults are for the example bags of the package datmo (1:10 cars, an RPLIDAR), measured there:
+the last beam of a message is the first in time; the scans' clock is ahead of motion capture's by
+15 ms (walls are sharpest so, to 3 ms); ranges are short, by 0.08 m at 4 m and 0.42 m at 5 m
+(this makes walls agree, seen from near and far); and the origin of the markers is not the middle of
+the body whose outline the scanner saw. When motion capture repeats a pose to the last bit, it has
+lost the car, and there is no truth."""
 
 
 def main(arguments=None):
@@ -51,7 +51,7 @@ def _add_topics(group, defaults):
     group.add_argument("--scan", default=defaults.scan_topic, metavar="TOPIC", help=scan)
     ego = "motion capture of the scanner's car (default %(default)s)"
     group.add_argument("--ego-pose", default=defaults.ego_topic, metavar="TOPIC", help=ego)
-    others = f"motion capture of the others (default {' '.join(defaults.object_topics)})"
+    others = f"motion capture of the other cars (default {' '.join(defaults.object_topics)})"
     group.add_argument(
         "--object-pose",
         nargs="+",
@@ -69,7 +69,7 @@ def _add_odometry(group, defaults):
     imu = "sensor_msgs/Imu (default %(default)s)"
     group.add_argument("--imu", default=defaults.imu_topic, metavar="TOPIC", help=imu)
     command_line.add_number(group, "--wheel-radius", defaults.wheel_radius, "M", "m")
-    group.add_argument("--no-odometry", action="store_true", help="leave it out")
+    group.add_argument("--no-odometry", action="store_true", help="write no odometry")
 
 
 def _add_scanner(group, defaults):
@@ -82,7 +82,7 @@ def _add_scanner(group, defaults):
     group.add_argument("--sweep-time", type=command_line.number, metavar="S", help=sweep)
     delay = "s from a scan's stamp to its first beam, on the clock of motion capture"
     add(group, "--scan-delay", defaults.scan_delay, "S", delay)
-    short = "by how much ranges R (m) are short: E (m), linear between; 0:0 for nowhere"
+    short = "by how much ranges R (m) are short: E (m), linear between; 0:0 for no correction"
     group.add_argument(
         "--range-errors",
         nargs="+",
@@ -95,11 +95,11 @@ def _add_scanner(group, defaults):
 
 def _add_truth(group, defaults):
     add = command_line.add_number
-    add(group, "--object-size", list(defaults.object_size), ("L", "W", "H"), "of the others, m")
-    center = "middle of their body, seen from the markers' origin: m, m, degrees"
+    add(group, "--object-size", list(defaults.object_size), ("L", "W", "H"), "of the other cars, m")
+    center = "center of their body in the frame of the markers: m, m, degrees"
     turned = [*defaults.object_center[:2].tolist(), math.degrees(defaults.object_center[2])]
     add(group, "--object-center", turned, ("X", "Y", "YAW"), center)
-    add(group, "--moving-speed", defaults.moving_speed, "V", "m/s; what is slower stands")
+    add(group, "--moving-speed", defaults.moving_speed, "V", "m/s; slower objects are stationary")
 
 
 def _options(values):
@@ -109,7 +109,7 @@ def _options(values):
         raise InputError(f"--scan-delay is {values.scan_delay}, expected -1 to 1 s")
     longer = [at + by for at, by in values.range_errors]
     if sorted(set(values.range_errors)) != values.range_errors or sorted(set(longer)) != longer:
-        raise InputError(f"--range-errors are {values.range_errors}, expected R and R + E to rise")
+        raise InputError(f"--range-errors are {values.range_errors}, expected rising R and R + E")
     if min(values.object_size) <= 0.0:
         raise InputError(f"--object-size is {values.object_size}, expected lengths above 0 m")
     command_line.check_positive(values, "wheel_radius", "moving_speed")
@@ -133,7 +133,7 @@ def _options(values):
 
 
 def _range_error(text):
-    """R:E, two numbers; argparse names the option where it is none."""
+    """Parses R:E, two numbers; otherwise argparse reports the option."""
     at, _, by = text.partition(":")
     return command_line.number(at), command_line.number(by)
 

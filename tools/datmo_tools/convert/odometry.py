@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odometry of the car from the GPS/IMU's speed and yaw rate, worsened as a cheap one would be."""
+"""Creates odometry from the GPS/IMU's speed and yaw rate, with the errors of a low-cost one."""
 
 import math
 from typing import NamedTuple
@@ -8,16 +8,16 @@ import numpy as np
 
 from datmo_tools import transforms
 
-# Standard deviations that the messages state before any added noise: a production car's wheel speed
-# and yaw-rate sensor.
+# Standard deviations that the messages state before noise is added: a production car's wheel speed
+# and yaw rate sensors.
 NOMINAL_SPEED_SIGMA = 0.1  # m/s
 NOMINAL_YAW_RATE_SIGMA = 0.01  # rad/s
 
 
 class OdometryErrors(NamedTuple):
-    """What is added to the true speed and yaw rate."""
+    """Errors added to the true speed and yaw rate."""
 
-    scale_error: float = 0.0  # 0.03: three per cent too fast
+    scale_error: float = 0.0  # 0.03: three percent too fast
     yaw_bias: float = 0.0  # rad/s
     speed_noise: float = 0.0  # m/s, standard deviation
     yaw_rate_noise: float = 0.0  # rad/s, standard deviation
@@ -36,7 +36,7 @@ class OdometrySample(NamedTuple):
 
 
 def degraded_rates(records, errors, seed):
-    """Measured speeds (n, m/s) and yaw rates (n, rad/s); the same seed gives the same."""
+    """Returns measured speeds (n, m/s) and yaw rates (n, rad/s); the same seed gives the same."""
     generator = np.random.Generator(np.random.PCG64(seed))
     noise = generator.standard_normal((len(records), 2))
     speed = np.array([record.forward_speed for record in records])
@@ -48,7 +48,7 @@ def degraded_rates(records, errors, seed):
 
 
 def integrate(stamps, speeds, yaw_rates, errors):
-    """List of OdometrySample: arcs from stamp to stamp at the mean of the rates at both ends.
+    """Returns a list of OdometrySample: arcs between stamps at the mean of the rates at both ends.
 
     The covariance is propagated to first order (Thrun et al., "Probabilistic Robotics", 2005, 7.4).
     """
@@ -71,9 +71,10 @@ def integrate(stamps, speeds, yaw_rates, errors):
 
 
 def propagated(covariance, pose, speed, yaw_rate, duration, variances):
-    """Covariance (3 x 3) of the pose after one arc from `pose`, linearized at the arc's middle.
+    """Returns the covariance (3 x 3) of the pose after one arc from `pose`, linearized in its
+    middle.
 
-    variances: of the speed and of the yaw rate during the arc.
+    variances: of speed and yaw rate during the arc.
     """
     middle = pose[2] + 0.5 * yaw_rate * duration
     cosine, sine = math.cos(middle), math.sin(middle)

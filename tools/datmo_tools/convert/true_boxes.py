@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The boxes that the two KITTI truth readers hand on, before they are moved into the map."""
+"""The boxes that the two KITTI truth readers return, before they are transformed to the map."""
 
 from typing import NamedTuple
 
 UNKNOWN_OCCLUSION = -1.0
 
-# KITTI's levels (visible, partly, largely or fully hidden) as shares; any other level is not known.
+# KITTI's levels (visible, partly, largely or fully hidden) as shares; any other level is unknown.
 _OCCLUSION_SHARES = {0: 0.0, 1: 0.5, 2: 1.0}
 
 
@@ -16,7 +16,7 @@ class TrueBox(NamedTuple):
     y: float  # m
     z: float  # m, center
     yaw: float  # rad
-    occlusion: float  # 0 to 1 in the annotator's view, negative: not known
+    occlusion: float  # 0 to 1 in the annotator's view, negative: unknown
 
 
 class TrueObject(NamedTuple):
@@ -31,5 +31,5 @@ class TrueObject(NamedTuple):
 
 
 def occlusion_share(level):
-    """KITTI's occlusion level as a share from 0 to 1; negative where it is not known."""
+    """Returns KITTI's occlusion level as a share from 0 to 1; negative if it is unknown."""
     return _OCCLUSION_SHARES.get(int(level), UNKNOWN_OCCLUSION)

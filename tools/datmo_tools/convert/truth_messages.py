@@ -23,12 +23,13 @@ CLASSES = {
 
 
 def true_pose(stamp, pose, speed, yaw_rate):
-    """Odometry of the true pose (x, y, yaw) in the map at `stamp` (ns), with the true rates."""
+    """Returns the Odometry of the true pose (x, y, yaw) in the map at `stamp` (ns), and its
+    rates."""
     return planar_odometry(stamp, MAP, TRUE_BASE, pose, speed, yaw_rate)
 
 
 def true_objects(stamp, objects, beam_counts):
-    """TrueObjectArray of MapObjects, with the number of beams that end on each."""
+    """Returns the TrueObjectArray of MapObjects, with the number of beams that end on each."""
     items = [_true_object(item, beams) for item, beams in zip(objects, beam_counts)]
     return TrueObjectArray(header=header(stamp, MAP), objects=items)
 

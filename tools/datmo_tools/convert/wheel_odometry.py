@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odometry of a small car from the speeds of its wheels and the yaw rate of its IMU."""
+"""Computes a small car's odometry from its wheel speeds and its IMU's yaw rate."""
 
 from typing import NamedTuple
 
@@ -13,12 +13,12 @@ from datmo_tools.pose_path import read_messages
 
 WHEELS = ("FL", "FR", "BL", "BR")
 
-# The IMU's bias is estimated from so many samples at which no wheel turned; by fewer it is not.
+# The IMU's bias is estimated from at least this many samples at which no wheel turned.
 MIN_STANDING = 20
 
-MIN_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
+MIN_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of gravity
 
-# Standard deviations of the rates: encoders that count ticks, and an IMU on a car that shakes.
+# Standard deviations of the rates: encoders that count ticks, and an IMU on a vibrating car.
 ERRORS = OdometryErrors(speed_noise=0.1, yaw_rate_noise=0.05)
 
 
@@ -28,18 +28,18 @@ class _Recorded(NamedTuple):
 
 
 def has_topics(recording, *topics):
-    """Whether a readable bag holds all of them. Raises InputError where it is no bag."""
+    """Whether a readable bag has all of these topics. Raises InputError if it is not a bag."""
     with opened(recording) as bag:
         return set(topics) <= set(bag.get_type_and_topic_info().topics)
 
 
 def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
-    """List of OdometrySample at the IMU's stamps.
+    """Returns a list of OdometrySample at the IMU's stamps.
 
-    The speed is the median of the four wheels (fields FL, FR, BL, BR, rad/s; an encoder that counts
-    double does not disturb it), as last measured; the yaw rate is the turn about the vertical,
-    from gravity, however the IMU is mounted, less its mean while no wheel turns.
-    Raises InputError where a topic is of another type, or empty.
+    The speed is the median of the wheels' latest speeds (fields FL, FR, BL, BR, rad/s), which is
+    robust to an encoder that counts double; the yaw rate is the rotation about the vertical, by
+    gravity, however the IMU is mounted, minus its mean while no wheel turns. Raises InputError if a
+    topic has another type or is empty.
     """
     wheels = _read_wheels(recording, wheels_topic)
     imu = _read_imu(recording, imu_topic)
@@ -52,13 +52,13 @@ def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
 
 
 def _yaw_rates(measured, standing):
-    """Turn about the vertical (n, rad/s); measured: n x 6, angular velocity and acceleration."""
+    """Returns the turn rate about the vertical (n, rad/s); measured: n x 6, gyro, acceleration."""
     gravity = np.mean(measured[:, 3:], axis=0)
     strength = np.linalg.norm(gravity)
     if not strength > MIN_GRAVITY:
         raise InputError(
             f"accelerations of the IMU: mean {strength:.2f} m/s^2, expected gravity (more than "
-            f"{MIN_GRAVITY}): which way is up is not known"
+            f"{MIN_GRAVITY}): the vertical is not known"
         )
     rates = measured[:, :3] @ (gravity / strength)
     bias = np.mean(rates[standing]) if np.count_nonzero(standing) >= MIN_STANDING else 0.0
@@ -66,7 +66,7 @@ def _yaw_rates(measured, standing):
 
 
 def _read_wheels(recording, topic):
-    """Wheel speeds by the time they were recorded at: the message has no stamp of its own."""
+    """Returns wheel speeds with their record times: the message has no stamp."""
     by_stamp = {}
     with opened(recording) as bag:
         for _, message, time in bag.read_messages([topic]):

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the stack computed against what was true."""
+"""Compares the results of the stack with the ground truth."""

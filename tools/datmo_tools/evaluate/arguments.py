@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What several subcommands of evaluate take."""
+"""Options shared by several subcommands of evaluate."""
 
 import math
 from pathlib import Path
@@ -10,13 +10,13 @@ from datmo_tools.evaluate.truth import Region
 
 
 def add_truth(parser):
-    """The option --truth; None: not given."""
+    """Adds the option --truth; None: not given."""
     parser.add_argument("--truth", type=Path, metavar="DRIVE.bag",
                         help="bag with the truth (default: the run's own, of run_bag --with-truth)")  # fmt: skip
 
 
 def add_grids(parser, topic):
-    """Run and drive of KITTI, and --topic of its grids; topic: the default."""
+    """Adds the run and the KITTI drive, and --topic of its grids; topic: the default."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
@@ -24,15 +24,15 @@ def add_grids(parser, topic):
 
 
 def add_region(parser, default_range):
-    """The options --range and --half-angle, for region_of(); default_range: m."""
+    """Adds the options --range and --half-angle, for region_of(); default_range: m."""
     command_line.add_number(parser, "--range", default_range, "M",
                             "that counts, about the vehicle, m")  # fmt: skip
     command_line.add_number(parser, "--half-angle", math.pi, "RAD",
-                            "the same to either side of straight ahead, rad")  # fmt: skip
+                            "evaluated angle to either side of straight ahead, rad")  # fmt: skip
 
 
 def region_of(values):
-    """Region of parsed options. Raises InputError where one is out of bounds."""
+    """Returns the Region of parsed options. Raises InputError if one is out of bounds."""
     command_line.check_positive(values, "range")
     if not 0.0 < values.half_angle <= math.pi:
         raise InputError(f"--half-angle is {values.half_angle:g}, expected more than 0, at most pi")

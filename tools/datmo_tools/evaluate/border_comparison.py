@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A drive's runs without and with borders of the road, beside each other: what became of false and
-of true moving objects."""
+"""Compares a drive's runs without and with road borders: their false and true moving objects."""
 
 from datmo_tools.evaluate.false_tracks import reduction
 from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
@@ -23,10 +22,10 @@ REDUCED = ("false_moving_objects_episodes", "false_moving_objects_frames", "fals
 
 
 def comparison(without, with_borders):
-    """The comparison as a dictionary that JSON can hold; None for what was not measured.
+    """Returns the comparison as a dictionary that JSON can hold; None for what was not measured.
 
     Both are reports of score_run (dict) on the same drive. An object is tracked in a run if a track
-    matched it in one frame at least; lost is what is tracked without borders alone.
+    matched it in at least one frame; it is lost if it is tracked only without borders.
     """
     runs = {"without": without["thesis"], "with": with_borders["thesis"]}
     counts = {
@@ -48,7 +47,7 @@ def comparison(without, with_borders):
 
 
 def comparison_table(result):
-    """Text of a comparison()."""
+    """Returns a comparison() as text."""
     rows = [["", "without borders", "with borders", "fewer, %"]]
     for heading, key in COUNTS:
         cells = [_cell(result[name][key]) for name in ("without", "with")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Published borders beside the true road, station by station along the path ahead."""
+"""Compares published borders with the true road, station by station along the path ahead."""
 
 import math
 from typing import NamedTuple
@@ -14,15 +14,15 @@ from datmo_tools.evaluate.truth import MAX_GAP
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 
-# m of arc length, from the vehicle (base_link): what counts.
+# m of arc length, from the vehicle (base_link): the evaluated part.
 BEHIND, AHEAD = 10.0, 40.0
 
-# rad, from the vehicle's heading to that of its path: what is farther around a corner is not seen.
+# rad, between the headings of vehicle and path: stations beyond, around a corner, are not visible.
 MAX_TURN = math.radians(60.0)
 
 
 class Frame(NamedTuple):
-    """One list of borders, laid on the map of the truth at the vehicle's pose."""
+    """One list of borders, aligned with the map of the truth at the vehicle's pose."""
 
     stamp: int  # ns
     arc_length: float  # m along the path, of the vehicle
@@ -30,7 +30,7 @@ class Frame(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """n stations of many frames; what stands in both sides' arrays of one frame is one station."""
+    """n stations of many frames; equal indices in both sides' arrays are one station."""
 
     ahead: np.ndarray  # n, m along the path from the vehicle
     left: np.ndarray  # n, bool: of the left border
@@ -40,14 +40,14 @@ class Samples(NamedTuple):
     sigma: np.ndarray  # n, m, as published there
 
     def where(self, chosen):
-        """Samples of those that are chosen (n, bool)."""
+        """Returns the Samples that are chosen (n, bool)."""
         return Samples(*(values[chosen] for values in self))
 
 
 def frames_of(run, lists, road):
-    """List of Frame of the BorderLists with a pose near in time, in the bag `run` (Path) and in the
-    truth (TrueRoad): the estimated pose of the vehicle is laid on its true one, so that the drift
-    of the map does not count. Raises InputError."""
+    """Returns a list of Frame of the BorderLists with a pose near in time, in the bag `run` (Path)
+    and in the truth (TrueRoad): the vehicle's estimated pose is aligned with its true one, so that
+    the map's drift does not count. Raises InputError."""
     poses = read_path(run, POSE)
     nearest = MAX_GAP * NANOSECONDS
     frames = []
@@ -61,8 +61,8 @@ def frames_of(run, lists, road):
 
 
 def samples_of(frames, road):
-    """Samples of all stations outside of junctions that have a true border, from BEHIND to AHEAD of
-    the vehicle and not round a corner."""
+    """Returns the Samples of all stations outside of junctions that have a true border, from BEHIND
+    to AHEAD of the vehicle and not around a corner."""
     parts = []
     for frame in frames:
         part = road.stations.between(frame.arc_length - BEHIND, frame.arc_length + AHEAD)
@@ -85,10 +85,10 @@ def _moved(points, base, true_base):
 
 
 def _seen(frame, stations, part, name):
-    """Distance (m) across the path, and sigma (m), of the nearest border of that side at each
-    station of the part (slice); NaN where there is none. A border that slants across the path is not
-    the one along it; those of a side street, which both lie on one side of the vehicle, are left
-    and right ones where the path leads into it."""
+    """Returns distance (m) across the path, and sigma (m), of the nearest border of that side at
+    each station of the part (slice); NaN if there is none. A border that slants across the path is
+    not the one along it; those of a side street, which are both on one side of the vehicle, are
+    left and right borders where the path leads into it."""
     borders = [
         (border, line)
         for border, line in frame.lines
@@ -115,8 +115,7 @@ def _seen(frame, stations, part, name):
 
 
 def _of_segments(borders, of_points):
-    """What a function of a SeenBorder gives for its points, at the begin and the end of each
-    segment of all of them."""
+    """Returns a SeenBorder function's values at begin and end of all its segments."""
     values = [of_points(border) for border, _ in borders]
     return (np.concatenate([item[:-1] for item in values]),
             np.concatenate([item[1:] for item in values]))  # fmt: skip

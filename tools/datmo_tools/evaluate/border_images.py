@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Borders laid into a camera's images: on the road, which is the plane z = 0 of base_link."""
+"""Projects borders into a camera's images: on the road, the plane z = 0 of base_link."""
 
 from typing import NamedTuple
 
@@ -17,18 +17,18 @@ from datmo_tools.stamps import NANOSECONDS
 IMAGE, INFO = "image_rect", "camera_info"
 KINDS = {IMAGE: "sensor_msgs/Image", INFO: "sensor_msgs/CameraInfo"}
 
-# Encodings, and where red, green and blue lie in a pixel.
+# Encodings, and the indices of red, green and blue in a pixel.
 CHANNELS = {"mono8": (0,), "rgb8": (0, 1, 2), "bgr8": (2, 1, 0)}
 
-MAX_GAP = 0.2  # s from the borders to the image
-STEP = 0.25  # m, of a line that the camera bends
-NEAREST = 1.0  # m ahead of the camera; nearer is out of its view and would not project
-MARKS = (10.0, 20.0, 30.0, 40.0)  # m ahead of base_link, that are written beside the borders
+MAX_GAP = 0.2  # s, from the borders to the image
+STEP = 0.25  # m, sampling of a line, which the camera bends
+NEAREST = 1.0  # m ahead of the camera; nearer points are out of view and would not project
+MARKS = (10.0, 20.0, 30.0, 40.0)  # m ahead of base_link, labeled next to the borders
 POINT = "#fde047"  # color of the scan, on gray
 
 
 class CameraImage(NamedTuple):
-    """One picture with what is needed to draw on it."""
+    """An image with what is needed to draw on it."""
 
     stamp: int  # ns
     pixels: np.ndarray  # height x width, gray, or height x width x 3: red, green, blue
@@ -36,7 +36,7 @@ class CameraImage(NamedTuple):
     projection: np.ndarray  # 3 x 4
 
     def seen(self, points):
-        """Pixels (n x 2: right, down) of points (n x 2, m) on the road; NaN where it sees none."""
+        """Projects points (n x 2, m) on the road to pixels (n x 2: right, down); NaN: not seen."""
         on_road = np.column_stack([points, np.zeros(len(points))])
         seen = transforms.apply(self.camera_from_base, on_road)
         seen[seen[:, 2] < NEAREST] = np.nan
@@ -45,10 +45,10 @@ class CameraImage(NamedTuple):
 
 
 def read_images(path, camera, stamps):
-    """Dictionary stamp of `stamps` (rising, ns) -> the CameraImage nearest to it, if one is near.
+    """Returns a dictionary stamp of `stamps` (increasing, ns) -> the nearest CameraImage, if near.
 
     path: of the bag (Path); camera: the name of its topics without their last part. Raises
-    InputError where there is no rectified image, no calibration or no mount.
+    InputError if there is no rectified image, no calibration or no mount.
     """
     kinds = {f"{camera}/{name}": kind for name, kind in KINDS.items()}
     topics = topics_of(path)
@@ -98,7 +98,7 @@ def _draw_border(ax, image, border, base):
 
 
 def _write_distance(ax, image, line, distance, shade):
-    """Writes a distance ahead (m) where the line has it first."""
+    """Labels where the line first reaches a distance ahead (m)."""
     beyond = np.flatnonzero((line[:-1, 0] < distance) & (line[1:, 0] >= distance))
     if len(beyond):
         position = image.seen(line[beyond[:1]])[0]
@@ -108,7 +108,7 @@ def _write_distance(ax, image, line, distance, shade):
 
 
 def _finely(line):
-    """The line (n x 2) with points STEP apart at most."""
+    """Returns the line (n x 2) with points at most STEP apart."""
     lengths = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(lengths)])
     positions = np.linspace(0.0, along[-1], max(2, int(np.ceil(along[-1] / STEP)) + 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Borders of the road: as run_bag publishes them, and as the truth has them."""
+"""Reads road borders: those that run_bag publishes, and the true ones."""
 
 from typing import NamedTuple
 
@@ -16,14 +16,14 @@ SIDES = {RoadBorder.LEFT: "left", RoadBorder.RIGHT: "right"}
 
 
 class SeenBorder(NamedTuple):
-    """One published stretch, in the map of the run."""
+    """One published segment, in the map of the run."""
 
     side: str  # left, right
-    points: np.ndarray  # n x 2, m, two at least
+    points: np.ndarray  # n x 2, m, at least two
     sigma: np.ndarray  # n, m
     probability: float
     unseen: float  # s
-    side_street: bool = False  # it bounds a street that opens into the vehicle's on that side
+    side_street: bool = False  # whether it bounds a street that joins the vehicle's on that side
 
 
 class BorderList(NamedTuple):
@@ -42,10 +42,10 @@ class TrueBorders(NamedTuple):
 
 
 def read_borders(path):
-    """List of BorderList on /road_borders by rising stamp; of equal stamps the first counts.
+    """Returns a list of BorderList on /road_borders by stamp; of equal stamps the first one counts.
 
-    Raises InputError: nothing there, another type or version, a border of less than two points, of
-    another number of sigmas, of an unknown side, or with what is not finite.
+    Raises InputError: no message, another type or version, a border with fewer than two points,
+    with another number of sigmas, on an unknown side, or with values that are not finite.
     """
     lists = {}
     for message in _messages(path, BORDERS, RoadBorders, "a bag of run_bag --road-border"):
@@ -56,17 +56,17 @@ def read_borders(path):
 
 
 def border_list(path, message):
-    """BorderList of a message in the bag at `path` (Path). Raises InputError as read_borders."""
+    """Returns the BorderList of a message in the bag at `path` (Path). Raises InputError."""
     stamp = message.header.stamp.to_nsec()
     location = f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s"
     return BorderList(stamp, [_border(location, item) for item in message.borders])
 
 
 def read_true_borders(path):
-    """TrueBorders of a drive. Raises InputError where there are none, or of another type."""
+    """Returns the TrueBorders of a drive. Raises InputError for none or another type."""
     states, curbs = {}, []
     for message in _messages(path, TRUE_BORDERS, TrueRoadBorders, "a drive with true borders"):
-        if not states:  # each message has them all
+        if not states:  # each message has all of them
             curbs = [_points(line.points) for line in message.borders if len(line.points) > 1]
         states.setdefault(message.header.stamp.to_nsec(), message.at_intersection)
     stamps = sorted(states)
@@ -83,7 +83,7 @@ def _messages(path, topic, kind, expected):
                 raise InputError(f"{path}: {topic} is {message._type}, expected {kind._type}")
             if message._md5sum != kind._md5sum:
                 raise InputError(
-                    f"{path}: {topic} is of another version of {kind._type}, expected ours"
+                    f"{path}: {topic} has another version of {kind._type}, expected ours"
                 )
             messages.append(message)
     if not messages:
@@ -99,7 +99,7 @@ def _border(location, item):
             "sigmas, expected a known side, two points or more, and one sigma for each"
         )
     if not (np.all(np.isfinite(points)) and np.all(np.isfinite(sigma)) and np.all(sigma >= 0.0)):
-        raise InputError(f"{location}: a border that is not finite, expected finite points and sigmas")
+        raise InputError(f"{location}: a border is not finite, expected finite points and sigmas")
     return SeenBorder(SIDES[item.side], points, sigma, item.probability, item.unseen.to_sec(),
                       item.side_street)  # fmt: skip
 

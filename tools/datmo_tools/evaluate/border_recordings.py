@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What draw_borders shows: the borders of a run at some stamps, and what is around them."""
+"""Reads what draw_borders shows: a run's borders at some stamps, and their surroundings."""
 
 import bisect
 from typing import NamedTuple, Optional
@@ -37,15 +37,15 @@ KINDS = {
     TRUE_OBJECTS: TRUE_OBJECT_ARRAY,
 }
 
-TRUE_REGION = Region(80.0)  # of true objects that are drawn
+TRUE_REGION = Region(80.0)  # of true objects to draw
 
 
 class TrueRoad(NamedTuple):
-    """What is true at a stamp, in base_link by its true pose: the map's drift does not count."""
+    """The truth at a stamp, in base_link by its true pose: the map's drift does not count."""
 
     borders: list  # of n x 2 arrays, m
     boxes: list  # of 4 x 2 arrays, m: the corners of true objects
-    at_intersection: Optional[bool]  # None: not known
+    at_intersection: Optional[bool]  # None: unknown
 
 
 class Moment(NamedTuple):
@@ -57,20 +57,20 @@ class Moment(NamedTuple):
     borders: list  # of SeenBorder
     at_intersection: bool
     intersection_probability: float
-    points: np.ndarray  # n x 2, m, base_link: where the scan's beams end
+    points: np.ndarray  # n x 2, m, base_link: end points of the scan's beams
     states: np.ndarray  # n, ScanPoint.STATIC, MOVING, UNKNOWN
-    earlier: np.ndarray  # n x 2, m, base_link: the same of the scans of some time before
-    moving: list  # of 4 x 2 arrays, m, base_link: the corners of objects that seem to move
-    others: list  # the same of those of which nothing says so
-    dropped: list  # the same of those that the borders left out
-    truth: Optional[TrueRoad]  # None: not known
+    earlier: np.ndarray  # n x 2, m, base_link: the same for earlier scans
+    moving: list  # of 4 x 2 arrays, m, base_link: the corners of apparently moving objects
+    others: list  # the same for the other objects
+    dropped: list  # the same for those that the borders removed
+    truth: Optional[TrueRoad]  # None: unknown
 
 
 class Run:
     """A bag of run_bag --road-border."""
 
     def __init__(self, path):
-        """path: of the bag (Path). Raises InputError where there are no borders or no poses."""
+        """path: of the bag (Path). Raises InputError without borders or poses."""
         self._path = path
         topics = topics_of(path)
         check_kinds(path, topics, KINDS)
@@ -82,12 +82,12 @@ class Run:
 
     @property
     def duration(self):
-        """Time (s) from the first to the last list of borders."""
+        """Returns the time (s) from the first to the last list of borders."""
         return (self.stamps[-1] - self.stamps[0]) / NANOSECONDS
 
     def nearest_stamps(self, times):
-        """Rising stamps (ns) of the lists of borders that are nearest to times (s since the first
-        one), each once. Raises InputError for a time outside of the run."""
+        """Returns the increasing stamps (ns) of the lists of borders nearest to times (s since the
+        first one), each once. Raises InputError for a time outside of the run."""
         for time in times:
             if not 0.0 <= time <= self.duration:
                 raise InputError(
@@ -98,14 +98,14 @@ class Run:
         return [self.stamps[row] for row in sorted(rows)]
 
     def moments(self, stamps, history):
-        """List of Moment of some of `self.stamps` (rising); history: s, of the earlier scans."""
+        """Returns a list of Moment of some of `self.stamps`; history: s, of earlier scans."""
         found = nearest_messages(self._path, (BORDERS, OBJECTS, DROPPED), stamps)
         found.update(self._scans(stamps, history))
         truths = self._truths(stamps) if self._has_truth else {}
         return [self._moment(stamp, found, history, truths.get(stamp)) for stamp in stamps]
 
     def _scans(self, stamps, history):
-        """As nearest_messages, of all scans that are shown."""
+        """Like nearest_messages, for all scans that are shown."""
         shown = {
             self.stamps[row]
             for stamp in stamps
@@ -114,7 +114,7 @@ class Run:
         return nearest_messages(self._path, [LABELED_SCAN], sorted(shown))
 
     def _rows(self, begin, end):
-        """Of `self.stamps`, the first one from `begin` on and the one after `end` (ns)."""
+        """Returns the first of `self.stamps` from `begin` on, and the one after `end` (ns)."""
         return bisect.bisect_left(self.stamps, begin), bisect.bisect_right(self.stamps, end)
 
     def _moment(self, stamp, found, history, truth):
@@ -145,7 +145,7 @@ class Run:
         )
 
     def _truths(self, stamps):
-        """Dictionary stamp -> TrueRoad."""
+        """Returns a dictionary stamp -> TrueRoad."""
         truth = Truth(self._path)
         tolerance = round(MAX_GAP * NANOSECONDS)
         roads = nearest_messages(self._path, [TRUE_BORDERS], stamps, tolerance)[TRUE_BORDERS]
@@ -164,7 +164,7 @@ class Run:
 
 
 def edge(border, sigmas):
-    """Points (n x 2, m, map) that lie so many standard deviations to the left of a SeenBorder."""
+    """Returns points (n x 2, m, map) this many standard deviations to the left of a SeenBorder."""
     along = np.gradient(border.points, axis=0)
     lengths = np.maximum(np.hypot(along[:, 0], along[:, 1]), np.finfo(float).tiny)
     normals = np.column_stack([-along[:, 1], along[:, 0]]) / lengths[:, np.newaxis]
@@ -172,7 +172,7 @@ def edge(border, sigmas):
 
 
 def _in_map(scan):
-    """End points (n x 2, m) of a LabeledScan, in the map by its own pose."""
+    """Returns the end points (n x 2, m) of a LabeledScan, in the map by its own pose."""
     return transforms.points_in_parent(planar(scan.pose.pose), _positions(scan.points))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sheets of pictures of a run's borders."""
+"""Draws sheets of pictures of a run's borders."""
 
 from datmo_tools.evaluate.border_images import draw_image
 from datmo_tools.evaluate.border_views import (
@@ -12,19 +12,18 @@ from datmo_tools.evaluate.border_views import (
 )
 from datmo_tools.evaluate.plot_style import BOTTOM, RIGHT, WIDTH, picture
 
-COLUMNS = 2  # of views from above, where there are no images beside them
-IMAGE_SHARE = 2.1  # width of an image over that of the view beside it
+COLUMNS = 2  # of views from above, without images
+IMAGE_SHARE = 2.1  # width of an image relative to that of its view from above
 LEFT, GAP = 0.65, 0.65  # inch: margin of the sheet, between two pictures for the axis's name
 BETWEEN_ROWS = 0.28  # of a picture's height, for the axis's numbers and the title
 LEGEND = 0.8  # inch, the upper margin
 
 
 def sheets(moments, images, poses, kind, rows):
-    """List of the bytes of the sheets.
+    """Returns the sheets as a list of bytes.
 
-    moments: of border_recordings; images: dictionary stamp -> CameraImage, None: views from above
-    only; poses: PosePath of base_link in the map; kind: of plot_style.KINDS; rows: of a
-    sheet.
+    moments: of border_recordings; images: dictionary stamp -> CameraImage, None: only views from
+    above; poses: PosePath of base_link in the map; kind: of plot_style.KINDS; rows: per sheet.
     """
     each = rows if images is not None else rows * COLUMNS
     parts = [moments[begin : begin + each] for begin in range(0, len(moments), each)]
@@ -63,7 +62,7 @@ def _images_and_views(moments, images, poses, kind):
 
 
 def _finish(axes, moments, column):
-    """Names the lowest axes and those of the column (index), and writes the legend above all."""
+    """Labels the lowest axes and those of the column (index), and draws the legend above all."""
     for ax in axes[-1]:
         ax.set_xlabel(AHEAD_NAME)
     for ax in axes[:, column]:
@@ -75,7 +74,7 @@ def _finish(axes, moments, column):
 
 
 def _sheet(kind, rows, draw, widths):
-    """widths: of the columns, in any unit; the last one is of views from above."""
+    """widths: of the columns, in any unit; the last one is for views from above."""
     room = WIDTH - LEFT - RIGHT - GAP * (len(widths) - 1)
     view = SHAPE * room * widths[-1] / sum(widths)
     height = view * (rows + BETWEEN_ROWS * (rows - 1)) + LEGEND + BOTTOM

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of evaluate borders."""
+"""Formats the report of evaluate borders."""
 
 from datmo_tools.evaluate.border_tally import GROUPS
 from datmo_tools.evaluate.report import Section
@@ -28,7 +28,7 @@ EPISODES = 10  # listed
 
 
 def sections(result):
-    """List of Section of a score of evaluate borders (dict)."""
+    """Returns a list of Section for a score of evaluate borders (dict)."""
     bands = [f"{near:g}-{far:g} m" if near >= 0.0 else f"{near:g} to {far:g} m"
              for near, far in result["bands_m"]]  # fmt: skip
     lists = f"{result['lists']} lists of borders ({result['without_truth']} more without truth)"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far published borders are off, how many are found, and how consistent their sigmas are."""
+"""Counts how accurate published borders are, how many are found, and how consistent sigmas are."""
 
 import numpy as np
 
@@ -17,19 +17,19 @@ GROUPS = {
     "all": lambda samples: np.ones(len(samples.ahead), dtype=bool),
 }
 
-NEAR = 0.5  # m, an error that is small
+NEAR = 0.5  # m, up to which an error is small
 
-# 95 % of the squares of one normal error, over its variance, are below.
+# The 95th percentile of a squared normal error over its variance.
 GATE_95 = 3.84
 
 MIN_SIGMA = 1e-6  # m
 
 
 def tally(samples, gate, found_within):
-    """Dictionary group -> list of the figures of each band, one that JSON can hold.
+    """Returns a dictionary group -> list of the figures of each band, which JSON can hold.
 
-    gate: m, a border farther off than this is none of this road; found_within: m, of the true
-    border, for it to be found.
+    gate: m, a border with a larger error is not of this road; found_within: m from the true border,
+    for it to be found.
     """
     samples = samples._replace(curved=samples.curved.astype(bool), left=samples.left.astype(bool))
     return {

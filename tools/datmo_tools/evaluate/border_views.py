@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A moment of a run from above, with the vehicle at the origin and driving to the right."""
+"""Draws a moment of a run from above, with the vehicle at the origin and driving to the right."""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -12,7 +12,7 @@ from datmo_tools.evaluate.border_recordings import edge
 from datmo_tools.evaluate.plot_style import COLORS, FALSE, INK, TRUTH
 from datmo_tools.stamps import NANOSECONDS
 
-BEHIND, AHEAD, ASIDE = 16.0, 46.0, 20.0  # m that are shown
+BEHIND, AHEAD, ASIDE = 16.0, 46.0, 20.0  # m, shown area
 TICKS = 10.0  # m
 AHEAD_NAME, LEFT_NAME = "ahead (m)", "to the left (m)"
 SHAPE = 2.0 * ASIDE / (BEHIND + AHEAD)  # height over width
@@ -23,10 +23,10 @@ STATES = {ScanPoint.STATIC: "#0f172a", ScanPoint.MOVING: COLORS[5], ScanPoint.UN
 
 EARLIER = "#a16207"
 
-SIGMAS = 2.0  # shown to either side of a border
+SIGMAS = 2.0  # shown on either side of a border
 BAND = 0.25  # opacity of that band
-FAINTEST = 0.2  # opacity of a border of probability 0: what is there can be seen
-LONG_UNSEEN = 1.0  # s: a border that no scan has seen for longer is dashed
+FAINTEST = 0.2  # opacity of a border with probability 0, so that it remains visible
+LONG_UNSEEN = 1.0  # s: a border that no scan has observed for longer is dashed
 
 RING = {"markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.9}
 
@@ -34,12 +34,12 @@ VEHICLE = np.array([(4.2, 0.0), (-0.8, 0.9), (-0.8, -0.9)])  # m: an arrow, not 
 
 
 def opacity(border):
-    """0 to 1, by its probability."""
+    """Returns the opacity, 0 to 1, by the border's probability."""
     return FAINTEST + (1.0 - FAINTEST) * float(np.clip(border.probability, 0.0, 1.0))
 
 
 def line_style(border):
-    """Solid, dashed where it was not seen for long, dotted where it is a side street's."""
+    """Returns the style: dashed if not observed for long, dotted for a side street, else solid."""
     if border.side_street:
         return ":"
     return "--" if border.unseen > LONG_UNSEEN else "-"
@@ -66,7 +66,7 @@ def draw_view(ax, moment):
 
 
 def title(moment):
-    """The time and whether the vehicle is at an intersection."""
+    """Returns the time and whether the vehicle is at an intersection."""
     stamp = f"{moment.stamp // NANOSECONDS}.{moment.stamp % NANOSECONDS // 10**7:02d}"
     found = "at an intersection" if moment.at_intersection else "no intersection"
     text = f"{moment.time:.2f} s ({stamp}), {found} ({moment.intersection_probability:.2f})"
@@ -75,7 +75,7 @@ def title(moment):
 
 
 def legend_handles(with_truth):
-    """One for each kind of object that is drawn."""
+    """Returns one handle for each kind of object that is drawn."""
     def line(shade, label, **style):
         return Line2D([], [], color=shade, label=label, **style)
 
@@ -113,7 +113,7 @@ def _draw_border(ax, base, border):
 
 
 def _draw_boxes(ax, boxes, shade):
-    """Boxes, each with a ring about it: many an object is a few points in a line, or one alone."""
+    """Draws boxes with a ring around each: many objects are a few points in a line, or one."""
     for box in boxes:
         ax.plot(*np.concatenate([box, box[:1]]).T, color=shade, linewidth=0.9)
         ax.plot(*box.mean(axis=0), "o", color=shade, **RING)

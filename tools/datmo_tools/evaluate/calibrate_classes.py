@@ -17,8 +17,8 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Measures how often the detections of an image detector are right at each score, on drives with
-truth, and writes it as yaml that mono_classifier loads: its reliability curve, and the true classes
-where it was wrong.
+truth, and writes it as yaml for mono_classifier: its reliability curve, and the true classes
+of its wrong detections.
 
 The runs must have the detector's own scores: run_bag --mono with mono_classifier/calibrated: false
 and min_alone: 0. Detections are sorted by score into bins of equal counts; the share that is right,
@@ -41,9 +41,9 @@ def main(arguments=None):
 
 
 def rising(shares, weights):
-    """Shares that never fall, nearest to those given (least squares with weights): where they fall,
+    """Returns the non-decreasing shares nearest to those given (weighted least squares): decreasing
     neighbors are pooled."""
-    pools = []  # of (mean, weight, how many)
+    pools = []  # of (mean, weight, number)
     for share, weight in zip(shares, weights):
         pools.append((share, weight, 1))
         while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
@@ -53,7 +53,7 @@ def rising(shares, weights):
 
 
 def curve(reports, bin_size):
-    """(scores, shares) of the reliability curve; scores rise. Raises InputError without reports."""
+    """Returns (scores, shares) of the reliability curve; scores increase. Raises InputError."""
     if not reports:
         raise InputError("no object of a known class in the runs: expected those of a detector")
     ordered = sorted(reports, key=lambda report: report.probability)
@@ -64,7 +64,7 @@ def curve(reports, bin_size):
         right = sum(report.is_right for report in inside)
         score = float(np.mean([report.probability for report in inside]))
         if scores and score <= scores[-1]:
-            continue  # as many of one score as fill a bin
+            continue  # more of one score than fill a bin
         scores.append(score)
         shares.append((right + 1) / (len(inside) + 2))
         weights.append(len(inside))
@@ -72,8 +72,8 @@ def curve(reports, bin_size):
 
 
 def mistaken(reports):
-    """What wrongly reported objects are: 3 x 5 shares by what is reported and what is there; each
-    class one report more than was seen."""
+    """Returns what wrongly reported objects are: 3 x 5 shares by reported and true class; each
+    class counted once more than observed."""
     table = []
     for said in REPORTED:
         wrong = [report.true for report in reports if report.said == said and not report.is_right]
@@ -84,7 +84,7 @@ def mistaken(reports):
 
 
 def as_yaml(detector, reports, bin_size):
-    """Section of mono_classifier."""
+    """Returns the section of mono_classifier."""
     scores, shares = curve(reports, bin_size)
     section = {"scores": [round(value, 3) for value in scores],
                "right": [round(value, 3) for value in shares],
@@ -122,11 +122,11 @@ def _parser():
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
     add("--truth", action="append", type=Path, metavar="DRIVE.bag",
-        help="with the truth, one for each run in their order (default: the runs themselves)")  # fmt: skip
-    add("--detector", choices=("hog", "dnn"), required=True, help="that the runs were made with")
+        help="bags with the truth, one for each run (default: the runs themselves)")  # fmt: skip
+    add("--detector", choices=("hog", "dnn"), required=True, help="detector of the runs")
     add("--topic", default=TOPIC, help="of the objects (default %(default)s)")
     add("--bin-size", type=command_line.count, default=BIN_SIZE, metavar="N",
-        help="reports for each point of the curve (default %(default)s)")  # fmt: skip
+        help="reports per point of the curve (default %(default)s)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("class_reliability.yaml"),
         metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
     add_region(parser, RANGE)

@@ -17,26 +17,27 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Measures the errors of a stereo camera's objects in range and bearing, by range (thesis 3.3.3:
-"calculated empirically", there by hand), and writes it as yaml that object_fusion loads.
+"calculated empirically", there by hand), and writes it as yaml for object_fusion.
 
 From bags with the objects of both sensors (run_bag --object-fusion) it pairs the lidar's objects
 that are tracked as moving (parts of stationary objects may be missing because of the map) with the
-camera's, by their near sides (thesis 3.3.2), brought to one time by the vehicle's poses and the
-tracks' velocities: each the other's nearest within 1 m across the line of sight, and within 1 m, or
-5 m x range / 36 m if that is more, along it, of classes and sizes that agree. Compared is what both
-saw: the near side along the line of sight, and the bearings of its corners.
+camera's, by their near sides (thesis 3.3.2), predicted to one time by the vehicle's poses and the
+tracks' velocities: each one the other's nearest within 1 m across the line of sight, and within 1
+m, or 5 m x range / 36 m if that is more, along it, with compatible classes and sizes. The
+comparison is of what both saw: the near side along the line of sight, and the bearings of its
+corners.
 
-Of the differences in each bin of range outliers beyond three robust standard deviations are left
-out; subtracted from their variance are the lidar's own, and the camera's of the sides that
-it saw, which object_fusion adds by itself. Where a bin has too few pairs, or what is known hides
-the rest, the law that fits all bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
+Differences beyond three robust standard deviations are removed from each bin of range; subtracted
+from their variance are the lidar's own, and the camera's of the sides that it saw, which
+object_fusion adds by itself. In a bin with too few pairs, or where the known variances dominate,
+the law that fits all bins is used: a + b range^4 for range, a + b / range^2 for bearing.
 
 Ranges are from the camera's position, which is in its lists. The lidar is assumed to be unbiased;
 a mean difference is printed as bias. Object fusion does not correct it: --with-bias adds its square."""
 
 TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
 
-MIN_PAIRS = 30  # of a bin: its variance is known to a quarter (2 / 30, square root)
+MIN_PAIRS = 30  # per bin: its variance is known to a quarter (2 / 30, square root)
 BIN_WIDTH = 2.0  # m; thesis 3.3.3
 RANGE = 36.0  # m; thesis 3.3.3
 DISPARITY_SIGMA = 0.25  # px; as the simulator's default
@@ -49,7 +50,7 @@ def main(arguments=None):
 
 
 def read_pairs(runs, lidar, stereo, tracks, pose):
-    """List of Pair and Counts of the bags `runs` (Paths) together; lidar ... pose: topics.
+    """Returns the list of Pair and the Counts of the bags `runs` (Paths); lidar ... pose: topics.
 
     Raises InputError for a bag without objects of both.
     """
@@ -71,7 +72,7 @@ def read_pairs(runs, lidar, stereo, tracks, pose):
 
 
 def _depth_sigma(drive, disparity_sigma):
-    """Function of depth (m) -> its standard deviation (m), of the camera in a bag; None: no bag."""
+    """Returns a function of depth (m) -> standard deviation (m) of a bag's camera, or None."""
     if drive is None:
         return None
     with opened(drive) as bag:
@@ -118,10 +119,10 @@ def _parser():
     for name, topic in TOPICS.items():
         add(f"--{name}", default=topic, metavar="TOPIC", help="(default %(default)s)")
     add("--min-pairs", type=command_line.count, default=MIN_PAIRS, metavar="N",
-        help="of a bin; with fewer it is filled in (default %(default)s)")  # fmt: skip
-    add("--with-bias", action="store_true", help="the variance is about zero, not about the mean")
+        help="pairs for a bin to be measured (default %(default)s)")  # fmt: skip
+    add("--with-bias", action="store_true", help="variance about zero, not about the mean")
     command_line.add_number(parser, "--bin-width", BIN_WIDTH, "M", "m")
-    command_line.add_number(parser, "--range", RANGE, "M", "up to where there are bins, m")
+    command_line.add_number(parser, "--range", RANGE, "M", "upper end of the bins, m")
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities for --drive, px")  # fmt: skip
     command_line.add_json(parser)

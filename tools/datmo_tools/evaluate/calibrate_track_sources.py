@@ -18,7 +18,7 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Measures the reliability of the tracks of each source, on drives with truth, and writes it as yaml
-that track_fusion loads:
+for track_fusion:
 
   detection    of the frames in which a source could lately see a road user that moves, by its
                published view: the share in which it has a track of it, by class and range, as the
@@ -48,7 +48,7 @@ def main(arguments=None):
 
 
 def as_yaml(tallies, min_frames, min_tracks):
-    """Section of track_fusion; tallies: dictionary name of the source -> SourceTally."""
+    """Returns the section of track_fusion; tallies: dictionary source name -> SourceTally."""
 
     def known(shares, min_count):
         return {name: round(float(share.value), 3)
@@ -69,7 +69,7 @@ def as_yaml(tallies, min_frames, min_tracks):
 
 
 def summary(tallies):
-    """Text of what was counted."""
+    """Formats the counts as text."""
     rows = [["source", "", "share", "counted"]]
     for name, tally in tallies.items():
         shares = {f"frames: has a {each} that it could see": tally.detection(each)
@@ -83,7 +83,7 @@ def summary(tallies):
 
 
 def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDTH):
-    """Dictionary source -> SourceTally of runs (Paths) with truth in drives. Raises InputError."""
+    """Returns a dictionary source -> SourceTally of runs and drives (Paths). Raises InputError."""
     tallies = {name: SourceTally(bin_width) for name in sources}
     topics = {name: f"/tracks/{name}" for name in sources}
     for run, drive in zip(runs, drives):
@@ -120,16 +120,16 @@ def _parser():
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --track-fusion")
     add("--truth", action="append", type=Path, metavar="DRIVE.bag",
-        help="with the truth, one for each run in their order (default: the runs themselves)")  # fmt: skip
+        help="bags with the truth, one for each run (default: the runs themselves)")  # fmt: skip
     add("--sources", nargs="+", default=list(SOURCES), metavar="NAME",
-        help="whose tracks are on /tracks/NAME (default: lidar stereo)")  # fmt: skip
+        help="sources, with tracks on /tracks/NAME (default: lidar stereo)")  # fmt: skip
     add("--visible-to", default=ANY, metavar="SENSOR",
-        help="that must see a true object for it to be asked for, "
-        f"{ANY}, or {NONE}: not asked (default %(default)s)")  # fmt: skip
+        help="sensor that must see a true object for it to count, "
+        f"{ANY}, or {NONE}: not required (default %(default)s)")  # fmt: skip
     add("--min-frames", type=command_line.count, default=MIN_FRAMES, metavar="N",
-        help="for a share of frames to be written (default %(default)s)")  # fmt: skip
+        help="least number of frames for a share to be written (default %(default)s)")  # fmt: skip
     add("--min-tracks", type=command_line.count, default=MIN_TRACKS, metavar="N",
-        help="for a share of tracks to be written (default %(default)s)")  # fmt: skip
+        help="least number of tracks for a share to be written (default %(default)s)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("track_sources.yaml"),
         metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
     add("--plot", type=command_line.output_file, metavar="FILE",

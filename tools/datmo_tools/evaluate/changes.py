@@ -18,8 +18,8 @@ from datmo_tools.text_table import rounded
 
 BEHIND = (5.0, 25.0)  # m: the vehicle has just passed what lies so far behind it
 BESIDE = 15.0  # m, to each side
-SAME = 1.0  # m between the middles of what stands at one place in both drives
-NEAR = 0.6  # m from a side: two cells of 0.3 m, for the map's own error
+SAME = 1.0  # m, between the centers of one stationary object in both drives
+NEAR = 0.6  # m, from a side: two cells of 0.3 m, for the map's own error
 
 # Values of the cells, as map_fusion writes them.
 NEW, VANISHED = 100, 0
@@ -37,7 +37,7 @@ are new.
 
 
 class _Standing(NamedTuple):
-    """What never moves in a drive: x, y, yaw, length, width (n x 5; m, rad), and what has been seen."""
+    """What never moves in a drive: x, y, yaw, length, width (n x 5; m, rad), and what was seen."""
 
     items: np.ndarray
     seen: np.ndarray
@@ -59,7 +59,7 @@ def _standing(path):
 
 
 def _alone(here, there):
-    """n x 5: what has been seen here and is not there."""
+    """Returns what was observed here and is not there, n x 5."""
     if not len(there.items):
         return here.items[here.seen]
     distances, _ = cKDTree(there.items[:, :2]).query(here.items[:, :2])
@@ -67,7 +67,7 @@ def _alone(here, there):
 
 
 class _Score:
-    """Of one kind of change."""
+    """Scores one kind of change."""
 
     def __init__(self, items):
         self.items = items
@@ -77,7 +77,7 @@ class _Score:
         self.reported = np.zeros(len(items), dtype=bool)
 
     def add(self, points, base):
-        """Cells (n x 2, base_link, m) of a map that is seen from the true pose `base`."""
+        """Returns the cells (n x 2, base_link, m) of a map as seen from the true pose `base`."""
         boxes = boxes_from(base, self.items)
         near = boxes.depths(points) <= NEAR
         right = int(np.sum(near.any(axis=1)))
@@ -101,8 +101,8 @@ class _Score:
 
 
 def score(run, drive, before, topic="/map/changes"):
-    """Score of the changes on `topic` in the bag `run` (Path), which was made from the bag `drive` in
-    the map of `before`, as a dictionary that JSON can hold. Raises InputError."""
+    """Returns the score of the changes on `topic` in the bag `run` (Path), which was made from the
+    bag `drive` in the map of `before`, as a dictionary that JSON can hold. Raises InputError."""
     old, new = _standing(before), _standing(drive)
     scores = {"vanished": _Score(_alone(old, new)), "new": _Score(_alone(new, old))}
     path = read_path(drive, TRUE_POSE)
@@ -125,7 +125,7 @@ def score(run, drive, before, topic="/map/changes"):
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     rows = [["", "cells", "right", "things passed", "reported", "wrong"]]
     for kind in ("vanished", "new"):
         one = result[kind]
@@ -136,13 +136,13 @@ def sections(result):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     result = score(values.run, values.drive, values.before, values.topic)
     return result, sections(result)
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --map-fusion --map FILE")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of simulate that RUN.bag was made from")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What objects are said to be against what they are: confusion by range, and calibration."""
+"""Compares objects' reported classes with the true ones: confusion by range, and calibration."""
 
 from typing import NamedTuple
 
@@ -11,26 +11,25 @@ from datmo_tools.text_table import percent
 
 NOTHING = "nothing"  # no true object is near
 TRUE_CLASSES = (*CLASSES, NOTHING)
-BINS = 5  # of the probability that is said, equally wide
+BINS = 5  # of the reported probability, equally wide
 
 
 class Report(NamedTuple):
-    """One object that is said to be of a class, and what is there."""
+    """One object that is reported with a class, and the true class there."""
 
     said: str  # of CLASSES
-    probability: float  # that is said, 0 to 1
+    probability: float  # as reported, 0 to 1
     true: str  # of TRUE_CLASSES
     distance: float  # m
 
     @property
     def is_right(self):
-        """Whether it is what is said."""
+        """Whether the reported class is right."""
         return self.said == self.true
 
 
 def reports_of(objects, truths, score, region):
-    """List of Report: the objects of a known class that are in the region and are one true object, or
-    near none.
+    """Returns a list of Report: objects in the region with a class, of one true object or none.
 
     objects, truths, score: as in score_lists; region: in which objects count.
     """
@@ -47,7 +46,7 @@ def reports_of(objects, truths, score, region):
 
 
 def confusion(reports, edges):
-    """By band of range (edges: m, rising): dictionary true class -> said class -> count."""
+    """Counts by band of range (edges: m, rising): dictionary true class -> reported -> count."""
     bands = []
     for near, far in zip(edges, edges[1:]):
         table = {true: dict.fromkeys(CLASSES, 0) for true in TRUE_CLASSES}
@@ -59,7 +58,7 @@ def confusion(reports, edges):
 
 
 def calibration(reports):
-    """By bin of the probability that is said: how many, its mean, and how many are right (share);
+    """Returns by bin of the reported probability: count, mean probability, and share that is right;
     empty bins are left out."""
     bins = []
     for k in range(BINS):
@@ -76,8 +75,7 @@ def calibration(reports):
 
 
 def class_sections(result):
-    """Sections of a dictionary with `bands_m`, `confusion` and `calibration`; none where no class is
-    said."""
+    """Returns the sections of `bands_m`, `confusion` and `calibration` in a dictionary, if any."""
     if not result["calibration"]:
         return []
     rows = [["true class, by what is said", *CLASSES]]

@@ -17,7 +17,7 @@ HEADINGS = ("true class", "right, %", "of frames", "of no known class")
 
 
 def evaluate(values):
-    """The runs' classes by score_run, and their sections. Raises InputError."""
+    """Returns the runs' classes by score_run, and their sections. Raises InputError."""
     runs = score_runs(values)
     names = short_names([run["run"] for run in runs])
     result = [{"run": run["run"], "classes": run["classes"]} for run in runs]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grids of a run against the clouds of the Velodyne in the drive that it was made from, by range."""
+"""Compares a run's grids with the clouds of the Velodyne in its drive, by range."""
 
 import numpy as np
 
@@ -18,8 +18,8 @@ MAX_GAP = 0.1  # s, from a grid to the nearest cloud: a turn of the Velodyne
 
 
 def points_by_stamp(path, messages, mounts, points_of):
-    """Dictionary stamp (ns) -> points_of(cloud, base_from_velodyne): tuple of points (n x 2, base_link, m),
-    of the clouds in the bag `path`."""
+    """Returns a dictionary stamp (ns) -> points_of(cloud, base_from_velodyne): tuple of points (n x
+    2, base_link, m), of the clouds in the bag `path`."""
     velodyne = mount_of(path, mounts, messages[0].header.frame_id)
     return {
         message.header.stamp.to_nsec(): points_of(kitti_messages.points(message), velodyne)
@@ -28,10 +28,11 @@ def points_by_stamp(path, messages, mounts, points_of):
 
 
 def score(run, drive, topic, clouds, count, nothing):
-    """Sum of count(grid, *points) over the grids (Grid) on `topic` in the bag `run`, and what a score says
-    of them; the points are those of the cloud nearest in time, at the grid's stamp by the true poses.
+    """Returns the sum of count(grid, *points) over the grids (Grid) on `topic` in the bag `run`,
+    and what a score reports about them; the points are of the cloud nearest in time, transformed to
+    the grid's stamp by the true poses.
 
-    clouds: as points_by_stamp gives them, of the bag `drive`; nothing: what the sum starts from. Raises
+    clouds: from points_by_stamp(), of the bag `drive`; nothing: initial value of the sum. Raises
     InputError if no grid has a cloud near in time.
     """
     path = read_path(drive, TRUE_POSE)
@@ -58,7 +59,7 @@ def score(run, drive, topic, clouds, count, nothing):
 
 
 def _with_clouds(run, topic, clouds):
-    """Yields stamp (ns), Grid, and stamp of the cloud nearest in time; None: no cloud is near."""
+    """Yields stamp (ns), Grid, and stamp of the cloud nearest in time, or None if none is near."""
     stamps = np.array(sorted(clouds))
     for stamp, grid in base_grids(run, topic):
         nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
@@ -66,14 +67,14 @@ def _with_clouds(run, topic, clouds):
 
 
 def in_bands(counts, sums):
-    """Yields begin and end (m) of each band, and of each of `sums`, and the counts in it, each an int."""
+    """Yields begin and end (m) of each band, and its counts in each of `sums`, as int."""
     for near, far in [*zip(BAND_EDGES, BAND_EDGES[1:]), *sums]:
         chosen = [near <= begin < far for begin in BAND_EDGES[:-1]]
         yield near, far, [int(column[chosen].sum()) for column in counts]
 
 
 def sections(result, columns, cells_of):
-    """List of Section of a score. columns: headings; cells_of(band): the words below them."""
+    """Returns a list of Section for a score. columns: headings; cells_of(band): cells below."""
     rows = [[result["topic"], *columns]]
     rows += [[f"{band['from']:g} to {band['to']:g} m", *cells_of(band)] for band in result["bands"]]
     scored = f"{result['grids']} grids, {result['grids_without_cloud']} more without a cloud"

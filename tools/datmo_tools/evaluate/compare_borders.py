@@ -7,26 +7,27 @@ from datmo_tools import command_line
 from datmo_tools.evaluate.border_comparison import comparison, comparison_table
 from datmo_tools.evaluate.score_run import find_score_run, score
 
-DESCRIPTION = """\
-Compares two results of run_bag on the same drive, without and with --road-border: false moving
-objects before tracking, tracks, intersections found, and each true moving object that the scanner
-saw moving: in how many of its frames it is tracked. An object is lost that is tracked in some frame
-without borders, and in none with them. Counts are score_run's."""
+DESCRIPTION = """\ Compares two results of run_bag on the same drive, without and with
+--road-border: false moving objects before tracking, tracks, intersections found, and for each true
+moving object that the scanner saw moving the number of frames in which it is tracked. An object is
+lost if it is tracked in some frame without borders, and in none with them. Counts are
+score_run's."""
 
 # All objects that the scanner saw moving, however briefly, at any distance.
 SETTINGS = ("truth/visible_to=scanner", "truth/min_time_seen=0", "region/range=500")
 
 
 def main(arguments=None, program=None):
-    """Runs the command line; returns its exit code. program: of score_run, by default beside."""
+    """Runs the command line; returns its exit code. program: of score_run, by default found."""
     values = _parser().parse_args(arguments)
     return command_line.run("compare_borders", lambda: _run(values, program), product="score")
 
 
 def compare(without, with_borders, drive=None, program=None):
-    """comparison() of two bags (Path); drive: bag with the truth, by default each has its own.
+    """Returns the comparison() of two bags (Path); drive: bag with the truth, default: each one's
+    own.
 
-    Raises InputError where there is no score_run, and SystemExit where it fails.
+    Raises InputError without score_run, and SystemExit if it fails.
     """
     program = program or find_score_run()
     settings = [word for assignment in SETTINGS for word in ("--set", assignment)]

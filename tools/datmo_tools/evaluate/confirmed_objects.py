@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""True moving objects that several sensors' trackers follow: do they pass the test of all?"""
+"""Checks whether true moving objects that several sensors' trackers follow pass the test of all."""
 
 import bisect
 
@@ -9,22 +9,22 @@ from datmo_tools.evaluate.passed_tracks import has_passed, movers
 from datmo_tools.evaluate.track_frames import Newest, follow, observations_of
 from datmo_tools.stamps import NANOSECONDS
 
-# Between two lists that are further apart than this no time counts, s: as score_run's max_gap.
+# No time counts between two lists farther apart than this, s: like score_run's max_gap.
 MAX_STEP = 0.5
 
-# No tracker can confirm in time what is visible for less, s: as score_run's truth/min_time_seen.
+# No tracker can confirm in time what is visible for less, s: like score_run's truth/min_time_seen.
 MIN_SEEN = 1.0
 
-# About the present, in which a track shows what it follows, ns: the noise of a few lists evens out,
-# and a track that goes over to another object is soon on that.
+# Half of the time over which it is decided which object a track follows, ns: the noise of a few
+# lists averages out, and a track that switches to another object is soon on that.
 FOLLOW_HALF_WINDOW = NANOSECONDS // 2
 
 
 class Followers:
-    """The tracks of one list, and which true moving object each of them is on at any time.
+    """The tracks of one list, and the true moving object that each of them is on at any time.
 
-    A track is on the object that it follows about this time, or, where that is not within the gate,
-    on the nearest one: of two objects side by side, now one and now the other may be nearer.
+    A track is on the object that it follows around this time, or, if that is outside of the gate,
+    on the nearest one: of two objects side by side, the nearer one may change from frame to frame.
     """
 
     def __init__(self, frames, gate):
@@ -40,7 +40,7 @@ class Followers:
                 self._followed[number, stamp] = about.object
 
     def on(self, frame):
-        """Dictionary object id -> tracks (SeenTrack) on it in a TrackFrame of these."""
+        """Returns a dictionary object id -> its tracks (SeenTrack) in a TrackFrame of these."""
         objects = {}
         for row, track in enumerate(frame.tracks):
             near = frame.near(row, self._gate, frame.moment.movers)
@@ -53,14 +53,14 @@ class Followers:
 
 
 class Together:
-    """What became of one object while it met a condition: followed by all, or visible to all."""
+    """What happened to one object while it met a condition: followed by all, or visible to all."""
 
     def __init__(self, label):
         self.label = label
         self.frames, self.passed_frames = 0, 0
         self.first, self.last, self._duration = None, None, 0  # ns
         self.delay = None  # s of this time until it first passed; None: it never did
-        self.followed_frames = {}  # source -> those in which it has a track of the source
+        self.followed_frames = {}  # source -> number of frames with a track of the source
         self.distances, self.ranges = [], []  # m: between the tracks; from the vehicle
         self.tracks = set()  # (source, id)
 
@@ -81,19 +81,19 @@ class Together:
 
     @property
     def seconds(self):
-        """For how long in all, without gaps."""
+        """Returns the total time (s), without gaps."""
         return self._duration / NANOSECONDS
 
 
 def score_confirmed(fused, members, gate, soon, sensors):
-    """What became of the true moving objects, as a dictionary that JSON can hold.
+    """Returns what happened to the true moving objects, as a dictionary that JSON can hold.
 
     fused: TrackFrames of the fused list; members: dictionary source -> those of its tracks; gate:
-    m; soon: s with tracks of all sources, in which an object has to pass; sensors: names of the
-    sources' in the truth.
+    m; soon: s with tracks of all sources, within which an object has to pass; sensors: names of
+    the sources' sensors in the truth.
 
     At the stamp of a fused list an object has passed if a fused track with members of all sources
-    is on it. Objects count that move and have to be found (Moment.required).
+    is on it. Objects count if they move and have to be found (Moment.required).
     """
     lists = {source: Newest(frames) for source, frames in members.items()}
     of_source = {source: Followers(frames, gate) for source, frames in members.items()}
@@ -130,7 +130,7 @@ def score_confirmed(fused, members, gate, soon, sensors):
 
 
 def _add_tracks(entry, stamp, number, on):
-    """The object's tracks, and the least distance between two of different sources."""
+    """Returns the object's tracks, and the least distance between two of different sources."""
     positions = []
     for source, (then, tracks) in on.items():
         entry.tracks.update((source, track.id) for track in tracks[number])
@@ -164,7 +164,7 @@ def _summary(objects, soon):
 
 
 def _visible_summary(visible, confirmed, soon):
-    """None where the truth does not know an object that all sensors see."""
+    """Returns None if the truth knows no object that all sensors see."""
     if not visible:
         return None
     # In time is after all follow it: what none passed while it was visible is not.

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Picture of a CovarianceTable: standard deviations over range."""
+"""Plots a CovarianceTable: standard deviations over range."""
 
 import numpy as np
 
 from datmo_tools.evaluate.plot_style import FALSE, INK, TRUTH, series_color, picture
 
 NEAR_BINS = 2
-HEADROOM = 1.3  # over the highest point, for the legend
+HEADROOM = 1.3  # above the highest point, for the legend
 
 
 def covariance_plot(table, depth_sigma, kind):
-    """Bytes of the picture.
+    """Returns the bytes of the picture.
 
-    depth_sigma: function of depth (m) -> standard deviation (m) that theory expects straight
-    ahead, or None; kind: of plot_style.KINDS.
+    depth_sigma: function of depth (m) -> standard deviation (m) expected by theory straight ahead,
+    or None; kind: of plot_style.KINDS.
     """
 
     def draw(axes):
@@ -37,10 +37,10 @@ def _ranges(table):
 
 
 def _draw(ax, table, column, scale):
-    """scale: of the unit that is drawn."""
+    """scale: of the unit in the plot."""
     sigmas, centers, measured = scale * np.sqrt(column.variance), table.centers, column.measured
     ranges = _ranges(table)
-    # A standard deviation of n samples is known to a share of 1 / sqrt(2 n) of itself.
+    # The relative error of a standard deviation of n samples is 1 / sqrt(2 n).
     spread = sigmas[measured] / np.sqrt(2.0 * column.count[measured])
     ax.plot(ranges, scale * np.sqrt(column.law.at(ranges)), color=series_color(0), label="fitted law")
     ax.errorbar(centers[measured], sigmas[measured], spread, fmt="o", color=INK, markersize=4,
@@ -49,6 +49,6 @@ def _draw(ax, table, column, scale):
             markerfacecolor="none", label="not measured: of the law")  # fmt: skip
     ax.plot(centers, scale * np.sqrt(column.known_variance), color=TRUTH, label="known, taken out")
     ax.plot(centers, scale * np.abs(column.bias), ".", color=series_color(1), label="bias, absolute")
-    # A bearing's deviation has no bound near the sensor: the first bins do not set the scale.
+    # A bearing's deviation is unbounded near the sensor: the first bins do not set the scale.
     scaling = sigmas[NEAR_BINS:] if len(sigmas) > NEAR_BINS else sigmas
     ax.set_ylim(0.0, HEADROOM * float(np.max(scaling)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A CovarianceTable as yaml for object_fusion, as JSON, and as text."""
+"""Formats a CovarianceTable as yaml for object_fusion, as JSON, and as text."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ lidar's own and the camera's of the sides that it saw; sd: the camera's own."""
 
 
 def as_yaml(table, source, runs):
-    """Text of the table as the section object_fusion of a sensor set."""
+    """Returns the table as the section object_fusion of a sensor set."""
     bearings = _numbers(table.bearing.variance)
     return "\n".join([
         f"# How far objects of {source} are off, measured against the lidar's by",
@@ -32,7 +32,7 @@ def as_yaml(table, source, runs):
 
 
 def as_dictionary(table, counts):
-    """What JSON can hold of the table; counts: of object_pairs."""
+    """Returns what JSON can hold of the table; counts: of object_pairs."""
     columns = {"range": table.range, "bearing": table.bearing}
     return {
         "bin_width_m": table.bin_width,
@@ -56,7 +56,7 @@ def _numbers(values):
 
 
 def _bins(table):
-    """One line for each bin."""
+    """Yields one line for each bin."""
     for i, center in enumerate(table.centers):
         near, far = center - 0.5 * table.bin_width, center + 0.5 * table.bin_width
         texts = []
@@ -70,14 +70,14 @@ def _bins(table):
 
 
 def _mark(column, i):
-    """Of a bin that is not measured."""
+    """Returns the mark of a bin that is not measured."""
     if column.measured[i]:
         return ""
     return "hidden by the known: law" if column.enough[i] else "too few: law"
 
 
 def summary(table, counts):
-    """The table as text for the terminal; counts: of object_pairs."""
+    """Returns the table as text for the terminal; counts: of object_pairs."""
     headings = ["pairs", "bias", "known", "sd", ""]
     rows = [["range, m", *headings, *headings]]
     for i, center in enumerate(table.centers):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Variances by range bin from differences between two sensors, and the laws that they follow."""
+"""Computes variances by range bin from differences between two sensors, and fits laws to them."""
 
 from typing import NamedTuple
 
@@ -10,18 +10,18 @@ from datmo_tools.errors import InputError
 # From the median absolute deviation to the standard deviation of a normal distribution.
 NORMAL_MAD = 1.4826
 OUTLIER = 3.0  # standard deviations
-# What is left of a normal distribution's variance within so many standard deviations.
+# Share of a normal distribution's variance that remains within this many standard deviations.
 KEPT_VARIANCE = 0.97334
 
-# Of the variance of the differences: where less of it is the camera's own, it is too little to be
-# measured beside what is known.
+# Share of the variance of the differences: if less of it is the camera's own, it cannot be measured
+# next to what is known.
 MIN_SHARE = 0.1
 
 FIT_STEPS = 50
 
 
 class Spread(NamedTuple):
-    """How differences vary, without outliers."""
+    """The spread of differences, without outliers."""
 
     count: int
     bias: float
@@ -29,7 +29,7 @@ class Spread(NamedTuple):
 
 
 def robust_spread(differences):
-    """Spread of differences (n, one or more)."""
+    """Computes the Spread of differences (n, one or more)."""
     values = np.asarray(differences, dtype=float)
     middle = np.median(values)
     scale = NORMAL_MAD * np.median(np.abs(values - middle))
@@ -45,15 +45,15 @@ class Law(NamedTuple):
     power: int
 
     def at(self, ranges):
-        """Variances at the ranges (n, m)."""
+        """Returns variances at the ranges (n, m)."""
         return self.constant + self.factor * np.asarray(ranges, dtype=float) ** self.power
 
 
 def fitted_law(ranges, differences, known, counts, power):
-    """Law with constant and factor of 0 or more that, with what is known, fits variances best.
+    """Fits a Law with constant and factor of 0 or more to variances, plus what is known.
 
-    ranges: m; differences: their variances, of as many samples as `counts` says: that of such an
-    estimate is 2 variance^2 / count; known: variance that is part of each.
+    ranges: m; differences: their variances, from as many samples as `counts`: such an estimate has
+    the variance 2 variance^2 / count; known: variance that is part of each.
     """
     items = (ranges, differences, known, counts)
     ranges, differences, known, counts = (np.asarray(item, dtype=float) for item in items)
@@ -63,13 +63,13 @@ def fitted_law(ranges, differences, known, counts, power):
     for _ in range(FIT_STEPS):
         weights = np.sqrt(counts) / whole
         factors = _least_squares(terms * weights[:, np.newaxis], (differences - known) * weights)
-        # A bin far above the law must not weigh the more for it.
+        # A bin far above the law must not get more weight.
         whole = np.maximum(terms @ factors + known, 0.5 * differences)
     return Law(float(factors[0]), float(factors[1]), power)
 
 
 def _least_squares(terms, values):
-    """Two factors of 0 or more (n x 2 terms)."""
+    """Fits two factors of 0 or more (n x 2 terms)."""
     scales = np.sqrt(np.sum(terms**2, axis=0))
     factors = np.linalg.lstsq(terms / scales, values, rcond=None)[0] / scales
     if np.all(factors >= 0.0):
@@ -80,15 +80,15 @@ def _least_squares(terms, values):
 
 
 class Column(NamedTuple):
-    """One measure, range or bearing, over the bins; arrays of as many as there are bins."""
+    """One quantity, range or bearing, over the bins; arrays with one value per bin."""
 
     count: np.ndarray  # pairs without outliers
     bias: np.ndarray  # NaN: no pairs
-    difference_variance: np.ndarray  # of the camera's less the lidar's; NaN: too few pairs
-    known_variance: np.ndarray  # of it, that of the lidar and the camera's sides
+    difference_variance: np.ndarray  # of the camera's minus the lidar's; NaN: too few pairs
+    known_variance: np.ndarray  # the part of it due to the lidar and the camera's sides
     enough: np.ndarray  # whether the bin has enough pairs
-    measured: np.ndarray  # whether it determines the camera's variance: not where the known part dominates
-    variance: np.ndarray  # the camera's: measured, or that of the law
+    measured: np.ndarray  # whether it determines the camera's variance: no dominant known part
+    variance: np.ndarray  # the camera's: measured, or from the law
     law: Law
 
 
@@ -101,22 +101,22 @@ class CovarianceTable(NamedTuple):
 
     @property
     def centers(self):
-        """Of the bins, m."""
+        """Returns the centers of the bins, m."""
         return (np.arange(len(self.range.count)) + 0.5) * self.bin_width
 
 
 # How errors grow with range. A stereo camera's depth: with its square (thesis 3.3.3 measures it;
-# disparities of constant noise explain it). Bearing: that of pixels, and of what is seen as the
-# middle of an object, which is some centimeters whatever the range.
+# disparities of constant noise explain it). Bearing: that of pixels, and of the apparent center of
+# an object, which is off by some centimeters at any range.
 RANGE_POWER, BEARING_POWER = 4, -2
 
 
 def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
-    """CovarianceTable of Pairs (object_pairs).
+    """Computes the CovarianceTable of Pairs (object_pairs).
 
-    bin_width: m; reach: m, up to where there are bins; min_pairs: of a bin that is measured;
-    with_bias: variance about zero, not about the mean. Raises InputError for fewer than two
-    measured bins of range or of bearing.
+    bin_width: m; reach: m, upper end of the bins; min_pairs: of a measured bin; with_bias: variance
+    about zero, not about the mean. Raises InputError for fewer than two measured bins of range or
+    of bearing.
     """
     bins = int(np.ceil(reach / bin_width - 1e-9))
     values = np.array(pairs, dtype=float).reshape(-1, 5)
@@ -141,7 +141,7 @@ def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
 
 
 def _wider_bins(values, bin_width, min_pairs):
-    """The advice to take bins of so many times the width, where these would have enough pairs."""
+    """Returns the advice to use wider bins, if these would have enough pairs."""
     seen = [values[np.isfinite(values[:, difference]), 0] for difference in (1, 2)]
     farthest = np.max(values[:, 0], initial=0.0)
     for width in np.arange(2 * bin_width, farthest, bin_width):
@@ -171,7 +171,7 @@ def _column(members, centers, min_pairs, power, with_bias):
         known_variance = np.minimum(known_variance, (1.0 - MIN_SHARE) * difference_variance)
     law = fitted_law(centers[enough], difference_variance[enough], known_variance[enough],
                      count[enough], power)  # fmt: skip
-    # A law without a constant may be nothing near the sensor, or everywhere.
+    # Without a constant, a law may be zero near the sensor, or everywhere.
     minimum = MIN_SHARE * np.min(own[measured] if np.any(measured) else law.at(centers)[enough])
     variance = np.where(measured, own, np.maximum(law.at(centers), minimum))
     columns = (count, bias, difference_variance, known_variance, enough, measured, variance)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of evaluate operating_curve."""
+"""Draws the picture of evaluate operating_curve."""
 
 from pathlib import Path
 
@@ -9,12 +9,12 @@ HEIGHT = 5.0  # inch
 
 
 def curve_drawing(result):
-    """SVG element, for a page."""
+    """Returns an SVG element, for a page."""
     return drawing(HEIGHT, lambda ax: _draw(ax, result))
 
 
 def curve_picture(result):
-    """Bytes of a png."""
+    """Returns the bytes of a png."""
     return picture("png", HEIGHT, lambda ax: _draw(ax, result))
 
 
@@ -38,7 +38,7 @@ def _draw(ax, result):
 
 
 def _line(points):
-    """x and y of the points that have both."""
+    """Returns x and y of the points that have both."""
     known = [
         (point["false_tracks_per_minute"], 100.0 * point["missed_share"])
         for point in points

@@ -10,14 +10,14 @@ from datmo_tools.errors import InputError
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Draws the borders of the road that a run found (run_bag --road-border), as sheets of pictures of
+Draws the road borders that a run found (run_bag --road-border), as sheets of pictures of
 chosen moments: from above, with the scan, the objects that were kept and dropped, and the ground
-truth where the bag has it (run_bag --with-truth); and with --images borders and scan projected into
+truth if the bag has it (run_bag --with-truth); and with --images borders and scan projected into
 the camera's images.
 
-In the images everything lies on the road, the plane on which base_link stands: the points of a scan
-below the end points of its beams; where the road slopes or the vehicle pitches, distant points are
-displaced accordingly. A border is the fainter the less probable it is."""
+In the images everything is on the road, the plane z = 0 of base_link: the points of a scan are
+below the end points of its beams; if the road slopes or the vehicle pitches, distant points are
+displaced accordingly. A border is fainter the less probable it is."""
 
 PERIOD = 5.0  # s
 HISTORY = 3.0  # s
@@ -60,7 +60,7 @@ def _run(values):
 
 
 def _names(out, count):
-    """File names of the sheets: --out itself, or numbered ones."""
+    """Returns the file names of the sheets: --out itself, or numbered ones."""
     if count == 1:
         return [out.name]
     return [f"{out.stem}_{number}{out.suffix}" for number in range(1, count + 1)]
@@ -78,14 +78,14 @@ def _parser():
         help=".png, .svg or .pdf; several sheets are numbered (default %(default)s)")  # fmt: skip
     add("--at", type=_times, metavar="S,S", help="times, s since the run's first borders")
     add("--every", type=command_line.number, default=PERIOD, metavar="S",
-        help="between two pictures where --at names none, s (default %(default)s)")  # fmt: skip
+        help="time between two pictures without --at, s (default %(default)s)")  # fmt: skip
     command_line.add_number(parser, "--history", HISTORY, "S",
-                            "for so long before it earlier scans are shown, s")  # fmt: skip
+                            "age up to which earlier scans are shown, s")  # fmt: skip
     add("--images", type=Path, metavar="DRIVE.bag",
-        help="with rectified images, their camera_info and /tf_static, of the drive that the run "
+        help="bag with rectified images, camera_info and /tf_static, of the drive that the run "
         "was made from (kitti_to_bag --images)")  # fmt: skip
     add("--camera", default=CAMERA, metavar="NAME",
         help="of NAME/image_rect and NAME/camera_info (default %(default)s)")  # fmt: skip
     add("--rows", type=command_line.count, default=ROWS, metavar="N",
-        help="of pictures on a sheet (default %(default)s)")  # fmt: skip
+        help="rows of pictures per sheet (default %(default)s)")  # fmt: skip
     return parser

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Published borders where nothing ends the road."""
+"""Finds published borders where nothing ends the road."""
 
 from typing import NamedTuple
 
@@ -11,22 +11,22 @@ from datmo_tools.stamps import NANOSECONDS
 
 STEP = 0.5  # m, between the sampled points of a border
 
-# A false stretch is listed from this length on, m.
+# m, from which a false segment is listed
 MIN_LENGTH = 3.0
 
-# Stretches of two messages are one if they are not farther apart, m and s.
+# m and s: false segments of two messages that are not farther apart are one.
 MAX_APART, MAX_PAUSE = 10.0, 1.0
 
 # Where a false stretch is: on the carriageway, in a junction, beyond the true border, or where the
 # truth knows no border.
 ROAD, JUNCTION, BEYOND, OPEN = WHERE = ("road", "junction", "beyond", "open")
 
-# The part of the path that a false stretch may be beside, m before and behind the vehicle.
+# m before and behind the vehicle: the part of the path that a false segment may be next to.
 BESIDE = 60.0
 
 
 class Stretch(NamedTuple):
-    """A false stretch of one border in one message."""
+    """A false segment of one border in one message."""
 
     stamp: int  # ns
     side: str
@@ -36,10 +36,10 @@ class Stretch(NamedTuple):
 
 
 def score_false(frames, road, gate):
-    """Score of the false borders in some Frames, one that JSON can hold.
+    """Returns the score of the false borders in some Frames, which JSON can hold.
 
-    gate: m, farther than that from a curb, a parked vehicle and its row a border is false. Looked
-    at is what is within AHEAD of the vehicle.
+    gate: m, a border is false farther than this from any curb, parked vehicle and its row. Only
+    what is within AHEAD of the vehicle is evaluated.
     """
     published = 0.0
     lengths = dict.fromkeys(WHERE, 0.0)
@@ -65,7 +65,7 @@ def score_false(frames, road, gate):
 
 
 def _false_stretches(frame, road, gate):
-    """Length of what is published (m), and its false Stretches."""
+    """Returns the length of what is published (m), and its false Stretches."""
     base = road.poses.at(frame.stamp)[:2]
     near = [line for line in road.lines if line.distance(Point(base)) <= AHEAD + gate]
     lines = MultiLineString(near)
@@ -107,7 +107,7 @@ def _where(position, arc_length, road, gate):
 
 
 def _episodes(stretches):
-    """Lists of Stretches of the same side and sort that follow each other."""
+    """Returns lists of consecutive Stretches of the same side and sort."""
     episodes = []
     for item in stretches:
         last = next((one for one in reversed(episodes) if _continues(one[-1], item)), None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tracks that say that something moves where nothing is, within the view of the camera."""
+"""Finds tracks that report motion where nothing moves, within the view of the camera."""
 
 from typing import NamedTuple
 
@@ -11,15 +11,15 @@ from datmo_tools.evaluate.track_views import is_visible, is_in_view
 
 
 class FalseTrack(NamedTuple):
-    """One that is false in most of its frames, as score_run counts them."""
+    """A track that is false in most of its frames, as score_run counts them."""
 
     id: int
     observations: list  # of (TrackFrame, row) in which it counts
-    false: list  # of them, those in which it is false
+    false: list  # those of them in which it is false
 
 
 def false_tracks(frames):
-    """List of FalseTrack in some TrackFrames of one list."""
+    """Returns a list of FalseTrack in the TrackFrames of one list."""
     found = []
     counted = observations_of(frames, lambda frame, row: frame.counts(row))
     for number, observations in counted.items():
@@ -30,18 +30,18 @@ def false_tracks(frames):
 
 
 def score_false(frames_by_list, view_lists, gate):
-    """Dictionary list -> its false tracks, one that JSON can hold.
+    """Returns a dictionary list -> its false tracks, which JSON can hold.
 
     frames_by_list: dictionary name -> TrackFrames; view_lists: TrackLists with the views of the
     camera; gate: m. A track is in view if it is in the sector and range of one of the views in most
-    of its frames, and visible if nothing occludes it either.
+    of its frames, and visible if nothing occludes it, either.
     """
     views = Newest([item for item in view_lists if item.views])
     return {name: _score_list(frames, views, gate) for name, frames in frames_by_list.items()}
 
 
 def reduction(before, after):
-    """Share (0 to 1) by which a count is less; None: there was nothing."""
+    """Returns the share (0 to 1) by which a count is less; None: there was nothing."""
     return 1.0 - after / before if before else None
 
 
@@ -74,7 +74,7 @@ SORTS = ("double", "standing road user", "other object", "nothing")
 
 
 def _sort(observations, gate):
-    """What a false track is on in most of its false frames: one of SORTS; the first of equals."""
+    """Returns what a false track is on in most of its false frames: one of SORTS."""
     counts = dict.fromkeys(SORTS, 0)
     for frame, row in observations:
         near = frame.distances[row] <= gate

@@ -46,8 +46,7 @@ class Image(NamedTuple):
     size: tuple  # px: columns, rows
 
     def ranges(self, points):
-        """Distances (n, m) of points of the road (n x 2, base_link) over ground; infinite: not in
-        the image."""
+        """Returns ground distances (n, m) of road points (n x 2, base_link); inf: not in view."""
         on_road = np.column_stack([points, np.zeros(len(points))])
         seen = transforms.apply(transforms.inverse(self.camera_in_base), on_road)
         ahead = seen[:, 2] > 0.0
@@ -59,12 +58,12 @@ class Image(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """Cells by range band, n each."""
+    """Numbers of cells by range band, n each."""
 
-    known_free: np.ndarray  # free cells of the grid of which the Velodyne knows
-    right: np.ndarray  # of these, those without an obstacle
-    road: np.ndarray  # cells of the road, as the Velodyne sees it
-    found: np.ndarray  # of these, those that are free in the grid
+    known_free: np.ndarray  # free cells of the grid that the Velodyne observes
+    right: np.ndarray  # those of them without an obstacle
+    road: np.ndarray  # cells of the road that the Velodyne sees
+    found: np.ndarray  # those of them that are free in the grid
 
     def __add__(self, other):
         return Counts(*(mine + its for mine, its in zip(self, other)))
@@ -74,7 +73,7 @@ NOTHING = Counts(*(np.zeros(len(BAND_EDGES) - 1, dtype=int) for _ in Counts._fie
 
 
 def count(grid, obstacles, road, image):
-    """Counts of one grid (Grid); obstacles, road: n x 2, base_link at its stamp, m; image: Image."""
+    """Returns the Counts of one grid (Grid); obstacles, road: n x 2, base_link at its stamp, m."""
     has_obstacle, has_road = (np.zeros(grid.cells.shape, dtype=bool) for _ in range(2))
     for points, cells in ((obstacles, has_obstacle), (road, has_road)):
         column, row = grid.cells_of(points).T
@@ -92,8 +91,8 @@ def _by_band(grid, chosen, image):
 
 
 def score(run, drive, topic):
-    """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
-    dictionary that JSON can hold. Raises InputError."""
+    """Returns the score of the grids on `topic` in the bag `run` (Path) against the drive's bag
+    (Path), as a dictionary that JSON can hold. Raises InputError."""
     clouds, image = _read_drive(drive)
     counts, result = cloud_grids.score(
         run, drive, topic, clouds, lambda grid, *points: count(grid, *points, image), NOTHING
@@ -115,7 +114,8 @@ def _band(near, far, counts):
 
 
 def _read_drive(path):
-    """Dictionary stamp (ns) -> obstacles and road of its cloud (n x 2 each, base_link, m); Image."""
+    """Returns a dictionary stamp (ns) -> its cloud's obstacles and road (n x 2 each), and the
+    Image."""
     kept = {MOUNTS: [], CLOUDS: [], CAMERA_INFOS[0]: []}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages([*kept]):
@@ -142,7 +142,7 @@ def _parted(cloud, base_from_velodyne):
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     return cloud_grids.sections(
         result, ["precision", "of free", "recall", "of the road"],
         lambda band: [rounded(band["precision"], 4), str(band["free"]), rounded(band["recall"], 3), str(band["road"])],
@@ -150,11 +150,11 @@ def sections(result):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     result = score(values.run, values.drive, values.topic)
     return result, sections(result)
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add_grids(parser, "/grids/mono")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What evaluate reads of grids: those of a run, and the drive that the run was made from."""
+"""Reads grids: those of a run, and the drive that the run was made from."""
 
 import math
 from typing import NamedTuple
@@ -26,7 +26,7 @@ STEREO, POLE = "stereo", "Pole"
 
 
 class Moment(NamedTuple):
-    """What is true at the stamp of a scan."""
+    """The truth at the stamp of a scan."""
 
     echoes: Echoes
     bodies: Bodies
@@ -41,7 +41,7 @@ class Drive(NamedTuple):
 
 
 def read_topics(path, topics):
-    """Dictionary topic -> its messages, and topic of CAMERA_INFOS -> its last one, of a bag."""
+    """Returns a dictionary topic -> its messages; of CAMERA_INFOS only the last one, of a bag."""
     kept = {topic: [] for topic in topics}
     infos = {}
     with opened(path) as bag:
@@ -54,10 +54,10 @@ def read_topics(path, topics):
 
 
 def read_drive(path, reach, disparity_sigma):
-    """Drive in the bag at `path` (Path).
+    """Returns the Drive in the bag at `path` (Path).
 
-    reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan whose
-    truth is not there has no Moment. Raises InputError if there is none at all, or no camera.
+    reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan without
+    truth has no Moment. Raises InputError if there is none at all, or no camera.
     """
     kept, infos = read_topics(path, (MOUNTS, TRUE_POSE, TRUE_ECHOES, *SCANS))
     mounts = mounts_of(kept[MOUNTS])
@@ -75,7 +75,7 @@ def read_drive(path, reach, disparity_sigma):
 def grid_pairs(path, first_topic, second_topic):
     """Yields (stamp, Grid, Grid) for each stamp (ns) with a grid on both topics of the bag.
 
-    Raises InputError for another type, and for grids of one stamp that differ in their windows.
+    Raises InputError for another type, and for grids of one stamp with different windows.
     """
     waiting = {}
     with opened(path) as bag:
@@ -88,13 +88,13 @@ def grid_pairs(path, first_topic, second_topic):
             pair = (other, grid) if topic == second_topic else (grid, other)
             _check_same_window(path, stamp, *pair)
             yield (stamp, *pair)
-            # Grids are published in the order of their stamps: older ones wait in vain.
+            # Grids are published in order of their stamps: older ones will not find a partner.
             waiting = {late: kept for late, kept in waiting.items() if late > stamp}
 
 
 def base_grids(path, topic):
-    """Yields stamp (ns) and Grid in base_link of each grid on `topic` of the bag of a run; those of a
-    map are seen from the run's pose. Raises InputError for another type."""
+    """Yields stamp (ns) and Grid in base_link of each grid on `topic` of a run's bag; maps are
+    transformed by the run's pose. Raises InputError for another type."""
     poses = None
     for stamp, frame, grid in grid_messages(path, topic):
         if frame != BASE:
@@ -112,8 +112,8 @@ def grid_messages(path, topic):
 
 
 def seen_from(grid, base):
-    """A Grid of a map as seen from a pose (x, y, yaw) in it: square, about the vehicle, with cells of
-    the same size, each as the map has it at its middle."""
+    """Returns the Grid of a map as seen from a pose (x, y, yaw) in it: square, centered on the
+    vehicle, with cells of the same size, each with the map's value at its center."""
     side = max(grid.cells.shape)
     origin = np.full(2, -0.5 * side * grid.cell_size)
     seen = Grid(grid.cell_size, origin, np.full((side, side), -1, dtype=np.int8))
@@ -127,7 +127,7 @@ def seen_from(grid, base):
 
 
 def grid_of(path, topic, raw):
-    """Stamp and Grid of a message as it lies in the bag: a grid has 100,000 cells and more."""
+    """Stamp and Grid of a message as stored in the bag: a grid has 100,000 cells and more."""
     stamp, _, grid = _grid_message(path, topic, raw)
     return stamp, grid
 
@@ -155,7 +155,7 @@ def _check_same_window(path, stamp, first, second):
 
 
 def mounts_of(messages):
-    """Dictionary frame -> 4 x 4 transform in base_link."""
+    """Returns a dictionary frame -> 4 x 4 transform in base_link."""
     return {
         item.child_frame_id: transforms.rigid_of(item.transform)
         for message in messages
@@ -165,16 +165,16 @@ def mounts_of(messages):
 
 
 def mount_of(path, mounts, frame):
-    """The mount of one sensor (4 x 4). Raises InputError if it is not there."""
+    """Returns the mount of one sensor (4 x 4). Raises InputError if it is missing."""
     if frame not in mounts:
         raise InputError(f"{path}: {MOUNTS} has no {BASE} -> {frame}, expected the sensor's mount")
     return mounts[frame]
 
 
 def view_of(path, infos, mounts, reach, disparity_sigma):
-    """StereoView of the camera; infos: dictionary topic -> CameraInfo, of CAMERA_INFOS.
+    """Returns the StereoView of the camera; infos: dictionary topic -> CameraInfo, of CAMERA_INFOS.
 
-    Raises InputError where one is missing or no stereo camera's.
+    Raises InputError if one is missing or not of a stereo camera.
     """
     for topic in CAMERA_INFOS:
         if topic not in infos:
@@ -209,7 +209,7 @@ def _moments(path, kept, mounts):
 
 
 def _echoes(path, scan, truth, scanner, twist):
-    """twist: the vehicle's, by which beams of a scan that takes time are brought to its stamp."""
+    """twist: the vehicle's, for transforming the beams of a scan with a duration to its stamp."""
     if len(truth.surfaces) != len(scan.ranges):
         raise InputError(
             f"{path}: {TRUE_ECHOES} at {scan.header.stamp.to_sec():.6f} s has "
@@ -231,7 +231,7 @@ def _echoes(path, scan, truth, scanner, twist):
 
 
 def _nearest(beam):
-    """Range of the nearest echo: of a LaserScan's beam, which is a number, or of a LaserEcho."""
+    """Returns the range of the nearest echo, of a LaserScan's beam (a number) or a LaserEcho."""
     if isinstance(beam, float):
         return beam
     return min(beam.echoes, default=math.inf)
@@ -249,6 +249,6 @@ def _poles(objects, base):
 
 
 def _seen_from(base, objects):
-    """Poses (n x 3) of objects in base_link; base: its pose in the map."""
+    """Returns the poses (n x 3) of objects in base_link; base: its pose in the map."""
     poses = np.array([planar(item.pose) for item in objects]).reshape(-1, 3)
     return transforms.relative(base, poses)

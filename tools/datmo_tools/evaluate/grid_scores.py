@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Occupancy grids against the truth: what a fusion of sensors takes away from the lidar's grid, and
-what it adds.
+"""Scores occupancy grids with the truth: what fusion removes from the lidar's grid, and adds.
 
 Counted are cells in which a beam of the scanner ended, and thin poles. White paint on the road
-answers a scanner by mistake (thesis 1.3.3): its cells should not be occupied. The cells of bodies
-should stay so (thesis 3.2.4).
+returns beams by mistake (thesis 1.3.3): its cells should not be occupied. The cells of bodies
+should stay occupied (thesis 3.2.4).
 """
 
 from typing import NamedTuple
@@ -14,10 +13,10 @@ import numpy as np
 from datmo_fusion.msg import TrueEchoes
 from datmo_tools import transforms
 
-UNDECIDED = 50  # percent: occupied is more
+UNDECIDED = 50  # percent: more is occupied
 
-# A body hides what is this far behind the point where the line of sight meets it. What is nearer is
-# on the body, or beside it by the scanner's noise.
+# A body hides what is this far behind the point where the line of sight hits it. Nearer points are
+# on the body, or next to it because of the scanner's noise.
 HIDDEN_BEHIND = 1.0  # m
 
 
@@ -29,9 +28,9 @@ class Grid(NamedTuple):
     cells: np.ndarray  # rows along y, columns along x; percent, or -1: unknown
 
     def cells_of(self, points):
-        """Indices (n x 2: column, row) of the cells that hold points (n x 2, m), each cell once.
+        """Returns the cells (n x 2: column, row) that contain points (n x 2, m), each cell once.
 
-        Points outside of the grid are left out.
+        Points outside of the grid are ignored.
         """
         found = np.floor((points - self.origin) / self.cell_size).astype(int)
         rows, columns = self.cells.shape
@@ -39,16 +38,16 @@ class Grid(NamedTuple):
         return np.unique(found[inside], axis=0)
 
     def centers(self, cells):
-        """Middles (n x 2, m) of cells given by their indices."""
+        """Returns the centers (n x 2, m) of cells given by their indices."""
         return self.origin + (cells + 0.5) * self.cell_size
 
     def occupied(self, cells):
-        """Whether each of the cells is, n."""
+        """Returns whether each of the cells is occupied, n."""
         return self.cells[cells[:, 1], cells[:, 0]] > UNDECIDED
 
     def occupied_near(self, point, reach):
-        """Middles (n x 2, m) of the occupied cells about a point (2), those at most `reach` m away
-        along x and y, and some beyond."""
+        """Returns the centers (n x 2, m) of the occupied cells around a point (2), those at most
+        `reach` m away along x and y, and some beyond."""
         cells = np.floor((point - self.origin + [[-reach], [reach]]) / self.cell_size).astype(int)
         first, last = np.maximum(cells, 0)
         rows, columns = np.nonzero(
@@ -58,7 +57,7 @@ class Grid(NamedTuple):
 
 
 class StereoView(NamedTuple):
-    """What a stereo camera sees of the road plane, and how exactly."""
+    """What a stereo camera sees of the road plane, and how accurately."""
 
     camera_in_base: np.ndarray  # 4 x 4, of the optical frame
     tangents: tuple  # x / z of the image's left and right border
@@ -66,7 +65,7 @@ class StereoView(NamedTuple):
     sigma_factor: float  # 1/m; the depth's standard deviation is this times its square
 
     def ranges(self, points):
-        """Distances (n, m) of points (n x 2, base_link) over ground; infinite: not in view."""
+        """Returns ground distances (n, m) of points (n x 2, base_link); infinite: not in view."""
         height = self.camera_in_base[2, 3]
         in_space = np.column_stack([points, np.full(len(points), height)])
         right, _, ahead = transforms.apply(transforms.inverse(self.camera_in_base), in_space).T
@@ -76,7 +75,7 @@ class StereoView(NamedTuple):
         return np.where(seen & (ranges <= self.reach), ranges, np.inf)
 
     def hidden(self, points, bodies):
-        """Whether each point of the road (n x 2) is behind one of the Bodies."""
+        """Returns whether each point of the road (n x 2) is behind one of the Bodies."""
         camera = self.camera_in_base[:2, 3]
         meets = bodies.met_at(camera, points)
         height = self.camera_in_base[2, 3] * (1.0 - meets)
@@ -84,7 +83,7 @@ class StereoView(NamedTuple):
         return np.any((behind > HIDDEN_BEHIND) & (height < bodies.heights), axis=1)
 
     def depth_sigma(self, depth):
-        """Standard deviation of the depth at a depth, m."""
+        """Returns the standard deviation of the depth at a depth, m."""
         return self.sigma_factor * depth**2
 
 
@@ -96,16 +95,16 @@ class Echoes(NamedTuple):
 
 
 class Bodies(NamedTuple):
-    """Upright boxes that stand around the vehicle; base_link, m."""
+    """Upright boxes around the vehicle; base_link, m."""
 
-    poses: np.ndarray  # n x 3: x, y, yaw (rad) of their middles
+    poses: np.ndarray  # n x 3: x, y, yaw (rad) of their centers
     sizes: np.ndarray  # n x 2: along their x and y
     heights: np.ndarray  # n, above the road
 
     def met_at(self, begin, ends):
-        """Where lines over ground from `begin` (2) to `ends` (m x 2) first meet the boxes.
+        """Returns where lines on the ground from `begin` (2) to `ends` (m x 2) first hit the boxes.
 
-        m x n, as share of the distance; infinite: the line passes by, or begins in the box.
+        m x n, as share of the distance; infinite: the line misses the box, or begins in it.
         """
         cosine, sine = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
         turn = np.stack([np.stack([cosine, sine]), np.stack([-sine, cosine])])
@@ -120,10 +119,10 @@ class Bodies(NamedTuple):
 
 
 class Tally:
-    """How many of some objects have a property: of all, of those in view, and by their range."""
+    """Counts how many objects have a property: of all, of those in view, and by their range."""
 
     def __init__(self, edges):
-        """edges: of the bands of range, rising, m; the last one is where the view ends."""
+        """edges: of the bands of range, increasing, m; the last one is where the view ends."""
         self._edges = np.asarray(edges)
         self.total = np.zeros(len(edges) + 1, dtype=int)  # all, in view, each band
         self.having = np.zeros_like(self.total)
@@ -134,7 +133,7 @@ class Tally:
         self.having += self._counts(ranges[having])
 
     def percent(self):
-        """Share of those with the property in each column; nan where there is nothing."""
+        """Returns the share of those with the property in each column; nan if there is nothing."""
         with np.errstate(invalid="ignore"):
             return 100.0 * self.having / self.total
 
@@ -147,7 +146,7 @@ class GridScores:
     """Counts over a run; `add` once for each stamp."""
 
     def __init__(self, view, edges):
-        """view: StereoView; edges: as Tally's."""
+        """view: StereoView; edges: see Tally."""
         self._view = view
         self.paint_gone = Tally(edges)
         self.bodies_lost = Tally(edges)
@@ -173,7 +172,7 @@ class GridScores:
 
     def _holds(self, grid, pole):
         """Whether a cell is occupied where the camera may see a pole (2): across the line of sight
-        at most one cell off, along it as far as the depth is uncertain, but at least one cell."""
+        at most one cell off, along it by the uncertainty of the depth, but at least one cell."""
         camera = self._view.camera_in_base[:2, 3]
         distance = np.linalg.norm(pole - camera)
         ahead = (pole - camera) / distance
@@ -184,6 +183,6 @@ class GridScores:
 
 
 def _among(cells, others):
-    """Whether each of the cells (n x 2) is one of the others (m x 2)."""
+    """Returns whether each of the cells (n x 2) is one of the others (m x 2)."""
     known = {tuple(cell) for cell in others}
     return np.array([tuple(cell) in known for cell in cells], dtype=bool)

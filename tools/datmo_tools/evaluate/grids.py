@@ -13,12 +13,12 @@ from datmo_tools.text_table import NO_VALUE
 
 DESCRIPTION = """\
 Scores the fused grids of a run against the truth of the simulated drive that it was made from
-(simulate with stereo/enabled=true and ground_truth/echoes=true): of the cells that white paint
-occupies in the lidar's grid, how many fusion removed; of the cells of true obstacles, how many it
+(simulate with stereo/enabled=true and ground_truth/echoes=true): how many of the cells that white
+paint occupies in the lidar's grid fusion removed; how many of the cells of true obstacles it
 lost; and at how many stamps a thin pole that the camera sees is in the fused grid and in the
 lidar's. In view means within the camera's image and effective range, and not behind a true object."""
 
-# Ends of the bands of range, m, as far as they lie within the camera's effective range.
+# Edges of the bands of range, m, as far as they are within the camera's effective range.
 BANDS = (0.0, 10.0, 20.0)
 
 EFFECTIVE_RANGE = 36.0  # m; thesis 3.3.3
@@ -34,11 +34,11 @@ ROWS = (
 
 def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIVE_RANGE,
           disparity_sigma=DISPARITY_SIGMA):  # fmt: skip
-    """Score of the grids in the bag `run` (Path) against the drive's bag (Path), as a dictionary
-    that JSON can hold.
+    """Returns the score of the grids in the bag `run` (Path) against the drive's bag (Path), as a
+    dictionary that JSON can hold.
 
     lidar, fused: topics; reach: effective range of the camera, m; disparity_sigma: px. Raises
-    InputError, also if the two have no stamp in common.
+    InputError, also if the two bags have no stamp in common.
     """
     edges = [*(edge for edge in BANDS if edge < reach), reach]
     recorded = read_drive(drive, reach, disparity_sigma)
@@ -67,7 +67,7 @@ def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIV
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     rows = [["", *result["columns"]]]
     for name, key in ROWS:
         rows.append([name, *map(_share, result[key]["percent"], result[key]["of"])])
@@ -85,7 +85,7 @@ def _figures(tally):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     command_line.check_positive(values, "effective_range", "disparity_sigma")
     result = score(values.run, values.drive, values.lidar, values.fused, values.effective_range,
                    values.disparity_sigma)  # fmt: skip
@@ -93,7 +93,7 @@ def evaluate(values):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of simulate")
@@ -101,7 +101,7 @@ def add_arguments(parser):
         add(f"--{source}", default=f"/grids/{source}", metavar="TOPIC",
             help="of the grids (default %(default)s)")  # fmt: skip
     command_line.add_number(parser, "--effective-range", EFFECTIVE_RANGE, "M",
-                            "how far the camera is to be believed, m")  # fmt: skip
+                            "effective range of the camera, m")  # fmt: skip
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
-                            "standard deviation of disparities, px: how far off along the line of "
-                            "sight a pole may be")  # fmt: skip
+                            "standard deviation of disparities, px: how far poles may be off along the line of "
+                            "sight")  # fmt: skip

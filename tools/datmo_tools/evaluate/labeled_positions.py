@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Positions of people or objects that were labeled in a recording, brought to a run's map."""
+"""Reads positions labeled in a recording, and transforms them to the map of a run."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 
 TRANSFORM_TOPICS = "/tf", "/tf_static"
-MAX_AGE = NANOSECONDS  # ns, from a scan to a label that was made on it
+MAX_AGE = NANOSECONDS  # ns, from a scan to a label made on it
 
 
 class LabeledPosition(NamedTuple):
@@ -26,7 +26,7 @@ class LabeledPosition(NamedTuple):
 
 
 class LabelOptions(NamedTuple):
-    """Where the labels are in the recording."""
+    """Topics and frames of the labels in the recording."""
 
     topic: str
     scan: str = "/scan"
@@ -35,11 +35,11 @@ class LabelOptions(NamedTuple):
 
 
 def read_labels(recording, run, options):
-    """List of LabeledPosition by rising stamp.
+    """Returns a list of LabeledPosition by increasing stamp.
 
-    recording: bag (Path) with messages of any type that has `pose` and `id` on options.topic; run:
-    result of run_bag on it (Path), whose /pose brings them to its map. A label without a header is
-    of the scan that was recorded last before it. Raises InputError.
+    recording: bag (Path) with messages of any type with `pose` and `id` on options.topic; run:
+    result of run_bag on it (Path), whose /pose transforms them to its map. A label without a header
+    belongs to the last scan recorded before it. Raises InputError.
     """
     labels, scans, tree = _read(recording, options)
     if not labels:
@@ -80,7 +80,7 @@ def _checked(recording, topic, message):
 
 
 def _moment(label, recorded, scans, frame):
-    """Stamp of the scan that a label is of, and the label's frame; None where there is no scan."""
+    """Returns the stamp of a label's scan, and the label's frame; None without scan."""
     header = getattr(label, "header", None)
     if header is not None and header.stamp.to_nsec() > 0:
         return header.stamp.to_nsec(), header.frame_id or frame
@@ -96,7 +96,7 @@ def _in_map(label, frame, stamp, tree, path, options):
     if mount is None:
         raise InputError(
             f"no transform {options.base} -> {bare(frame)} in the recording, expected it in /tf or "
-            "/tf_static (--base and --frame name other frames)"
+            "/tf_static (--base and --frame select other frames)"
         )
     planar, _, _ = planar_mount(mount)
     point = np.array([pose.position.x, pose.position.y, 0.0])

@@ -20,11 +20,11 @@ from datmo_tools.text_table import rounded
 
 DESCRIPTION = """\
 Scores the tracks of a result of run_bag against positions that were labeled in the recording, as
-messages of any type with `pose` and `id`: how many have a track within --gate, each track for one
-label and each label for one track, and how often a labeled id switches to another track. A label
-may have a header; without one it belongs to the last scan recorded before it, in that scan's frame.
+messages of any type with `pose` and `id`: how many have a track within --gate, matched one to one,
+and how often a labeled id switches to another track. A label may have a header; without one it
+belongs to the last scan recorded before it, in that scan's frame.
 
-Unlabeled objects are not scored: labels of some people do not show false tracks."""
+Unlabeled objects are not scored: if only some people are labeled, false tracks are not detected."""
 
 TRACKS = "/tracks"
 GATE = 0.5  # m
@@ -33,7 +33,7 @@ TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest li
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("result", type=Path, help="result of run_bag, with /tracks and /pose")
     add("recording", type=Path, help="the bag that it was made from, with the labels")
@@ -45,19 +45,19 @@ def add_arguments(parser):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     options = LabelOptions(values.labels, values.scan, values.frame, values.base)
     result = score(values.result, values.recording, options, values.gate)
     return result, sections(result)
 
 
 def score(run, recording, options, gate=GATE):
-    """Score as a dictionary that JSON can hold. Raises InputError."""
+    """Returns the score as a dictionary that JSON can hold. Raises InputError."""
     labels = read_labels(recording, run, options)
     if not labels:
         raise InputError(f"{recording}: no label of {options.topic} is of a scan, expected some")
     lists = read_track_lists(run, [TRACKS])[TRACKS]
-    # Of any type in the recording, in score_run's bags a number from 0 on.
+    # Of any type in the recording, but a number from 0 on in score_run's bags.
     ids = sorted({label.id for label in labels})
     labels = [label._replace(id=ids.index(label.id)) for label in labels]
     found, switches, distances = {name: [] for name in ids}, [], []
@@ -73,7 +73,7 @@ def score(run, recording, options, gate=GATE):
 
 
 def _matched(labels, lists, gate):
-    """Dictionary stamp (ns) -> FrameMatches of the labels there and the tracks nearest in time."""
+    """Returns a dictionary stamp (ns) -> FrameMatches of labels and the nearest tracks."""
     stamps = np.array([item.stamp for item in lists])
     options = {"align": "none", "moving_tracks_only": False, "truth/visible_to": "none",
                "truth/min_time_seen": 0.0, "region/range": EVERYWHERE, "matching/gate": gate,
@@ -125,7 +125,7 @@ def _result(count, found, switches, distances, gate):
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     median = result["median_distance_m"]
     return [Section(lines=[
         f"labeled positions with a track within {result['gate_m']:.2f} m: {result['found']} of "

@@ -27,7 +27,7 @@ DESCRIPTION = """\
 Scores the results of a run against ground truth: a table on the terminal, and in a folder a JSON
 file and an HTML page that needs no network, both named after the subcommand. If something cannot be
 scored, the message names what is missing in which file, and there is no report. evaluate SUBCOMMAND
---help says what is scored."""
+--help explains what is scored."""
 
 # Each has DESCRIPTION, add_arguments(parser), and evaluate(values): the score as a dictionary that
 # JSON can hold, and its sections.
@@ -53,7 +53,7 @@ def main(arguments=None, score_run=None):
     """Runs the command line; returns its exit code.
 
     score_run: the program that matches tracks and scores a run; by default the one that is
-    installed beside.
+    installed next to this.
     """
     values = _parser().parse_args(arguments)
     values.score_run = score_run

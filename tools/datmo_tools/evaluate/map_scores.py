@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Maps of what stands still against the true boxes on and beside the road: what is counted."""
+"""Counts what is right in maps of stationary objects, by the true boxes on and next to the road."""
 
 from typing import NamedTuple
 
@@ -8,24 +8,23 @@ import numpy as np
 from datmo_tools import transforms
 from datmo_tools.evaluate.grid_scores import UNDECIDED
 
-REACH = 30.0  # m about the vehicle: nearer than the map's border, and where sensors see
+REACH = 30.0  # m around the vehicle: within the map's border and the sensors' range
 
-# m inward from the curb: the curb itself, which is an obstacle to some sensors, is not asked of.
+# m inward from the curb: the curb itself, an obstacle to some sensors, is not scored.
 FROM_CURB = 0.6
 
-# m from the side of a box: a cell of the side itself may lie so far inside, whatever its size.
+# m from the side of a box: a cell of the side itself may be this far inside, whatever its size.
 INSIDE = 0.3
 
 
 class Boxes(NamedTuple):
     """Upright boxes, n."""
 
-    poses: np.ndarray  # n x 3: x, y, yaw (m, rad) of their middles
+    poses: np.ndarray  # n x 3: x, y, yaw (m, rad) of their centers
     sizes: np.ndarray  # n x 2, m
 
     def depths(self, points):
-        """m x n: how far (m) points (m x 2) are outside of each box, along its sides; negative:
-        inside."""
+        """Returns m x n: distances (m) of points (m x 2) outside of each box; negative: inside."""
         offsets = points[:, np.newaxis, :] - self.poses[np.newaxis, :, :2]
         cosine, sine = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
         along = cosine * offsets[..., 0] + sine * offsets[..., 1]
@@ -35,12 +34,12 @@ class Boxes(NamedTuple):
         )
 
     def nearest(self, points):
-        """The least of them for each point; infinite without a box."""
+        """Returns the least of them for each point; infinite without a box."""
         return self.depths(points).min(axis=1, initial=np.inf)
 
 
 class Moment(NamedTuple):
-    """What is true at the stamp of a map, as seen from the vehicle (base_link, m)."""
+    """The truth at the stamp of a map, as seen from the vehicle (base_link, m)."""
 
     standing: Boxes  # what never moves
     resting: Boxes  # what moves at other times
@@ -50,15 +49,15 @@ class Moment(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """Over some maps."""
+    """Counts over some maps."""
 
     occupied: int  # cells of the road
-    occupied_right: int  # of these, those within a cell of what stands still
+    occupied_right: int  # of these, those within a cell of a stationary object
     free: int  # cells of the road
-    free_right: int  # of these, those that are not in what stands still
-    things: int  # that stand still and have been seen, once in each map
+    free_right: int  # of these, those outside of stationary objects
+    things: int  # stationary ones that have been seen, once in each map
     things_found: int  # of these, those within a cell of an occupied one
-    poles: int  # thin ones of the things
+    poles: int  # thin ones of the objects
     poles_found: int
 
     def __add__(self, other):
@@ -69,13 +68,13 @@ NOTHING = Counts(*(0 for _ in Counts._fields))
 
 
 def count(grid, moment):
-    """Counts of one map (Grid, base_link at its stamp) at a Moment."""
+    """Returns the Counts of one map (Grid, base_link at its stamp) at a Moment."""
     occupied = _near(grid, grid.cells > UNDECIDED)
     free = _near(grid, (grid.cells >= 0) & (grid.cells < UNDECIDED))
     found = np.any(moment.standing.depths(occupied) <= grid.cell_size, axis=0)
     asked = moment.seen & (np.hypot(*moment.standing.poses[:, :2].T) <= REACH)
     on_road = occupied[moment.is_road(occupied)]
-    # What stands now and moves later may be in the map, or not yet, or still.
+    # What stands now and moves later may be in the map already, still, or not yet.
     on_road = on_road[moment.resting.nearest(on_road) > grid.cell_size]
     free = free[moment.is_road(free)]
     return Counts(
@@ -87,13 +86,13 @@ def count(grid, moment):
 
 
 def _near(grid, chosen):
-    """Middles (n x 2) of the chosen cells within REACH."""
+    """Returns the centers (n x 2) of the chosen cells within REACH."""
     rows, columns = np.nonzero(chosen)
     centers = grid.centers(np.column_stack([columns, rows]))
     return centers[np.hypot(centers[:, 0], centers[:, 1]) <= REACH]
 
 
 def boxes_from(base, items):
-    """Boxes of (x, y, yaw, length, width) in the truth's map (n x 5), seen from the pose `base`."""
+    """Transforms boxes of (x, y, yaw, length, width), n x 5, from the map to the pose `base`."""
     items = np.asarray(items, dtype=float).reshape(-1, 5)
     return Boxes(transforms.relative(base, items[:, :3]), items[:, 3:])

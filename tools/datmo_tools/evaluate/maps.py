@@ -37,14 +37,14 @@ pose does not count here.
 
 The road is the area between its curbs along the vehicle's path, {FROM_CURB:g} m from them, except at
 intersections; buildings are not in the truth. Objects that stand now and move at another time are
-left out."""
+not scored."""
 
-CONFLICT = 25  # percent, from which on map_fusion counts a cell (conflict_from)
+CONFLICT = 25  # percent, from which map_fusion counts a cell (conflict_from)
 NEAR_STAMP = 50_000_000  # ns, from a map to the truth
 
 
 class _Truth:
-    """What stands around the vehicle, at any stamp of a drive."""
+    """The stationary objects around the vehicle, at any stamp of a drive."""
 
     def __init__(self, path):
         objects = read_true_objects(path)
@@ -64,7 +64,7 @@ class _Truth:
         self._across = np.column_stack([-np.sin(stations.headings), np.cos(stations.headings)])
 
     def at(self, stamp):
-        """Moment at `stamp` (ns); None: no truth is near in time."""
+        """Returns the Moment at `stamp` (ns); None if no truth is near in time."""
         nearest = int(self._stamps[np.argmin(np.abs(self._stamps - stamp))])
         if abs(nearest - stamp) > NEAR_STAMP:
             return None
@@ -98,8 +98,8 @@ def _box(item):
 
 
 def score(run, drive, topic="/map/fused", conflicts="/map/conflicts"):
-    """Score of the maps on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
-    dictionary that JSON can hold. Raises InputError, also if no map has truth near in time."""
+    """Returns the score of the maps on `topic` in the bag `run` (Path) against the drive's bag
+    (Path), as a dictionary that JSON can hold. Raises InputError, also without such truth."""
     truth = _Truth(drive)
     counts, maps = NOTHING, 0
     for stamp, grid in base_grids(run, topic):
@@ -120,13 +120,13 @@ def score(run, drive, topic="/map/fused", conflicts="/map/conflicts"):
 
 
 def _conflicts(run, topic):
-    """Mean number of cells in conflict of a map; None: nobody publishes them."""
+    """Returns the mean number of cells in conflict of a map; None if they are not published."""
     numbers = [int(np.sum(grid.cells >= CONFLICT)) for _, _, grid in grid_messages(run, topic)]
     return float(np.mean(numbers)) if numbers else None
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     rows = [[result["topic"], "right", "of"]]
     for name, right, of in (
         ("occupied", "occupied_right", "occupied"),
@@ -140,18 +140,18 @@ def sections(result):
 
 
 def share(result, right, of):
-    """Of two counts of a score; None where there is nothing."""
+    """Formats two counts of a score; None if there is nothing."""
     return result[right] / result[of] if result[of] else None
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     result = score(values.run, values.drive, values.topic, values.conflicts)
     return result, sections(result)
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag, with --map-fusion or without")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of simulate")

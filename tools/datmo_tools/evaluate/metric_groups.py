@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of score_run that are shown: their names and units, in groups.
 
-The definitions are score_run's; the papers named here are where they come from.
+The definitions are score_run's; the papers named here are their sources.
 """
 
 import math
@@ -34,7 +34,7 @@ def _degrees(name, path, digits=1):
 
 
 def _consistency(quantity, path, degrees_of_freedom):
-    """NEES of a quantity, and what has none."""
+    """Returns the NEES metrics of a quantity, and the number of states without one."""
     name = f"NEES of {quantity}, {degrees_of_freedom} is consistent"
     return (
         Metric(name, f"{path}.mean_nees", "", 1.0, 2, near(float(degrees_of_freedom))),
@@ -43,7 +43,7 @@ def _consistency(quantity, path, degrees_of_freedom):
 
 
 def _attainable(name, path):
-    """Of the objects of a class, or of all."""
+    """Returns the delay metrics of the objects of a class, or of all."""
     return (
         Metric(f"{name}: attainable, median", f"{path}.attainable_s.median", "s", 1.0, 2),
         Metric(f"{name}: excess, median", f"{path}.excess_s.median", "s", 1.0, 2, lower),
@@ -228,7 +228,7 @@ STANDING_METRICS = (
 
 
 def metric_groups(runs):
-    """What the runs hold: METRIC_GROUPS, the pose's relative errors, attainable delays, times."""
+    """Returns METRIC_GROUPS, the pose's relative errors, attainable delays, and times."""
     return [
         group._replace(metrics=group.metrics + _relative_errors(runs))
         if group.title.startswith("Pose")
@@ -238,12 +238,12 @@ def metric_groups(runs):
 
 
 def _attainable_delays(runs):
-    """Where score_run was given the scans."""
+    """Returns the delays, if score_run was given the scans."""
     return [ATTAINABLE_GROUP] if any(run.get("attainable") for run in runs) else []
 
 
 def _relative_errors(runs):
-    """Metrics of the errors over each distance; the runs are scored over the same ones."""
+    """Returns metrics of the errors over each distance, which is the same for all runs."""
     metrics = []
     for i, item in enumerate((runs[0].get("pose") or {}).get("relative") or []):
         over = f"error over {item['distance_m']:.0f} m"
@@ -254,7 +254,7 @@ def _relative_errors(runs):
 
 
 def _timing(runs):
-    """Of each stage how long it took, and since the scan, where that is known."""
+    """Returns how long each stage took, and since the scan if that is known."""
     metrics = tuple(
         Metric(f"{stage}{what}, {name}", f"timing.{stage}{path}.{key}", "ms", 1.0, 2, lower)
         for stage in sorted({stage for run in runs for stage in run.get("timing") or {}})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A figure of score_run as a reader sees it: name, unit, and which run is best in it.
+"""A figure of score_run as shown to a reader: name, unit, and which run is the best.
 
 A run is the dictionary that score_run wrote. A figure without a sample is None there, and "-" here.
 """
@@ -36,11 +36,11 @@ class Metric(NamedTuple):
     path: str  # keys in the run, with dots between them
     unit: str = ""
     scale: float = 1.0  # shown = stored * scale
-    digits: int = 0  # behind the point
-    cost: Optional[Callable] = None  # the lower the better; None: neither
+    digits: int = 0  # after the decimal point
+    cost: Optional[Callable] = None  # the lower, the better; None: neither is better
 
     def value(self, item):
-        """The figure of `item` (a run, or one of its objects) in the shown unit, or None."""
+        """Returns the figure of `item` (a run or one of its objects) in the shown unit, or None."""
         for key in self.path.split("."):
             if isinstance(item, list):
                 item = dict(enumerate(item))
@@ -48,16 +48,16 @@ class Metric(NamedTuple):
         return None if item is None else item * self.scale
 
     def text(self, value):
-        """A value as it is shown; without its unit."""
+        """Formats a value without its unit."""
         if value is None or not math.isfinite(value):
             return NO_VALUE
         return f"{value:.{self.digits}f}"
 
 
 def best_runs(metric, runs):
-    """Indices of the runs that are best in `metric`; empty where there is nothing to choose.
+    """Returns the indices of the runs that are best in `metric`; empty without a choice.
 
-    Runs that look the same in the table are equally good.
+    Runs with equal values in the table are equally good.
     """
     shown = {i: metric.text(metric.value(run)) for i, run in enumerate(runs)}
     shown = {i: text for i, text in shown.items() if text != NO_VALUE}
@@ -68,14 +68,14 @@ def best_runs(metric, runs):
 
 
 def extent(run):
-    """How long a run is, and what could not be scored of it, in words."""
+    """Describes the length of a run, and what could not be scored of it."""
     left_out = run["messages_left_out"]
     rest = f", {left_out} messages without known truth or pose left out" if left_out else ""
     return f"{run['duration_s']:.1f} s, {run['frames']} frames, {run['tracks']} tracks{rest}"
 
 
 def short_names(paths):
-    """A name for each run: its file's without ending, and as many folders as make them unique."""
+    """Returns a name for each run: the file's stem, with as many folders as make it unique."""
     parts = [path.replace("\\", "/").split("/") for path in paths]
     parts = [[*folders, _without_ending(name)] for *folders, name in parts]
     count = 1

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Single messages out of a long bag: those whose stamps are nearest to some stamps.
+"""Reads single messages of a long bag: those whose stamps are nearest to given stamps.
 
-Only these are unpacked, which is what takes long in Python.
+Only these are deserialized, which is what takes long in Python.
 """
 
 import bisect
@@ -10,18 +10,18 @@ import struct
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 
-_HEADER = struct.Struct("<III")  # how a message with a header begins: sequence number, s, ns
+_HEADER = struct.Struct("<III")  # the begin of a message with a header: sequence number, s, ns
 
 
 def topics_of(path):
-    """Dictionary topic -> type of message of the bag at `path` (Path). Raises InputError."""
+    """Returns a dictionary topic -> message type of the bag at `path` (Path). Raises InputError."""
     with opened(path) as bag:
         topics = bag.get_type_and_topic_info().topics
     return {topic: info.msg_type for topic, info in topics.items()}
 
 
 def check_kinds(path, topics, kinds):
-    """Raises InputError where a topic has another type than it should.
+    """Raises InputError if a topic has another type than expected.
 
     topics: of topics_of(); kinds: dictionary topic -> type of message.
     """
@@ -31,16 +31,16 @@ def check_kinds(path, topics, kinds):
 
 
 def stamps_of(path, topic):
-    """Rising list of the stamps (ns) of the messages on a topic, each once."""
+    """Returns the increasing stamps (ns) of the messages on a topic, each once."""
     with opened(path) as bag:
         return sorted({_stamp(raw[1]) for _, raw, _ in bag.read_messages([topic], raw=True)})
 
 
 def nearest_messages(path, topics, stamps, tolerance=0):
-    """Dictionary topic -> {stamp of `stamps`: the nearest message on it}.
+    """Returns a dictionary topic -> {stamp of `stamps`: the nearest message on it}.
 
-    topics: of messages with a header; stamps: rising, ns; tolerance: ns, a stamp that no message is
-    as near to has none. Of equally near messages the last one in the bag counts.
+    topics: of messages with a header; stamps: increasing, ns; tolerance: ns, a stamp without a
+    message this near is left out. Of equally near messages the last one in the bag counts.
     """
     found = {topic: {} for topic in topics}
     with opened(path) as bag:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lists of objects as run_bag writes them."""
+"""Reads lists of objects as written by run_bag."""
 
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ OBJECT_ARRAY, TRACK_ARRAY = "datmo_fusion/ObjectArray", "datmo_fusion/TrackArray
 
 
 class Seen(NamedTuple):
-    """One object that a sensor sees; poses in base_link at the stamp of its list."""
+    """One object seen by a sensor; poses in base_link at the stamp of its list."""
 
     pose: np.ndarray  # x, y (m), yaw (rad) of the box's center
     size: np.ndarray  # m: length along the heading, width
@@ -25,12 +25,12 @@ class Seen(NamedTuple):
 
     @property
     def range(self):
-        """Of the center, m from base_link."""
+        """Returns the center's distance, m from base_link."""
         return float(np.hypot(*self.pose[:2]))
 
     @property
     def is_finite(self):
-        """But for sides, which are infinite where they are hidden."""
+        """Whether all values are finite, except sides, which are infinite if hidden."""
         parts = (self.pose, self.size, self.covariance.ravel(), [self.delay])
         return bool(np.all(np.isfinite(np.concatenate(parts)))) and not np.any(
             np.isnan(self.side_variance)
@@ -46,7 +46,7 @@ class SeenList(NamedTuple):
 
     @property
     def viewpoint(self):
-        """From where ranges are counted: of the first sensor, or base_link."""
+        """Returns the origin of ranges: the first sensor, or base_link."""
         return next(iter(self.viewpoints.values()), (0.0, 0.0))
 
 
@@ -59,9 +59,9 @@ class MovingBox(NamedTuple):
 
 
 def read_lists(path, topics):
-    """Dictionary topic -> list of SeenList in the order of the bag, of topics that have any.
+    """Returns a dictionary topic -> list of SeenList in the order of the bag, without empty ones.
 
-    Objects with a position, size or covariance that is not finite are left out, as in the stack.
+    Objects with a position, size or covariance that is not finite are ignored, as in the stack.
 
     Raises InputError for another type.
     """
@@ -76,9 +76,9 @@ def read_lists(path, topics):
 
 
 def read_moving_boxes(path, topic):
-    """Dictionary stamp (ns) -> list of MovingBox: the tracks that move, in the map.
+    """Returns a dictionary stamp (ns) -> list of MovingBox: the moving tracks, in the map.
 
-    Raises InputError for another type, and where there are none.
+    Raises InputError for another type, and if there are none.
     """
     boxes = {}
     for message, kind in read_messages(path, topic):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Objects that two sensors saw, brought to one time and paired by where they are."""
+"""Predicts objects of two sensors to one time, and pairs them by position."""
 
 from typing import NamedTuple
 
@@ -12,30 +12,30 @@ from datmo_tools.evaluate.object_scores import NEAR_ACROSS, NEAR_ALONG, THESIS_G
 from datmo_tools.evaluate.outlines import Outline, offset
 from datmo_tools.stamps import NANOSECONDS
 
-# From an image to the scan that is nearest in time, s: more than half a turn of a slow scanner.
+# s, from an image to the scan nearest in time: more than half a turn of a slow scanner.
 MAX_GAP = 0.1
 
-TRACK_MARGIN = 1.0  # m: a track's object lies within its box, or so much beside it
-SIZE_DIFFERENCE = 1.5  # m: between the widths that two sensors see; two beams of 2 degrees at 20 m
+TRACK_MARGIN = 1.0  # m: a track's object is in its box, or this far outside
+SIZE_DIFFERENCE = 1.5  # m: between the widths of two sensors; two beams of 2 degrees at 20 m
 
 
 class Pair(NamedTuple):
-    """One object, as both sensors saw it; NaN: not both saw what is compared."""
+    """One object, as seen by both sensors; NaN: not seen by both."""
 
-    range: float  # m from the camera to the middle of its box, as the camera says
-    range_difference: float  # m, the camera's less the lidar's
+    range: float  # m from the camera to the center of its box, by the camera
+    range_difference: float  # m, the camera's minus the lidar's
     bearing_difference: float  # rad
     known_range_variance: float  # m^2: of the lidar, and of the sides that the camera saw
     known_bearing_variance: float  # rad^2
 
 
 class Counts(NamedTuple):
-    """What became of the lidar's objects that are tracked as moving, at the stamps of images."""
+    """What happened to the lidar's objects that are tracked as moving, at the stamps of images."""
 
     objects: int = 0
     alone: int = 0  # no object of the camera is near, or it is nearer to another one
     unlike: int = 0  # class or size differ
-    hidden: int = 0  # nothing of them that both saw
+    hidden: int = 0  # no part of them was seen by both
     paired: int = 0
 
     def __add__(self, other):
@@ -50,13 +50,13 @@ class Observation(NamedTuple):
     velocity: np.ndarray  # m/s over ground: vx, vy
 
     def at(self, seconds):
-        """Seen as it would have been then."""
+        """Returns the Seen predicted to that stamp."""
         displacement = self.velocity * (seconds - self.seconds)
         return self.item._replace(pose=self.item.pose + np.append(displacement, 0.0))
 
 
 def paired_objects(lidar_lists, camera_lists, tracks, path):
-    """List of Pair, and Counts.
+    """Returns a list of Pair, and Counts.
 
     lidar_lists, camera_lists: of SeenList; tracks: dictionary stamp of a scan (ns) -> list of
     MovingBox; path: PosePath of the vehicle.
@@ -77,12 +77,12 @@ def paired_objects(lidar_lists, camera_lists, tracks, path):
 
 
 def _delay(item):
-    """Of the objects of a list, ns."""
+    """Returns the stamps of a list's objects, ns."""
     return np.median([seen.delay for seen in item.objects] or [0.0]) * NANOSECONDS
 
 
 def _observations(lidar, boxes, stamp, path):
-    """Of a list's objects that a track is on, as seen from the vehicle at `stamp` (ns)."""
+    """Returns a list's objects with a track, as seen from the vehicle at `stamp` (ns)."""
     pose_then, pose_now = path.at(lidar.stamp), path.at(stamp)
     late = (lidar.stamp - stamp) / NANOSECONDS
     turn = transforms.relative(pose_now, pose_then)[2]
@@ -107,7 +107,7 @@ def _rotation(angle):
 
 
 def _box_on(pose, boxes):
-    """The MovingBox whose middle is nearest, of those that contain a position (x, y, ..., m)."""
+    """Returns the nearest MovingBox, by center, of those that contain a position (x, y, ..., m)."""
     near = [
         (np.hypot(*(box.pose[:2] - pose[:2])), i)
         for i, box in enumerate(boxes)
@@ -117,7 +117,7 @@ def _box_on(pose, boxes):
 
 
 def _pairs(observations, camera):
-    """One image's."""
+    """Returns the pairs of one image."""
     outlines = [Outline(item, camera.viewpoint) for item in camera.objects]
     others = [
         [Outline(observation.at(item.delay), camera.viewpoint) for item in camera.objects]
@@ -144,7 +144,7 @@ def _pairs(observations, camera):
 
 
 def _mutual(distances):
-    """(row, column) of those that are each other's nearest."""
+    """Returns (row, column) of those that are each other's nearest."""
     if distances.size == 0:
         return []
     nearest = distances.argmin(axis=1)
@@ -156,7 +156,7 @@ def _mutual(distances):
 
 
 def _scaled_distance(seen, position):
-    """1: at the gate, an ellipse along the line of sight to `position`; both about the sensor."""
+    """Returns the distance; 1: at the gate, an ellipse along the line of sight to `position`."""
     reach = max(float(np.hypot(*position)), np.finfo(float).tiny)
     along = position / reach
     apart = seen - position
@@ -165,7 +165,7 @@ def _scaled_distance(seen, position):
 
 
 def _alike(one, other):
-    """Longer sides may be seen in part."""
+    """Whether sizes are compatible; longer sides may be seen only partly."""
     classes = {one.classification, other.classification} - {Object.CLASS_UNKNOWN}
     shorter = min(one.size), min(other.size)
     return len(classes) <= 1 and abs(shorter[0] - shorter[1]) <= SIZE_DIFFERENCE

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of evaluate of one run's objects: who was tracked when and by which id, and where.
+"""Plots one run's objects for evaluate: which were tracked when and by which id, and where.
 
 Each function returns an SVG element.
 """
@@ -12,15 +12,15 @@ ROW = 0.2  # inch
 BAR = 0.76  # of a row
 PALE = 0.3  # opacity of what does not count
 MIN_HEIGHT, MAX_HEIGHT = 3.0, 9.0  # inch, of the map
-ID_SHARE = 0.025  # of the time shown: a shorter bar has no room for its id
+ID_SHARE = 0.025  # of the shown time: a shorter bar has no room for its id
 JITTER = 0.5  # of a period: a later frame is not the next one
 
 
 def timeline(run):
-    """A row for each object; its bar changes color where another track takes over.
+    """Draws a row for each object; its bar changes color when another track takes over.
 
-    Pale is a track on an object that did not have to be found then. Objects that neither had to be
-    found nor have a track are left out.
+    Pale is a track on an object that did not have to be found at that time. Objects that neither
+    had to be found nor have a track are left out.
     """
     paths = sorted(filter(_concerns, run["series"]["true_paths"]), key=_first_concern)
     period = _period(run)
@@ -42,7 +42,7 @@ def _concerns(path):
 
 
 def _first_concern(path):
-    """When it first has to be found or has a track, s."""
+    """Returns when it first has to be found or has a track, s."""
     samples = zip(path["time_s"], path["required"], path["track_id"])
     return next(time for time, required, number in samples if required or number is not None)
 
@@ -66,16 +66,16 @@ def _draw_row(ax, y, path, period, room):
 
 
 def _draw_bars(ax, y, bars, **style):
-    """bars: as of spans. One call for all: each is slow."""
+    """bars: see spans. One call for all, as each is slow."""
     where = [(begin, end - begin) for begin, end, _ in bars]
     if where:
         ax.broken_barh(where, (y - 0.5 * BAR, BAR), linewidth=0, **style)
 
 
 def spans(times, keys, period):
-    """Stretches of one key: list of (begin, end, key); a sample lasts one `period`.
+    """Returns segments of one key: list of (begin, end, key); a sample lasts one `period`.
 
-    times: rising; keys: of the samples, None where there is nothing to show.
+    times: increasing; keys: of the samples, None if there is nothing to show.
     """
     found = []
     for time, key in zip(times, keys):
@@ -89,7 +89,7 @@ def spans(times, keys, period):
 
 
 def birds_eye(run):
-    """Paths of the vehicle, of the true objects and of the tracks, x to the right."""
+    """Draws the paths of the vehicle, of the true objects and of the tracks, x to the right."""
     series = run["series"]
     on_truth = {number for path in series["true_paths"] for number in path["track_id"]}
     xy = [_xy(path) for path in [series["ego_true"], *series["true_paths"]]]
@@ -115,7 +115,7 @@ def birds_eye(run):
 
 
 def _map_height(xy):
-    """Height (inch) at which the map fills the figure's width, within limits."""
+    """Returns the height (inch) at which the map fills the figure's width, within limits."""
     finite = xy[:, np.isfinite(xy).all(axis=0)]
     if finite.size == 0:
         return MIN_HEIGHT
@@ -128,7 +128,7 @@ def _line(ax, path, label, **style):
 
 
 def _required_part(path):
-    """The path, interrupted where the object does not have to be found."""
+    """Returns the path, interrupted where the object does not have to be found."""
     return {
         key: [value if duty else None for value, duty in zip(path[key], path["required"])]
         for key in ("x_m", "y_m")
@@ -136,25 +136,25 @@ def _required_part(path):
 
 
 def _write_number(ax, path):
-    """The object's id where it is first seen."""
+    """Writes the object's id where it is first seen."""
     if path["x_m"]:
         position = (path["x_m"][0], path["y_m"][0])
         ax.annotate(str(path["id"]), position, fontsize=7, color="#475569", clip_on=True)
 
 
 def _legend_of_kinds(ax):
-    """One entry a kind of line, above the map."""
+    """Draws one legend entry per kind of line, above the map."""
     handles = dict(zip(*reversed(ax.get_legend_handles_labels())))
     position = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
     ax.legend(list(handles.values()), list(handles), ncol=len(handles), **position)
 
 
 def _xy(path):
-    """Array of 2 x n, m."""
+    """Returns an array of 2 x n, m."""
     return np.array([path["x_m"], path["y_m"]], dtype=float)
 
 
 def _period(run):
-    """Median time between two frames, s."""
+    """Returns the median time between two frames, s."""
     steps = np.diff(run["series"]["time_s"])
     return float(np.median(steps)) if len(steps) else run["duration_s"]

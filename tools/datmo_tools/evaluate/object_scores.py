@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Objects of one measurement against true ones: what is found, what is false, how far off."""
+"""Scores objects of one measurement against true ones: found, false, and their errors."""
 
 import json
 import sys
@@ -15,14 +15,14 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.outlines import Outline, corners, offset
 
-# An object is near a true one within this of its box: across the line of sight, and along it, where
-# it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
+# An object is near a true one within this distance of its box: across the line of sight, and along
+# it, where it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
 NEAR_ACROSS = 1.0  # m
 NEAR_ALONG = 1.0  # m, at least
 
-THESIS_GATE = 5.0 / 36.0  # m for each meter of range: up to here a stereo object is the lidar's
+THESIS_GATE = 5.0 / 36.0  # m per meter of range: up to here a stereo object is the lidar's
 
-CENTER_WEIGHT = 1e-6  # 1/m: decides between equal distances alone
+CENTER_WEIGHT = 1e-6  # 1/m: decides only between equal distances
 
 # 95 % of chi-square with two degrees of freedom.
 GATE_95 = 5.991
@@ -36,27 +36,27 @@ class TrueState(NamedTuple):
     velocity: np.ndarray  # m/s over ground: vx, vy
     classification: int  # Object.CLASS_*
     moving: bool
-    asked: bool  # it has to be found: in the region, and seen by the sensor
+    asked: bool  # it has to be found: in the region, and visible to the sensor
     source: object = None  # the TrueObject that it comes from
 
     @property
     def range(self):
-        """Of the center, m from base_link."""
+        """Returns the center's distance, m from base_link."""
         return float(np.hypot(*self.pose[:2]))
 
     def after(self, delay):
-        """The same so much later (s)."""
+        """Returns the state predicted by this time (s)."""
         moved = np.append(self.pose[:2] + self.velocity * delay, self.pose[2])
         return self._replace(pose=moved)
 
     def box(self):
-        """As a sensor that sees it exactly would see it."""
+        """Returns it as an ideal sensor would see it."""
         exact = np.zeros((2, 2)), np.zeros(4)
         return Seen(self.pose, self.size, *exact, self.classification, 0.0)
 
 
 class Errors(NamedTuple):
-    """How far an object's near side is from that of the true object it is of; NaN: not seen."""
+    """Error of an object's near side relative to the true object it is of; NaN: not seen."""
 
     along: float  # m, along the line of sight: positive is too far
     across: float  # m, to the left
@@ -64,14 +64,14 @@ class Errors(NamedTuple):
 
 
 class ListScore(NamedTuple):
-    """What became of one list."""
+    """The matches of one list."""
 
-    matches: list  # of (index of the object, index of the true one, Errors), no index twice
+    matches: list  # of (index of the object, index of the true one, Errors), each index once
     near: np.ndarray  # n objects: whether a true object is near
 
 
 class ListWithTruth(NamedTuple):
-    """A list of objects and what was true at its stamp."""
+    """A list of objects and the truth at its stamp."""
 
     objects: list  # of Seen
     truths: list  # of TrueState
@@ -79,8 +79,8 @@ class ListWithTruth(NamedTuple):
 
 
 def score_lists(lists):
-    """ListScore of each ListWithTruth. Matches: as many pairs as can be, each object and each true
-    one once, with the least sum of distances; of equal ones that with the nearer centers. Raises
+    """Returns the ListScore of each ListWithTruth. Matches: as many pairs as possible, one to one,
+    with the least sum of distances; of equal ones, that with the nearer centers. Raises
     InputError."""
     distances = [_distances(item) for item in lists]
     candidates = [_candidates(*both) for both in zip(lists, distances)]
@@ -92,7 +92,7 @@ def score_lists(lists):
 
 
 def _distances(given):
-    """scaled_distance of each object from each true one, infinity: surely not near."""
+    """Returns scaled_distance of each object from each true one; infinite: surely not near."""
     objects, truths, viewpoint = given
     distances = np.full((len(objects), len(truths)), np.inf)
     positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
@@ -107,8 +107,8 @@ def _distances(given):
 
 
 def scaled_distance(point, truth, viewpoint):
-    """Distance of a point (x, y) from the box of a TrueState, 0 inside; 1 is as far as near goes,
-    along the line of sight and across it."""
+    """Returns the distance of a point (x, y) from the box of a TrueState, 0 inside; scaled to 1 at
+    the limit of near, along the line of sight and across it."""
     ray = np.asarray(point) - np.asarray(viewpoint)
     reach = float(np.hypot(*ray))
     along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
@@ -119,13 +119,13 @@ def scaled_distance(point, truth, viewpoint):
 
 
 def _along_gate(point, viewpoint):
-    """m; never less than across."""
+    """Returns the limit of near along the line of sight, m; at least that across."""
     reach = float(np.hypot(*(np.asarray(point) - np.asarray(viewpoint))))
     return max(NEAR_ALONG, THESIS_GATE * reach)
 
 
 def _candidates(given, distances):
-    """What is near: list of [object, true one, gain]."""
+    """Returns what is near: list of [object, true one, gain]."""
     objects, truths, _ = given
     is_near = distances <= 1.0
     centers = [[np.hypot(*(item.pose[:2] - truth.pose[:2])) for truth in truths] for item in objects]
@@ -136,7 +136,7 @@ def _candidates(given, distances):
 
 
 def _chosen(candidates):
-    """Of each list the pairs (object, true one) that score_run's matcher takes."""
+    """Returns for each list the pairs (object, true one) chosen by score_run's matcher."""
     with tempfile.TemporaryDirectory(prefix="choose_pairs_") as folder:
         file = Path(folder) / "lists.json"
         file.write_text(json.dumps(candidates), encoding="utf-8")
@@ -149,7 +149,7 @@ def _chosen(candidates):
 
 
 def _errors(item, truth, viewpoint):
-    """Of what the object saw of its near side."""
+    """Returns the Errors of the part of its near side that the object saw."""
     there = truth.after(item.delay).box()
     apart = offset(Outline(item, viewpoint), Outline(there, viewpoint))
     nees = np.nan

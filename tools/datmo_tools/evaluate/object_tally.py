@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sums over lists of objects: shares by class and by range, and statistics of the errors."""
+"""Tallies lists of objects: shares by class and by range, and statistics of the errors."""
 
 import numpy as np
 
@@ -20,22 +20,22 @@ SEEN_GROUPS = (*CLASSES, ALL)
 
 
 class ObjectTally:
-    """What came of the lists of one topic."""
+    """Counts and errors of the lists of one topic."""
 
     def __init__(self, edges):
-        """edges: of the bands of range, m, rising."""
+        """edges: of the bands of range, m, increasing."""
         self.edges = list(edges)
         bands = len(self.edges) - 1
         self.lists = 0
         self._asked, self._found = _zeros(TRUE_GROUPS, bands), _zeros(TRUE_GROUPS, bands)
         self._seen, self._near = _zeros(SEEN_GROUPS, bands), _zeros(SEEN_GROUPS, bands)
         self._doubles = np.zeros(bands, int)
-        # By true and by said class, of the objects that are one that is asked.
+        # By true and by reported class, of the objects that match one that has to be found.
         self._said = {name: dict.fromkeys(CLASSES, 0) for name in CLASSES}
         self._errors = [[] for _ in range(bands)]
 
     def add(self, objects, truths, score, region):
-        """objects, truths, score: as in score_lists; region: in which objects count."""
+        """Adds a list. objects, truths, score: as in score_lists; region: where objects count."""
         self.lists += 1
         found = {j: i for i, j, _ in score.matches}
         matched = {i for i, _, _ in score.matches}
@@ -64,7 +64,7 @@ class ObjectTally:
                 self._errors[band].append(errors)
 
     def result(self):
-        """Dictionary that JSON can hold."""
+        """Returns a dictionary that JSON can hold."""
         lists = max(self.lists, 1)
         return {
             "lists": self.lists,
@@ -84,13 +84,13 @@ class ObjectTally:
         }
 
     def _band(self, distance):
-        """Index; None: beyond them."""
+        """Returns the index of the distance's band; None if it is outside of all bands."""
         band = int(np.searchsorted(self.edges, distance, side="right")) - 1
         return band if 0 <= band < len(self.edges) - 1 else None
 
 
 def _name(item):
-    """Of the class of an object or a true one; a number that is none is not known."""
+    """Returns the class name of an object or a true one; "unknown" for an invalid number."""
     return NAMES.get(item.classification, "unknown")
 
 
@@ -99,7 +99,7 @@ def _zeros(groups, bands):
 
 
 def _shares(counts, of):
-    """By band, and at the end of all bands together."""
+    """Returns counts and shares by band, the last one of all bands together."""
     counts = [*map(int, counts), int(np.sum(counts))]
     of = [*map(int, of), int(np.sum(of))]
     shares = [count / total if total else None for count, total in zip(counts, of)]
@@ -112,7 +112,7 @@ def _class_right(name, said):
 
 
 def _statistics(errors):
-    """Of the errors of one band: each of those that know it."""
+    """Returns statistics of one band's errors, each from the errors that have the quantity."""
     columns = np.array(errors).reshape(-1, 3).T
     along, across, nees = (column[np.isfinite(column)] for column in columns)
     return {

@@ -31,23 +31,23 @@ An object is near if it lies, with the nearest point in the middle of its bearin
 the true box across the line of sight, and within 1 m, or 5 m x range / 36 m if that is more, along
 it (thesis 3.3.3). A true object is found by one object only; others near it are doubles.
 
-KITTI's labels cover only the camera's view, and do not tell which sensor sees what:
+KITTI's labels cover only the camera's view, and do not state which sensor sees what:
 --visible-to none --half-angle 0.7."""
 
-# The sensor that must see a true object for it to be asked of a topic.
+# The sensor that must see a true object for it to count for a topic.
 SENSORS = {"/objects": "scanner", "/objects/stereo": "stereo", "/objects/mono": ANY,
            "/objects/fused": ANY}  # fmt: skip
 
-BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they lie within --range
+BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they are within --range
 RANGE = 36.0  # m; thesis 3.3.3
 
 
 def score(run, drive=None, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
-    """Score of the objects in the bag `run` (Path) as a dictionary that JSON can hold.
+    """Returns the score of the objects in the bag `run` (Path) as a dictionary that JSON can hold.
 
-    drive: bag with the truth (Path), by default `run`; topics: those of SENSORS that are there by
-    default; visible_to: sensor that must see a true object, by default that of SENSORS;
-    moving_only: what stands is not asked. Raises InputError, also where nothing can be scored.
+    drive: bag with the truth (Path), by default `run`; topics: by default those of SENSORS in the
+    bag; visible_to: sensor that must see a true object, by default that of SENSORS; moving_only:
+    stationary true objects need not be found. Raises InputError, also if nothing can be scored.
     """
     drive = drive or run
     lists = read_lists(run, topics or SENSORS)
@@ -87,7 +87,7 @@ def _score_topic(lists, truth, asked):
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     return [section for topic in result["topics"].items() for section in _of_topic(*topic)]
 
 
@@ -139,21 +139,21 @@ def _mean_and_sd(item, key):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     result = score(values.run, values.truth, values.topic, values.visible_to, region_of(values),
                    values.moving_only)  # fmt: skip
     return result, sections(result)
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
     add_truth(parser)
     add("--topic", action="append",
         help=f"of objects; may be repeated (default: {', '.join(SENSORS)}, if there)")  # fmt: skip
     add("--visible-to", metavar="SENSOR",
-        help=f"that must see a true object, {ANY}, or {NONE}: not asked (default: scanner for "
+        help=f"that must see a true object, {ANY}, or {NONE}: not required (default: scanner for "
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
     add("--moving-only", action="store_true", help="stationary true objects need not be found")
     add_region(parser, RANGE)

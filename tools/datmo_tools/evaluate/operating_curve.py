@@ -20,17 +20,17 @@ Plots missed frames against false tracks per minute for increasing values of the
 motion that the tracker requires.
 
 Each drive, with its truth, is run and scored at each probability, and at the shipped one, which the
-curve marks: that of the configuration, or the default. The plot is also written as a bitmap beside
+curve marks: that of the configuration, or the default. The plot is also written as a bitmap next to
 the report."""
 
 KEYS = ("tracker", "target", "motion_likelihood", "required_probability")
-OF_SCORE_RUN = "attainable/required_probability"  # whose default is the tracker's
+OF_SCORE_RUN = "attainable/required_probability"  # has the tracker's default
 PROBABILITIES = [0.5, 0.65, 0.8, 0.9, 0.95, 0.99]
 SECONDS = 60.0  # of a minute
 
 
 def evaluate(values):
-    """The points, of each drive and of all together, and their sections. Raises InputError."""
+    """Returns the points, of each drive and of all, and their sections. Raises InputError."""
     _check(values.probabilities)
     try:
         from datmo_tools.evaluate.curve_plot import curve_drawing, curve_picture
@@ -51,7 +51,7 @@ def evaluate(values):
 
 
 def shipped_probability(settings, default):
-    """What the last of the `settings` (dictionaries of yaml files) that names it requires."""
+    """Returns what the last of the `settings` (dictionaries of yaml files) that has it requires."""
     found = default
     for setting in settings:
         for key in KEYS:
@@ -61,7 +61,7 @@ def shipped_probability(settings, default):
 
 
 def with_probability(preset, probability):
-    """A copy of a preset (dictionary of a yaml file) that requires this probability."""
+    """Returns a copy of a preset (dictionary of a yaml file) that requires this probability."""
     result = dict(preset)
     inner = result
     for key in KEYS[:-1]:
@@ -72,7 +72,7 @@ def with_probability(preset, probability):
 
 
 def tally(drive, scored):
-    """What one score (dictionary of score_run) says of the curve."""
+    """Returns the point of the curve from one score (dictionary of score_run)."""
     return {
         "drive": drive,
         "misses": scored["clear_mot"]["misses"],
@@ -83,7 +83,7 @@ def tally(drive, scored):
 
 
 def rates(drives):
-    """Share of missed frames and false tracks a minute of drives together; None: of nothing."""
+    """Returns the share of missed frames and the false tracks per minute of all drives, or None."""
     required = sum(drive["required"] for drive in drives)
     minutes = sum(drive["duration_s"] for drive in drives) / SECONDS
     misses = sum(drive["misses"] for drive in drives)
@@ -140,13 +140,13 @@ def _section(result):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("bags", nargs="+", type=Path, metavar="DRIVE.bag", help="drives with truth")
-    add("--config", type=Path, required=True, metavar="FILE.yaml", help="as run_bag takes it")
-    add("--preset", type=Path, metavar="FILE.yaml", help="the same")
-    add("--road-border", action="store_true", help="the same")
+    add("--config", type=Path, required=True, metavar="FILE.yaml", help="sensor set of run_bag")
+    add("--preset", type=Path, metavar="FILE.yaml", help="preset of run_bag")
+    add("--road-border", action="store_true", help="of run_bag")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
-    add("--run-bag", metavar="PROGRAM", help="in place of the run_bag that is beside")
+    add("--run-bag", metavar="PROGRAM", help="instead of the run_bag next to this")
     add("--probabilities", nargs="+", type=command_line.number, default=PROBABILITIES, metavar="P",
         help="required probabilities of motion, 0.5 to 1 (default %(default)s)")  # fmt: skip

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a sensor sees of a box, and how far two boxes are apart that are one object.
+"""What a sensor sees of a box, and the distance of two boxes of one object.
 
 Sensors see different parts of an object, but they all see its near side ("middle point of the
-front line segment", thesis 3.3.2). Compared is what both saw: its range in the middle of the
-bearings that both boxes have in common, and the bearings of its corners.
+front line segment", thesis 3.3.2). Compared is what both saw: the range in the middle of the
+bearings that both boxes share, and the bearings of the corners.
 """
 
 from typing import NamedTuple
@@ -12,31 +12,31 @@ import numpy as np
 
 from datmo_tools import transforms
 
-# Corners in turn: front left, rear left, rear right, front right; and the side from each to the
+# Corners in order: front left, rear left, rear right, front right; and the side from each to the
 # next one: left, rear, right, front.
 CORNERS = 0.5 * np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
 SIDES = (2, 1, 3, 0)
 NORMALS = np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)])
 
-# More slanting sides carry no range: what is off across the line of sight changes it more (cosine of
-# 60 degrees).
+# More slanted sides are not used for range: an error across the line of sight changes it more
+# (cosine of 60 degrees).
 MIN_FACING = 0.5
 
-# Corners that look farther apart than this are not the same (cosine of 30 degrees).
+# Corners whose directions differ by more than this are not the same (cosine of 30 degrees).
 SAME_CORNER = np.cos(np.radians(30.0))
 
-NEAREST = 0.1  # m: no line of sight to what is nearer to the sensor
+NEAREST = 0.1  # m: no line of sight to points nearer to the sensor
 NEGLIGIBLE = 1e-9  # m^2
 
 
 def corners(pose, size):
-    """4 x 2, m: of a box of length and width `size` with its center at a pose (x, y, yaw), in the
-    frame of the pose; in turn from the front left one."""
+    """Returns 4 x 2, m: the corners of a box of length and width `size` with its center at a pose
+    (x, y, yaw), in the frame of the pose; in order from the front left one."""
     return transforms.points_in_parent(pose, CORNERS * size)
 
 
 class Hit(NamedTuple):
-    """Where a line of sight meets a box."""
+    """The point where a line of sight hits a box."""
 
     range: float  # m
     normal: np.ndarray  # x, y, outward, of the side
@@ -45,7 +45,7 @@ class Hit(NamedTuple):
 
 
 class Corner(NamedTuple):
-    """Where two sides meet that were both seen."""
+    """The corner of two sides that were both seen."""
 
     bearing: float  # rad
     diagonal: np.ndarray  # x, y, outward, between both normals
@@ -53,7 +53,7 @@ class Corner(NamedTuple):
 
 
 class Outline:
-    """A box (Seen of object_lists) about a sensor."""
+    """A box (Seen of object_lists) relative to a sensor."""
 
     def __init__(self, seen, viewpoint):
         """viewpoint: x, y (m) of the sensor."""
@@ -70,7 +70,7 @@ class Outline:
         self.bearings = self.bearing + np.array([self._turns.min(), self._turns.max()])
 
     def corners(self):
-        """List of Corner, in turn; None for those that were not seen."""
+        """Returns a list of Corner, in order; None for those that were not seen."""
         facing = np.sum(self._normals * self._corners, axis=1) < 0.0
         found = []
         for i, ray in enumerate(self._corners):
@@ -85,7 +85,7 @@ class Outline:
         return found
 
     def hit(self, bearing):
-        """Hit of the line of sight at a bearing (rad); None: it passes the box, or starts in it."""
+        """Returns the Hit of the line of sight at a bearing (rad); None: a miss, or from inside."""
         along = np.array([np.cos(bearing), np.sin(bearing)])
         facing = -self._normals @ along
         best = None
@@ -100,8 +100,8 @@ class Outline:
         return best
 
     def near_point(self):
-        """Where the line of sight in the middle of its bearings meets it (x, y, m, about the
-        sensor); its center where none does."""
+        """Returns where the line of sight in the middle of its bearings hits it (x, y, m, relative
+        to the sensor); its center if none does."""
         bearing = float(np.mean(self.bearings))
         found = self.hit(bearing)
         if found is None:
@@ -110,20 +110,20 @@ class Outline:
 
 
 class Offset(NamedTuple):
-    """How far an object is from another one that it is compared with.
+    """Distance of an object from another one that it is compared with.
 
-    Of arrays of two the first is along the line of sight, the second across it.
+    In arrays of two, the first is along the line of sight, the second across it.
     """
 
     range: float  # m, of the other one
-    value: np.ndarray  # m; NaN: not both saw it. Positive: too far, too far to the left
+    value: np.ndarray  # m; NaN: not seen by both. Positive: too far, too far to the left
     jacobian: np.ndarray  # 2 x 2, of the value by the position of the box
     sides_variance: np.ndarray  # 2, m^2, by the variances of the one's own sides
     other_covariance: np.ndarray  # 2 x 2, m^2, from all of the other one's own
 
 
 def offset(outline, other):
-    """Offset of an Outline from another one, about the same sensor."""
+    """Returns the Offset of an Outline from another one, relative to the same sensor."""
     common = 0.5 * (
         max(outline.bearings[0], _near(other.bearings[0], outline.bearing))
         + min(outline.bearings[1], _near(other.bearings[1], outline.bearing))
@@ -151,7 +151,7 @@ def offset(outline, other):
 
 
 def _same_corners(outline, other):
-    """Pairs of Corner that both saw."""
+    """Returns the pairs of Corner that both saw."""
     theirs = [corner for corner in other.corners() if corner is not None]
     return [
         (one, its)
@@ -163,7 +163,7 @@ def _same_corners(outline, other):
 
 
 def _near(bearing, middle):
-    """The same bearing, within half a turn of another one."""
+    """Returns the same bearing, within half a turn of another one."""
     return middle + float(transforms.normalize_angle(bearing - middle))
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of parked vehicles along a curb: where they leave off, the road's side of them ends it.
+"""Finds rows of parked vehicles along a curb, whose road side ends the road.
 
-All in arrays over stations along a path, equally spaced, that look to one side of it.
+All arrays are over equally spaced stations along a path, and to one side of it.
 """
 
 from typing import NamedTuple
@@ -13,26 +13,26 @@ from datmo_tools.evaluate.outlines import corners
 from datmo_tools.evaluate.truth import read_true_objects
 from datmo_tools.pose_path import planar
 
-# A vehicle is parked along a curb if its far side is within this of it (m), or beyond it.
+# A vehicle is parked along a curb if its far side is within this distance (m) of it, or beyond it.
 MAX_FROM_CURB = 1.0
 
 
 class RowOptions(NamedTuple):
-    """What is a row."""
+    """What counts as a row."""
 
-    bridged: float = 10.0  # m, longest gap in a row that ends the road as the row does
-    car_length: float = 5.0  # m; in a longer gap, and this far beyond its ends, the curb may, too
+    bridged: float = 10.0  # m, longest gap in a row that the row's line bridges
+    car_length: float = 5.0  # m; in a longer gap, and so far beyond its ends, the curb counts, too
 
 
 class Row(NamedTuple):
     """The row along one side."""
 
     depth: np.ndarray  # n, m, from the curb to the row's line; NaN: no row
-    open: np.ndarray  # n, bool: the curb would do as well
+    open: np.ndarray  # n, bool: the curb is right as well
 
 
 def parked_boxes(path):
-    """Corners (n x 4 x 2, m, in the truth's map) of the vehicles that never move in a drive."""
+    """Returns corners (n x 4 x 2, m, in the truth's map) of vehicles that never move in a drive."""
     moving, boxes = set(), {}
     for item in (item for items in read_true_objects(path).values() for item in items):
         if item.moving:
@@ -44,10 +44,10 @@ def parked_boxes(path):
 
 
 def depths_of_vehicles(curb, near, far):
-    """n, m: how far parked vehicles reach from the curb into the road; NaN where none does.
+    """Returns n, m: how far parked vehicles extend from the curb into the road; NaN if none does.
 
     curb: n, m, from the path; NaN: none; near, far: n x k, m, sides of k boxes as seen from the path;
-    NaN where it looks past a box.
+    NaN where a box is missed.
     """
     with np.errstate(invalid="ignore"):
         parked = (curb[:, np.newaxis] - far <= MAX_FROM_CURB) & (near < curb[:, np.newaxis])
@@ -56,10 +56,10 @@ def depths_of_vehicles(curb, near, far):
 
 
 def row_of(depths, bounded, spacing, options):
-    """Row of depths_of_vehicles().
+    """Returns the Row of depths_of_vehicles().
 
-    bounded: n, bool: there is a curb, and no junction; a row does not go on where there is not;
-    spacing: m, of the stations.
+    bounded: n, bool: there is a curb, and no junction; a row ends where this is false; spacing: m,
+    of the stations.
     """
     depths = np.where(bounded, depths, np.nan)
     row = Row(depths.copy(), np.zeros(len(depths), dtype=bool))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fused tracks that passed the test of all sources: are they true (thesis 3.4.2), and are their
-members of one object?"""
+"""Checks fused tracks that passed the test of all sources: are they true (thesis 3.4.2), and are
+their members of one object?"""
 
 import numpy as np
 
@@ -15,21 +15,21 @@ def has_passed(track, sources):
 
 
 def movers(moment):
-    """The true objects that move at some time."""
+    """Returns the true objects that move at some time."""
     return moment.movers
 
 
 def road_users(moment):
-    """Whatever takes part in traffic, moving or standing."""
+    """Returns the road users, moving or not."""
     return moment.movers | moment.users
 
 
 def score_passed(fused, members, gate):
-    """What became of the fused tracks that passed, as a dictionary that JSON can hold.
+    """Returns what happened to the fused tracks that passed, as a dictionary that JSON can hold.
 
-    fused: TrackFrames of the fused list; members: dictionary source -> those of its tracks; gate:
-    m. A track counts in the frames in which all sources have it and it is published as moving, in
-    the region; it is true if it follows one true object in most of them.
+    fused: TrackFrames of the fused list; members: dictionary source -> TrackFrames of its tracks;
+    gate: m. A track counts in the frames in which all sources have it and it is published as
+    moving, in the region; it is true if it follows one true object in most of them.
     """
     both = observations_of(fused, lambda frame, row: has_passed(frame.tracks[row], members))
     judged = observations_of(
@@ -60,7 +60,7 @@ def score_passed(fused, members, gate):
 
 
 def account(number, observations, off):
-    """Where a false track is, and what is there in truth.
+    """Describes where a false track is, and what is there in truth.
 
     number: its id; observations: of (TrackFrame, row), where it counts; off: those of them in which it
     is on nothing that moves, of which the middle one is reported; all of them, if there are none.
@@ -86,7 +86,7 @@ def account(number, observations, off):
 
 
 def _nearest(frame, row):
-    """The true object whose box is nearest; None: there is none about the vehicle."""
+    """Returns the true object whose box is nearest; None: there is none around the vehicle."""
     if not frame.moment.items:
         return None
     column = int(np.argmin(frame.distances[row]))
@@ -100,7 +100,7 @@ def _nearest(frame, row):
 
 
 def _score_pairs(judged, members, gate):
-    """Whether the members of the fused tracks follow the same road user, pair by pair."""
+    """Checks whether the members of the fused tracks follow the same road user, pair by pair."""
     newest = {source: Newest(frames) for source, frames in members.items()}
     counts, wrong = {"right": 0, "wrong": 0, "on_nothing": 0}, []
     for number, observations in judged.items():
@@ -123,7 +123,7 @@ def _score_pairs(judged, members, gate):
 
 
 def _pairs(observations, newest):
-    """Dictionary members -> for each member its observations, of one fused track."""
+    """Returns a dictionary members -> for each member its observations, of one fused track."""
     pairs = {}
     for frame, row in observations:
         members = tuple(sorted(item for item in frame.tracks[row].sources if item[0] in newest))
@@ -135,7 +135,7 @@ def _pairs(observations, newest):
 
 
 def _observation(frame, number):
-    """(TrackFrame, row) of a track by its id; None: it is not there."""
+    """Returns (TrackFrame, row) of a track by its id; None: it does not exist."""
     for row, track in enumerate(frame.tracks if frame is not None else ()):
         if track.id == number:
             return frame, row

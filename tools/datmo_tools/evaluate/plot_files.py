@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures that a command line may ask for: matplotlib is loaded for them alone."""
+"""Loads matplotlib only for pictures that the command line asks for."""
 
 import importlib
 
@@ -7,9 +7,9 @@ from datmo_tools.errors import InputError
 
 
 def plotter(path, module, function):
-    """Function (what is drawn) -> bytes of a picture for the path; None where the path is.
+    """Returns a function (data) -> bytes of a picture for the path; None for no path.
 
-    module, function: of datmo_tools.evaluate, what draws: it is given what is drawn and one of
+    module, function: of datmo_tools.evaluate, which draws: it gets the data and one of
     plot_style.KINDS, by the path's ending. Raises InputError for another ending, and without
     matplotlib.
     """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the plots of evaluate look, and how a figure becomes text for a page.
+"""The style of evaluate's plots, and the conversion of a figure to text for a page.
 
-Needs matplotlib; nothing else of evaluate does but the plots.
+Needs matplotlib; nothing in evaluate except plots does.
 """
 
 import io
@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 WIDTH = 10.0  # inch
 DPI = 150  # of a picture in pixels
 RIGHT, BOTTOM = 0.2, 0.5  # inch: margins of every figure
-BETWEEN_ROWS = 0.4  # of a row's height, where a picture does not say
+BETWEEN_ROWS = 0.4  # of a row's height, unless a picture sets it
 
-# Of files, and of their time of creation.
+# Metadata of files, with their time of creation.
 KINDS = {"svg": ("Date",), "pdf": ("CreationDate",), "png": ()}
 
 INK = "#1f2937"
@@ -26,7 +26,7 @@ MISSED = "#fca5a5"
 FALSE = "#dc2626"
 COLORS = ("#2563eb", "#ea580c", "#059669", "#9333ea", "#0891b2", "#db2777", "#854d0e", "#475569")
 
-# Texts stay texts, so that the page's font is theirs. A fixed salt: the same input, the same bytes.
+# Text stays text, so that it gets the page's font. A fixed salt: equal input gives equal bytes.
 STYLE = {
     "svg.fonttype": "none",
     "svg.hashsalt": "datmo_fusion",
@@ -53,20 +53,20 @@ STYLE = {
 
 
 def series_color(index):
-    """Color of the run, or of an object's track, with this index; they repeat."""
+    """Returns the color of the run, or of an object's track, with this index; they repeat."""
     return COLORS[index % len(COLORS)]
 
 
 def plain(text):
-    """Text in which matplotlib finds no formula, and that a legend does not leave out."""
+    """Returns text that matplotlib does not parse as a formula, and that a legend does not drop."""
     text = str(text).replace("$", r"\$")
     return " " + text if text.startswith("_") else text
 
 
 def drawing(height, draw, left=0.75, top=0.3, **subplots):
-    """SVG element of one figure.
+    """Returns the SVG element of one figure.
 
-    height: of the figure; left, top: its margins, inch; draw: function that is given the
+    height: of the figure; left, top: its margins, inch; draw: function that is called with the
     figure's axes as Figure.subplots(**subplots) returns them.
     """
     with matplotlib.rc_context(STYLE):
@@ -74,7 +74,7 @@ def drawing(height, draw, left=0.75, top=0.3, **subplots):
 
 
 def picture(kind, height, draw, left=0.75, top=0.3, between=BETWEEN_ROWS, **subplots):
-    """Bytes of a file of one figure, the same for the same input.
+    """Returns the bytes of a file of one figure; equal input gives equal bytes.
 
     kind: of KINDS; between: gap of two rows, of a row's height; the rest as in drawing().
     """
@@ -100,11 +100,11 @@ def _figure(height, draw, left, top, between, subplots):
 
 
 def _element(figure):
-    """The <svg> alone, as wide as its column on the page, without what only a file needs."""
+    """Returns only the <svg>, as wide as its column on the page, without what only a file needs."""
     text = io.StringIO()
     figure.savefig(text, format="svg", transparent=True)
     head, body = re.search(r"(<svg[^>]*>)(.*)", text.getvalue(), re.DOTALL).groups()
     head = re.sub(r' (width|height)="[^"]*"', "", head)
     body = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", body, flags=re.DOTALL)
-    # matplotlib numbers its groups; the numbers of two figures on one page would clash.
+    # matplotlib numbers its groups; the numbers of two figures on one page would collide.
     return head + re.sub(r' id="[A-Za-z.]+_\d+"', "", body)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of evaluate over time and over thresholds, of one run or of several in one picture.
+"""Plots over time and over thresholds for evaluate, of one run or of several in one picture.
 
 Each function returns an SVG element. names: of the runs, for the legends.
 """
@@ -11,11 +11,11 @@ from datmo_tools.evaluate.plot_style import FALSE, INK, MISSED, TRUTH, series_co
 
 ROW = 0.32  # inch, of a plot with a row for each item
 NAMES_WIDTH = 2.4  # inch, for the names of the rows
-FLAT = 0.1  # inch, the upper margin where there is no title
+FLAT = 0.1  # inch, the upper margin without a title
 
 
 def errors_over_time(runs, names):
-    """Mean error of position and of velocity of the matched tracks, and GOSPA, frame by frame."""
+    """Plots mean position and velocity error of the matched tracks, and GOSPA, frame by frame."""
     rows = (
         ("position_error_m", "Error of position, mean of the matched tracks", "m"),
         ("velocity_error_mps", "Error of velocity, mean of the matched tracks", "m/s"),
@@ -33,7 +33,7 @@ def errors_over_time(runs, names):
 
 
 def counts_over_time(run):
-    """True objects that count, how many of them are tracked, and false tracks below the axis."""
+    """Plots the true objects that count, how many are tracked, and, downwards, false tracks."""
 
     def draw(ax):
         series = run["series"]
@@ -53,7 +53,7 @@ def counts_over_time(run):
 
 
 def hota_over_alpha(runs, names):
-    """HOTA at each localization threshold alpha; its mean is the HOTA of the table."""
+    """Plots HOTA at each localization threshold alpha; its mean is the HOTA of the table."""
 
     def draw(ax):
         for i, (run, name) in enumerate(zip(runs, names)):
@@ -61,7 +61,7 @@ def hota_over_alpha(runs, names):
             values = 100.0 * _numbers(hota["hota_alpha"])
             mean = "-" if hota["hota"] is None else f"{100.0 * hota['hota']:.1f} %"
             label = f"{plain(name)}: mean {mean}"
-            alphas = _numbers(hota["alphas"])[: len(values)]  # no values where nothing was scored
+            alphas = _numbers(hota["alphas"])[: len(values)]  # no values if nothing was scored
             ax.plot(alphas, values, "o-", color=series_color(i), ms=3.5, label=label)
         ax.set(xlim=(0.0, 1.0), ylim=(0.0, 100.0), ylabel="HOTA (%)")
         ax.set_xlabel("alpha: similarity that is asked of a match")
@@ -71,7 +71,7 @@ def hota_over_alpha(runs, names):
 
 
 def consistency(runs, names):
-    """Mean NEES of the states on a logarithmic axis, with the bounds of a consistent filter."""
+    """Plots the states' mean NEES on a logarithmic axis, with the bounds of a consistent filter."""
     rows = _consistency_rows(runs, names)
 
     def draw(ax):
@@ -97,7 +97,7 @@ def consistency(runs, names):
 
 
 def pose_over_time(runs, names):
-    """Distance of the estimated pose from the true one."""
+    """Plots the distance of the estimated pose from the true one."""
 
     def draw(ax):
         _plot_series(ax, runs, names, "pose_error_m")
@@ -109,7 +109,7 @@ def pose_over_time(runs, names):
 
 
 def stage_times(runs, names):
-    """Median (dot), 99th percentile (bar) and worst time of each stage for a message."""
+    """Plots median (dot), 99th percentile (bar) and worst time of each stage for a message."""
     rows = [
         (_row_name(stage, name, runs), times, series_color(i))
         for i, (run, name) in enumerate(zip(runs, names))
@@ -128,7 +128,7 @@ def stage_times(runs, names):
 
 
 def _consistency_rows(runs, names):
-    """(name, what score_run says, color) of each state of each run."""
+    """Yields (name, score_run's values, color) of each state of each run."""
     rows = []
     for state in ("position", "velocity", "pose of the vehicle"):
         for i, (run, name) in enumerate(zip(runs, names)):
@@ -143,7 +143,7 @@ def _row_name(what, name, runs):
 
 
 def _name_rows(ax, rows, label):
-    """The first row at the top."""
+    """Names the rows, the first one at the top."""
     ax.set(yticks=range(len(rows)), ylim=(len(rows) - 0.5, -0.5), xlabel=label)
     ax.set_yticklabels([name for name, _, _ in rows])
     ax.grid(False, axis="y")
@@ -163,14 +163,14 @@ def _plot_series(ax, runs, names, key):
 
 
 def _legend_of_runs(ax, runs):
-    """Above the plot; one run needs none."""
+    """Draws the legend above the plot; one run needs none."""
     if len(runs) > 1:
         position = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0}
         ax.legend(ncol=len(runs), **position)
 
 
 def _finish(ax, title, unit, runs):
-    """Title and unit; the axis as long as the runs, and from zero where nothing is below it."""
+    """Sets title and unit; the axis is as long as the runs, and starts at zero if possible."""
     ax.set_title(title, loc="left")
     ax.set_ylabel(unit)
     ends = [run["series"]["time_s"][-1] for run in runs if run["series"]["time_s"]]
@@ -180,11 +180,11 @@ def _finish(ax, title, unit, runs):
 
 
 def _widen(ax, low, high):
-    """Makes the x axis span low to high at least."""
+    """Makes the x axis span at least low to high."""
     left, right = ax.get_xlim()
     ax.set_xlim(min(left, low), max(right, high))
 
 
 def _numbers(values):
-    """Array of floats, NaN where there is None."""
+    """Returns an array of floats, NaN for None."""
     return np.array(values, dtype=float)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The accuracy of a path by relations between poses: the metric of the SLAM benchmark.
+"""Scores a path by relations between poses: the metric of the SLAM benchmark.
 
 Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4),
-2009, equations 4 to 6. A relation says where the robot was at one time, seen from where it was at
-another; the error of a path is what its own relation between these times differs by. No frame has
-to be laid on another, and an error at one pose counts only where poses are compared across it.
+2009, equations 4 to 6. A relation is the robot's pose at one time relative to that at another; the
+error of a path is the difference of its own relation between these times. No frames have to be
+aligned, and an error at one pose counts only where poses are compared across it.
 """
 
 from typing import NamedTuple
@@ -19,7 +19,7 @@ FIELDS = 8  # two times, x, y, z, roll, pitch, yaw
 
 
 class Relation(NamedTuple):
-    """Where the robot was at `end`, seen from where it was at `begin`."""
+    """The robot's pose at `end` relative to that at `begin`."""
 
     begin: int  # ns
     end: int  # ns
@@ -35,15 +35,15 @@ class Errors(NamedTuple):
 
 
 class Statistics(NamedTuple):
-    """Of some values."""
+    """Statistics of some values."""
 
     mean: float
-    std: float  # of the values themselves, as published: divided by their number
+    std: float  # of the values themselves, as published: divided by n
     maximum: float
 
 
 def read_relations(path):
-    """List of Relation in the file at `path` (Path); z, roll and pitch are left out.
+    """Returns a list of Relation in the file at `path` (Path); z, roll and pitch are ignored.
 
     Raises InputError with file and line.
     """
@@ -61,10 +61,10 @@ def read_relations(path):
 
 
 def errors_of(path, relations, tolerance):
-    """Errors of a PosePath.
+    """Returns the Errors of a PosePath.
 
-    A time is covered if the path has a pose within `tolerance` (ns) of it; the pose at that time is
-    interpolated then.
+    A time is covered if the path has a pose within `tolerance` (ns) of it; then the pose at that
+    time is interpolated.
     """
     covered = [
         relation
@@ -80,12 +80,12 @@ def errors_of(path, relations, tolerance):
 
 
 def statistics(values):
-    """Statistics of an array that is not empty."""
+    """Returns the Statistics of an array that is not empty."""
     return Statistics(float(np.mean(values)), float(np.std(values)), float(np.max(values)))
 
 
 def _difference(path, relation):
-    """What the path's motion is beyond the relation's: x, y, yaw seen from the relation's end."""
+    """Returns the path's motion relative to the relation's end: x, y, yaw."""
     motion = transforms.relative(path.at(relation.begin), path.at(relation.end))
     return transforms.relative(relation.motion, motion)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one form of a report: sections, as text for a terminal, and as a page that needs no network."""
+"""Writes reports in one form: sections, as text for a terminal and as a self-contained page."""
 
 import json
 from pathlib import Path
@@ -10,13 +10,13 @@ import jinja2
 from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
-TEMPLATE = "report.html"  # beside this file
-BEST = "*"  # ends the cell that is best of its row
-MISSED = "MISSED"  # the last cell of a row of what was not found
+TEMPLATE = "report.html"  # next to this file
+BEST = "*"  # suffix of the best cell in its row
+MISSED = "MISSED"  # the last cell of a row for what was not found
 
 
 class Section(NamedTuple):
-    """What belongs together. A page shows all of it, a terminal rows and lines."""
+    """A part of a report. A page shows all of it, a terminal rows and lines."""
 
     title: str = ""
     hint: str = ""  # what it shows, for a page
@@ -25,11 +25,11 @@ class Section(NamedTuple):
     tiles: tuple = ()  # of (name, figure, unit): for a page
     picture: str = ""  # an <svg> element: for a page
     is_narrow: bool = False  # a page has room for two side by side
-    for_page: bool = False  # alone
+    for_page: bool = False  # only
 
 
 def as_text(sections):
-    """What a terminal shows."""
+    """Formats sections for a terminal."""
     blocks = []
     for section in sections:
         if (section.rows or section.lines) and not section.for_page:

@@ -23,13 +23,13 @@ the bags of one method (run_bag --risk --with-truth, risk/method in the sensor s
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     parser.add_argument("methods", nargs="+", type=_named_folder, metavar="NAME=FOLDER",
                         help="a method's name, and the folder of its bags")  # fmt: skip
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     result = {}
     for name, folder in values.methods:
         bags = sorted(folder.glob("*.bag"))
@@ -42,12 +42,12 @@ def evaluate(values):
 
 
 def score_of(bags):
-    """The score of one method's bags (list of Path). Raises InputError."""
+    """Returns the score of one method's bags (list of Path). Raises InputError."""
     return score([read_drive(bag) for bag in bags])
 
 
 def sections(result, what=""):
-    """List of Section of the scores (dict) by method; `what`: ends the titles."""
+    """Returns a list of Section of the scores (dict) by method; `what`: ends the titles."""
     names = list(result)
     rows = [["", *names]]
     for title, cell in _ROWS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives with risks as run_bag --risk --with-truth writes them."""
+"""Reads drives with risks as written by run_bag --risk --with-truth."""
 
 import numpy as np
 
@@ -12,11 +12,11 @@ RISKS = "/risks"
 CONTACT = "/ground_truth/contact"
 OBJECTS = "/ground_truth/objects"
 
-GAP = 0.5  # s; hidden for longer, what is struck was not in view
+GAP = 0.5  # s; hidden for longer, the struck object was not in view
 
 
 def read_drive(path):
-    """RiskDrive of a bag (Path). Raises InputError where there are no risks in it."""
+    """Returns the RiskDrive of a bag (Path). Raises InputError if there are no risks in it."""
     frames, contact, stamps, seen = [], None, [], {}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages([RISKS, CONTACT, OBJECTS]):
@@ -44,7 +44,7 @@ def read_drive(path):
 
 
 def _in_view_since(times, end):
-    """The start of the last stretch of `times` (s, rising) without a gap; None: it is none."""
+    """Returns the start of the last part of `times` (s, rising) without a gap; None if empty."""
     since = None
     for later, earlier in zip([end, *times[::-1]], times[::-1]):
         if later - earlier > GAP:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scores of risks against true contacts, over many drives of one method. No ROS here."""
+"""Scores risks against true contacts, over many drives of one method. No ROS here."""
 
 from typing import NamedTuple, Optional
 
@@ -9,19 +9,19 @@ HORIZONS = (1.0, 2.0, 3.0, 4.0)  # s, of RiskArray's probabilities
 WARNING = 2  # RiskArray.LEVEL_WARNING
 BINS = 10  # of the reliability diagram
 CLOSE = 3.0  # s to contact, within which times to contact are scored
-LIKELY = 0.5  # probability from which a time to contact is taken as said
-LONG_SEEN = 3.5  # s in view, from which a driver could have been warned in time
+LIKELY = 0.5  # probability from which a time to contact counts as predicted
+LONG_SEEN = 3.5  # s in view, long enough to warn a driver in time
 ENOUGH = 1.7  # s of lead (public test protocols of forward collision warning)
-ATTAINABLE_SHARE = 0.8  # of the attainable lead, where the object was in view for less
+ATTAINABLE_SHARE = 0.8  # of the attainable lead, if the object was in view for less
 
 
 class RiskFrame(NamedTuple):
-    """What was said at one time of a drive."""
+    """The risk published at one time of a drive."""
 
     time: float  # s
     level: int  # RiskArray.LEVEL_*
     probability: tuple  # of any contact within each of HORIZONS, 0 to 1
-    ttc: Optional[float]  # s, of the likeliest object; None: none is likely
+    ttc: Optional[float]  # s, of the most likely object; None: none is likely
 
 
 class RiskDrive(NamedTuple):
@@ -31,16 +31,16 @@ class RiskDrive(NamedTuple):
     frames: list  # of RiskFrame, by rising time
     end: float  # s
     contact: Optional[float]  # s
-    seen: Optional[float]  # s, since when what is struck was in view without a gap
+    seen: Optional[float]  # s, since when the struck object was in view without a gap
 
 
 def any_contact(probabilities):
-    """Probability of contact with any of several independent objects."""
+    """Returns the probability of contact with any of several independent objects."""
     return float(1.0 - np.prod([1.0 - value for value in probabilities]))
 
 
 def ttc_errors(drives):
-    """Said minus true time to contact (s) of all frames at most CLOSE before one."""
+    """Returns predicted minus true time to contact (s) of all frames at most CLOSE before one."""
     return [
         frame.ttc - (drive.contact - frame.time)
         for drive in drives
@@ -51,7 +51,7 @@ def ttc_errors(drives):
 
 
 def warnings_of(drive):
-    """(from, to) in s of each time in which the driver is warned; to: the frame that ends it."""
+    """Returns (from, to) in s of each warning of the driver; to: the frame that ends it."""
     spans, start = [], None
     for frame in drive.frames:
         if frame.level >= WARNING and start is None:
@@ -63,7 +63,7 @@ def warnings_of(drive):
 
 
 def lead_of(drive):
-    """s from the warning that lasts until the contact to that contact; None: there is none."""
+    """Returns the time (s) from the warning that lasts until the contact to it, or None."""
     spans = warnings_of(drive)
     if drive.contact is None or not spans or spans[-1][1] < drive.end:
         return None
@@ -71,24 +71,24 @@ def lead_of(drive):
 
 
 def is_long_seen(drive):
-    """Whether what is struck was in view for so long that a driver could have been warned in time."""
+    """Whether the struck object was in view long enough to warn a driver in time."""
     return drive.seen is not None and drive.contact - drive.seen >= LONG_SEEN
 
 
 def attainable_lead(drive):
-    """s of lead that can be asked for: ENOUGH, or the time in view if it is shorter."""
+    """Returns the attainable lead (s): ENOUGH, or the time in view if it is shorter."""
     return 0.0 if drive.seen is None else min(drive.contact - drive.seen, ENOUGH)
 
 
 def is_warned_in_time(drive):
-    """Whether the lead is what could be asked for, by how long the object was in view."""
+    """Whether the lead is sufficient for the time that the object was in view."""
     lead = lead_of(drive)
     needed = 1.0 if is_long_seen(drive) else ATTAINABLE_SHARE
     return lead is not None and lead >= needed * attainable_lead(drive)
 
 
 def lead_share(drives):
-    """Mean share of the attainable lead that a warning has, 0 to 1; None: nothing was attainable."""
+    """Returns the warnings' mean share of the attainable lead, 0 to 1; None: none attainable."""
     shares = [
         min(1.0, (lead_of(drive) or 0.0) / attainable_lead(drive))
         for drive in drives
@@ -98,7 +98,7 @@ def lead_share(drives):
 
 
 def false_warnings(drives):
-    """Warnings of drives without contact, and those that ended before the contact."""
+    """Returns warnings of drives without contact, and those that ended before the contact."""
     return sum(
         1
         for drive in drives
@@ -108,7 +108,7 @@ def false_warnings(drives):
 
 
 def outcomes(drives, horizon):
-    """(said probability, contact or not) of each frame that the drive outlasts by the horizon."""
+    """Returns (predicted probability, contact or not) of frames whose outcome is known."""
     index = HORIZONS.index(horizon)
     pairs = []
     for drive in drives:
@@ -122,12 +122,12 @@ def outcomes(drives, horizon):
 
 
 def brier_score(pairs):
-    """Mean squared difference of probability and outcome (Brier 1950); NaN without any."""
+    """Returns the mean squared difference of probability and outcome (Brier 1950), or NaN."""
     return float(np.mean((pairs[:, 0] - pairs[:, 1]) ** 2)) if len(pairs) else float("nan")
 
 
 def reliability(pairs):
-    """(mean probability, share that came, frames) of each bin of BINS that is not empty."""
+    """Returns (mean probability, observed share, frames) of each non-empty bin of BINS."""
     index = np.minimum((pairs[:, 0] * BINS).astype(int), BINS - 1)
     return [
         (float(inside[:, 0].mean()), float(inside[:, 1].mean()), len(inside))
@@ -137,14 +137,14 @@ def reliability(pairs):
 
 
 def calibration_error(pairs):
-    """Mean distance of said and observed frequency over the bins, by their frames; NaN: none."""
+    """Returns the mean distance of predicted and observed frequency over the bins; NaN: none."""
     if not len(pairs):
         return float("nan")
     return sum(abs(said - came) * count for said, came, count in reliability(pairs)) / len(pairs)
 
 
 def score(drives):
-    """All scores of one method as a dictionary that JSON can hold."""
+    """Returns all scores of one method as a dictionary that JSON can hold."""
     errors = np.abs(ttc_errors(drives))
     struck = [drive for drive in drives if drive.contact is not None]
     missed = [drive for drive in drives if drive.contact is None]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The road's plane in a Velodyne scan, by which stereo grids are judged.
+"""Fits the road's plane in a Velodyne scan, for scoring stereo grids.
 
-Other means than those that the stack finds the road by.
+By other means than those by which the stack finds the road.
 """
 
 from typing import NamedTuple
@@ -10,16 +10,16 @@ import numpy as np
 
 from datmo_tools.convert.kitti_calibration import VELODYNE_HEIGHT
 
-# Where the road is looked for, in the Velodyne's frame.
+# Where the road is searched, in the Velodyne's frame.
 NEAR, FAR, HALF_WIDTH = 3.0, 40.0, 8.0  # m ahead, m ahead, m to either side
 CELL = 1.0  # m: one height for each cell, so that near points do not outweigh far ones
-LOW_SHARE = 0.25  # this quantile of a cell's heights stands for its floor
+LOW_SHARE = 0.25  # this quantile of a cell's heights is taken as its floor
 
-# Cells further than this (m) from the plane are left out, step by step: what stands on the road.
+# Cells farther than this (m) from the plane are removed, step by step: objects on the road.
 TOLERANCES = (0.6, 0.4, 0.25, 0.15, 0.15, 0.15)
 MIN_CELLS = 30
 
-# A plane outside these bounds is not the road under this car.
+# A plane outside of these bounds is not the road under this car.
 MAX_SLOPE = 0.1
 MAX_HEIGHT_ERROR = 0.4  # m
 
@@ -32,7 +32,7 @@ class RoadPlane(NamedTuple):
     slope_y: float
 
     def heights(self, points):
-        """Heights (n, m) above the road of `points` (n x 3 or more columns)."""
+        """Returns the heights (n, m) of `points` (n x 3 or more columns) above the road."""
         return points[:, 2] - (
             self.offset + self.slope_x * points[:, 0] + self.slope_y * points[:, 1]
         )
@@ -42,10 +42,10 @@ FLAT = RoadPlane(-VELODYNE_HEIGHT, 0.0, 0.0)
 
 
 def fit_road_plane(points):
-    """Plane through the floor of `points` (n x 3 or more columns); FLAT where none is credible.
+    """Fits a plane to the floor of `points` (n x 3 or more columns); FLAT if none is credible.
 
-    Trimmed least squares from the flat plane on: no random samples, so the same scan gives the same
-    plane.
+    Trimmed least squares starting with the flat plane: no random samples, so the same scan gives
+    the same plane.
     """
     floor = _floor(points)
     plane = np.array(FLAT)
@@ -63,7 +63,7 @@ def _is_credible(plane):
 
 
 def _floor(points):
-    """One low point (3) for each cell of the road ahead."""
+    """Returns one low point (3) for each cell of the road ahead."""
     x, y, z = points[:, 0], points[:, 1], points[:, 2]
     ahead = (
         (x > NEAR)

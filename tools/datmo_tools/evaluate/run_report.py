@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sections of evaluate tracks: of one run, or of several side by side."""
+"""Creates the sections of evaluate tracks: of one run, or of several side by side."""
 
 import json
 
@@ -24,7 +24,7 @@ TILES = {
 
 
 def sections(runs):
-    """List of Section on runs that score_run has scored (dicts)."""
+    """Returns a list of Section on runs that score_run has scored (dicts)."""
     names = short_names([run["run"] for run in runs])
     of_each = [section for run, name in zip(runs, names) for section in _of_one_run(run, name, runs)]
     of_all = list(_of_all_runs(runs, names))
@@ -39,7 +39,7 @@ def sections(runs):
 
 
 def _of_all_runs(runs, names):
-    """What shows all runs in one picture."""
+    """Yields what shows all runs in one picture."""
     yield Section(
         "Errors over time",
         "Of the true objects that count and have a track; no line where there is none.",
@@ -72,7 +72,7 @@ def _of_all_runs(runs, names):
 
 
 def _of_one_run(run, name, runs):
-    """What needs a picture for each run."""
+    """Yields what needs a picture for each run."""
     of = f": {name}" if len(runs) > 1 else ""
     yield Section(
         "Who was tracked when" + of,
@@ -116,7 +116,7 @@ def _summary(runs, names):
 
 
 def _tiles(run):
-    """The figures that most readers look for first."""
+    """Returns the figures that most readers look for first."""
     found = sum(item["found"] for item in run["objects"])
     tiles = [("objects found", f"{found} of {len(run['objects'])}", "")]
     metrics = {metric.path: metric for group in METRIC_GROUPS for metric in group.metrics}
@@ -127,7 +127,7 @@ def _tiles(run):
 
 
 def _metrics(runs, names):
-    """A section for each group; a column for each run."""
+    """Yields a section for each group; a column for each run."""
     heads = names if len(runs) > 1 else [""]
     for group in metric_groups(runs):
         rows = [[metric.name, metric.unit, *_values(metric, runs)] for metric in group.metrics]

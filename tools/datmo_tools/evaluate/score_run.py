@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls score_run, which matches tracks to true objects and scores one run; reads what it wrote."""
+"""Calls score_run, which matches tracks to true objects and scores a run; reads its results."""
 
 import json
 import subprocess
@@ -11,30 +11,30 @@ from typing import NamedTuple
 from datmo_tools import programs
 from datmo_tools.errors import InputError
 
-FORMAT = 1  # of score_run's JSON that is understood here
+FORMAT = 1  # of score_run's JSON that is supported here
 
 
 class FrameMatches(NamedTuple):
-    """What score_run made of one list of tracks. Tracks that do not count are in none of these."""
+    """score_run's matches of one list of tracks. Tracks that do not count are in none of these."""
 
     objects: dict  # id of a track -> that of its true object
     distances: dict  # id of a track -> m, to that object
     required: set  # ids of the true objects that have to be found
     false: set  # ids of the tracks of no object
     counted: set  # ids of all tracks that count
-    switches: dict  # id of an object -> ids of the track that it had last, and of that it has
+    switches: dict  # id of an object -> ids of its last track and of its current one
 
 
 def find_score_run(beside=None):
-    """Path of the program score_run, as programs.find looks for it. beside: default sys.argv[0]."""
+    """Returns the path of the program score_run, see programs.find. beside: default sys.argv[0]."""
     return programs.find("score_run", beside or sys.argv[0])
 
 
 def score(program, run, truth, settings):
-    """Dictionary that `program` writes on the bag `run`.
+    """Returns the dictionary that `program` writes on the bag `run`.
 
-    truth: bag with the truth, or None where the run's holds it; settings: words for the command
-    line of score_run. Where it fails it has said why: its exit code becomes ours (SystemExit).
+    truth: bag with the truth, or None if the run's bag has it; settings: words for the command
+    line of score_run. If it fails, it has printed why: its exit code becomes ours (SystemExit).
     """
 
     def call(words):
@@ -46,9 +46,9 @@ def score(program, run, truth, settings):
 
 
 def matches(run, truth, options):
-    """Dictionary stamp (ns) -> FrameMatches of the bag `run`.
+    """Returns a dictionary stamp (ns) -> FrameMatches of the bag `run`.
 
-    truth: as in score(); options: dictionary of score_run's. Raises InputError where it fails.
+    truth: see score(); options: dictionary of score_run's. Raises InputError if it fails.
     """
     settings = [word for key, value in options.items() for word in ("--set", f"{key}={value}")]
 
@@ -67,7 +67,7 @@ def _bags(run, truth):
 
 
 def _written(call, words):
-    """What `call`, of score_run with the words and a file, writes there."""
+    """Returns what `call`, of score_run with the words and a file, writes to that file."""
     with tempfile.TemporaryDirectory(prefix="score_run_") as folder:
         file = Path(folder) / "written.json"
         call([*words, str(file)])

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines in the plane as straight segments, and where many rays cross them, all at once."""
+"""Straight line segments in the plane, and where many rays cross them, all at once."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-# Rays at a time: so many, and all segments, are in memory.
+# Rays at a time: for these, with all segments, arrays are in memory.
 BATCH = 256
 
-# Sine of the least angle at which a ray crosses a segment.
+# Sine of the smallest angle at which a ray crosses a segment.
 PARALLEL = 1e-6
 
 
 class Segments(NamedTuple):
-    """n straight pieces."""
+    """n straight segments."""
 
     begin: np.ndarray  # n x 2, m
     end: np.ndarray  # n x 2, m
@@ -25,7 +25,7 @@ class Segments(NamedTuple):
 
 
 def segments_of(lines):
-    """Segments of lines (arrays n x 2 or more columns, m), in their order."""
+    """Returns the Segments of lines (arrays n x 2 or more columns, m), in order."""
     lines = [np.asarray(line, dtype=float)[:, :2] for line in lines]
     begin = [line[:-1] for line in lines]
     end = [line[1:] for line in lines]
@@ -34,10 +34,10 @@ def segments_of(lines):
 
 
 def ray_crossings(origins, headings, segments):
-    """Where each of m rays crosses each of n segments.
+    """Computes where each of m rays crosses each of n segments.
 
     origins: m x 2, m; headings: m, rad. Returns the distance along the ray (m x n, m, negative
-    behind its origin, NaN where they do not meet) and the share of the segment (m x n, 0 to 1).
+    behind its origin, NaN without crossing) and the position on the segment (m x n, 0 to 1).
     """
     ray = np.stack([np.cos(headings), np.sin(headings)], axis=-1)[:, np.newaxis]
     along = (segments.end - segments.begin)[np.newaxis]

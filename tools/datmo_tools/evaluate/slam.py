@@ -18,14 +18,14 @@ Scores the poses in a bag with the relations of the SLAM benchmark (Kuemmerle et
 the accuracy of SLAM algorithms", 2009): mean, standard deviation and greatest value of the
 translational and the rotational error, and of their squares."""
 
-# At a robot's pace nothing is known of a pose further off in time.
+# At a robot's pace, poses farther away in time carry no information.
 TOLERANCE = 0.5  # s
 
 
 def score(poses, relations_file, topic="/pose", recording=None, tolerance=TOLERANCE):
-    """Score of the poses on `topic` in a bag, as a dictionary that JSON can hold.
+    """Returns the score of the poses on `topic` in a bag, as a dictionary that JSON can hold.
 
-    poses, relations_file: Path; recording: bag (Path) with the log's stamps, where they were
+    poses, relations_file: Path; recording: bag (Path) with the log's stamps, if they were
     moved (see carmen_to_bag; None: `poses` itself may have them). tolerance: s between a
     relation's time and the nearest pose. Raises InputError, also if no relation is covered.
     """
@@ -54,7 +54,7 @@ def score(poses, relations_file, topic="/pose", recording=None, tolerance=TOLERA
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     rows = [[f"error of {result['topic']}", "mean", "std", "max"]]
     for name, key in (
         ("translation, m", "translation_m"),
@@ -68,7 +68,7 @@ def sections(result):
 
 
 def _by_log_stamps(path, bag):
-    """The path at the log's stamps, if `bag` has them: poses at scans, by their new order."""
+    """Returns the path at the log's stamps, if `bag` has them: poses at scans, newly ordered."""
     references = read_messages(bag, LOG_STAMPS_TOPIC)
     if not references:
         return path
@@ -80,7 +80,7 @@ def _by_log_stamps(path, bag):
     }
     if len(moved) < 2:
         raise InputError(
-            f"{bag}: {LOG_STAMPS_TOPIC} knows {len(moved)} of the poses' stamps, expected the "
+            f"{bag}: {LOG_STAMPS_TOPIC} has {len(moved)} of the poses' stamps, expected the "
             "recording that the poses come from"
         )
     stamps = sorted(moved)
@@ -93,7 +93,7 @@ def _figures(values):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     if values.tolerance < 0.0:
         raise InputError(f"--tolerance is {values.tolerance}, expected 0 s or more")
     result = score(values.poses, values.relations, values.topic, values.recording, values.tolerance)
@@ -108,7 +108,7 @@ def evaluate(values):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("poses", type=Path, metavar="POSES.bag", help="bag of run_bag, or a recording")
     add("relations", type=Path, metavar="RELATIONS", help="lines of: t1 t2 x y z roll pitch yaw")
@@ -116,5 +116,5 @@ def add_arguments(parser):
     add("--topic", default="/pose", help=topics)
     recording = f"bag with {LOG_STAMPS_TOPIC}, if the poses' stamps are not the log's"
     add("--recording", type=Path, metavar="BAG", help=recording)
-    near = "s between a relation's time and the nearest pose, at the most"
+    near = "largest time (s) between a relation's time and the nearest pose"
     command_line.add_number(parser, "--tolerance", TOLERANCE, "S", near)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Picture of SourceTallies: what each source has by range, and what it invents."""
+"""Plots SourceTallies: what each source detects by range, and its false tracks."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ MIN_FRAMES = 20  # of a point: its share is known to 0.1
 
 
 def source_plot(tallies, kind):
-    """Bytes of the picture.
+    """Returns the bytes of the picture.
 
     tallies: dictionary name -> SourceTally; kind: of plot_style.KINDS.
     """
@@ -35,7 +35,7 @@ def _draw_detection(ax, name, tally, color):
     for marker, of_class in zip(MARKERS, CLASSES.values()):
         shares = [(tally.center(i), tally.detection(of_class, i)) for i in range(tally.bins)]
         points = [(center, share) for center, share in shares if share.whole >= MIN_FRAMES]
-        # A share of n frames is known to about sqrt(p (1 - p) / n) of itself.
+        # The standard deviation of a share p of n frames is sqrt(p (1 - p) / n).
         errors = [(share.value * (1.0 - share.value) / share.whole) ** 0.5 for _, share in points]
         if points:
             centers = np.linspace(points[0][0], points[-1][0], 100)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each source of tracks has, misses and invents, counted on drives with truth."""
+"""Counts what each source of tracks detects, misses and invents, on drives with truth."""
 
 import math
 from collections import Counter, defaultdict
@@ -22,45 +22,45 @@ FALLOFF = 4.0  # m, of the law of track_fusion
 NEAR = 0.01, 0.99  # bounds of its options
 HALF_RANGE = 1.0, 300.0  # m
 
-# Over which it is remembered how much of an object a source could see, s: as track_fusion does.
+# s, over which it is remembered how much of an object a source could see, like in track_fusion.
 LOOKING_TIME = 1.0
 
 
 class Share(NamedTuple):
-    """How many of how many; what counts in part counts as that part."""
+    """How many out of how many; partial counts are allowed."""
 
     part: float
     whole: float
 
     @property
     def value(self):
-        """With one of each more than were counted: never 0 or 1, 0.5 without any."""
+        """Returns the share with one more of each kind: never 0 or 1, 0.5 without any."""
         return (self.part + 1) / (self.whole + 2)
 
 
 class DetectionLaw(NamedTuple):
-    """near / (1 + exp((range - half_range) / FALLOFF)), as track_fusion has it."""
+    """near / (1 + exp((range - half_range) / FALLOFF)), like in track_fusion."""
 
     near: float
     half_range: float  # m
 
     def at(self, ranges):
-        """Probability at ranges (m)."""
+        """Returns the probability at ranges (m)."""
         return self.near / (1.0 + np.exp((np.asarray(ranges) - self.half_range) / FALLOFF))
 
 
 class SourceTally:
-    """Of one source, over all drives that were added. Ranges, in bins: of road users m from its
+    """Counts of one source, over all added drives. Ranges, in bins: of road users m from its
     sensor, of its tracks m from the vehicle."""
 
     def __init__(self, bin_width):
         """bin_width: m."""
         self._bin_width = bin_width
         self.seconds = 0.0
-        # Frames by (class, bin), each as much as could be seen of the object lately.
+        # Frames by (class, bin), each weighted by how much of the object could be seen lately.
         self.found, self.visible = Counter(), Counter()
         self.false = Counter()  # frames of false tracks, by bin
-        # Tracks by class, each by the probability that it gives to the class on average.
+        # Tracks by class, each weighted by its mean probability of the class.
         self.claimed, self.true = Counter(), Counter()
         self._agreeing, self._invented = 0, 0  # frames of other sources' false tracks
 
@@ -87,7 +87,7 @@ class SourceTally:
         self._add_claims(frames)
 
     def _add_claims(self, frames):
-        # Each track counts once: the long ones are hardly ever false, but all begin as short ones.
+        # Each track counts once: long ones are hardly ever false, but all begin as short ones.
         of_track = defaultdict(list)  # id -> of (claims, whether it is true) by frame
         for frame in frames:
             for row, track in enumerate(frame.tracks):
@@ -100,8 +100,8 @@ class SourceTally:
                 self.true[name] += sum(share for share, is_true in claimed if is_true) / len(looks)
 
     def add_agreement(self, frames, others, gate):
-        """Counts in how many frames of the false tracks of another source, where this one could
-        see them, it has a track within `gate` (m) of them.
+        """Counts in how many frames of another source's false tracks that this one could see it has
+        a track within `gate` (m) of them.
 
         frames: TrackFrames of this source; others: of the other one.
         """
@@ -115,13 +115,13 @@ class SourceTally:
                     self._agreeing += bool(distances) and min(distances) <= gate
 
     def detection(self, name, index=None):
-        """Share of the frames in which it could see a road user of the class that moves, in which
-        it has a track of it; index: of the bin of range, or None: all."""
+        """Returns the share of the frames with a visible moving road user of the class in which it
+        has a track of it; index: of the bin of range, or None: all."""
         keys = [key for key in self.visible if key[0] == name and index in (None, key[1])]
         return Share(sum(self.found[key] for key in keys), sum(self.visible[key] for key in keys))
 
     def law(self, name):
-        """DetectionLaw of a class, the likeliest by the frames of all bins."""
+        """Returns the DetectionLaw of a class, the most likely one by the frames of all bins."""
         keys = [key for key in self.visible if key[0] == name]
         centers = np.array([self.center(key[1]) for key in keys])
         found = np.array([self.found[key] for key in keys])
@@ -131,31 +131,31 @@ class SourceTally:
             probability = np.clip(DetectionLaw(*values).at(centers), 1e-9, 1.0 - 1e-9)
             return -float(found @ np.log(probability) + missed @ np.log1p(-probability))
 
-        starts = [(0.9, half) for half in (10.0, 20.0, 40.0)]  # it may have more than one minimum
+        starts = [(0.9, half) for half in (10.0, 20.0, 40.0)]  # there may be more than one minimum
         fits = [minimize(surprise, start, bounds=(NEAR, HALF_RANGE)) for start in starts]
         return DetectionLaw(*map(float, min(fits, key=lambda fit: fit.fun).x))
 
     def true_share(self, name):
-        """Of its tracks of a class, those on what moves at some time."""
+        """Returns the share of its tracks of a class that are on objects that move at some time."""
         return Share(self.true[name], self.claimed[name])
 
     @property
     def false_agreement(self):
-        """Of the frames of others' false tracks that it could see, those in which it agrees."""
+        """Returns the share of the frames of others' visible false tracks in which it agrees."""
         return Share(self._agreeing, self._invented)
 
     def false_per_minute(self, index):
-        """Frames of false tracks at the ranges of a bin, for each minute."""
+        """Returns the frames of false tracks at the ranges of a bin, per minute."""
         return self.false[index] * 60.0 / self.seconds if self.seconds > 0.0 else 0.0
 
     @property
     def bins(self):
-        """Number of bins in which anything was counted."""
+        """Returns the number of bins in which anything was counted."""
         indices = [key[1] for key in self.visible] + [*self.false]
         return max(indices, default=-1) + 1
 
     def center(self, index):
-        """Of a bin, m."""
+        """Returns the center of a bin, m."""
         return (index + 0.5) * self._bin_width
 
     def _bin(self, distance):
@@ -167,14 +167,14 @@ class SourceTally:
 
 
 def _claims(classes):
-    """Dictionary name of a class or OTHER -> probability, of what a track has by Object.CLASS_*."""
+    """Returns a dictionary class name or OTHER -> probability, from a track's by CLASS_*."""
     claims = {name: classes[value] for value, name in CLASSES.items() if value < len(classes)}
     return {**claims, OTHER: max(0.0, 1.0 - sum(claims.values()))}
 
 
 def _movers(frame):
-    """Dictionary id -> ((class, range from the sensor), whether the source could see it) of the road
-    users that move now."""
+    """Returns a dictionary id -> ((class, range from the sensor), whether the source could see it)
+    of the road users that are moving now."""
     moment = frame.moment
     in_map = transforms.compose(frame.base, moment.poses)
     movers = {}
@@ -188,13 +188,13 @@ def _movers(frame):
     return movers
 
 
-# Around a box: its corners and the middles of its sides, in half lengths and widths.
+# Points around a box: its corners and the centers of its sides, in half lengths and widths.
 OUTLINE = np.array([(x, y, 0.0) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y])
 
 
 def _sees(views, pose, size):
-    """Whether half or more of the side of a box (pose in the frame of the views, size in m) that
-    faces a sensor is in its view, with nothing before it."""
+    """Whether at least half of the side of a box (pose in the frame of the views, size in m) that
+    faces a sensor is in its view, with nothing in front of it."""
     outline = transforms.compose(pose, 0.5 * OUTLINE * [*size, 0.0])[:, :2]
     for view in views:
         sensor = view.sensor.x, view.sensor.y

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stereo camera's occupancy grids against a Velodyne's points: precision and recall by range.
+"""Scores a stereo camera's occupancy grids with a Velodyne's points: precision and recall by range.
 
-A cell is right where the other side has an obstacle within one cell, or within the standard
-deviation that the camera's depth has there, whichever is more.
+A cell is right if the other side has an obstacle within one cell, or within the standard
+deviation of the camera's depth there, whichever is more.
 """
 
 from typing import NamedTuple
@@ -14,36 +14,36 @@ from datmo_tools.convert import kitti_scans
 from datmo_tools.evaluate import road_plane
 from datmo_tools.evaluate.grid_scores import UNDECIDED
 
-# What is an obstacle, m above the road: over curbs, and what a car could touch.
+# m above the road, what counts as an obstacle: over curbs, and what a car could hit.
 OBSTACLE_LOW, OBSTACLE_HIGH = 0.3, 2.0
 
 BAND_EDGES = (0.0, 5.0, 10.0, 15.0, 20.0, 25.0)  # m from the camera over ground
 REACH = BAND_EDGES[-1]
 
-# Cells beyond the last band may still be what one within it is matched with: some depth errors, m.
+# m: cells beyond the last band may match one within it, by depth errors.
 MARGIN = 5.0
 
 
 class CommonView(NamedTuple):
-    """What both cameras see: only that has a disparity."""
+    """What both cameras see: only there is a disparity."""
 
     left: object  # StereoView of the left camera
     baseline: float  # m
     right_begin: float  # x / z of the right image's left border
 
     def ranges(self, points):
-        """Distances (n, m) of points (n x 2, base_link) from the left camera; infinite: not seen by
-        both cameras, or further than its reach."""
+        """Returns distances (n, m) of points (n x 2, base_link) from the left camera; infinite: not
+        seen by both cameras, or farther than its reach."""
         ahead, right = self._along(points)
         seen_by_right = right - self.baseline >= self.right_begin * ahead
         return np.where(seen_by_right, self.left.ranges(points), np.inf)
 
     def depth_sigmas(self, points):
-        """Standard deviations (n, m) of the depth at points (n x 2, base_link)."""
+        """Returns standard deviations (n, m) of the depth at points (n x 2, base_link)."""
         return self.left.depth_sigma(self._along(points)[0])
 
     def _along(self, points):
-        """Distances ahead of the camera and to its right (n each, m)."""
+        """Returns distances ahead of the camera and to its right (n each, m)."""
         camera = self.left.camera_in_base
         in_space = np.column_stack([points, np.full(len(points), camera[2, 3])])
         in_camera = transforms.apply(transforms.inverse(camera), in_space)
@@ -51,7 +51,7 @@ class CommonView(NamedTuple):
 
 
 def obstacle_points(cloud, base_from_velodyne):
-    """Where (m x 2, m, base_link) obstacles are in a Velodyne cloud (n x 3 or more columns)."""
+    """Returns obstacles (m x 2, m, base_link) in a Velodyne cloud (n x 3 or more columns)."""
     heights = road_plane.fit_road_plane(cloud).heights(cloud)
     chosen = (heights >= OBSTACLE_LOW) & (heights <= OBSTACLE_HIGH)
     chosen &= ~kitti_scans.on_own_car(cloud[:, 0], cloud[:, 1])
@@ -59,18 +59,18 @@ def obstacle_points(cloud, base_from_velodyne):
 
 
 def moved(points, pose_then, pose_now):
-    """`points` (n x 2, m, of the vehicle at one planar pose) as seen from the vehicle at another."""
+    """Transforms `points` (n x 2, m) from the vehicle at one planar pose to that at another."""
     return transforms.points_seen_from(pose_now, transforms.points_in_parent(pose_then, points))
 
 
 class Counts(NamedTuple):
-    """Cells by range band, n each."""
+    """Numbers of cells by range band, n each."""
 
     occupied: np.ndarray  # of the stereo grid
-    right: np.ndarray  # of these, where the Velodyne has an obstacle
-    true: np.ndarray  # with an obstacle, as the Velodyne sees it
-    found: np.ndarray  # of these, where the stereo grid is occupied
-    called_free: np.ndarray  # of those not found, where the stereo grid is free
+    right: np.ndarray  # of these, those with an obstacle of the Velodyne
+    true: np.ndarray  # with an obstacle of the Velodyne
+    found: np.ndarray  # of these, those occupied in the stereo grid
+    called_free: np.ndarray  # of those not found, those free in the stereo grid
 
     def __add__(self, other):
         return Counts(*(mine + its for mine, its in zip(self, other)))
@@ -80,7 +80,7 @@ NOTHING = Counts(*(np.zeros(len(BAND_EDGES) - 1, dtype=int) for _ in Counts._fie
 
 
 def count(grid, obstacles, view):
-    """Counts of one grid.
+    """Returns the Counts of one grid.
 
     grid: Grid; obstacles: n x 2, base_link at its stamp, m; view: CommonView.
     """
@@ -97,19 +97,19 @@ def count(grid, obstacles, view):
 
 
 def _cells_where(chosen):
-    """Indices (n x 2: column, row) of the chosen cells."""
+    """Returns indices (n x 2: column, row) of the chosen cells."""
     rows, columns = np.nonzero(chosen)
     return np.column_stack([columns, rows])
 
 
 def _within(grid, cells, view, reach):
-    """Those of the cells that are in view; those up to the reach, which may go beyond the view's."""
+    """Returns the cells in view, and those up to the reach, which may exceed the view's."""
     wide = view._replace(left=view.left._replace(reach=reach))
     return cells[np.isfinite(wide.ranges(grid.centers(cells)))]
 
 
 def _has_partner(grid, cells, others, view):
-    """Whether each of the cells (n x 2) has one of the others (m x 2) near enough."""
+    """Returns whether each of the cells (n x 2) has one of the others (m x 2) near enough."""
     if len(others) == 0:
         return np.zeros(len(cells), dtype=bool)
     offsets = np.abs(cells[:, np.newaxis, :] - others[np.newaxis, :, :])

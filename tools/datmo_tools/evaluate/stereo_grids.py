@@ -31,11 +31,11 @@ Scores the stereo (or fused) grids of a run with the Velodyne of the drive that 
   called free  share of the cells with an obstacle that are free; the others are unknown
 
 An obstacle is anything 0.3 m to 2 m above the road, whose plane is fitted in each cloud. The cloud
-closest in time is transformed to the grid's stamp by the true poses. A cell is right where the
+closest in time is transformed to the grid's stamp by the true poses. A cell is right if the
 other side has an obstacle within one cell, or within the standard deviation of the camera's depth
-there, whichever is more. Areas that one of the two cameras does not see are left out. OpenCV's
-matchers give no disparity in the first columns of the left image, as many as disparity_range says,
-whatever is there: --first-column leaves them out too, so that the rest is scored by itself.
+there, whichever is more. Areas that one of the two cameras does not see are excluded. OpenCV's
+matchers give no disparity in the first columns of the left image, as many as disparity_range,
+whatever is there: --first-column excludes them, too, so that the rest is scored by itself.
 
 The Velodyne is mounted 8 cm above the cameras and 0.3 m behind them, so it sees a little more: over
 low obstacles and roofs, where the cameras look along the surface; and between 0.3 m and 0.6 m above
@@ -45,13 +45,13 @@ beams (0.4 degrees). Objects that moved between cloud and grid (up to 0.05 s) ar
 
 DISPARITY_SIGMA = 0.5  # px: the median error of semi-global matching on drive 0005
 
-# Bands together: those that the targets are stated for.
+# Bands together: those for which the targets are stated.
 SUMS = ((0.0, 15.0), (0.0, REACH))
 
 
 def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, first_column=0.0):
-    """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
-    dictionary that JSON can hold.
+    """Returns the score of the grids on `topic` in the bag `run` (Path) against the drive's bag
+    (Path), as a dictionary that JSON can hold.
 
     disparity_sigma: px; first_column: of the left image that counts, px. Raises InputError, also if
     no grid has a cloud near in time.
@@ -65,7 +65,7 @@ def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, fi
 
 
 def sections(result):
-    """List of Section of a score."""
+    """Returns a list of Section for a score."""
     return cloud_grids.sections(
         result, ["precision", "of occupied", "recall", "of obstacles", "called free"],
         lambda band: [rounded(band["precision"], 3), str(band["occupied"]), rounded(band["recall"], 3),
@@ -74,7 +74,7 @@ def sections(result):
 
 
 def _read_drive(path, disparity_sigma, first_column):
-    """Dictionary stamp (ns) -> obstacles of its cloud (a tuple of one n x 2, base_link, m), and the CommonView."""
+    """Returns a dictionary stamp (ns) -> (its cloud's obstacles, n x 2, m,), and the CommonView."""
     kept, infos = read_topics(path, (MOUNTS, CLOUDS))
     if not kept[CLOUDS]:
         raise InputError(f"{path}: nothing on {CLOUDS}, expected a bag of kitti_to_bag --points")
@@ -105,7 +105,7 @@ def _band(near, far, counts):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     command_line.check_positive(values, "disparity_sigma")
     if values.first_column < 0.0:
         raise InputError(f"--first-column is {values.first_column:g}, expected 0 or more")
@@ -116,10 +116,10 @@ def evaluate(values):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add_grids(parser, "/grids/stereo")
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
-                            "standard deviation of disparities, px: how far off a cell may "
-                            "be")  # fmt: skip
+                            "standard deviation of disparities, px: by how far a cell may "
+                            "be off")  # fmt: skip
     command_line.add_number(parser, "--first-column", 0.0, "PX",
-                            "of the left image that counts")  # fmt: skip
+                            "first column of the left image that counts")  # fmt: skip

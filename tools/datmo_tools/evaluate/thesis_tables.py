@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables 3.1 to 3.5 of the thesis, with our runs on simulated data sets beside them."""
+"""Formats tables 3.1 to 3.5 of the thesis, with our runs on simulated data sets next to them."""
 
 from typing import NamedTuple
 
@@ -35,7 +35,7 @@ PUBLISHED = (
 
 
 class Table(NamedTuple):
-    """One table: columns of the thesis, then ours, then ours with borders of the road."""
+    """One table: columns of the thesis, then ours, then ours with road borders."""
 
     title: str
     thesis: tuple  # (heading, name of the value in Published)
@@ -48,7 +48,7 @@ def _count(field):
 
 
 def _of_both(field):
-    """Tracks of two sensors; no value where there is one sensor only."""
+    """Returns tracks of two sensors; no value with only one sensor."""
     return lambda counts: counts[field] if counts["confirmed_tracks"] else None
 
 
@@ -83,10 +83,10 @@ TABLES = (
 
 
 def thesis_tables(reports, with_borders=(None,) * len(PUBLISHED)):
-    """Text of all tables.
+    """Returns the text of all tables.
 
-    reports: of score_run (dicts), one for each data set in turn; None where a run came to no end;
-    with_borders: the same of runs with borders of the road; None where there was none.
+    reports: of score_run (dicts), one for each data set in turn; None if a run failed;
+    with_borders: the same of runs with road borders; None if there was none.
     """
     return "\n\n".join([NOTE, *(_text(table, reports, with_borders) for table in TABLES)])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tracks of a run and what is true at their stamps, side by side."""
+"""Tracks of a run and the truth at their stamps, side by side."""
 
 import bisect
 from typing import NamedTuple, Optional
@@ -15,32 +15,32 @@ from datmo_tools.stamps import NANOSECONDS
 
 POSE = "/pose"  # estimated, of the run
 
-# What takes part in traffic; poles and trees are true objects as well.
+# Road users; poles and trees are true objects, too.
 ROAD_USERS = (Object.CLASS_PEDESTRIAN, Object.CLASS_CYCLIST, Object.CLASS_VEHICLE)
 
-# A list is of the present for so long, s: as the fusion of tracks takes them.
+# s, for how long a list is up to date: like in the fusion of tracks.
 MAX_LIST_AGE = 0.6
 
 
 class Moment(NamedTuple):
-    """What is true at one stamp, in base_link; arrays in the order of the objects."""
+    """The truth at one stamp, in base_link; arrays in the order of the objects."""
 
     base: np.ndarray  # true x, y (m), yaw (rad) of base_link in the map of the truth
     items: list  # of TrueObject, in the map of the truth
     ids: np.ndarray
     poses: np.ndarray  # n x 3: x, y (m), yaw (rad)
     sizes: np.ndarray  # n x 2, m: length, width
-    movers: np.ndarray  # bool: it moves at some time of the drive
-    users: np.ndarray  # bool: a road user, moving or not
-    required: np.ndarray  # bool: it has to be found
+    movers: np.ndarray  # bool: whether it moves at some time of the drive
+    users: np.ndarray  # bool: whether it is a road user, moving or not
+    required: np.ndarray  # bool: whether it has to be found
 
 
 class TrackFrame(NamedTuple):
-    """One list of tracks; all of the tracks' lists in their order."""
+    """One list of tracks; all lists about tracks are in their order."""
 
     stamp: int  # ns
     tracks: list  # of SeenTrack
-    views: list  # of ViewFan, in the map of the run; none: not known
+    views: list  # of ViewFan, in the map of the run; none: unknown
     base: np.ndarray  # estimated x, y (m), yaw (rad) of base_link in the map of the run
     positions: np.ndarray  # n x 2, m, base_link
     moment: Moment
@@ -52,22 +52,23 @@ class TrackFrame(NamedTuple):
         return self.tracks[row].id in self.matches.counted
 
     def is_false(self, row):
-        """Whether it counts and is on no true object that moves at some time."""
+        """Whether it counts and is not on a true object that moves at some time."""
         return self.tracks[row].id in self.matches.false
 
     def near(self, row, gate, among):
-        """Indices of the true objects (those of the bool array `among`) within the gate (m)."""
+        """Returns the true objects' indices (of those in the bool array `among`) within the gate
+        (m)."""
         return np.flatnonzero((self.distances[row] <= gate) & among)
 
 
 class Scene:
-    """True objects about the vehicle, as the run takes itself to see them: tracks are laid on the
-    truth by the estimated pose of the vehicle on its true one, so that the drift of the map does
-    not count. Which track is of which object is score_run's to say."""
+    """True objects around the vehicle, as seen from the run's pose: tracks are aligned to truth by
+    the vehicle's estimated and true pose, so that the drift of the map does not count. score_run
+    decides which track is of which object."""
 
     def __init__(self, run, drive, region, visible_to, gate):
-        """run, drive: bags (Path); region: in which objects have to be found; visible_to: sensor
-        that must see them, ANY or NONE; gate: m, within which a track may be of an object. Raises
+        """run, drive: bags (Path); region: where objects have to be found; visible_to: sensor that
+        must see them, ANY or NONE; gate: m, within which a track may be of an object. Raises
         InputError."""
         self._bags = run, drive
         self._options = {
@@ -80,8 +81,8 @@ class Scene:
         self._poses = read_path(run, POSE)
 
     def frames(self, topic, lists):
-        """List of TrackFrame of the lists of a topic (TrackList, by rising stamp) that score_run
-        knows the truth of."""
+        """Returns a list of TrackFrame for those lists of a topic (TrackList, by stamp) for which
+        score_run has the truth."""
         found = matches(*self._bags, {**self._options, "topics/tracks": topic})
         frames = []
         for item in lists:
@@ -115,7 +116,7 @@ class Scene:
 
 
 def distances_to_boxes(positions, poses, sizes):
-    """Distances (n x m, m) of positions (n x 2) from boxes, 0 inside.
+    """Returns distances (n x m, m) of positions (n x 2) from boxes, 0 inside.
 
     poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
     """
@@ -127,15 +128,15 @@ def distances_to_boxes(positions, poses, sizes):
 
 
 class Newest:
-    """The newest of some items with a stamp (ns), at any time."""
+    """Finds the newest of some items with a stamp (ns), at any time."""
 
     def __init__(self, items):
-        """items: by rising stamp."""
+        """items: by increasing stamp."""
         self._items = items
         self._stamps = [item.stamp for item in items]
 
     def at(self, stamp):
-        """The newest one that is not after `stamp` (ns) and of the present; None: there is none."""
+        """Returns the newest one not after `stamp` (ns) and up to date; None: there is none."""
         after = bisect.bisect_right(self._stamps, stamp)
         if after == 0 or stamp - self._stamps[after - 1] > MAX_LIST_AGE * NANOSECONDS:
             return None
@@ -145,21 +146,21 @@ class Newest:
 class Follow(NamedTuple):
     """What a track follows in some frames."""
 
-    object: Optional[int]  # id of the true object that it is nearest to, by all of them
+    object: Optional[int]  # id of the true object that it is nearest to, over all of them
     frames: int
-    near: int  # of them, those in which it is within the gate of it
+    near: int  # number of them in which it is within the gate of it
 
     @property
     def is_true(self):
-        """Whether it follows it in most of the frames."""
+        """Whether it follows the object in most of the frames."""
         return 2 * self.near > self.frames
 
 
 def follow(observations, gate, among):
-    """Follow of one track.
+    """Returns the Follow of one track.
 
     observations: of (TrackFrame, row); among: function of a Moment, which true objects count (bool
-    array). The object is that with the least sum of distances, none of which counts as more than
+    array). The object is the one with the least sum of distances, each of which counts as at most
     the gate (m).
     """
     gains, counts = {}, {}
@@ -175,7 +176,7 @@ def follow(observations, gate, among):
 
 
 def observations_of(frames, wanted=lambda frame, row: True):
-    """Dictionary track id -> list of (TrackFrame, row), of the rows that are wanted."""
+    """Returns a dictionary track id -> list of (TrackFrame, row), of the selected rows."""
     observations = {}
     for frame in frames:
         for row, track in enumerate(frame.tracks):

@@ -42,7 +42,7 @@ FUSED = "/tracks"
 
 # By source, the name of its sensor in the truth.
 SENSORS = {"lidar": "scanner", "stereo": "stereo"}
-CAMERA = "stereo"  # the source whose views are asked
+CAMERA = "stereo"  # the source whose views are used
 
 RANGE = 50.0  # m, as score_run's region/range
 GATE = 2.0  # m, as score_run's matching/gate
@@ -50,18 +50,18 @@ SOON = 0.5  # s
 
 
 class Limits(NamedTuple):
-    """What counts."""
+    """Options of the score."""
 
     region: Region = Region(RANGE)
     visible_to: str = ANY  # sensor that must see an object for it to have to be found
     gate: float = GATE  # m, from a track to the box of its object
-    soon: float = SOON  # s, within which what both follow has to pass
+    soon: float = SOON  # s, within which an object that both follow has to pass
 
 
 def score(run, drive=None, limits=Limits()):
-    """Score of the tracks in the bag `run` (Path) as a dictionary that JSON can hold.
+    """Returns the score of the tracks in the bag `run` (Path) as a dictionary that JSON can hold.
 
-    drive: bag with the truth (Path), by default `run`. Raises InputError, also where nothing can be
+    drive: bag with the truth (Path), by default `run`. Raises InputError, also if nothing can be
     scored.
     """
     topics = {"fused": FUSED, **{source: f"{FUSED}/{source}" for source in SENSORS}}
@@ -99,7 +99,7 @@ def _per_frame(item):
 
 
 def evaluate(values):
-    """The score, and its sections. Raises InputError."""
+    """Returns the score and its sections. Raises InputError."""
     command_line.check_positive(values, "gate", "soon")
     limits = Limits(region_of(values), values.visible_to, values.gate, values.soon)
     result = score(values.run, values.truth, limits)
@@ -107,15 +107,15 @@ def evaluate(values):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --track-fusion")
     add_truth(parser)
     add("--visible-to", default=ANY, metavar="SENSOR",
-        help="that must see a true object for it to have to be found, "
-        f"{ANY}, or {NONE}: not asked (default %(default)s)")  # fmt: skip
+        help="sensor that must see a true object for it to have to be found, "
+        f"{ANY}, or {NONE}: not required (default %(default)s)")  # fmt: skip
     add_region(parser, RANGE)
     command_line.add_number(parser, "--gate", GATE, "M",
                             "from a track to the box of its true object, m")  # fmt: skip
     command_line.add_number(parser, "--soon", SOON, "S",
-                            "within which what both sensors follow has to pass, s")  # fmt: skip
+                            "time for objects that both follow to pass, s")  # fmt: skip

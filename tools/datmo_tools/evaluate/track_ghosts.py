@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two tracks on one object, and objects that change their track."""
+"""Counts two tracks on one object, and objects that change their track."""
 
 import numpy as np
 
 
 def score_ghosts(frames, gate):
-    """Ghosts and id switches of one list of tracks (TrackFrames), as a dictionary that JSON can
-    hold.
+    """Returns ghosts and id switches of a list of tracks (TrackFrames), as a dictionary for JSON.
 
     A ghost is a moving track within the gate (m) of an object that moves at some time, when all
     objects there have other tracks. An id switch is an object that has to be found and is matched

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lists of tracks as run_bag writes them."""
+"""Reads lists of tracks as written by run_bag."""
 
 from typing import NamedTuple
 
@@ -19,11 +19,11 @@ class SeenTrack(NamedTuple):
     pose: np.ndarray  # x, y (m), yaw (rad)
     velocity: np.ndarray  # m/s: vx, vy
     moving: bool
-    sources: tuple  # of (source, id): tracks that it was fused of
-    classes: tuple = ()  # probability by Object.CLASS_*; none: not known
+    sources: tuple  # of (source, id): the tracks that it was fused from
+    classes: tuple = ()  # probability by Object.CLASS_*; none: unknown
 
     def position_at(self, seconds):
-        """x, y (m) so much later (s) at its velocity."""
+        """Returns x, y (m) predicted by this time (s) at its velocity."""
         return self.pose[:2] + self.velocity * seconds
 
 
@@ -32,14 +32,14 @@ class TrackList(NamedTuple):
 
     stamp: int  # ns
     tracks: list  # of SeenTrack
-    views: list  # of ViewFan, in the map of the run; none: not known
+    views: list  # of ViewFan, in the map of the run; none: unknown
 
 
 def read_track_lists(path, topics):
-    """Dictionary topic -> list of TrackList by rising stamp.
+    """Returns a dictionary topic -> list of TrackList by increasing stamp.
 
-    Tracks with a position or velocity that is not finite are left out. Raises InputError for another
-    type, for two messages of one stamp, and where there is nothing on a topic.
+    Tracks with a position or velocity that is not finite are ignored. Raises InputError for another
+    type, for two messages of one stamp, and for a topic without messages.
     """
     lists = {topic: {} for topic in topics}
     with opened(path) as bag:
@@ -64,7 +64,7 @@ def _check_type(path, topic, message):
     if message._type != TrackArray._type:
         raise InputError(f"{path}: {topic} is {message._type}, expected {TrackArray._type}")
     if message._md5sum != TrackArray._md5sum:
-        raise InputError(f"{path}: {topic} is of another version of {message._type}, expected ours")
+        raise InputError(f"{path}: {topic} has another version of {message._type}, expected ours")
 
 
 def _finite_tracks(message):

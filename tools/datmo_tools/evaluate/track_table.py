@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of evaluate track_fusion."""
+"""Formats the report of evaluate track_fusion."""
 
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
@@ -9,7 +9,7 @@ LISTS = ("lidar", "stereo", "fused")
 
 
 def sections(result):
-    """List of Section of a score (dict)."""
+    """Returns a list of Section for a score (dict)."""
     parts = [
         _counts(result),
         _passed(result["passed"]),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a sensor could see, by the views that are published with its tracks."""
+"""What a sensor could see, by the views published with its tracks."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from datmo_tools.transforms import normalize_angle
 
-# A track may be so much behind what ended a beam, m: that may be the track's own object.
+# m, by which a track may be behind a beam's end point: that may be the track's own object.
 BLOCKING_DISTANCE = 0.5
 
 
@@ -18,7 +18,7 @@ def is_in_view(views, position):
 
 
 def is_visible(views, position):
-    """The same, and nothing that was seen is before it."""
+    """Like that, and with nothing seen in front of it."""
     for view in views:
         beam = _beam_at(view, position)
         if beam is not None and _range(view, position) <= view.reach[beam] + BLOCKING_DISTANCE:
@@ -27,13 +27,13 @@ def is_visible(views, position):
 
 
 def _beam_at(view, position):
-    """Index of the fan's beam nearest to it; None: it is out of sector or range."""
+    """Returns the index of the fan's beam nearest to it; None: it is out of sector or range."""
     if not view.reach or view.beam_spacing == 0.0:
         return None
     if not view.min_range <= _range(view, position) <= view.range:
         return None
     bearing = math.atan2(position[1] - view.sensor.y, position[0] - view.sensor.x) - view.sensor.theta
-    # About the fan's middle, so that one that is half a turn wide has no seam.
+    # Relative to the fan's middle, so that one that covers half a turn has no seam.
     half = 0.5 * (len(view.reach) - 1)
     middle = view.first_bearing + half * view.beam_spacing
     beam = round(half + float(normalize_angle(bearing - middle)) / view.beam_spacing)

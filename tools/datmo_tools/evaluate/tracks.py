@@ -17,13 +17,13 @@ have to be found, and how close a track has to be, are options; score_run --list
 
 
 def evaluate(values):
-    """The runs' scores by score_run, and their sections. Raises InputError."""
+    """Returns the runs' scores by score_run, and their sections. Raises InputError."""
     runs = score_runs(values)
     return {"format": 1, "runs": runs}, sections(runs)
 
 
 def score_runs(values):
-    """List of what score_run writes on the runs, which are of the same drive. Raises InputError."""
+    """Returns a list of what score_run writes for runs on the same drive. Raises InputError."""
     program = values.score_run or find_score_run()
     bags = values.compare or [values.run]
     runs = [score(program, bag, values.truth, _settings(values)) for bag in bags]
@@ -32,18 +32,18 @@ def score_runs(values):
 
 
 def _check_same_drive(runs):
-    """Figures of different drives say nothing side by side."""
+    """Raises InputError for runs on different drives, whose figures are not comparable."""
     objects = [{(item["id"], item["label"]) for item in run["objects"]} for run in runs]
     for run, seen in zip(runs, objects):
         if seen != objects[0]:
             raise InputError(
-                f"{run['run']}: {len(seen)} true objects, others than the {len(objects[0])} of "
+                f"{run['run']}: {len(seen)} true objects, different from the {len(objects[0])} of "
                 f"{runs[0]['run']}, expected runs on the same drive"
             )
 
 
 def _settings(values):
-    """Words that score_run is given besides its bags."""
+    """Returns the words for score_run besides its bags."""
     words = [] if values.options is None else ["--options", str(values.options)]
     for assignment in values.set:
         words += ["--set", assignment]
@@ -53,7 +53,7 @@ def _settings(values):
 
 
 def add_arguments(parser):
-    """Of this subcommand, for argparse."""
+    """Adds the arguments of this subcommand."""
     bags = parser.add_mutually_exclusive_group(required=True)
     bags.add_argument("run", nargs="?", type=Path, metavar="RUN.bag", help="bag of one run")
     bags.add_argument("--compare", nargs="+", type=Path, metavar="BAG", help="bags of several runs")

@@ -16,23 +16,23 @@ from datmo_tools.pose_path import read_path
 
 SPACING = 0.5  # m, of the stations
 
-# The path goes straight on before the first pose and after the last one, m.
+# m, by which the path is extended straight before the first pose and after the last one.
 BEYOND = 50.0
 
-# To either side of the path, m: as far as the thesis looks, 25 windows of 0.9 m.
+# m, to either side of the path: as far as in the thesis, 25 windows of 0.9 m.
 REACH = 22.5
 
-# A curb runs with the road, rad: one that turns off by more is another road's.
+# rad: a curb is parallel to the road; one that deviates by more is of another road.
 MAX_SLANT = math.radians(45.0)
 
 # The road's curvature is the change of its curb's heading over twice this, m: longer than the
-# straight pieces that bends are made of.
+# straight segments that bends consist of.
 CURVATURE_BASE = 15.0
 
-# m: a junction begins so far before the first scan in it, at 16 m/s.
+# m: a junction begins this far before the first scan in it, at 16 m/s.
 JUNCTION_MARGIN = 1.0
 
-# m: positions of two scans in a row that are in the same junction are nearer to each other.
+# m: positions of two consecutive scans in the same junction are nearer to each other.
 MAX_STEP = 5.0
 
 TURN = {"left": 0.5 * math.pi, "right": -0.5 * math.pi}
@@ -47,36 +47,36 @@ class Stations(NamedTuple):
     at_intersection: np.ndarray  # n, bool
 
     def between(self, first, last):
-        """slice of those from one arc length (m) to another."""
+        """Returns the slice of those from one arc length (m) to another."""
         return slice(*np.searchsorted(self.arc_length, [first, last]).tolist())
 
 
 class TrueSide(NamedTuple):
-    """One side of the road; distances in m across the path, NaN where there is no curb."""
+    """One side of the road; distances in m across the path, NaN without a curb."""
 
     curb: np.ndarray  # n, to the curb
     row: np.ndarray  # n, to the line of parked vehicles; NaN: none
-    open: np.ndarray  # n, bool: in a gap of the row, curb and row would do
+    open: np.ndarray  # n, bool: in a gap of the row, both curb and row are right
     curved: np.ndarray  # n, bool
     cosine: np.ndarray  # n, from distances across the path to those across the border
 
     def errors(self, seen):
-        """n, m across the border: of borders `seen` at these distances, positive: too far out."""
+        """Returns errors (n, m across the border) of borders `seen`; positive: too far out."""
         to_curb, to_row = seen - self.curb, seen - self.row
         with np.errstate(invalid="ignore"):
             curb = np.isnan(self.row) | (self.open & (np.abs(to_curb) < np.abs(to_row)))
         return np.where(curb, to_curb, to_row) * self.cosine
 
     def curb_errors(self, seen):
-        """The same from the curb, parked vehicles or not."""
+        """Returns the same relative to the curb, with or without parked vehicles."""
         return (seen - self.curb) * self.cosine
 
     def innermost(self):
-        """n, m across the path: where the road ends at the nearest."""
+        """Returns the nearest end of the road, n, m across the path."""
         return np.fmin(self.curb, self.row)
 
     def part(self, part):
-        """TrueSide of some of the stations (slice)."""
+        """Returns the TrueSide of some of the stations (slice)."""
         return TrueSide(*(values[part] for values in self))
 
 
@@ -84,13 +84,13 @@ class TrueRoad:
     """The road of one drive.
 
     poses: PosePath of the vehicle; stations: Stations; sides: dictionary left, right -> TrueSide;
-    lines: LineStrings of all that ends a road anywhere.
+    lines: LineStrings of everything that ends a road.
     """
 
     def __init__(self, path, rows, curve_radius):
         """path: bag (Path); rows: RowOptions; curve_radius: m, a road is a curve below it.
 
-        Raises InputError where the truth is not there.
+        Raises InputError if the truth is missing.
         """
         borders = read_true_borders(path)
         self.poses = poses = read_path(path, TRUE_POSE)
@@ -111,7 +111,7 @@ class TrueRoad:
         self.lines = _lines(self.stations, self.sides, borders.curbs, boxes)
 
     def arc_length_at(self, stamp):
-        """m along the path, of the vehicle at `stamp` (ns)."""
+        """Returns the vehicle's arc length along the path at `stamp` (ns), m."""
         return float(np.interp(_seconds(stamp, self._start), self._seconds, self._arc_length))
 
 
@@ -134,14 +134,14 @@ def _stations(arc_length, poses, curbs, crossed):
 
 
 def _free_distance(position, heading, curbs):
-    """How far it is straight on without a curb across, BEYOND at most."""
+    """Returns how far it is straight on without a curb across, at most BEYOND."""
     distances, _ = ray_crossings(position[np.newaxis], np.array([heading]), curbs)
     ahead = distances[(distances > 0.0) & (distances < BEYOND)]
     return float(ahead.min()) if len(ahead) else BEYOND
 
 
 def _marked(at, crossed):
-    """Which stations are at one of the stations `crossed`, or between two of the same junction."""
+    """Returns which stations are at one of the stations `crossed`, or between two of a junction."""
     marks = np.sort(crossed)
     if not len(marks):
         return np.zeros(len(at), dtype=bool)
@@ -165,7 +165,7 @@ def _side(stations, turn, curbs, boxes, rows, curve_radius):
 
 
 def _curb(stations, rays, curbs):
-    """Distance and heading (along the path) of the nearest curb; NaN: none, or it turns off."""
+    """Returns distance and heading (along the path) of the nearest curb; NaN: not along it."""
     curb, headings = np.full((2, len(rays)), np.nan)
     if not len(curbs.begin):
         return curb, headings
@@ -185,12 +185,12 @@ def _curb(stations, rays, curbs):
 
 
 def _as_line(angle):
-    """Angle of a line without direction, rad, in [-pi/2, pi/2)."""
+    """Returns the angle of an undirected line, rad, in [-pi/2, pi/2)."""
     return (angle + 0.5 * math.pi) % math.pi - 0.5 * math.pi
 
 
 def _box_sides(positions, rays, boxes):
-    """Distances (n x k, m) at which rays enter and leave k boxes; NaN where they miss one."""
+    """Returns distances (n x k, m) at which rays enter and leave k boxes; NaN if they miss one."""
     near, far = np.full((2, len(rays), len(boxes)), np.nan)
     if not len(boxes):
         return near, far
@@ -199,7 +199,7 @@ def _box_sides(positions, rays, boxes):
         part = slice(first, first + BATCH)
         distances, _ = ray_crossings(positions[part], rays[part], edges)
         distances = distances.reshape(-1, len(boxes), 4)
-        # Along one side of a box rounding decides which corners a ray meets: one alone is a miss.
+        # Along one side of a box, rounding decides which corners a ray hits: one alone is a miss.
         hit = np.count_nonzero(distances > 0.0, axis=2) > 1
         near[part] = np.where(hit, np.nanmin(distances, axis=2, initial=np.inf), np.nan)
         far[part] = np.where(hit, np.nanmax(distances, axis=2, initial=-np.inf), np.nan)
@@ -211,7 +211,7 @@ def _edges(boxes):
 
 
 def _curvatures(headings, bounded):
-    """n, 1/m, not negative: of the curb about each station; 0 where there is none."""
+    """Returns n, 1/m, not negative: the curvature of the curb at each station; 0 without one."""
     half = int(CURVATURE_BASE / SPACING)
     curvatures = np.zeros(len(headings))
     starts = np.flatnonzero(np.diff(np.concatenate([[0], bounded.astype(int)])) == 1)
@@ -225,7 +225,7 @@ def _curvatures(headings, bounded):
 
 
 def _lines(stations, sides, curbs, boxes):
-    """LineStrings of all that ends a road: curbs, parked vehicles, and the lines of their rows."""
+    """Returns LineStrings of all that ends a road: curbs, parked vehicles, lines of their rows."""
     lines = [*curbs, *(np.concatenate([corners, corners[:1]]) for corners in boxes)]
     for name, side in sides.items():
         rays = stations.headings + TURN[name]

@@ -15,16 +15,16 @@ from datmo_tools.stamps import NANOSECONDS
 TRUE_OBJECTS, TRUE_POSE = "/ground_truth/objects", "/ground_truth/pose"
 TRUE_OBJECT_ARRAY = "datmo_fusion/TrueObjectArray"
 
-ANY, NONE = "any", "none"  # sensors that must see an object: one at least; it is not asked
+ANY, NONE = "any", "none"  # sensors that must see an object: at least one; not required
 
-# From the stamp of a list to that of a truth, s: as score_run's max_silence.
+# s, from the stamp of a list to that of a truth: like score_run's max_silence.
 MAX_GAP = 0.2
 
 
 class Region(NamedTuple):
-    """Where true objects have to be found, and objects count as false."""
+    """The region in which true objects have to be found, and objects count as false."""
 
-    range: float  # m about base_link
+    range: float  # m around base_link
     half_angle: float = math.pi  # rad, to either side of straight ahead
 
     def contains(self, pose):
@@ -51,8 +51,7 @@ ANYTHING = Asked(Region(math.inf), NONE)
 
 
 def read_true_objects(path):
-    """Dictionary stamp (ns) -> list of TrueObject of a bag (Path). Raises InputError for another
-    type."""
+    """Returns a dictionary stamp (ns) -> list of TrueObject of a bag (Path). Raises InputError."""
     objects = {}
     for message, kind in read_messages(path, TRUE_OBJECTS):
         if kind != TRUE_OBJECT_ARRAY:
@@ -65,7 +64,7 @@ class Truth:
     """True objects and poses of one drive."""
 
     def __init__(self, path):
-        """path: of the bag (Path). Raises InputError where there are no true objects or poses."""
+        """path: of the bag (Path). Raises InputError without true objects or poses."""
         self._path = path
         self._objects = read_true_objects(path)
         if not self._objects:
@@ -74,7 +73,7 @@ class Truth:
         self._poses = read_path(path, TRUE_POSE)
 
     def check_seen_by(self, sensor):
-        """Raises InputError where no true object of the drive is ever visible to the sensor."""
+        """Raises InputError if no true object of the drive is ever visible to the sensor."""
         sensors = {
             name for items in self._objects.values() for item in items for name in item.visible_to
         }
@@ -86,7 +85,7 @@ class Truth:
             )
 
     def at(self, stamp, asked):
-        """List of TrueState at `stamp` (ns), with what is Asked; None: no truth is near in time."""
+        """Returns a list of TrueState at `stamp` (ns), with what is Asked; None without truth."""
         nearest = int(self._stamps[np.argmin(np.abs(self._stamps - stamp))])
         late = (stamp - nearest) / NANOSECONDS
         if abs(late) > MAX_GAP or self._poses.distance_from(stamp) > MAX_GAP * NANOSECONDS:
@@ -94,17 +93,17 @@ class Truth:
         return _states(self._objects[nearest], self.base_at(stamp), late, asked)
 
     def beside(self, lists, asked):
-        """List of ListWithTruth, of each of the lists (SeenList) that has truth near it in time."""
+        """Returns a list of ListWithTruth, for each list (SeenList) with truth near in time."""
         states = [(item, self.at(item.stamp, asked)) for item in lists]
         return [ListWithTruth(item.objects, truths, item.viewpoint)
                 for item, truths in states if truths is not None]  # fmt: skip
 
     def base_at(self, stamp):
-        """True pose of base_link in the map (x, y, yaw) at `stamp` (ns)."""
+        """Returns the true pose of base_link in the map (x, y, yaw) at `stamp` (ns)."""
         return self._poses.at(stamp)
 
     def movers(self):
-        """Ids of the objects that move at some time."""
+        """Returns the ids of the objects that move at some time."""
         return {item.id for items in self._objects.values() for item in items if item.moving}
 
 

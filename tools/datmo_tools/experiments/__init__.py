@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many runs, their figures side by side."""
+"""Compares the figures of many runs, side by side."""

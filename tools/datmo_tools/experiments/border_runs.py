@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulated data sets without and with borders of the road, side by side."""
+"""Compares the simulated data sets without and with road borders, side by side."""
 
 from typing import NamedTuple
 
@@ -38,9 +38,9 @@ NEAR_BAND = [0.0, 20.0]  # m, of evaluate borders
 
 
 def border_runs_table(results):
-    """Text of the tables.
+    """Returns the text of the tables.
 
-    results: BorderRuns, one for each data set in turn; None where a run came to no end.
+    results: BorderRuns, one for each data set in order; None if a run failed.
     """
     rows = [["data set", "borders", *HEADINGS]]
     errors = [["data set", *BORDER_HEADINGS]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the stereo camera of a sensor set sees, by its section stereo_camera."""
+"""What the stereo camera of a sensor set sees, from its section stereo_camera."""
 
 import re
 from pathlib import Path
@@ -17,17 +17,17 @@ _RANGE = "effective_range"  # m
 
 
 class CameraView(NamedTuple):
-    """A sector ahead of the vehicle."""
+    """A sector in front of the vehicle."""
 
     range: float  # m
     half_angle: float  # rad, to either side
 
 
 def camera_view(config, programs):
-    """CameraView of a sensor set.
+    """Returns the CameraView of a sensor set.
 
-    config: its yaml file (Path); what it does not say has the default, which the program
-    list_parameters in the folder `programs` (Path) prints. Raises InputError.
+    config: its yaml file (Path); parameters that it does not set have the defaults, which the
+    program list_parameters in the folder `programs` (Path) prints. Raises InputError.
     """
     sections = load_yaml(config) or {}
     defaults = _defaults(Path(programs) / LIST_PARAMETERS)
@@ -39,14 +39,14 @@ def camera_view(config, programs):
 
 
 def _value(sections, name, defaults):
-    """Of a parameter; that of the defaults where the sensor set has none."""
+    """Returns a parameter; that of the defaults if the sensor set does not have it."""
     section = sections.get(_SECTION) if isinstance(sections, dict) else None
     value = section.get(name) if isinstance(section, dict) else None
     return defaults[name] if value is None else value
 
 
 def _defaults(program):
-    """Dictionary name -> default of the numbers among the section's parameters."""
+    """Returns a dictionary name -> default of the numbers among the section's parameters."""
     try:
         text = output_of(program)
     except (StepFailed, OSError) as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the stack does when its inputs fail: the command line, the runs and the report."""
+"""Tests what the stack does when its inputs fail: the command line, the runs and the report."""
 
 import json
 import tempfile
@@ -23,19 +23,17 @@ from datmo_tools.programs import StepFailed
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\
-Plays drives with truth through the stack with one fault of a sensor after the other, and writes the
-effect of each on poses and tracks, together with the effects of mutated messages, hours of driving,
-load and outages on the stages, as a page and as JSON."""
-
+DESCRIPTION = """\ Plays drives with truth through the stack with one sensor fault after another,
+and writes the effect of each on poses and tracks, together with the effects of mutated messages,
+hours of driving, load and outages on the stages, as a page and as JSON."""
 PROGRAMS = ("run_bag", "score_run")
 TRUTH = "/ground_truth/pose"
 # The drive with a stereo camera: how scanner and camera are fused while the scanner is silent, and when
-# (s since its start) it becomes so.
+# (s since its start) it becomes silent.
 LEVELS = ("low", "object", "recommended")
 SILENT_FROM = (5.0, 7.0, 9.0, 11.0, 13.0)
 SILENT = 3.0  # s
-SURE = 0.05  # m; no pose is surer than the first one, from which errors are counted
+SURE = 0.05  # m; lower bound of a pose's sigma, as errors are relative to the first pose
 
 
 class Played(NamedTuple):
@@ -47,7 +45,7 @@ class Played(NamedTuple):
 
 
 class Run(NamedTuple):
-    """What came of it."""
+    """The result of one drive with a fault."""
 
     fault: Fault
     begin: float  # s
@@ -63,8 +61,8 @@ def main(arguments=None):
 
 
 def pose_errors(computed, recorded, since=-np.inf, until=np.inf):
-    """Stamps (s, n) of the poses in a bag (Path) from `since` to `until` (s), and how far each is off (m, n),
-    from the first of them on."""
+    """Returns stamps (s, n) of the poses in a bag (Path) from `since` to `until` (s), and their
+    errors (m, n), relative to the first of them."""
     truth, path = read_path(recorded, TRUTH), read_path(computed, "/pose")
     stamps = [stamp for stamp in path.stamps
               if max(truth.stamps[0], since * NANOSECONDS) <= stamp <= min(truth.stamps[-1], until * NANOSECONDS)]  # fmt: skip
@@ -78,7 +76,7 @@ def pose_errors(computed, recorded, since=-np.inf, until=np.inf):
 
 
 def effect(stamps, errors, clean, begin, end):
-    """What a fault from `begin` to `end` (s) did to the poses (dict).
+    """Returns what a fault from `begin` to `end` (s) did to the poses (dict).
 
     clean: stamps (s) and errors (m) of the drive without it.
     """
@@ -115,14 +113,15 @@ def _campaign(values):
         report[part] = json.loads(file.read_text(encoding="utf-8")) if file else None
     write_whole(values.page.parent, {values.page.name: page(report)})
     if values.out is not None:
-        report["load"] = None  # its samples have a file of their own
+        report["load"] = None  # its samples have a separate file
         write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
     if report["beyond"]:
         raise InputError("faults beyond their bounds:\n  " + "\n  ".join(report["beyond"]))
 
 
 def _all_faults(values, played, inputs):
-    """Results (dict) of a drive, of all faults of its inputs (all, None: and of all at once)."""
+    """Returns results (dict) of a drive with each fault of its inputs (all, None: also all at
+    once)."""
     begin = played.messages[0].recorded + values.begin
     runs, clean = [], None
     for fault in tqdm(_chosen(values.faults, faults(inputs)), played.name):
@@ -133,13 +132,13 @@ def _all_faults(values, played, inputs):
 
 
 def _chosen(parts, every):
-    """The faults whose name has one of the parts in it; the first one, which is none, in any case."""
+    """Returns the faults with one of the parts in their name, and the first one, which is none."""
     return [fault for fault in every
             if fault is every[0] or not parts or any(part in fault.name for part in parts)]  # fmt: skip
 
 
 def _check_parts(parts, every):
-    """Raises InputError for a part that no fault has in its name."""
+    """Raises InputError for a part that is in no fault's name."""
     for part in parts:
         if not any(part in fault.name for fault in every):
             names = ", ".join(dict.fromkeys(fault.name for fault in every))
@@ -154,7 +153,7 @@ def _messages(drive, inputs):
 
 
 def _play(values, played, fault, begin, folder):
-    """The Run of a drive with a fault, in a folder (Path). Raises StepFailed."""
+    """Returns the Run of a drive with a fault, in a folder (Path). Raises StepFailed."""
     run = Run(fault, begin, folder / "drive.bag", folder / "result.bag", folder)
     with whole_bag(run.drive, "campaign") as out:
         for message in faulty(played.messages, fault, begin):
@@ -166,7 +165,7 @@ def _play(values, played, fault, begin, folder):
 
 
 def _run(values, played, fault, begin, clean):
-    """Result (dict) of one fault, and its stamps and errors."""
+    """Returns the result (dict) of one fault, and its stamps and errors."""
     with tempfile.TemporaryDirectory(prefix="campaign_") as name:
         try:
             run = _play(values, played, fault, begin, Path(name))
@@ -180,7 +179,8 @@ def _run(values, played, fault, begin, clean):
 
 
 def _path(run):
-    """Stamps and errors as of pose_errors, by the clock before a jump; behind one, of the new map."""
+    """Returns stamps and errors as pose_errors does, by the clock before a jump or in the new
+    one."""
     jump = run.fault.jump
     if not jump:
         return pose_errors(run.computed, run.drive)
@@ -191,20 +191,20 @@ def _path(run):
 
 
 def _largest_sigma(run):
-    """m, in the worst direction, of the poses after the fault began."""
+    """Returns the largest sigma (m), in the worst direction, of the poses after the fault began."""
     return max(_sigma(message) for message, _ in read_messages(run.computed, "/pose/local")
                if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0))  # fmt: skip
 
 
 def _sigma(message):
-    """m, of a geometry_msgs/PoseWithCovarianceStamped in its worst direction."""
+    """Returns the sigma (m) of a geometry_msgs/PoseWithCovarianceStamped in its worst direction."""
     covariance = np.reshape(message.pose.covariance, (6, 6))[:2, :2]
     return float(np.sqrt(np.linalg.eigvalsh(covariance)[1]))
 
 
 def _largest_in_sigmas(run, stamps, errors):
-    """The largest error after the fault began, in standard deviations of its pose in the worst direction, which
-    are at least SURE; stamps and errors as of _path."""
+    """Returns the largest error after the fault began, in standard deviations of its pose in the
+    worst direction, which are at least SURE; stamps and errors: from _path."""
     said = sorted((message.header.stamp.to_sec() - run.fault.jump, _sigma(message))
                   for message, _ in read_messages(run.computed, "/pose"))  # fmt: skip
     after = stamps >= run.begin
@@ -213,7 +213,7 @@ def _largest_in_sigmas(run, stamps, errors):
 
 
 def _silent_scanner(values, played):
-    """Results (list of dict) of a scanner that is silent for a while, at each level and time."""
+    """Returns results (list of dict) of a scanner that is silent for a while, by level and time."""
     silent = next(each for each in faults(STEREO_INPUTS) if each.name == f"scan silent for {SILENT:g} s")
     none = faults(STEREO_INPUTS)[0]
     results = []
@@ -233,7 +233,7 @@ def _silent_scanner(values, played):
 
 
 def _tracks(computed, folder_of_programs, folder):
-    """Figures of the tracks in a bag (Path); None of each where time went back, which has no score."""
+    """Returns figures of the tracks in a bag (Path); None for each if time went back: no score."""
     try:
         score = simulated_run.score(computed, folder_of_programs, (), folder / "score.json")
     except StepFailed:
@@ -244,16 +244,16 @@ def _tracks(computed, folder_of_programs, folder):
 def _parser():
     parser = command_line.new_parser("campaign", DESCRIPTION)
     add = parser.add_argument
-    add("drive", type=Path, metavar="DRIVE.bag", help="with /ground_truth/pose and objects")
-    add("--stereo", type=Path, metavar="DRIVE.bag", help="another one, with a stereo camera's points")
+    add("drive", type=Path, metavar="DRIVE.bag", help="bag with /ground_truth/pose and objects")
+    add("--stereo", type=Path, metavar="DRIVE.bag", help="another, with a stereo camera's points")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
     add("--programs", required=True, type=Path, metavar="DIR", help="of run_bag and score_run")
     add("--mutated", type=Path, metavar="FILE.json", help="what mutate_messages wrote")
     add("--soak", type=Path, metavar="FILE.json", help="what soak_stack wrote")
     add("--load", type=Path, metavar="FILE.json", help="what load.test wrote")
     add("--outages", type=Path, metavar="FILE.json", help="what outage.test wrote")
-    add("--bounds", type=Path, metavar="FILE.yaml", help="what faults may do at the most; fails beyond")
-    add("--made", default="", metavar="TEXT", help="of which commit, when, with which seed: for the page")
+    add("--bounds", type=Path, metavar="FILE.yaml", help="bounds of faults' effects; fails beyond")
+    add("--made", default="", metavar="TEXT", help="commit, date and seed, for the page")
     add("--page", required=True, type=command_line.output_file, metavar="FILE.md", help="the report")
     add("--out", type=command_line.output_file, metavar="FILE.json", help="all runs")
     add("--faults", nargs="+", default=[], metavar="PART", help="those with this in their name (default all)")

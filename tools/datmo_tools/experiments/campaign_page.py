@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of the campaign: what was done to the stack, and what came."""
+"""Formats the page of the campaign: what was done to the stack, and the results."""
 
 from datmo_tools.experiments.soak import of_nodelets, of_stack
 from datmo_tools.text_table import NO_VALUE, percent, rounded
 
 TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
-# A pose is right again when its error is that of the clean drive again, by this much (m).
+# A pose has recovered when its error is that of the clean drive again, within this (m).
 RECOVERED = 0.3
 IDS = {True: "yes", False: "no", None: NO_VALUE}
-# Less than so many hours of live nodelets say nothing on growth.
+# Fewer hours of live nodelets than this do not determine a growth.
 SOAKED = 0.2
 
 
 def page(report):
-    """The report (dict) as Markdown; parts that were not run are left out."""
+    """Formats the report (dict) as Markdown; parts that were not run are left out."""
     made = f", {report['made']}" if report["made"] else ""
     parts = [["# Reliability", "", f"Written by `scripts/campaign`{made}.", *_beyond_lines(report["beyond"])]]
     parts += [_fault_lines(report, drive) for drive in report["drives"]]
@@ -129,7 +129,7 @@ def _soak_lines(soaked):
 
 
 def _live_lines(samples, seconds):
-    """Of the nodelets, before the load: `samples` as load.test writes them."""
+    """Returns the lines on the nodelets before the load: `samples` as written by load.test."""
     if seconds / 3600.0 < SOAKED:
         return []
     live = of_nodelets(samples, seconds)

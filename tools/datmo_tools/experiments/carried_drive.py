@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recordings in which a vehicle is carried elsewhere, while neither clocks nor odometry notice."""
+"""Makes recordings in which a vehicle is carried elsewhere, unnoticed by clocks and odometry."""
 
 from datmo_tools import transforms
 from datmo_tools.pose_path import planar
@@ -9,26 +9,26 @@ TRANSFORMS = "/tf"
 
 
 class CarriedDrive:
-    """What follows a stretch of a drive that was taken out, as if it had followed at once.
+    """Joins the parts of a drive before and after a removed part.
 
-    The stamps move back by the stretch's duration, and the odometry goes on from where it was
-    before; whatever says the truth keeps its poses.
+    The stamps move back by the part's duration, and the odometry continues from where it was
+    before; the ground truth keeps its poses.
     """
 
     def __init__(self, duration):
-        """duration: of the stretch, a rospy.Duration."""
+        """duration: of the removed part, a rospy.Duration."""
         self._duration = duration
-        self._before = {}  # the last pose before the stretch, by topic
-        self._after = {}  # the first one behind it
+        self._before = {}  # the last pose before the removed part, by topic
+        self._after = {}  # the first one after it
 
     def pass_before(self, topic, message):
-        """Takes note of a message before the stretch."""
+        """Notes a message before the removed part."""
         odometry = _odometry_of(topic, message)
         if odometry is not None:
             self._before[topic] = _pose_of(odometry)
 
     def move(self, topic, message):
-        """Changes a message behind the stretch in place."""
+        """Changes a message after the removed part in place."""
         odometry = _odometry_of(topic, message)
         if odometry is not None:
             pose = _pose_of(odometry)
@@ -39,21 +39,21 @@ class CarriedDrive:
 
 
 def _odometry_of(topic, message):
-    """The geometry_msgs/Pose or Transform that odometry measured; None in other messages."""
+    """Returns the geometry_msgs/Pose or Transform measured by odometry; None in other messages."""
     if topic == ODOMETRY:
         return message.pose.pose
     return message.transforms[0].transform if topic == TRANSFORMS else None
 
 
 def _parts(odometry):
-    """Position or translation, and rotation, of a pose or transform."""
+    """Returns position or translation, and rotation, of a pose or transform."""
     if hasattr(odometry, "translation"):
         return odometry.translation, odometry.rotation
     return odometry.position, odometry.orientation
 
 
 def _pose_of(odometry):
-    """x, y (m) and yaw (rad)."""
+    """Returns x, y (m) and yaw (rad)."""
     if hasattr(odometry, "position"):
         return planar(odometry)
     matrix = transforms.rigid_of(odometry)

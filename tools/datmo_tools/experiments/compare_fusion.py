@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The levels of fusion on the same drives: the command line and the runs."""
+"""Compares the levels of fusion on the same drives: the command line and the runs."""
 
 import json
 import os
@@ -21,17 +21,16 @@ from datmo_tools.experiments.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\
-Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second)
-and several seeds, and a labeled KITTI drive, where there is one, through the stack at several levels
-of fusion, and prints what became of their moving objects beside the thesis's table 3.2. Each drive
-is recorded once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate,
-all figures in comparison.json, and a picture of them in comparison.svg. A run that gives no score is
-reported, and the others continue; the exit code is then 1."""
+DESCRIPTION = """\ Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB
+for each second) and several seeds, and a labeled KITTI drive, if there is one, through the stack at
+several levels of fusion, and prints the results for their moving objects next to the thesis's table
+3.2. Each drive is recorded once, for all levels. Bags and scores of each are kept in a separate
+folder, for evaluate, all figures in comparison.json, and a picture of them in comparison.svg. A run
+without a score is reported, and the others continue; the exit code is then 1."""
 
 
 class Result(NamedTuple):
-    """What came of one drive at one level."""
+    """The result of one drive at one level."""
 
     drive: object  # of fusion_drives
     level: str  # of LEVELS or COMBINATIONS
@@ -48,13 +47,13 @@ def main(arguments=None):
 
 
 def _compare(values):
-    """Whether all runs gave a score."""
+    """Whether all runs have a score."""
     drives, notes = _drives(values)
     views = {drive.config: camera_view(drive.config, values.programs) for drive in drives}
     results = _run_all(drives, views, values)
     print(comparison_table(_table_rows(results)))
     for drive in drives:
-        # The thesis counts them; of a labeled drive each can be looked at.
+        # The thesis counts them; in a labeled drive each one can be inspected.
         if drive.published is None:
             runs = [(item.level, item.figures) for item in results if item.drive is drive]
             title = f"Moving objects of {drive.name}: tracked in so many of their frames, %"
@@ -62,7 +61,7 @@ def _compare(values):
     pictures = [(result.drive.name, result.level, result.figures) for result in results]
     write_whole(values.out, {"comparison.json": _as_json(results),
                              "comparison.svg": comparison_plot(pictures, "svg")})  # fmt: skip
-    # What one drive fails with at its recording, all levels say.
+    # If the recording of a drive fails, all its levels have the same message.
     failures = [result.failure for result in results if result.failure is not None]
     where = f"bags, scores, comparison.json and comparison.svg: {values.out}"
     closing = [*notes, *dict.fromkeys(failures), where]
@@ -71,7 +70,7 @@ def _compare(values):
 
 
 def _table_rows(results):
-    """One for each drive and level, with the figures of all seeds."""
+    """Returns one row for each drive and level, with the figures of all seeds."""
     rows = {}
     for result in results:
         row = rows.setdefault((result.drive.name, result.level), (result.drive.published, []))
@@ -81,7 +80,7 @@ def _table_rows(results):
 
 
 def _drives(values):
-    """The drives, and notes of what is not there."""
+    """Returns the drives, and notes on missing ones."""
     programs.check(values.programs, [*simulated_run.STEPS, LIST_PARAMETERS])
     drives, notes = data_sets(values.scenes, values.config, values.sets, dict.fromkeys(values.seeds)), []
     for file in [drive.scene for drive in drives] + [values.config, values.kitti_config]:
@@ -91,17 +90,18 @@ def _drives(values):
         programs.check(values.programs, ["kitti_to_bag"])
         drives.append(Kitti(values.kitti, values.kitti_config))
     else:
-        notes.append(f"{values.kitti}: not there, so no KITTI drive (--kitti names one)")
+        notes.append(f"{values.kitti}: not found, so there is no KITTI drive (--kitti sets one)")
     return drives, notes
 
 
 def _run_all(drives, views, values):
-    """Results of all drives at all levels, in this order.
+    """Returns the results of all drives at all levels, in this order.
 
     views: of their cameras (CameraView), by sensor set.
     """
     with ThreadPoolExecutor(values.jobs) as pool:
-        # Workers take what was submitted first: who waits for a recording, waits for one at work.
+        # Workers take what was submitted first: a level that waits for a recording waits for one in
+        # progress.
         recordings = [pool.submit(_record, drive, values) for drive in drives]
         runs = [
             pool.submit(_run, drive, level, recording, views[drive.config], values)
@@ -118,7 +118,7 @@ def _run_all(drives, views, values):
 
 
 def _record(drive, values):
-    """The drive's bag (Path)."""
+    """Returns the drive's bag (Path)."""
     recorded = values.out / drive.folder_name / "drive.bag"
     if not (values.reuse_drives and recorded.is_file()):
         recorded.parent.mkdir(parents=True, exist_ok=True)
@@ -127,7 +127,7 @@ def _record(drive, values):
 
 
 def _run(drive, level, recording, view, values):
-    """Result of one drive at one level."""
+    """Returns the Result of one drive at one level."""
     try:
         recorded = recording.result()
     except (StepFailed, OSError) as error:
@@ -171,21 +171,21 @@ def _parser():
     add("--config", required=True, type=Path, metavar="CONFIG.yaml",
         help="the sensor set of the scenes")  # fmt: skip
     add("--kitti", required=True, type=Path, metavar="DRIVE",
-        help="folder ..._drive_NUMBER_sync; where it is not there, it is left out")  # fmt: skip
+        help="folder ..._drive_NUMBER_sync; skipped if it does not exist")  # fmt: skip
     add("--kitti-config", required=True, type=Path, metavar="CONFIG.yaml", help="its sensor set")
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of simulate, run_bag, score_run and kitti_to_bag")  # fmt: skip
     add("--levels", nargs="+", choices=[*LEVELS, *COMBINATIONS], default=list(LEVELS),
-        help="of fusion (default: each without and with borders of the road)")  # fmt: skip
+        help="levels of fusion (default: each without and with road borders)")  # fmt: skip
     add("--seeds", nargs="+", type=int, default=[1, 2, 3, 4, 5], metavar="SEED",
         help="of the simulated drives (default: 1 to 5)")  # fmt: skip
     numbers = list(range(1, len(PUBLISHED) + 1))
     add("--sets", nargs="*", type=int, choices=numbers, default=numbers,
         help="data sets (default: all)")  # fmt: skip
     add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
-        help="runs at a time (default: all cores)")  # fmt: skip
+        help="parallel runs (default: all cores)")  # fmt: skip
     add("--reuse-drives", action="store_true",
-        help="takes the recordings that an earlier run left in the folder")  # fmt: skip
+        help="reuse the recordings of an earlier run in the folder")  # fmt: skip
     add("--out", type=command_line.output_folder, default=Path("compare_fusion"), metavar="DIR",
         help="for bags and scores (default %(default)s)")  # fmt: skip
     return parser

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thesis's experiments on simulated data sets: the command line and the runs."""
+"""Repeats the thesis's experiments on simulated data sets: the command line and the runs."""
 
 import json
 import os
@@ -16,28 +16,28 @@ from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
 from datmo_tools.experiments.fusion_table import FusionRuns, fusion_table
 from datmo_tools.programs import StepFailed
 
-DESCRIPTION = """\
-Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the
-thesis's tables 3.1 to 3.5 with our counts beside the thesis's. Bags and scores of each set stay in
-a folder of its own, for evaluate. A run that gives no score is reported, and the others continue;
-the exit code is then 1.
+DESCRIPTION = """\ Drives the scenes data_set_1 to data_set_3 through simulator, stack and score,
+and prints the thesis's tables 3.1 to 3.5 with our counts next to the thesis's. Bags and scores of
+each set are kept in a separate folder, for evaluate. A run without a score is reported, and the
+others continue; the exit code is then 1.
 
-With --low-level-fusion the stereo camera is simulated too (10 MB for each second), each drive goes
+With --low-level-fusion the stereo camera is simulated, too (10 MB for each second), each drive goes
 through the stack without and with low-level fusion, and a table has both; the thesis's tables are
 of the runs without. Bags and scores of those with fusion are in a folder `fused` within the set's.
 
-With --road-border each drive also goes through the stack with borders of the road (thesis 3.5), by
-the scanner alone; the thesis's tables 3.4 and 3.5 have columns of these runs, and a table has both.
+With --road-border each drive also goes through the stack with road borders (thesis 3.5), with
+the scanner only; the thesis's tables 3.4 and 3.5 have columns of these runs, and a table has both.
 Their bags and scores are in a folder `road_border` within the set's."""
 
-# All objects count that the scanner saw moving, as in the thesis, also those gone in a moment.
+# All objects that the scanner saw moving count, as in the thesis, also those visible only for a
+# moment.
 SCORE_OPTIONS = ("truth/min_time_seen=0", "truth/visible_to=scanner")
 
 STEREO_OPTIONS = ("stereo/enabled=true", "ground_truth/echoes=true")
 
 
 class Result(NamedTuple):
-    """What came of one data set; None for what there is not."""
+    """The results of one data set; None for those that do not exist."""
 
     report: Optional[dict] = None  # of score_run
     fusion: Optional[FusionRuns] = None
@@ -54,7 +54,7 @@ def main(arguments=None):
 
 
 def _run_all(values):
-    """Whether all runs gave a score."""
+    """Whether all runs have a score."""
     simulated_run.check_programs(values.programs)
     scenes = [values.scenes / f"data_set_{i + 1}.yaml" for i in range(len(PUBLISHED))]
     for file in [*scenes, values.config]:
@@ -75,7 +75,7 @@ def _run_all(values):
 
 
 def _run(scene, values):
-    """Result of one scene."""
+    """Returns the Result of one scene."""
     folder = values.out / scene.stem
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -100,7 +100,7 @@ class _TimedRun(NamedTuple):
 
 
 def _timed_run(recorded_in, folder, values, run_options):
-    """_TimedRun with these options of run_bag, left in the folder."""
+    """Returns the _TimedRun with these options of run_bag; its files stay in the folder."""
     folder.mkdir(exist_ok=True)
     times = folder / "times.json"
     report = simulated_run.run_recorded(
@@ -110,7 +110,7 @@ def _timed_run(recorded_in, folder, values, run_options):
 
 
 def _fused(folder, values, alone):
-    """FusionRuns: the run that there is, and one with low-level fusion."""
+    """Returns FusionRuns: the given run, and one with low-level fusion."""
     fused = _timed_run(folder, folder / "fused", values, ("--low-level-fusion", "--write-grids"))
     fused_grids = grids.score(folder / "fused" / "result.bag", folder / "drive.bag")
     return FusionRuns(alone.report, fused.report, _read(alone.times), _read(fused.times),
@@ -118,7 +118,7 @@ def _fused(folder, values, alone):
 
 
 def _with_borders(folder, values, alone):
-    """BorderRuns: the run that there is, and one with borders of the road."""
+    """Returns BorderRuns: the given run, and one with road borders."""
     bordered = _timed_run(folder, folder / "road_border", values, ("--road-border",))
     found = borders.score(folder / "road_border" / "result.bag")
     return BorderRuns(alone.report, bordered.report, _read(alone.times), _read(bordered.times),
@@ -139,6 +139,6 @@ def _parser():
     add("--out", type=command_line.output_folder, default=Path("data_sets"), metavar="DIR",
         help="for bags and scores (default %(default)s)")  # fmt: skip
     add("--low-level-fusion", action="store_true",
-        help="each drive also with the grids of scanner and stereo camera fused")  # fmt: skip
-    add("--road-border", action="store_true", help="each drive also with borders of the road")
+        help="also run each drive with fused grids of scanner and stereo camera")  # fmt: skip
+    add("--road-border", action="store_true", help="also run each drive with road borders")
     return parser

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Encounters after the public test protocols of emergency brakes and forward collision warnings
-(Euro NCAP AEB C2C and VRU 2023), as scenes of the simulator: one description, all speeds, each as a
-hit and as near misses."""
+"""Encounters following the public test protocols of emergency brakes and forward collision warnings
+(Euro NCAP AEB C2C and VRU 2023), as scenes of the simulator: one description, all speeds, each with
+a collision and with near misses."""
 
 import math
 from typing import NamedTuple
@@ -11,17 +11,17 @@ KMH = 1.0 / 3.6  # m/s
 HOST_Y = -2.0  # m, the host's lane; the road's middle is y = 0
 FRONT = 1.35 + 2.2  # m, from the rear axle to the bumper of the simulator's car
 HALF_WIDTH = 0.9  # m, of the host
-MEETING = 7.0  # s, when they meet: the map has been made by then
-AFTER = 3.0  # s, the drive goes on
+MEETING = 7.0  # s, when they meet: the map has been built by then
+AFTER = 3.0  # s, how long the drive continues
 CLEARANCE = 1.0  # m, of a near miss in space
 CLEAR_TIME = 1.5  # s, of a near miss in time
 ROAD = (-60.0, 320.0)  # m, from and to
 CORNER_LEAD = 3.8  # m, by which the left corner of a turning bumper is in the other lane before its middle
-BEYOND = 4.5  # m, beyond the lane's middle who crosses stands still
+BEYOND = 4.5  # m, beyond the lane's middle, where a crossing road user stands
 
 
 class Encounter(NamedTuple):
-    """One drive: who meets the host, how fast both are, and how it ends."""
+    """One drive: which road user meets the host, the speeds of both, and how it ends."""
 
     protocol: str  # a key of PROTOCOLS
     host: float  # km/h
@@ -29,17 +29,18 @@ class Encounter(NamedTuple):
 
     @property
     def name(self):
-        """Of its files."""
+        """Returns the name of its files."""
         return f"{self.protocol}_{self.host:.0f}_{self.ending}"
 
 
-# Who crosses has passed the host's side by CLEARANCE when the bumper comes ("space"), or CLEAR_TIME
-# earlier ("time"); who drives along stays CLEARANCE aside, or the host CLEAR_TIME behind.
+# A crossing road user has passed the host's side by CLEARANCE when the bumper arrives ("space"), or
+# CLEAR_TIME earlier ("time"); one in the same direction stays CLEARANCE aside, or the host
+# CLEAR_TIME behind.
 ENDINGS = ("hit", "space", "time")
-STOPS = "stop"  # who crosses stops CLEARANCE before the host's side: until then it is a hit
-AVOIDED = "avoided"  # a hit, but for the driver of the host, who brakes when he is warned
+STOPS = "stop"  # who crosses stops CLEARANCE before the host's side: until then, a collision course
+AVOIDED = "avoided"  # a collision course, but the host's driver brakes when warned
 
-# Speeds of the host (km/h); the other's speed and size stand with the makers below.
+# Speeds of the host (km/h); the other's speed and size are in the makers below.
 PROTOCOLS = {
     "pedestrian_near": (20, 30, 40, 50, 60),
     "pedestrian_far": (20, 30, 40, 50, 60),
@@ -62,7 +63,7 @@ CROSSING = ("pedestrian_near", "pedestrian_far", "child_behind_cars", "cyclist_a
 
 
 def encounters(endings=ENDINGS):
-    """All of them (list of Encounter)."""
+    """Returns all of them (list of Encounter)."""
     return [
         Encounter(protocol, float(speed), ending)
         for protocol, speeds in PROTOCOLS.items()
@@ -73,7 +74,7 @@ def encounters(endings=ENDINGS):
 
 
 def scene(encounter, seed=1):
-    """The scene (dict) as a yaml file of the simulator has it."""
+    """Returns the scene (dict) as in a yaml file of the simulator."""
     kind, _, variant = encounter.protocol.partition("_")
     host = encounter.host * KMH
     makers = {
@@ -88,13 +89,13 @@ def scene(encounter, seed=1):
 
 
 def _brake(result, host):
-    """The host brakes by 6 m/s^2, and stands 2 m before where they would have met."""
+    """The host brakes at 6 m/s^2, and stops 2 m before they would have met."""
     begin = MEETING - 0.5 * host / 6.0 - 2.0 / host
     result["ego"]["speed"] = [[0.0, host], [begin, host], [begin + host / 6.0, 0.0]]
 
 
 def _street(host, seed):
-    """Houses and parked cars on both sides; the host goes straight on."""
+    """Houses and parked cars on both sides; the host drives straight."""
     return {
         "options": {"seed": seed, "duration": MEETING + AFTER, "contact": True},
         "roads": [{"name": "main", "points": [[ROAD[0], 0.0], [ROAD[1], 0.0]], "width": 12.0}],
@@ -113,20 +114,20 @@ def _street(host, seed):
 
 
 def _meeting_x(host):
-    """m, of the bumper when they meet."""
+    """Returns the bumper's position (m) when they meet."""
     return host * MEETING + FRONT
 
 
 def _crossing(result, host, speed, kind, side, ending):
-    """Someone across the host's lane from the right (side -1) or the left (1), who is before the
-    middle of the bumper at MEETING."""
+    """A road user crosses the host's lane from the right (side -1) or the left (1), and is in front
+    of the middle of the bumper at MEETING."""
     half = {"pedestrian": 0.25, "cyclist": 0.9}[kind]
     deceleration = {"pedestrian": 2.0, "cyclist": 3.0}[kind]
     x = _meeting_x(host) + (0.25 if kind == "pedestrian" else 0.3)
     run_up = 14.0 if kind == "cyclist" else 5.0 if side < 0.0 else 8.0  # m from the lane's middle
     start_y = HOST_Y + side * run_up
     wait = MEETING - run_up / speed
-    if ending in ("space", "time"):  # it has left the lane when the bumper comes
+    if ending in ("space", "time"):  # it has left the lane when the bumper arrives
         wait -= (HALF_WIDTH + half) / speed
         wait -= CLEAR_TIME if ending == "time" else CLEARANCE / speed
     profile = _start_at(wait, speed)
@@ -140,19 +141,19 @@ def _crossing(result, host, speed, kind, side, ending):
 
 
 def _start_at(wait, speed):
-    """Stands, and goes from `wait` (s) on; that early, it goes already."""
+    """It stands, and starts at `wait` (s); if that is at most 0.1 s, it moves from the begin."""
     if wait <= 0.1:
         return [[0.0, speed]]
     ramp = min(0.4, wait)
-    # Half of the ramp's distance is lost: it begins that much earlier.
+    # Half of the ramp's distance is lost: it starts that much earlier.
     return [[0.0, 0.0], [wait - 0.5 * ramp, 0.0], [wait + 0.5 * ramp, speed]]
 
 
 def _stop_after(profile, distance, speed, deceleration):
-    """The same, but it stands after `distance` (m)."""
+    """The same, but it stops after `distance` (m)."""
     braking = speed * speed / (2.0 * deceleration)
     begin = profile[-1][0] + max(0.0, (distance - braking) / speed)
-    if len(profile) > 1:  # what the ramp up takes
+    if len(profile) > 1:  # the distance of the ramp up
         begin -= 0.5 * (profile[-1][0] - profile[-2][0])
     begin = max(begin, profile[-1][0] + 0.05)
     return profile + [[begin, speed], [begin + speed / deceleration, 0.0]]
@@ -164,8 +165,8 @@ def _pedestrian(result, host, variant, ending):
 
 
 def _child(result, host, _, ending):
-    """Between parked cars at the near side, seen late."""
-    # Through the gap between two cars, which are 4.4 m long and stand 6.2 m from middle to middle.
+    """Between parked cars on the near side, visible late."""
+    # Through the gap between two cars, which are 4.4 m long and 6.2 m apart from middle to middle.
     first = _meeting_x(host) - ROAD[0] + 0.25 - 4.5 * 6.2
     result["rows"].append(
         {"road": "main", "side": "right", "kinds": ["car"], "from": first, "to": first + 6 * 6.2, "spacing": 6.2,
@@ -180,7 +181,7 @@ def _cyclist(result, host, variant, ending):
         return
     speed = 15.0 * KMH
     offset = 0.0 if ending == "hit" else HALF_WIDTH + 0.3 + CLEARANCE
-    if ending == "time":  # as far ahead as the host needs to keep: it turns to the speed of the other
+    if ending == "time":  # as far ahead as the host needs to slow down to the other's speed
         _follow(result, host, speed, "cyclist")
         return
     rear = _meeting_x(host) - speed * MEETING
@@ -188,12 +189,12 @@ def _cyclist(result, host, variant, ending):
 
 
 def _ahead(result, kind, x, y, profile):
-    """Someone in the host's direction; its rear axle is at x at the start."""
+    """A road user in the host's direction; its rear axle is at x at the start."""
     result["actors"].append({"kind": kind, "path": [[x, y], [ROAD[1] + 200.0, y]], "speed": profile})
 
 
 def _follow(result, host, speed, kind):
-    """The host slows down by 2 m/s^2 and stays CLEAR_TIME behind."""
+    """The host slows down at 2 m/s^2 and stays CLEAR_TIME behind."""
     slowing = (host - speed) / 2.0
     closing = 0.5 * (host - speed) * slowing
     begin = MEETING - 3.0
@@ -218,8 +219,8 @@ def _car(result, host, variant, ending):
 
 
 def _braking_car(result, host, distance, deceleration, ending, lateral):
-    """50 behind 50 km/h; it brakes to a standstill. Without a driver they meet; where the ending is
-    one of time, the driver of the host brakes, too."""
+    """50 behind 50 km/h; it brakes to a standstill. Without a reaction they collide; if the ending
+    is in time, the host's driver brakes, too."""
     begin = 3.0
     stop = begin + host / deceleration
     profile = [[0.0, host], [begin, host], [stop, 0.0]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Risks over encounters after public test protocols: the command line and the runs."""
+"""Scores risks in encounters following public test protocols: the command line and the runs."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -15,11 +15,11 @@ from datmo_tools.experiments.encounter_scenes import AVOIDED, ENDINGS, STOPS, en
 from datmo_tools.experiments.random_encounters import random_scenes
 from datmo_tools.programs import StepFailed
 
-DESCRIPTION = """\
-Makes scenes after the public test protocols (or, with --random, at random about them), assesses the
-risks of each by each method, from the true objects and from the stack's own tracks, and scores the
-methods side by side as `evaluate risk` does. Of the own tracks there is one run for all methods.
-Leaves FOLDER/scenes/*.yaml, FOLDER/<true or own>/<method>/*.bag and FOLDER/encounters.json."""
+DESCRIPTION = """\ Makes scenes following the public test protocols (or, with --random, random
+variations of them), assesses the risks of each by each method, from the true objects and from the
+stack's own tracks, and scores the methods side by side like `evaluate risk`. For the own tracks
+there is one run for all methods. Writes FOLDER/scenes/*.yaml, FOLDER/<true or own>/<method>/*.bag
+and FOLDER/encounters.json."""
 
 METHODS = ("futures", "thesis", "ttc_boxes", "rss")
 TRUE, OWN = "true", "own"  # whose tracks
@@ -35,7 +35,7 @@ def main(arguments=None):
 
 
 def write_scenes(folder, values):
-    """Files (list of Path) of the scenes."""
+    """Returns the files (list of Path) of the scenes."""
     folder.mkdir(parents=True, exist_ok=True)
     files = []
     for seed in values.seeds:
@@ -48,7 +48,7 @@ def write_scenes(folder, values):
 
 
 def _drawn(values, seed):
-    """Names and scenes (dicts)."""
+    """Returns names and scenes (dicts)."""
     if values.random:
         return [(f"random_{number:04d}", each)
                 for number, each in enumerate(random_scenes(values.random, seed))]  # fmt: skip
@@ -72,7 +72,7 @@ def _run(values):
 
 
 def _scores(tracks, scenes, values):
-    """Of each method, of the bags that this run has made."""
+    """Returns the score of each method, of the bags of this run."""
     folder = values.folder / tracks
     for method in values.methods:
         (folder / method).mkdir(parents=True, exist_ok=True)
@@ -88,7 +88,7 @@ def _scores(tracks, scenes, values):
 
 
 def _guarded(steps, each, folder, values):
-    """What went wrong with a scene; None: nothing. Random ones may be impossible: they collide."""
+    """Returns what went wrong with a scene, or None. Random ones may be impossible."""
     try:
         steps(each, folder, values)
     except StepFailed as failure:
@@ -127,21 +127,21 @@ def _options(option, method, values):
 def _parser():
     parser = command_line.new_parser("encounters", DESCRIPTION)
     add = parser.add_argument
-    add("folder", type=Path, metavar="FOLDER", help="for scenes, bags and scores")
+    add("folder", type=Path, metavar="FOLDER", help="folder for scenes, bags and scores")
     add("--programs", required=True, type=Path, metavar="DIR", help="of simulate, run_bag and others")
     add("--tracks", nargs="+", choices=(TRUE, OWN), default=(TRUE, OWN),
-        help="of the true objects, or of run_bag (default both)")  # fmt: skip
+        help="tracks of the true objects, or of run_bag (default both)")  # fmt: skip
     add("--config", type=Path, metavar="CONFIG.yaml", help="the sensor set, for own tracks")
     add("--methods", nargs="+", choices=METHODS, default=METHODS, help="(default all)")
     add("--random", type=command_line.count, default=0, metavar="N",
-        help="so many encounters at random for each seed, in place of those of the protocols")  # fmt: skip
+        help="random encounters per seed, instead of those of the protocols")  # fmt: skip
     add("--seeds", type=int, nargs="+", default=[1], metavar="N",
-        help="of all random numbers, for each a set of scenes (default 1)")  # fmt: skip
+        help="seeds of all random numbers, each with a set of scenes (default 1)")  # fmt: skip
     add("--endings", nargs="+", choices=[*ENDINGS, STOPS, AVOIDED], default=ENDINGS, metavar="E",
         help="hit, space, time (near misses; default all three), stop (before the lane), avoided "
         "(the host brakes)")  # fmt: skip
-    add("--scenes-only", action="store_true", help="writes the scenes, and no risks")
+    add("--scenes-only", action="store_true", help="write only the scenes, no risks")
     add("--only", default="", metavar="TEXT", help="only scenes with this in their names")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="of risk, repeatable")
-    add("--jobs", type=command_line.count, default=1, metavar="N", help="scenes at a time")
+    add("--jobs", type=command_line.count, default=1, metavar="N", help="parallel scenes")
     return parser

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What faults of sensors may do at the most, by drive and fault: a table that the campaign is held against."""
+"""Bounds on the effects of sensor faults, by drive and fault, which the campaign checks."""
 
 from datmo_tools.errors import InputError
 from datmo_tools.yaml_files import load_yaml
 
-DEFAULT = "default"  # of the faults of a drive that are not named
-REFUSED = "refused"  # nothing of the drive can be used, and that is said
-# In m, standard deviations of the pose, s behind the fault's end, and of the drive without a fault.
+DEFAULT = "default"  # for the faults of a drive that are not named
+REFUSED = "refused"  # nothing of the drive is usable, and this is reported
+# In m, standard deviations of the pose, s after the fault's end, and of the drive without a fault.
 BOUNDS = ("largest_error_m", "largest_error_sigmas", "recovered_s", "mota_loss")
 
 
 def read_bounds(file):
-    """Drive -> fault -> bound -> number (dictionaries) of a yaml file (Path); a bound that is null is none.
-    Raises InputError."""
+    """Reads drive -> fault -> bound -> number (dictionaries) from a yaml file (Path); a null bound
+    is none. Raises InputError."""
     bounds = load_yaml(file)
     if not isinstance(bounds, dict):
         raise InputError(f"{file}: expected drives with the bounds of their faults")
@@ -26,8 +26,8 @@ def read_bounds(file):
 
 
 def beyond(drive, bounds):
-    """What a drive's results (dict of the campaign) have beyond its bounds (as read_bounds): list of str.
-    Raises InputError if there are none of the drive."""
+    """Returns what a drive's results (dict of the campaign) have beyond its bounds (of
+    read_bounds): list of str. Raises InputError if the drive has no bounds."""
     if drive["drive"] not in bounds:
         raise InputError(f"no bounds of {drive['drive']}, expected those of all its faults")
     of_drive = bounds[drive["drive"]]

@@ -24,19 +24,19 @@ scan, without the matching of images."""
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
 
-# What MOTA is made of, so that drives can be taken together.
+# The counts that MOTA is made of, so that drives can be combined.
 MOTA_COUNTS = ("required", "misses", "false_positives", "id_switches")
 
-# What is kept of each moving object.
+# What is kept for each moving object.
 OBJECT_KEYS = ("id", "label", "class", "first_s", "last_s", "required_frames", "tracked_frames",
                "track_ids", "delay_s")  # fmt: skip
 
 
 def figures(report, wide_report, view_report, stages):
-    """Figures of one run, as a dictionary that JSON can hold; None for what there is not.
+    """Returns the figures of one run, as a dictionary that JSON can hold; None for missing ones.
 
     report: of score_run; wide_report: the same with objects that any sensor sees, or None;
-    view_report: the same within the camera's view alone; stages: of run_bag --times.
+    view_report: the same only within the camera's view; stages: of run_bag --times.
     """
     counts = report["thesis"]
     wide = wide_report["thesis"] if wide_report else {}
@@ -60,10 +60,10 @@ def figures(report, wide_report, view_report, stages):
 
 
 def comparison_table(rows):
-    """Text of the table.
+    """Returns the text of the table.
 
-    rows: (name of the drive, Published or None, level, list of figures(), of each seed that gave
-    some).
+    rows: (name of the drive, Published or None, level, list of figures(), for each seed that has
+    any).
     """
     headings = ["drive", "level", "thesis missed", *(heading for heading, _ in _COLUMNS)]
     lines = [headings]
@@ -74,10 +74,10 @@ def comparison_table(rows):
 
 
 def objects_table(runs):
-    """Text of a table of the moving objects of one drive, and in how many of their frames they were
-    tracked (%).
+    """Returns the text of a table of the moving objects of one drive, with the share of their
+    frames in which they were tracked (%).
 
-    runs: (level, figures() or None where the run failed), of one drive or more.
+    runs: (level, figures() or None if the run failed), of one drive or more.
     """
     known = [(level, run) for level, run in runs if run is not None]
     objects = {item["id"]: item for _, run in known for item in run["objects"]}
@@ -90,7 +90,7 @@ def objects_table(runs):
 
 
 def _tracked(objects, number):
-    """Share of the frames, and by how many tracks if not by one."""
+    """Returns the share of the frames, and the number of tracks if it is not one."""
     item = next((item for item in objects if item["id"] == number), None)
     if item is None:
         return NO_VALUE

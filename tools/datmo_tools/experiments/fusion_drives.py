@@ -11,7 +11,7 @@ from datmo_tools.programs import call
 LOW, OBJECT, TRACK = (f"--{level}-fusion" for level in ("low-level", "object", "track"))
 BORDERS = "--road-border"
 
-# By name, the words for run_bag; `recommended` is that of launch files and run_bag.
+# By name, the words for run_bag; `recommended` is the one of launch files and run_bag.
 LEVELS = {
     "none": (),
     "low": (LOW,),
@@ -31,16 +31,17 @@ COMBINATIONS = {
     "low+object+track": (LOW, OBJECT, TRACK),
 }
 
-# All objects count that were seen moving, as in the thesis, also those gone in a moment: by the
-# scanner, so that all levels have the same to find, and by any sensor.
+# All objects that were seen moving count, as in the thesis, also those visible only for a moment:
+# by the scanner, so that all levels have to find the same, and by any sensor.
 BY_SCANNER = ("truth/min_time_seen=0", "truth/visible_to=scanner")
 BY_ANY = ("truth/min_time_seen=0", "truth/visible_to=any")
 
-# Labels know the camera's view alone, and not which sensor sees what: all that moves in it counts.
+# Labels cover only the camera's view, and not which sensor sees what: all that moves in it counts.
 LABELED = ("truth/min_time_seen=0", "truth/visible_to=none", "region/range=500",
             "region/half_angle=0.7")  # fmt: skip
 
-# The GPS/IMU's odometry is better than wheels': 3 % too long, and 0.5 deg/s too much to the left.
+# The GPS/IMU's odometry is better than a wheel's: here 3 % too long, and 0.5 deg/s too much to the
+# left.
 ODOMETRY_ERRORS = ("--odometry-scale-error", "0.03", "--odometry-yaw-bias", "0.5")
 
 
@@ -56,12 +57,12 @@ class Simulated(NamedTuple):
 
     @property
     def name(self):
-        """In the table, the same for all seeds."""
+        """Returns the name in the table, the same for all seeds."""
         return self.scene.stem
 
     @property
     def folder_name(self):
-        """Of what this seed leaves."""
+        """Returns the name of this seed's folder."""
         return f"{self.scene.stem}_{self.seed}"
 
     def record(self, programs, bag):
@@ -82,12 +83,12 @@ class Kitti(NamedTuple):
 
     @property
     def name(self):
-        """As Simulated's."""
+        """See Simulated."""
         return self.folder.name
 
     @property
     def folder_name(self):
-        """As Simulated's; there is one recording."""
+        """See Simulated; there is one recording."""
         return self.name
 
     def record(self, programs, bag):
@@ -96,7 +97,7 @@ class Kitti(NamedTuple):
 
 
 def data_sets(scenes, config, numbers, seeds):
-    """Simulated drives: those of these numbers (from 1) in the folder of scenes (Path), with each
+    """Returns simulated drives: scenes of these numbers (from 1) in a folder (Path), for each
     seed."""
     return [
         Simulated(scenes / f"data_set_{number}.yaml", config, PUBLISHED[number - 1], seed)
@@ -106,6 +107,6 @@ def data_sets(scenes, config, numbers, seeds):
 
 
 def within(view, score_options):
-    """The same words for score_run, with a CameraView as the region that is scored."""
+    """Returns the words for score_run, with a CameraView as the evaluated region."""
     others = [word for word in score_options if not word.startswith("region/")]
     return (*others, f"region/range={view.range}", f"region/half_angle={view.half_angle}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Picture of the levels of fusion on several drives."""
+"""Plots the levels of fusion on several drives."""
 
 from matplotlib.ticker import MaxNLocator
 
@@ -10,11 +10,11 @@ AROUND = 0.75  # inch, of titles and axes above and below the rows
 COLUMNS = 3
 NAMES_WIDTH = 1.3  # inch
 LEGEND = 0.65  # inch, the upper margin
-SPREAD = 0.4  # of a row: over so much of it the drives' dots are spread
+SPREAD = 0.4  # of a row: the height over which the drives' dots are spread
 
 
 def _share(count, total):
-    """Of a run's figures, percent."""
+    """Returns a percentage from a run's figures."""
     return lambda run: 100.0 * run[count] / run[total] if run[total] else None
 
 
@@ -34,9 +34,9 @@ PLOTS = (
 
 
 def comparison_plot(rows, kind):
-    """Bytes of the picture: for each figure a plot with a row for each level, a dot for each run.
+    """Returns the bytes of the picture: a plot per figure with a row per level and a dot per run.
 
-    rows: (name of the drive, level, figures() or None where the run failed); kind: of
+    rows: (name of the drive, level, figures() or None if the run failed); kind: of
     plot_style.KINDS.
     """
     levels = list(dict.fromkeys(level for _, level, _ in rows))
@@ -60,7 +60,7 @@ def comparison_plot(rows, kind):
 
 
 def _dots(rows, drive, levels, value):
-    """(value, row) of each of the drive's runs that has one."""
+    """Returns (value, row) of each of the drive's runs that has one."""
     dots = []
     for name, level, run in rows:
         x = None if name != drive or run is None else value(run)
@@ -70,7 +70,7 @@ def _dots(rows, drive, levels, value):
 
 
 def _finish(ax, title, levels):
-    """The first level at the top; the axis from zero, unless something is below it."""
+    """Puts the first level at the top; the axis starts at zero, unless something is below it."""
     ax.set_title(title, loc="left")
     ax.set(yticks=range(len(levels)), ylim=(len(levels) - 0.5, -0.5))
     ax.set_yticklabels(levels)

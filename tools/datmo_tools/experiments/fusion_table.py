@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulated data sets without and with low-level fusion, side by side."""
+"""Compares the simulated data sets without and with low-level fusion, side by side."""
 
 from typing import NamedTuple
 
@@ -13,9 +13,9 @@ IMAGE_MATCHING = "stereo_image_proc"  # stage of run_bag
 class FusionRuns(NamedTuple):
     """Two runs on one data set."""
 
-    alone: dict  # report of score_run, scanner alone
+    alone: dict  # report of score_run, scanner only
     fused: dict
-    times: dict  # of run_bag, scanner alone
+    times: dict  # of run_bag, scanner only
     fused_times: dict
     grids: dict  # of evaluate grids, with fusion
 
@@ -45,9 +45,9 @@ of those in the camera's view; time is the mean of all stages together, for one 
 
 
 def fusion_table(results):
-    """Text of the table.
+    """Returns the text of the table.
 
-    results: FusionRuns, one for each data set in turn; None where a run came to no end.
+    results: FusionRuns, one for each data set in order; None if a run failed.
     """
     rows = [["data set", "sensors", *(heading for heading, _ in RUN_COLUMNS), "time, ms"]]
     for number, runs in enumerate(results, start=1):
@@ -67,9 +67,9 @@ def _cells(report):
 
 
 def time_per_scan(stages):
-    """Mean time (ms) of all stages together for one scan, of what run_bag --times writes.
+    """Returns the mean time (ms) of all stages together for one scan, from run_bag --times.
 
-    Without the matching of image pairs: points are a camera's output.
+    Without the matching of image pairs, as points are a camera's output.
     """
     stages = {name: stage for name, stage in stages.items() if name != IMAGE_MATCHING}
     total = sum(stage["mean_s"] * stage["runs"] for stage in stages.values())

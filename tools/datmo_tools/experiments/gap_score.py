@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the pose came through a gap of its inputs, and whether it said how far it may be trusted."""
+"""Scores how the pose passes a gap of its inputs, and whether its covariance is honest."""
 
 import math
 from typing import NamedTuple
@@ -11,18 +11,18 @@ from datmo_tools.pose_path import POSE_OF, planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import aligned
 
-# A pose may end this far off: a fixed part, and a part of the distance since the gap began.
+# The final pose may be off by a fixed part, and a share of the distance since the gap began.
 POSITION_LIMIT = 0.5  # m
 POSITION_SHARE = 0.01
 HEADING_LIMIT = math.radians(2.0)
-# The kind of a gap in which the vehicle is carried elsewhere: its pose need not be found again.
+# A gap in which the vehicle is carried elsewhere: its pose need not be found again.
 CARRIED = "carried"
-# An error beyond the limit is one that the pose does not admit if it is more than so many sigma.
+# An error beyond the limit is not admitted by the pose if it is more than this many sigma.
 SIGMAS = 3.0
 
 
 class Gap(NamedTuple):
-    """Stretch of time without messages."""
+    """A time span without messages."""
 
     kind: str  # what is missing: "scan", "odometry" or "both"; or CARRIED
     begin: int  # ns
@@ -35,10 +35,10 @@ class Gap(NamedTuple):
 
 
 def score(computed, recorded, gap, topic="/pose/local", truth_topic="/ground_truth/pose"):
-    """Score (dict) of the poses in the bag `computed` (Path) after a gap.
+    """Returns the score (dict) of the poses in the bag `computed` (Path) after a gap.
 
     recorded: bag (Path) with the truth. Both paths are compared by their motion since the last pose
-    before the gap, so that what the map was off before does not count, and by the covariance in the
+    before the gap, so that earlier errors of the map do not count, and by the covariance in the
     map as it is. Raises InputError.
     """
     truth = read_path(recorded, truth_topic)
@@ -60,14 +60,14 @@ def score(computed, recorded, gap, topic="/pose/local", truth_topic="/ground_tru
 
 
 def passed(result):
-    """Whether a run ended within the limits, and never claimed more than it knew."""
+    """Whether a run ended within the limits, and was never overconfident."""
     if result["without_pose"] or result["confident_wrong"]:
         return False
     return result["may_stay_unknown"] or not result["end"]["beyond"]
 
 
 def table(runs):
-    """Text: a row for each kind and length of gap, and totals."""
+    """Returns a text: a row for each kind and length of gap, and totals."""
     rows = [["gap", "s", "runs", "ended off", "admitted", "confident and wrong: runs", "scans",
              "worst end, m", "deg"]]  # fmt: skip
     keys = sorted({(run["kind"], run["seconds"]) for run in runs})
@@ -98,7 +98,7 @@ def _row(runs):
 
 
 def _check(start, pose, truth):
-    """One pose after the gap against the truth, as a dictionary."""
+    """Compares one pose after the gap with the truth; returns a dictionary."""
     start_stamp, start_pose, _ = start
     stamp, estimate, covariance = pose
     true_motion = transforms.relative(truth.at(start_stamp), truth.at(stamp))
@@ -132,7 +132,7 @@ def _sigma_along(covariance, direction):
 
 
 def _motion(truth, gap):
-    """The vehicle's mean speed and its turn during a gap (dict)."""
+    """Returns the vehicle's mean speed and its turn during a gap (dict)."""
     return {"speed_mps": _speed(truth, gap), "turn_deg": _turn(truth, gap)}
 
 
@@ -145,12 +145,12 @@ def _speed(truth, gap):
 
 
 def _turn(truth, gap):
-    """From the gap's begin to its end, degrees."""
+    """Returns the turn from the gap's begin to its end, degrees."""
     return math.degrees(abs(transforms.relative(truth.at(gap.begin), truth.at(gap.end))[2]))
 
 
 def _poses(bag, topic):
-    """List of (stamp in ns, pose, covariance over x, y and yaw) on a topic, by stamp."""
+    """Returns a list of (stamp in ns, pose, covariance over x, y and yaw) on a topic, by stamp."""
     poses = []
     for message, kind in read_messages(bag, topic):
         covariance = np.reshape(message.pose.covariance, (6, 6))[np.ix_([0, 1, 5], [0, 1, 5])]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What gaps of scans and odometry, and being carried elsewhere, do to the pose: the command line and
-the runs."""
+"""Measures what gaps of scans and odometry, and being carried elsewhere, do to the pose: the
+command line and the runs."""
 
 import json
 import tempfile
@@ -23,12 +23,13 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Removes stretches of scans, of odometry or of both from drives, at regular times, and prints the
-error of the final pose, and whether it was ever overconfident. 'carried' removes a stretch of all
-sensors and joins what is left: the vehicle was carried elsewhere, and its odometry does not know. A
-drive is a scene for the simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run
-ended more than 0.5 m + 1 % of the distance or 2 degrees off (carried, it may, if it says so), or
-had a pose so far off of less than a third of that as standard deviation."""
+Removes parts of scans, of odometry or of both from drives, at regular times, and prints the
+error of the final pose, and whether it was ever overconfident. 'carried' removes a part of all
+sensors and joins the rest: the vehicle was carried elsewhere, and its odometry does not know. A
+drive is a scene for the simulator, or a bag with /ground_truth/pose. The exit code is 1 if a run
+ended with an error of more than 0.5 m + 1 % of the distance or 2 degrees (after 'carried' this is
+allowed if the covariance admits it), or had a pose with this error and less than a third of it as
+standard deviation."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
@@ -37,7 +38,7 @@ TRUTH = "/ground_truth/pose"
 ODOMETRY = ("/odometry", "/tf")
 SCANS = ("/echoes", "/scan")
 ALWAYS = ("/tf_static", TRUTH)
-# Enough of a drive before the gap that the map is as full as it gets, and after it to be found.
+# Enough of a drive before the gap to fill the map, and enough after it to find the pose again.
 LEAD = 12.0  # s
 TAIL = 6.0  # s
 
@@ -58,7 +59,7 @@ def main(arguments=None):
 
 
 def cut(recorded, gap, written):
-    """Writes the drive (Path) about a gap, without what the gap takes out, to a bag (Path)."""
+    """Writes the drive (Path) around a gap, without what the gap removes, to a bag (Path)."""
     if gap.kind == CARRIED:
         carry(recorded, gap, written)
         return
@@ -75,7 +76,7 @@ def cut(recorded, gap, written):
 
 
 def carry(recorded, gap, written):
-    """Writes the drive (Path) about a gap to a bag (Path), with its two parts joined."""
+    """Writes the drive (Path) around a gap to a bag (Path), with its two parts joined."""
     duration = gap.end - gap.begin
     drive = CarriedDrive(rospy.Duration(nsecs=duration))
     first = gap.begin - round(LEAD * NANOSECONDS)
@@ -94,7 +95,7 @@ def carry(recorded, gap, written):
 
 
 def gaps_of(recorded, values):
-    """List of Gap at regular times of a drive (Path)."""
+    """Returns a list of Gap at regular times of a drive (Path)."""
     stamps = read_path(recorded, TRUTH).stamps
     step = round(values.every * NANOSECONDS)
     first = int(stamps[0]) + round(values.first * NANOSECONDS)
@@ -107,7 +108,7 @@ def gaps_of(recorded, values):
 
 
 def run_case(case, values):
-    """Result (dict) of one run. Raises StepFailed."""
+    """Returns the result (dict) of one run. Raises StepFailed."""
     with tempfile.TemporaryDirectory(prefix="gaps_") as name:
         folder = Path(name)
         drive, computed = folder / "drive.bag", folder / "result.bag"
@@ -144,7 +145,7 @@ def _sweep(values):
 
 
 def _line(run):
-    """One run that did not pass, as text."""
+    """Describes one run that did not pass."""
     where = f"{run['drive']}, {run['kind']} {run['seconds']:g} s from {run['begin_s']:.1f} s"
     scored = run["score"]
     if scored["without_pose"]:
@@ -163,7 +164,7 @@ def _line(run):
 
 
 def _recorded(drive, values, folder):
-    """Bag (Path) of a drive; a scene is simulated into `folder`."""
+    """Returns the bag (Path) of a drive; a scene is simulated into `folder`."""
     if drive.suffix == ".bag":
         return drive
     recorded = folder / f"{drive.stem}.bag"
@@ -178,13 +179,13 @@ def _parser():
     add("drives", nargs="+", type=Path, metavar="DRIVE", help="SCENE.yaml, or DRIVE.bag with truth")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
     add("--programs", required=True, type=Path, metavar="DIR", help="of simulate and run_bag")
-    add("--preset", action="append", default=[], metavar="FILE.yaml", help="of run_bag, repeatable")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="of simulate, repeatable")
+    add("--preset", action="append", default=[], metavar="FILE.yaml", help="for run_bag, repeatable")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="for simulate, repeatable")
     add("--kinds", nargs="+", choices=KINDS, default=KINDS, help="what is missing (default all)")
     add("--seconds", nargs="+", type=command_line.number, default=[0.2, 0.5, 1.0, 2.0, 5.0],
         metavar="S", help="lengths of the gaps (default 0.2 0.5 1 2 5)")  # fmt: skip
     add("--jobs", type=command_line.count, default=1, metavar="N",
-        help="runs at a time (default 1)")  # fmt: skip
+        help="parallel runs (default 1)")  # fmt: skip
     add("--out", type=command_line.output_file, metavar="FILE.json", help="all runs")
     command_line.add_number(parser, "--first", 8.0, "S", "time of the first gap")
     command_line.add_number(parser, "--every", 5.0, "S", "time from a gap to the next one")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether what moves in a camera's view keeps the id of its track, while another sensor is away."""
+"""Checks whether moving objects in a camera's view keep their ids while another sensor is off."""
 
 import collections
 
@@ -11,13 +11,13 @@ from datmo_tools.pose_path import planar, read_messages, read_path
 TRUTH = "/ground_truth/pose"
 NEAR = 2.0  # m, from an object's center to that of its track: half a car's length
 BESIDE = 0.5  # s, before and after
-SEEN = 0.5  # share of the time: others hide it now and then
+SEEN = 0.5  # share of the time: others occlude them now and then
 
 
 def kept_ids(computed, recorded, begin, end, sensor="stereo"):
-    """How many moving objects that a sensor sees most of the time from `begin` to `end` (s) are tracked
-    before and after, and how many of them under one id (dict); also how many lists of tracks came
-    in between.
+    """Counts how many moving objects that a sensor sees most of the time from `begin` to `end` (s)
+    are tracked before and after, and how many of them under one id (dict); also how many lists of
+    tracks were published in between.
 
     computed, recorded: bags (Path) with tracks and pose, and with the truth.
     """
@@ -43,7 +43,7 @@ def kept_ids(computed, recorded, begin, end, sensor="stereo"):
 
 
 def _ids_of(tracks, truth, seen, paths):
-    """Track id by object id, of those objects that have a track near to them."""
+    """Returns track id by object id, of those objects that have a track near them."""
     own, true = (path.at(tracks.header.stamp.to_nsec()) for path in paths)
     positions = [(track.id, transforms.relative(own, planar(track.pose))[:2]) for track in tracks.tracks]
     found = {}
@@ -58,10 +58,10 @@ def _ids_of(tracks, truth, seen, paths):
 
 
 def gap_effect(stamps, errors, clean, gap, distance_m):
-    """What a gap did to the pose (dict): the error that it added at the first pose after it, and from
-    BESIDE later on the most; None: no pose.
+    """Returns what a gap did to the pose (dict): the error that it added at the first pose after
+    it, and the maximum from BESIDE later on; None: no pose.
 
-    stamps (s) and errors (m), and the clean drive's: as of pose_errors; gap: begin and end (s);
+    stamps (s) and errors (m), and the clean drive's: see pose_errors; gap: begin and end (s);
     distance_m: driven in it.
     """
     begin, end = gap

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faults of sensors in a drive that is played through the stack: what is done to the messages."""
+"""Sensor faults in a drive that is played through the stack: how they change the messages."""
 
 import copy
 import functools
@@ -15,7 +15,7 @@ INPUTS = {"scan": SCANS, "odometry": ODOMETRY, "tf": TRANSFORMS}
 STEREO_INPUTS = {"scan": SCANS, "stereo": STEREO}
 MOUNTS = "/tf_static"
 KEPT = (MOUNTS, "/ground_truth/pose", "/ground_truth/objects", "/stereo/left/camera_info", "/stereo/right/camera_info")
-JUMP = 100.0  # s, more than the drive is long
+JUMP = 100.0  # s, longer than the drive
 
 
 class Fault(NamedTuple):
@@ -23,10 +23,10 @@ class Fault(NamedTuple):
 
     name: str
     seconds: float
-    # (Message, s since the fault began) -> list of Message that are recorded in its place.
+    # (Message, s since the fault began) -> list of Message that are recorded instead.
     apply: Callable
-    jump: float = 0.0  # s, by which all stamps are later from its beginning on
-    whole: bool = False  # `apply` has all messages, from the drive's start to its end
+    jump: float = 0.0  # s, by which all stamps are later from its begin on
+    whole: bool = False  # `apply` gets all messages of the drive
 
 
 class Message(NamedTuple):
@@ -38,7 +38,7 @@ class Message(NamedTuple):
 
 
 def faults(inputs=None):
-    """All of them, by the input that they are of; with all inputs (default) also those of all at once."""
+    """Returns all faults, by input; with all inputs (default) also those of all inputs at once."""
     listed = [Fault("none", 0.0, lambda message, _: [message])]
     for name, topics in (inputs or INPUTS).items():
         listed += [
@@ -60,7 +60,7 @@ def faults(inputs=None):
 
 
 def faulty(messages, fault, begin):
-    """The messages (list of Message) with a fault that begins at `begin` (s), by record time."""
+    """Returns the messages (list of Message), with a fault from `begin` (s) on, by record time."""
     result = []
     for message in messages:
         since = message.recorded - begin
@@ -70,7 +70,7 @@ def faulty(messages, fault, begin):
 
 
 def once(change):
-    """The same change, of the first message alone."""
+    """Returns the same change, applied only to the first message."""
     done = []
 
     def apply(message, since):
@@ -108,7 +108,7 @@ def _on(topics, apply, message, since):
 
 
 def _stamped(content):
-    """The parts of a message that have a header."""
+    """Returns the parts of a message that have a header."""
     return content.transforms if hasattr(content, "transforms") else [content]
 
 
@@ -124,7 +124,7 @@ def _without(topic):
 
 
 def _jumped(seconds):
-    """From the fault's beginning on, of all that is measured, the truth included."""
+    """Shifts everything measured from the fault's begin on, including the truth."""
     def apply(message, since):
         return [message if since < 0.0 or message.topic == MOUNTS else _restamped(message, seconds)]
 
@@ -146,7 +146,7 @@ def _every_other():
 
 
 def _frozen():
-    """What came first, under the stamps of what comes."""
+    """Repeats the first content, with the stamps of the current messages."""
     first = {}
 
     def apply(message, _):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far off the pose is at the end of a drive, with and without loops closed, and how many of the
+"""Measures the error of the pose at the end of a drive, with and without loop closing, and how many
 loops are false: command line and runs."""
 
 import json
@@ -19,17 +19,17 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\
-Drives a scene through simulator and run_bag, with several seeds, and prints the final and the
-largest error of the live pose and of the optimized trajectory, both aligned with the true drive at
-its first pose; how many loops were closed, and how many of these are false; and the time of a scan."""
+DESCRIPTION = """\ Drives a scene through simulator and run_bag, with several seeds, and prints the
+final and the largest error of the live pose and of the optimized trajectory, both aligned with the
+true drive at the first pose; how many loops were closed, and how many of these are false; and the
+time per scan."""
 
 FORMAT = 2  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
 TRAJECTORY = "/trajectory/optimized"
 PATHS = {"live pose": "/pose", "with loops closed": TRAJECTORY}
 
-# A loop that is farther off is false: more than a match within one cell of the map explains.
+# A loop with a larger error is false: more than a match within one cell of the map explains.
 FALSE_M = 0.5
 FALSE_DEG = 2.0
 
@@ -41,8 +41,8 @@ def main(arguments=None):
 
 
 def errors(path, truth):
-    """How far a PosePath is from the true one (PosePath), with their poses at the path's first stamp
-    laid on each other: dict of end_m, end_deg, end_share (of the distance driven), max_m."""
+    """Returns the error of a PosePath against the true one (PosePath), aligned at the path's first
+    stamp: dict of end_m, end_deg, end_share (of the distance driven), max_m."""
     begin = path.stamps[0]
     to_truth = transforms.compose(
         truth.at(begin), transforms.relative(path.at(begin), np.zeros(3))
@@ -61,9 +61,9 @@ def errors(path, truth):
 
 
 def loop_errors(loops, start, truth):
-    """Errors of loops (list of dict, as run_bag's report has them) against a PosePath: list of (m, deg).
+    """Returns errors of loops (list of dict, of run_bag's report) by a PosePath: list of (m, deg).
 
-    start: stamp (ns) that the loops' times count from.
+    start: stamp (ns) that the loops' times are relative to.
     """
     found = []
     for loop in loops:
@@ -75,7 +75,7 @@ def loop_errors(loops, start, truth):
 
 
 def loop_figures(loops, start, truth):
-    """What became of loops (dict, as run_bag's report has it), with those that are false: dict."""
+    """Summarizes loops (dict, from run_bag's report), with the number of false ones: dict."""
     off = loop_errors(loops["closed"], start, truth)
     return {
         **loops,
@@ -87,7 +87,7 @@ def loop_figures(loops, start, truth):
 
 
 def table(results):
-    """The results (list of dict, one a seed) as text."""
+    """Formats the results (list of dict, one per seed)."""
     rows = [["seed", "", "off at the end, m", "% of the distance", "deg", "at the most, m",
              "loops", "false", "at the most off, m", "deg"]]  # fmt: skip
     for result in results:
@@ -111,7 +111,7 @@ def _loop_cells(loops):
 
 
 def _drive(values, seed):
-    """Result (dict) of one seed. Raises StepFailed."""
+    """Returns the result (dict) of one seed. Raises StepFailed."""
     with tempfile.TemporaryDirectory(prefix="loop_closing_") as name:
         folder = Path(name)
         recorded, computed = folder / "in.bag", folder / "out.bag"
@@ -149,10 +149,10 @@ def _parser():
     parser = command_line.new_parser("loop_closing", DESCRIPTION)
     add = parser.add_argument
     add("scene", type=Path, metavar="SCENE.yaml",
-        help="of the simulator: around a closed course, or one without loops")  # fmt: skip
+        help="scene of the simulator: a closed course, or one without loops")  # fmt: skip
     add("--programs", type=Path, required=True, metavar="FOLDER", help="of simulate and run_bag")
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
-    add("--seeds", type=int, default=3, metavar="N", help="from 1 on (default %(default)s)")
-    add("--jobs", type=int, default=1, metavar="N", help="at a time (default %(default)s)")
-    add("--out", type=command_line.output_file, metavar="FILE.json", help="writes all figures there")
+    add("--seeds", type=int, default=3, metavar="N", help="number of seeds (default %(default)s)")
+    add("--jobs", type=int, default=1, metavar="N", help="parallel runs (default %(default)s)")
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="for all figures")
     return parser

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Computers that are none: Linux network namespaces, joined by a network that delays and loses IP packets.
+"""Emulates computers by Linux network namespaces, joined by a network with delays and losses.
 
-Each namespace has a TUN device, and a process of ours carries whole IP packets from one to the other, as
-a router would: it waits, and some it drops, so that TCP sends them again. Packets may overtake each
-other, as with netem. Root alone may do this.
+Each namespace has a TUN device, and a process of ours forwards whole IP packets from one to the
+other, like a router: it delays them, and drops some, so that TCP resends them. Packets may overtake
+each other, as with netem. Requires root.
 """
 
 import contextlib
@@ -26,14 +26,14 @@ from typing import NamedTuple
 TUN = Path("/dev/net/tun")
 TUNSETIFF, IFF_TUN, IFF_NO_PI = 0x400454CA, 0x0001, 0x1000  # linux/if_tun.h
 LARGEST_PACKET = 65536  # bytes
-DESTINATION = slice(16, 20)  # of an IPv4 header
+DESTINATION = slice(16, 20)  # of the address in an IPv4 header
 SUBNET = "10.77.0"
-MOST_WAITING = 20000  # packets, of the router's buffer: what comes then is lost
+MOST_WAITING = 20000  # packets, of the router's buffer: further ones are lost
 PARENT_CHECK = 1.0  # s
 
 
 class Quality(NamedTuple):
-    """Of each direction from one computer to another."""
+    """Link of each direction from one computer to another."""
 
     delay: float = 0.0  # s
     jitter: float = 0.0  # s; each packet's delay is uniform within delay +- jitter
@@ -42,7 +42,7 @@ class Quality(NamedTuple):
 
 
 def why_not():
-    """Why there can be no such network here (text), or None."""
+    """Returns why there can be no such network here (text), or None."""
     if os.geteuid() != 0:
         return "only root may make network namespaces"
     if shutil.which("ip") is None:
@@ -59,7 +59,7 @@ def why_not():
 
 
 class LossyNetwork:
-    """A context: `computers` namespaces, which see each other at address(0), address(1) and so on."""
+    """Context manager of `computers` namespaces, which reach each other at address(0) etc."""
 
     def __init__(self, computers, quality):
         self._quality = quality
@@ -87,15 +87,15 @@ class LossyNetwork:
         return f"{SUBNET}.{computer + 1}"
 
     def name(self, computer):
-        """Of its namespace."""
+        """Returns the name of its namespace."""
         return self._names[computer]
 
     def command(self, computer, words):
-        """The words of a command that runs others there."""
+        """Returns the words of a command that runs others there."""
         return ["ip", "netns", "exec", self._names[computer], *map(str, words)]
 
     def ping(self):
-        """From the first computer to the last one, by TCP. Raises OSError if there is no way."""
+        """Connects the first computer to the last one by TCP. Raises OSError if it cannot."""
         code = ("import socket, sys\n"
                 "try: socket.create_connection((sys.argv[1], 9), timeout=5)\n"
                 "except ConnectionRefusedError: pass\n")
@@ -103,7 +103,7 @@ class LossyNetwork:
         _checked(*self.command(0, ["/usr/bin/python3", "-c", code, self.address(last)]))
 
     def _connect(self, computer, name):
-        """Makes a namespace with its device; returns the device's file descriptor."""
+        """Creates a namespace with its device; returns the device's file descriptor."""
         _checked("ip", "netns", "add", name)
         device = os.open(TUN, os.O_RDWR | os.O_NONBLOCK)
         interface = f"datmo{computer}"
@@ -131,7 +131,7 @@ def _checked(*words):
 
 
 def _end_processes(name):
-    """Those that were left in a namespace of ours."""
+    """Returns the processes left in one of our namespaces."""
     left = subprocess.run(["ip", "netns", "pids", name], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                           encoding="utf-8", check=False).stdout
     for process in left.split():
@@ -140,8 +140,8 @@ def _end_processes(name):
 
 
 def _relay(devices, quality, parent):
-    """Carries packets until it is ended, or its parent is. devices: file descriptors by address (4 bytes)."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the parent ends it
+    """Forwards packets until it or its parent ends. devices: file descriptors by address."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # from a terminal: the parent ends this process
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     chance = random.Random(quality.seed)
     waiting, number = [], 0
@@ -163,7 +163,7 @@ def _relay(devices, quality, parent):
 
 
 def _packets(device):
-    """What has come since."""
+    """Returns the packets that have arrived."""
     while True:
         try:
             yield os.read(device, LARGEST_PACKET)
@@ -172,7 +172,7 @@ def _packets(device):
 
 
 def _write(device, packet):
-    """A device that is down, or whose queue is full, loses the packet."""
+    """Writes a packet; a device that is down, or whose queue is full, loses it."""
     try:
         os.write(device, packet)
     except OSError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stack on three computers whose network delays and loses packets, beside one computer: the report."""
+"""Compares the stack on three computers with a lossy network to one computer: the report."""
 
 import contextlib
 import json
@@ -18,15 +18,14 @@ from datmo_tools.experiments.machines_run import Drive, Kill
 from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\
-Plays a drive in real time to the stack on one computer, and on three (network namespaces) whose network
-delays each packet and loses some; kills the process of each part in turn. Prints how far the tracks are
-those of run_bag, which no timing changes, what the latency is, how soon each part works again, and the
-clocks' offsets, whose true value is 0. Needs root."""
+DESCRIPTION = """\ Plays a drive in real time to the stack on one computer, and on three (network
+namespaces) whose network delays each packet and loses some; kills the process of each part in turn.
+Prints how far the tracks agree with those of run_bag, which does not depend on timing, the latency,
+how soon each part works again, and the clocks' offsets, whose true value is 0. Needs root."""
 
 MOTION_TOPICS = ("/odometry", "/tf", "/tf_static")
 MOTION_ALONE = 0.5  # s
-PAIRED = 0.5  # m: tracks of two runs that are nearer to each other are of one object
+PAIRED = 0.5  # m: tracks of two runs that are nearer to each other belong to one object
 MILLISECONDS = 1e3
 KILL_AFTER = 5.0  # s, of the drive
 FIXTURE_TOPICS = {"sensors": ("/echoes", "/odometry", "/tf", "/tf_static")}
@@ -35,23 +34,24 @@ STEREO_TOPICS = {
     "stereo": ("/stereo/points2", "/stereo/point_velocities", "/stereo/left/camera_info",
                "/stereo/right/camera_info"),
 }  # fmt: skip
-# Points enough for objects, so that the test's own reader keeps up.
+# Enough points for objects, but few enough for the test's own reader to keep up.
 STEREO_OPTIONS = ("stereo/enabled=true", "scanner/echoes=1", "stereo/column_step=4", "stereo/row_step=4")
 ONE_SCANNER = "scan_merge: {sources: {rear: {use: false}}}\n"  # so that `sensors` has something to do
 SCANNER_NODELETS = ("grid_slam", "moving_objects", "tracker", "risk")
 
 
 def fixture_drive(repository, folder):
-    """The scanner's chain and risk, on the committed bag (repository: Path of the sources)."""
+    """Returns the scanner's chain and risk, on the committed bag (repository: Path)."""
     bag = folder / "scanner.bag"
     begin_with_motion(repository / "rosbag_fixtures/intersection.bag", bag)
     return Drive(bag, repository / "config/demonstrator.yaml", ("risk:=true",), (), FIXTURE_TOPICS, SCANNER_NODELETS, ())
 
 
 def begin_with_motion(source, bag):
-    """A copy of a bag (Paths) whose first half second has no measurements but motion.
+    """Copies a bag (Paths) without the measurements of its first half second, except motion.
 
-    The first scan has no older odometry to go by: if it comes first, the map begins otherwise.
+    Without this the first scan has no older odometry: if it comes first, the map begins
+    differently.
     """
     with rosbag.Bag(str(source)) as read, rosbag.Bag(str(bag), "w") as written:
         begin = read.get_start_time()
@@ -61,7 +61,7 @@ def begin_with_motion(source, bag):
 
 
 def stereo_drive(repository, programs, folder):
-    """All four parts at work: simulated into the folder (Path)."""
+    """Returns a drive for all four parts: simulated into the folder (Path)."""
     scene = repository / "rosbag_fixtures/scenes/intersection.yaml"
     bag, config = folder / "stereo.bag", folder / "stereo.yaml"
     simulated_run.record(simulated_run.SimulatedDrive(scene, STEREO_OPTIONS), programs, folder / "simulated.bag")
@@ -75,7 +75,7 @@ def stereo_drive(repository, programs, folder):
 
 
 def sameness(one, other):
-    """How much of the tracks of two Results is the same (dict)."""
+    """Returns how far the tracks of two Results agree (dict)."""
     first, second = (machines_run.by_time(result, "tracks") for result in (one, other))
     common = sorted(set(first) & set(second))
     distances, alone = [], 0
@@ -94,7 +94,8 @@ def sameness(one, other):
 
 
 def paired(first, second):
-    """Distances (m) of tracks of one list from the nearest of the other, each once, and how many are left of both."""
+    """Returns distances (m) of tracks of one list from the nearest of the other, one to one, and
+    how many of both are left."""
     rest = list(second)
     distances = []
     for _, x, y in first:
@@ -107,7 +108,7 @@ def paired(first, second):
 
 
 def clock_offsets(result):
-    """What `stack` last said of each part's clock, by process (text)."""
+    """Returns what `stack` last reported on each part's clock, by process (text)."""
     found = {}
     for _, _, values in result.stack:
         found.update({key: value for key, value in values.items() if key.startswith("clock of ")})
@@ -118,12 +119,12 @@ def latency(result, topic):
     """Median and 99th percentile, ms."""
     values = machines_run.latencies(result, topic)
     if not values:
-        raise InputError(f"no {topic} came: see the logs")
+        raise InputError(f"no {topic} received: see the logs")
     return MILLISECONDS * statistics.median(values), MILLISECONDS * float(np.quantile(values, 0.99))
 
 
 def measure(drive, quality, launch_file, programs, folder):
-    """Figures of one drive (dict): on one computer, on three, and on three with each part killed."""
+    """Returns figures of a drive (dict): on one computer, on three, and with each part killed."""
     plans = {"one": (False, ()), "three": (True, ())}
     plans.update({part: (True, [Kill(part, KILL_AFTER)]) for part in drive.parts})
     results = {}
@@ -144,7 +145,7 @@ def measure(drive, quality, launch_file, programs, folder):
 
 
 def table(name, figures):
-    """The figures of a drive as lines of text."""
+    """Formats the figures of a drive as lines of text."""
     rows = [(name, "lists", "missing", "tracks", "unpaired", "median [m]", "p99 [m]")]
     for run, same in figures["sameness"].items():
         rows.append((f"tracks: run_bag, {run}", *(str(same[key]) for key in ("lists", "lists_missing", "tracks", "unpaired")),
@@ -189,7 +190,7 @@ def _parser():
     parser.add_argument("repository", type=Path, help="folder of the sources")
     parser.add_argument("--programs", type=Path, required=True, help="folder of the built programs")
     command_line.add_number(parser, "--delay", 20.0, "MS", "of each packet")
-    command_line.add_number(parser, "--jitter", 10.0, "MS", "by which the delay is more or less, evenly")
+    command_line.add_number(parser, "--jitter", 10.0, "MS", "jitter of the delay, uniform, +-")
     command_line.add_number(parser, "--loss", 0.02, "SHARE", "of packets that are lost")
     parser.add_argument("--seed", type=int, default=1, help="of delays and losses (default 1)")
     command_line.add_json(parser)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stack on three computers, or on one, while a drive is played in real time: what comes out, and when."""
+"""Runs the stack on three computers, or on one, on a drive in real time, and records outputs."""
 
 import contextlib
 import json
@@ -21,8 +21,8 @@ from datmo_tools.programs import call
 COMPUTERS = 3
 COMPUTER_OF = {"sensors": 0, "stereo": 1, "perception": 2, "risk": 0}  # which computer has which part
 PORT = 11311
-PATIENCE = 180.0  # s, for all to be loaded; of what it takes on a machine that has much to do many times over
-RUN_UP = 5.0  # s, from the word to start to the first message: a first packet that is lost is sent again after 1 s, and 2 s
+PATIENCE = 180.0  # s, for all to be loaded; many times what a busy machine needs
+RUN_UP = 5.0  # s, from start command to first message: lost packets are resent after 1 s, 2 s
 OUTPUT = {"sensors": "tracks", "stereo": "objects/stereo", "perception": "tracks", "risk": "risks"}
 
 
@@ -33,21 +33,21 @@ class Drive(NamedTuple):
     config: Path
     arguments: tuple  # words for perception.launch
     options: tuple  # the same for run_bag
-    topics: dict  # those that are played, by the part on whose computer their devices are
-    nodelets: tuple  # these have reported before it begins
-    parts: tuple  # those that have something to do
+    topics: dict  # played topics, by the part on whose computer their devices are
+    nodelets: tuple  # that must have reported before it begins
+    parts: tuple  # those that are used
     seconds: float = float("inf")  # of the bag
 
 
 class Kill(NamedTuple):
-    """A part's process is killed."""
+    """Kills a part's process."""
 
     part: str
     after: float  # s, since the drive began
 
 
 class Result(NamedTuple):
-    """Of one run; times in s."""
+    """Result of one run; times in s."""
 
     begin: float  # time of the first message
     messages: dict  # [stamp, arrival, tracks] of each message, by topic
@@ -56,10 +56,10 @@ class Result(NamedTuple):
 
 
 def run(drive, network, split, launch_file, folder, kills=()):
-    """A Result.
+    """Runs a drive and returns its Result.
 
     network: LossyNetwork of COMPUTERS; split: each part is on its computer, else all are on the first
-    computer; launch_file: perception.launch; folder (Path): where logs are left; kills: in their order.
+    computer; launch_file: perception.launch; folder (Path): for logs; kills: in order.
     """
     computer_of = (lambda part: COMPUTER_OF[part]) if split else (lambda _part: 0)
     with _Processes(network, launch_file.parents[1], folder) as processes:
@@ -84,7 +84,7 @@ def run(drive, network, split, launch_file, folder, kills=()):
 
 
 def on_bag(drive, programs, folder):
-    """The Result of run_bag on all of the drive, which no timing changes; arrivals are not known (NaN)."""
+    """Returns the Result of run_bag on the whole drive, independent of timing; arrivals are NaN."""
     computed = folder / "computed.bag"
     call(programs / "run_bag", drive.bag, computed, "--config", drive.config, "--quiet", *drive.options)
     with opened(drive.bag) as bag:
@@ -95,24 +95,24 @@ def on_bag(drive, programs, folder):
 
 
 def track_positions(message):
-    """Of the tracks in a message: id, x and y (m)."""
+    """Returns id, x and y (m) of the tracks in a message."""
     return [(track.id, track.pose.position.x, track.pose.position.y) for track in getattr(message, "tracks", ())]
 
 
 def recovery(result, kill):
-    """Time (s) from a kill, one of result.kills, until something comes of what was measured after it; None: never."""
+    """Returns the time (s) from a kill (of result.kills) to the result of a later scan, or None."""
     part, when = kill
     arrivals = [arrival for stamp, arrival, _ in result.messages[OUTPUT[part]] if stamp > when]
     return min(arrivals) - when if arrivals else None
 
 
 def latencies(result, topic):
-    """From the measurement to the arrival (s), of each message."""
+    """Returns the time from the measurement to the arrival (s), of each message."""
     return [arrival - stamp for stamp, arrival, _ in result.messages[topic]]
 
 
 def by_time(result, topic):
-    """Tracks of each message by its time of the drive, ms."""
+    """Returns the tracks of each message by its time of the drive, ms."""
     return {round(1e3 * (stamp - result.begin)): tracks for stamp, _, tracks in result.messages[topic]}
 
 
@@ -127,7 +127,7 @@ def _launch_words(drive, network, split, launch_file, folder):
 
 
 def _write_machines(network, folder):
-    """The launch file with the machines, and for each who sets its environment."""
+    """Writes the launch file with the machines, and each one's script for its environment."""
     tags = ""
     for part, computer in COMPUTER_OF.items():
         loader = folder / f"computer_{computer}.sh"
@@ -140,7 +140,7 @@ def _write_machines(network, folder):
 
 
 def _kill(network, computer, kill, begin, split):
-    """Returns when it was done."""
+    """Kills the process; returns when it was done."""
     time.sleep(max(0.0, begin + kill.after - time.time()))
     manager = f"perception_{kill.part}" if split and kill.part != "perception" else "perception"
     process = _process_of(network.name(computer), manager)
@@ -150,7 +150,7 @@ def _kill(network, computer, kill, begin, split):
 
 
 def _process_of(namespace, node):
-    """Process of a node, by the name that roslaunch gave it on its command line."""
+    """Returns the process of a node, by the name that roslaunch put on its command line."""
     listed = subprocess.run(["ip", "netns", "pids", namespace], stdout=subprocess.PIPE, encoding="utf-8", check=True)
     for process in listed.stdout.split():
         with contextlib.suppress(OSError):
@@ -161,7 +161,7 @@ def _process_of(namespace, node):
 
 
 class _Processes:
-    """A context: what is started on the computers, and ends with it."""
+    """Context manager of processes on the computers, which end with it."""
 
     def __init__(self, network, package, folder):
         self._network, self._package, self._folder = network, package, folder
@@ -181,7 +181,7 @@ class _Processes:
                 process.wait(PATIENCE)
 
     def start(self, name, computer, words):
-        """What it says goes to a log by its name; what it prints is to be read."""
+        """Starts a process; its errors go to a log with its name; its output can be read."""
         environment = dict(os.environ, ROS_MASTER_URI=f"http://{self._network.address(0)}:{PORT}",
                            ROS_IP=self._network.address(computer), ROS_LOG_DIR=str(self._folder / "ros"),
                            ROS_HOME=str(self._folder / "ros"),
@@ -196,7 +196,7 @@ class _Processes:
         return process
 
     def start_roslaunch(self, words):
-        """On the first computer. Where it ends by itself, all else does, too."""
+        """Starts roslaunch on the first computer. If it ends, everything else does, too."""
         launch = self.start("roslaunch", 0, words)
 
         def watch():
@@ -210,8 +210,8 @@ class _Processes:
 
     @staticmethod
     def expect(process, word):
-        """Until it has printed a line with the word. Raises InputError if it ends before."""
-        while line := process.stdout.readline():  # rospy says other things, too
+        """Waits until it has printed a line with the word. Raises InputError if it ends before."""
+        while line := process.stdout.readline():  # rospy prints other lines, too
             if line.strip() == word:
                 return
         raise InputError(f"{' '.join(process.args)}: ended, expected it to say {word}; roslaunch has ended, too?")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much of what a scanner sees a saved map knows: what localization in it can go by at best."""
+"""Measures how much of a scanner's view a saved map covers, which bounds localization in it."""
 
 import math
 
@@ -12,12 +12,12 @@ from datmo_tools.pose_path import planar
 from datmo_tools.stamps import to_ros_time
 from datmo_tools.yaml_files import load_yaml
 
-# An end point this near to a surface of the map is on it, m.
+# m, from a surface of the map, within which an end point is on it.
 NEAR = 0.3
 
 
 class MapSurfaces:
-    """The occupied pixels of a map as map_server has it."""
+    """The occupied pixels of a map as saved by map_server."""
 
     def __init__(self, description):
         """description: yaml file (Path). Raises InputError."""
@@ -27,13 +27,14 @@ class MapSurfaces:
             raise InputError(f"{description}: no image {tree['image']} beside it")
         self.pixel = float(tree["resolution"])
         self.origin = np.asarray(tree["origin"][:2], dtype=float)
-        # Rows of images go down.
+        # The rows of images go down.
         occupied = image[::-1] < 255.0 * (1.0 - tree["occupied_thresh"])
         distances = cv2.distanceTransform((~occupied).astype(np.uint8), cv2.DIST_L2, 5)
         self.is_near = distances * self.pixel <= NEAR
 
     def known(self, points):
-        """Array of bool: whether each of the points (n x 2, m, in the map) is near a surface."""
+        """Returns for each of the points (n x 2, m, in the map) whether it is near a surface
+        (bool)."""
         cells = np.floor((np.asarray(points) - self.origin) / self.pixel).astype(int)
         rows, columns = self.is_near.shape
         inside = ((cells >= 0) & (cells < (columns, rows))).all(axis=1)
@@ -43,7 +44,7 @@ class MapSurfaces:
 
 
 def known_shares(computed, begin, surfaces):
-    """Stamps (ns) and shares of each scan's end points that a map knows (two arrays).
+    """Returns stamps (ns) and the share of each scan's end points that a map covers (two arrays).
 
     computed: bag (Path) with /labeled_scan, with poses in the map's frame, read from `begin` (ns) on.
     """

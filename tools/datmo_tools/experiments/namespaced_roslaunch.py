@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""roslaunch that reaches its machines by `ip netns exec` in place of ssh: all else is roslaunch's own.
+"""Runs roslaunch, which reaches its machines by `ip netns exec` instead of ssh.
 
 usage: namespaced_roslaunch ADDRESS=NAMESPACE... -- WORD OF ROSLAUNCH...
 """
@@ -16,7 +16,7 @@ from roslaunch.remoteprocess import SSHChildROSLaunchProcess
 
 
 class _Pipe:
-    """One end of a process's pipe as paramiko's channel files are: does not wait for what may come."""
+    """One end of a process's pipe, like paramiko's channel files; never waits for data."""
 
     def __init__(self, pipe):
         self._pipe = pipe
@@ -24,7 +24,7 @@ class _Pipe:
         os.set_blocking(pipe.fileno(), False)
 
     def settimeout(self, _seconds):
-        """It never waits."""
+        """Never waits."""
 
     def read(self, size):
         try:
@@ -38,7 +38,7 @@ class _Pipe:
 
 
 class _Connection:
-    """The process on the other machine, as paramiko's connection."""
+    """The process on the other machine, with the interface of paramiko's connection."""
 
     def __init__(self, process):
         self._process = process
@@ -60,7 +60,7 @@ def _execute_in(namespaces):
 
 
 def main():
-    """The exit code."""
+    """Returns the exit code."""
     end = sys.argv.index("--")
     namespaces = dict(word.split("=", 1) for word in sys.argv[1:end])
     with mock.patch.object(SSHChildROSLaunchProcess, "_ssh_exec", _execute_in(namespaces)):

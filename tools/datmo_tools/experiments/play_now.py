@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays topics of a bag as if they were measured now: all stamps are as much later as the clock is.
+"""Plays topics of a bag as if they were measured now: all stamps are shifted to the clock.
 
 usage: play_now BAG --seconds S --nodelets NAME... --topics TOPIC...
 
-Waits until the nodelets have reported on /diagnostics and all who subscribe are connected, says `ready`,
-and reads a line: the time (s) at which the first message is of. Several of these play one bag together.
+Waits until the nodelets have reported on /diagnostics and all subscribers are connected, prints
+`ready`, and reads a line: the time (s) for the first message. Several of these play one bag
+together.
 """
 
 import sys
@@ -19,12 +20,12 @@ from datmo_tools.command_line import new_parser, run
 
 QUEUE = 200
 POLL = 0.1  # s
-STATIC = "/tf_static"  # there before it begins
+STATIC = "/tf_static"  # published before it begins
 LATCHED = (STATIC, "/stereo/left/camera_info", "/stereo/right/camera_info")
 
 
 def shift(message, duration):
-    """Makes a message, and the transforms in it, as much later."""
+    """Shifts a message, and the transforms in it, by this much."""
     for stamped in (message, *getattr(message, "transforms", ())):
         if hasattr(stamped, "header"):
             stamped.header.stamp += duration
@@ -32,7 +33,7 @@ def shift(message, duration):
 
 
 def wait_for_nodelets(names):
-    """Until all of them have reported once; returns what they take: (topic, node of the process)."""
+    """Waits until all have reported; returns their subscriptions: (topic, node of the process)."""
     missing, takes = set(names), set()
 
     def take(list_of_all):
@@ -50,7 +51,7 @@ def wait_for_nodelets(names):
 
 
 def wait_for_connections(publishers, takes):
-    """Until all who take the topics are known to the master, and all whom it knows are connected."""
+    """Waits until all subscribers of the topics are known to the master, and connected."""
     master = rosgraph.Master(rospy.get_name())
     while not rospy.is_shutdown():
         subscribers = {topic: set(nodes) for topic, nodes in master.getSystemState()[1]}
@@ -83,11 +84,11 @@ def play(values):
         time.sleep(max(0.0, recorded.to_sec() + later - time.time()))
         publishers[topic].publish(shift(message, rospy.Duration.from_sec(later)))
     print("played", flush=True)
-    sys.stdin.readline()  # latched messages are there until then
+    sys.stdin.readline()  # latched messages have arrived by then
 
 
 def main():
-    """The exit code."""
+    """Returns the exit code."""
     parser = new_parser("play_now", __doc__)
     parser.add_argument("bag")
     parser.add_argument("--seconds", type=float, default=float("inf"))

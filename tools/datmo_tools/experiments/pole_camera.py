@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a camera on a pole is worth: a pedestrian behind a parked van, with and without its tracks."""
+"""Measures the benefit of a pole's camera for tracking a pedestrian behind a parked van."""
 
 import tempfile
 from pathlib import Path
@@ -14,11 +14,10 @@ from datmo_tools.pose_path import planar, read_messages
 from datmo_tools.programs import call
 from datmo_tools.text_table import aligned, rounded
 
-DESCRIPTION = """\
-Drives a scene with each seed, adds a satellite receiver and a pole camera's tracks to the bag, and runs
-the stack with the scanner alone and with the camera's tracks. Prints when the pedestrian had a track
-at first, the NEES of the camera's tracks in the map (position, 2 degrees of freedom), and how many lists
-had a track that is farther than 2 m from all true objects."""
+DESCRIPTION = """\ Drives a scene with each seed, adds a satellite receiver and a pole camera's
+tracks to the bag, and runs the stack with the scanner alone and with the camera's tracks. Prints
+when the pedestrian was first tracked, the NEES of the camera's tracks in the map (position, 2
+degrees of freedom), and how many lists had a track farther than 2 m from all true objects."""
 
 FORMAT = 1  # of the JSON file
 SCANNER_ALONE = "track_fusion: {sources: {stereo: {use: false}}}\n"
@@ -27,12 +26,12 @@ TRACKS, FOREIGN, POSE = "/tracks", "/tracks/v2x", "/pose"
 
 
 class Outcome(NamedTuple):
-    """Of one drive, s since its start; None: not tracked."""
+    """The result of one drive, s since its start; None: not tracked."""
 
     alone: float
     with_camera: float
     nees: list  # of each of the camera's tracks in the map
-    false_alone: int  # lists with a track that is near no true object
+    false_alone: int  # lists with a track that is not near any true object
     false_with_camera: int
 
 
@@ -78,7 +77,8 @@ def _drive(values, seed):
 
 
 class MapOfRun:
-    """Positions of the truth in the map of a run, which drifts: as the vehicle has them about itself."""
+    """Returns true positions in a run's (drifting) map, by the vehicle's true and estimated
+    pose."""
 
     def __init__(self, bag, truth):
         self.truth = truth
@@ -87,7 +87,7 @@ class MapOfRun:
         self.stamps = np.array(sorted(self.poses))
 
     def position_of(self, item, stamp):
-        """Position (m) of an item at a stamp (ns)."""
+        """Returns the position (m) of an item at a stamp (ns)."""
         near = int(self.stamps[np.argmin(np.abs(self.stamps - stamp))])
         true = min(self.truth.poses, key=lambda pose: abs(pose[0] - near))
         x, y, heading = self.poses[near]
@@ -97,7 +97,7 @@ class MapOfRun:
 
 
 def _first_track(bag, truth):
-    """Time (s) of the first list with a track near the pedestrian when he walks."""
+    """Returns the time (s) of the first list with a track near the walking pedestrian."""
     own = MapOfRun(bag, truth)
     for message, _ in read_messages(bag, TRACKS):
         stamp = message.header.stamp.to_nsec()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulated drive with a satellite receiver on the vehicle and a camera on a pole beside the road."""
+"""Adds a satellite receiver on the vehicle and a camera on a roadside pole to a simulated drive."""
 
 import math
 from typing import NamedTuple
@@ -17,17 +17,18 @@ PEDESTRIAN, VEHICLE = Object.CLASS_PEDESTRIAN, Object.CLASS_VEHICLE
 CLASSES = 5
 GNSS, STATIONS = "/gnss", "/stations"
 
-# The map of the truth on the earth: WGS 84 position of its origin, and its heading from east.
+# The pose of the truth's map on the earth: WGS 84 position of its origin, and its heading from
+# east.
 LATITUDE, LONGITUDE, ALTITUDE, HEADING = math.radians(45.19), math.radians(5.72), 212.0, 0.7
 SEMI_MAJOR, ECCENTRICITY2 = 6378137.0, 6.69437999014e-3  # m, 1
 
 GNSS_PERIOD, CAMERA_PERIOD, LATENCY = 0.2, 0.1, 0.08  # s
-SHARED, SHARED_TIME = 0.8, 60.0  # share of the receiver's variance that lasts, and for how long (s)
+SHARED, SHARED_TIME = 0.8, 60.0  # share of the receiver's variance that lasts, and its duration (s)
 POLE, RANGE = np.array([81.0, 11.0]), 40.0  # m, in the map of the truth
 STATION = 3
 ACCELERATION = 1.0  # m/s^2, of the camera's own filter
 START_VELOCITY = 6.0  # m/s, standard deviation of a new track of the camera
-CLOCK_SIGMA = 0.02  # s, that the camera states
+CLOCK_SIGMA = 0.02  # s, as stated by the camera
 NANOSECONDS = 1e9
 
 
@@ -44,7 +45,7 @@ class Item(NamedTuple):
     moving: bool
 
     def at(self, stamp):
-        """Its position a little earlier or later."""
+        """Returns its position slightly earlier or later."""
         return self.position + (stamp - self.stamp) * 1e-9 * self.velocity
 
 
@@ -65,15 +66,15 @@ class Truth:
         self.start = self.frames[0][0]
 
     def all(self, stamp):
-        """Items of the frame that is nearest to a stamp (ns)."""
+        """Returns the items of the frame nearest to a stamp (ns)."""
         return min(self.frames, key=lambda frame: abs(frame[0] - stamp))[1]
 
     def moving(self, stamp):
-        """Those that move, or can: people."""
+        """Returns those that move or can move: people."""
         return [item for item in self.all(stamp) if item.moving or item.kind == PEDESTRIAN]
 
     def nearest(self, stamp, kind):
-        """The first item of a kind, or None."""
+        """Returns the first item of a kind, or None."""
         return next((item for item in self.all(stamp) if item.kind == kind), None)
 
 
@@ -120,7 +121,7 @@ def _fixes(truth, random, sigma):
 
 
 def _lists(truth, random, values):
-    """Of the camera: each object near the pole, and the vehicle itself, by a Kalman filter each."""
+    """Returns the camera's Kalman-filtered tracks of objects near the pole and of the vehicle."""
     filters = {}
     next_stamp = truth.start
     for (stamp, items), pose in zip(truth.frames, truth.poses):
@@ -143,7 +144,7 @@ def _lists(truth, random, values):
 
 
 def _ego(pose):
-    """The vehicle as any object: its middle is this far ahead of the rear axle."""
+    """Returns the vehicle as an object: its center is this far ahead of the rear axle."""
     stamp, position, heading, speed = pose
     ahead = np.array([math.cos(heading), math.sin(heading)])
     return Item(0, VEHICLE, stamp, position + 1.4 * ahead, speed * ahead, heading, (4.6, 1.85, 1.5),
@@ -151,7 +152,7 @@ def _ego(pose):
 
 
 class Filter:
-    """Constant velocity, in the plane of east and north."""
+    """Kalman filter with constant velocity, in the plane of east and north."""
 
     def __init__(self, position, sigma):
         self.state = np.array([*position, 0.0, 0.0])
@@ -159,7 +160,7 @@ class Filter:
         self.sigma, self.stamp = sigma, None
 
     def take(self, stamp, position):
-        """A detection (m) at a stamp (ns); the first one is in already."""
+        """Adds a detection (m) at a stamp (ns); the first one is already included."""
         if self.stamp is not None:
             seconds = (stamp - self.stamp) / NANOSECONDS
             step = np.eye(4) + seconds * np.eye(4, k=2)
@@ -192,7 +193,7 @@ def _to_plane(position):
 
 
 def _geodetic(point):
-    """Degrees of a point east and north of the origin (m), by the radii of curvature there."""
+    """Returns the degrees of a point east and north of the origin (m), by local curvature radii."""
     root = math.sqrt(1.0 - ECCENTRICITY2 * math.sin(LATITUDE) ** 2)
     meridian = SEMI_MAJOR * (1.0 - ECCENTRICITY2) / root**3 + ALTITUDE
     normal = SEMI_MAJOR / root + ALTITUDE

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map of the first part of a drive, and localization in it: the command line and the runs."""
+"""Maps the first part of a drive, and tests localization in this map: command line and runs."""
 
 import json
 import math
@@ -23,22 +23,22 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it, at
 regular times of the rest of the drive, without an initial pose. Prints how often it was localized
-in time, how often in a wrong place, and the error of the pose; and the same by the share of the
+in time, how often at a wrong position, and the error of the pose; and the same by the share of the
 vehicle's view in that time that is in the map, since a place that the first part of the drive did
 not see cannot be recognized: the starts in the map are the attainable ones. Reference: the poses of
-one run over the whole drive, whose map is the same. The exit code is 1 where a wrong place was
-taken."""
+one run over the whole drive, whose map is the same. The exit code is 1 if there was a wrong
+localization."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("run_bag",)
 INPUTS = ("/scan", "/echoes", "/odometry", "/tf")
-# A pose claims a place when its standard deviation is below this, m: unlocated ones have meters.
+# m: a pose claims to be located if its standard deviation is below this; before, it has meters.
 LOCATED_SIGMA = 1.0
-# A place is wrong from here on.
+# A pose is wrong from these errors on.
 WRONG_POSITION = 0.5  # m
 WRONG_HEADING = 5.0  # degrees
-# Bounds of the table's groups of starts: shares of the end points that the map knows, in the mean
-# of the scans. In the first group a place can be found, in the last one hardly.
+# Bounds of the table's groups of starts: mean shares of the scans' end points that the map covers.
+# In the first group a pose can be found, in the last one hardly.
 KNOWN_SHARES = (1.0, 0.9, 0.8, 0.5, 0.0)
 
 
@@ -51,7 +51,7 @@ def main(arguments=None):
 
 
 def cut(recorded, begin, end, written):
-    """Writes what the drive (Path) has between two stamps (ns) to a bag (Path)."""
+    """Writes the part of a drive (Path) between two stamps (ns) to a bag (Path)."""
     with opened(recorded) as bag, whole_bag(written, "prior_map") as out:
         for topic, message, _ in bag.read_messages(["/tf_static"]):
             out.write_latched(topic, begin, message)
@@ -61,10 +61,11 @@ def cut(recorded, begin, end, written):
 
 
 def score(computed, reference, begin):
-    """Result (dict) of a start at `begin` (ns) by the poses in the bag `computed` (Path).
+    """Returns the result (dict) of a start at `begin` (ns) by the poses in the bag `computed`
+    (Path).
 
-    reference: PosePath in the same map. found_after: s, None where no pose claimed a place. wrong:
-    whether any pose that did was off; errors are those of the last pose.
+    reference: PosePath in the same map. found_after: s, None if no pose claimed to be located.
+    wrong: whether any pose that did was off; errors are those of the last pose.
     """
     found_after, wrong, last = None, False, None
     for message, kind in read_messages(computed, "/pose/local"):
@@ -86,7 +87,7 @@ def score(computed, reference, begin):
 
 
 def table(results, within):
-    """The results (list of dict) as text. within: s, in which a vehicle is to be found."""
+    """Formats the results (list of dict). within: s, in which a vehicle is to be localized."""
     rows = [["starts", "", f"found within {within:g} s", "found", "wrong place",
              "found after, s: median", "off at the end, m: median", "max", "deg: median",
              "max"]]  # fmt: skip
@@ -99,7 +100,7 @@ def table(results, within):
 
 
 def _known_share(result):
-    """That of a start, below 1: a view that is all in the map is of the first group."""
+    """Returns a start's share, below 1: a view that is all in the map is in the first group."""
     return min(result["known_share"], np.nextafter(1.0, 0.0))
 
 
@@ -125,7 +126,7 @@ def _run_bag(values, *words):
 
 
 def _start(values, saved, reference, begin):
-    """Result (dict) of one start at `begin` (ns). Raises StepFailed."""
+    """Returns the result (dict) of one start at `begin` (ns). Raises StepFailed."""
     with tempfile.TemporaryDirectory(prefix="prior_map_") as name:
         drive, computed = Path(name) / "drive.bag", Path(name) / "result.bag"
         cut(values.drive, begin, begin + round(values.seconds * NANOSECONDS), drive)
@@ -134,7 +135,7 @@ def _start(values, saved, reference, begin):
 
 
 def _run(values):
-    """List of results (dict), one a start."""
+    """Returns a list of results (dict), one per start."""
     for file in (values.drive, values.config):
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a bag and a yaml file")
@@ -175,15 +176,15 @@ def _starts(values, folder):
 def _parser():
     parser = command_line.new_parser("prior_map", DESCRIPTION)
     add = parser.add_argument
-    add("drive", type=Path, metavar="DRIVE.bag", help="a recording, as run_bag takes it")
+    add("drive", type=Path, metavar="DRIVE.bag", help="recording, as for run_bag")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
     add("--programs", required=True, type=Path, metavar="DIR", help="of run_bag")
     add("--starts", type=command_line.count, default=100, metavar="N",
-        help="how many (default 100)")  # fmt: skip
+        help="number of starts (default 100)")  # fmt: skip
     add("--jobs", type=command_line.count, default=1, metavar="N",
-        help="runs at a time (default 1)")  # fmt: skip
+        help="parallel runs (default 1)")  # fmt: skip
     add("--out", type=command_line.output_file, metavar="FILE.json", help="all starts")
-    command_line.add_number(parser, "--share", 0.5, "X", "of the drive that is mapped")
+    command_line.add_number(parser, "--share", 0.5, "X", "share of the drive that is mapped")
     command_line.add_number(parser, "--seconds", 15.0, "S", "length of a run")
-    command_line.add_number(parser, "--within", 10.0, "S", "in which it is to be found")
+    command_line.add_number(parser, "--within", 10.0, "S", "time for it to be localized")
     return parser

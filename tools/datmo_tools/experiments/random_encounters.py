@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Encounters drawn at random about those of the protocols (encounter_scenes.py)."""
+"""Draws random encounters, variations of those of the protocols (encounter_scenes.py)."""
 
 import numpy as np
 
@@ -10,9 +10,8 @@ FASTEST = 60.0  # km/h, of the host
 
 
 def random_scenes(count, seed):
-    """`count` scenes (dicts) with speeds, times and places drawn at random about those of the
-    protocols, and with road users and hosts that change their minds: who is to meet whom is left to
-    chance."""
+    """Returns `count` scenes (dicts) with random speeds, times and places near those of the
+    protocols, and road users and hosts that change their behavior: whether they meet is random."""
     random = np.random.default_rng(seed)
     protocols = [name for name in PROTOCOLS if not name.startswith("turn")]
     for number in range(count):
@@ -20,14 +19,14 @@ def random_scenes(count, seed):
         host = random.uniform(min(PROTOCOLS[protocol]) - SLOWER, FASTEST)
         host = 50.0 if protocol.startswith("car_braking") else host
         drawn = scene(Encounter(protocol, host, str(random.choice(ENDINGS))), int(number + 1))
-        # Neighbors in time say the same: more encounters in place of more frames of each.
+        # Consecutive frames say the same: more encounters instead of more frames of each.
         drawn["options"]["scanner"] = {"scan_rate": 5.0, "beam_spacing": 1.0}
         drawn["options"]["ground_truth"] = {"radius": 45.0}
         yield _varied(drawn, random)
 
 
 def _varied(drawn, random):
-    """Times off by a few seconds, the other stops or changes its speed, the host brakes or hurries."""
+    """Shifts times by seconds; the other stops or changes speed, the host brakes or speeds up."""
     actor = drawn["actors"][0]
     shift = random.uniform(-2.0, 2.0)
     actor["speed"] = [[max(0.0, t + shift) if t > 0.0 else 0.0, v] for t, v in actor["speed"]]
@@ -41,7 +40,7 @@ def _varied(drawn, random):
 
 
 def _changed(profile, random, factor):
-    """From some time on the speed goes to a multiple of what it was, within one to three seconds."""
+    """Changes the speed at some time to a multiple of it, within one to three seconds."""
     begin = random.uniform(2.5, MEETING + 1.0)
     speed = _speed_at(profile, begin)
     kept = [point for point in profile if point[0] < begin]
@@ -53,7 +52,7 @@ def _speed_at(profile, time):
 
 
 def _rising(profile):
-    """Without points that the shift has put before their predecessor."""
+    """Drops points that the shift has moved before their predecessor."""
     result = []
     for time, speed in profile:
         if result and time <= result[-1][0]:

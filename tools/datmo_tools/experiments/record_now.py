@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes what comes on topics of the running stack, when, and of which stamp; of tracks where they are.
+"""Records messages on topics of the running stack with arrival and stamp; of tracks the positions.
 
 usage: record_now OUT.json
 
-Ends after its standard input has, when nothing comes any more. Times are s of the computer's clock.
+Ends after its standard input has ended, when nothing arrives any more. Times are s of the
+computer's clock.
 """
 
 import json
@@ -25,7 +26,7 @@ TOPICS = {"tracks": TrackArray, "risks": RiskArray, "objects/stereo": ObjectArra
 
 
 class Recorder:
-    """What has come: [stamp, arrival, tracks] by topic, and what `stack` says."""
+    """What has arrived: [stamp, arrival, tracks] by topic, and the reports of `stack`."""
 
     def __init__(self):
         self.messages = {topic: [] for topic in TOPICS}
@@ -46,7 +47,7 @@ class Recorder:
 
 
 def main():
-    """The exit code."""
+    """Returns the exit code."""
     out = Path(sys.argv[1])
     rospy.init_node("record_now", anonymous=True, disable_signals=True)
     recorder = Recorder()

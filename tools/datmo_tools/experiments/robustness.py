@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How well the pose holds among moving objects, over many seeds: the command line and the runs."""
+"""Measures how stable the pose is among moving objects, over many seeds: command line and runs."""
 
 import json
 import os
@@ -20,8 +20,8 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Drives each scene with each number of moving vehicles and each seed through simulator, stack and
 score, and prints how often the pose jumped by more than 1 m, and how much larger its error is with
-the vehicles than without. The same seed has the same odometry noise whatever the number. A run that
-gives no score is reported, and the others continue; the exit code is then 1."""
+the vehicles than without. The same seed has the same odometry noise for any number. A run without a
+score is reported, and the others continue; the exit code is then 1."""
 
 FORMAT = 1  # of the JSON file
 
@@ -43,7 +43,7 @@ def main(arguments=None):
 
 
 def _benchmark(values):
-    """Whether all runs gave a score."""
+    """Whether all runs have a score."""
     for file in [*values.scenes, values.config]:
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a yaml file")
@@ -67,7 +67,7 @@ def _benchmark(values):
 
 
 def _run_all(cases, values):
-    """The runs in the order of the cases, several at a time."""
+    """Returns the runs in the order of the cases, several in parallel."""
     runs = {}
     with ThreadPoolExecutor(values.jobs) as pool:
         waiting = {pool.submit(_run_case, case, values): case for case in cases}
@@ -106,7 +106,7 @@ def _parser():
     add("--seeds", type=command_line.count, default=50, metavar="N",
         help="seeds from 1 (default %(default)s)")  # fmt: skip
     add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
-        help="runs at a time (default: all cores)")  # fmt: skip
+        help="parallel runs (default: all cores)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("robustness.json"), metavar="FILE.json",
         help="all runs (default %(default)s)")  # fmt: skip
     return parser

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the runs of the robustness benchmark come to."""
+"""Summarizes the runs of the robustness benchmark."""
 
 import statistics
 
@@ -19,11 +19,11 @@ COLUMNS = (
 
 
 def summarize(runs):
-    """One dictionary for each scene and number of movers, in the order of their first run.
+    """Returns one dictionary for each scene and number of movers, in the order of their first run.
 
     runs: dictionaries with scene, movers, seed and pose (as in score_run's JSON; None: no score,
-    which counts as neither good nor failed). Error and ratio are None where nothing was scored;
-    the ratio is that of the mean to the one of the same scene without movers.
+    which counts as neither good nor failed). Error and ratio are None if nothing was scored;
+    the ratio is the mean relative to that of the same scene without movers.
     """
     groups = {}
     for run in runs:
@@ -37,7 +37,7 @@ def summarize(runs):
 
 
 def table(summary):
-    """Text of a summary."""
+    """Formats a summary."""
     distances = max((row["relative"] for row in summary), key=len)
     heads = [head for item in distances for head in (f"error at {item['distance_m']:.0f} m", "ratio")]
     rows = [[name for name, _, _ in COLUMNS] + heads]
@@ -71,7 +71,7 @@ def _row(scene, movers, runs):
 
 
 def _relative(poses):
-    """Mean over the runs of the error of relative poses, for each distance."""
+    """Returns the mean over the runs of the error of relative poses, for each distance."""
     errors = {}
     for pose in poses:
         for error in pose["relative"]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A scene through simulator, stack and score: what the benchmarks on simulated drives share."""
+"""Runs a scene through simulator, stack and score: shared by the benchmarks on simulated drives."""
 
 import json
 from pathlib import Path
@@ -12,7 +12,7 @@ STEPS = ("simulate", "run_bag", "score_run")
 
 
 class SimulatedDrive(NamedTuple):
-    """One scene with the options that differ from those in its file."""
+    """One scene, with options that differ from those in its file."""
 
     scene: Path
     options: tuple = ()  # words "key=value", as simulate's --set takes them
@@ -24,10 +24,10 @@ def check_programs(folder):
 
 
 def run(drive, programs, config, folder, score_options=(), run_options=()):
-    """Report of score_run (dict) on the drive.
+    """Returns the report of score_run (dict) on the drive.
 
     programs: folder (Path) of the built programs; config: yaml file of the sensor set; folder:
-    where drive.bag, result.bag and score.json are left; score_options: words "key=value" for
+    for drive.bag, result.bag and score.json; score_options: words "key=value" for
     score_run; run_options: words for run_bag. Raises StepFailed.
     """
     recorded = folder / "drive.bag"
@@ -41,9 +41,9 @@ def record(drive, programs, recorded):
 
 
 def run_recorded(recorded, programs, config, folder, score_options=(), run_options=(), attainable=None):
-    """The same as run() on a bag that is there (Path): stack and score.
+    """Like run(), on an existing bag (Path): stack and score.
 
-    attainable: bag (Path) with the scans, for the least delays that they allow.
+    attainable: bag (Path) with the scans, for the minimum delays that they allow.
     """
     computed = folder / "result.bag"
     call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet",
@@ -52,7 +52,8 @@ def run_recorded(recorded, programs, config, folder, score_options=(), run_optio
 
 
 def score(computed, programs, score_options, report, attainable=None):
-    """Report of score_run (dict) on a bag of run_bag (Path), left in the file `report` (Path)."""
+    """Returns the report of score_run (dict) on a bag of run_bag (Path), kept in the file `report`
+    (Path)."""
     scans = () if attainable is None else ("--attainable", attainable)
     call(programs / "score_run", computed, *_settings(score_options), *scans, "--out", report)
     return json.loads(report.read_text(encoding="utf-8"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""CARMEN logs through the stack's SLAM, scored with their relations: command line and runs."""
+"""Runs CARMEN logs through the stack's SLAM, scored with their relations: command line and runs."""
 
 import json
 import tempfile
@@ -15,11 +15,11 @@ from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Takes CARMEN logs through carmen_to_bag and run_bag with one configuration for all, and scores with
-the relations the online pose of the grid SLAM, of which nothing is corrected afterward, and the
+Runs CARMEN logs through carmen_to_bag and run_bag with one configuration for all, and scores with
+the relations the online pose of the grid SLAM, which is never corrected afterward, and the
 trajectory with loops closed.
-Prints a table with the figures that Kuemmerle et al. published for the log (2009) beside ours, and
-what a scan cost."""
+Prints a table with the figures that Kuemmerle et al. published for the log (2009) next to ours, and
+the time per scan."""
 
 FORMAT = 2  # of the JSON file
 PROGRAMS = ("run_bag",)
@@ -43,7 +43,7 @@ def main(arguments=None):
 
 
 def find_pairs(folder):
-    """Sorted list of (log, relations) in `folder` (Path): logs with NAME.relations beside them.
+    """Returns a sorted list of (log, relations) in `folder` (Path): logs with a NAME.relations.
 
     Raises InputError if there is none.
     """
@@ -59,7 +59,7 @@ def find_pairs(folder):
 
 
 def benchmark(log, relations, built, config, options=carmen_bag.Options()):
-    """Result (dict that JSON can hold) of one log (Path) with its relations (Path).
+    """Returns the result (dict that JSON can hold) of one log (Path) with its relations (Path).
 
     built: folder (Path) of run_bag; config: yaml file (Path). Raises InputError and
     programs.StepFailed.
@@ -82,7 +82,7 @@ def benchmark(log, relations, built, config, options=carmen_bag.Options()):
 
 
 def table(results):
-    """The results as text."""
+    """Formats the results."""
     rows = [["", "translation, m", "rotation, deg", "relations", "scans",
              "ms a scan: mean", "median", "99 %"]]  # fmt: skip
     for result in results:
@@ -118,7 +118,7 @@ def _spread(mean, deviation, digits):
 
 
 def _without_files(scored):
-    """The score without the names of temporary files."""
+    """Returns the score without the names of temporary files."""
     return {key: value for key, value in scored.items() if key not in ("poses", "relations")}
 
 
@@ -141,7 +141,7 @@ def _run(values):
 
 
 def _check_files(pairs, config):
-    """Raises InputError for what would end the last log's run after minutes."""
+    """Raises InputError early for what would otherwise fail in the last log's run."""
     for file in [config, *(log for log, _ in pairs)]:
         if not file.is_file():
             raise InputError(f"{file}: no such file")
@@ -162,8 +162,8 @@ def _parser():
     add = parser.add_argument
     files = "pairs of log and relations file, or one folder with NAME.clf and NAME.relations"
     add("files", type=Path, nargs="+", metavar="FILE", help=files)
-    add("--programs", type=Path, required=True, metavar="FOLDER", help="where run_bag is")
+    add("--programs", type=Path, required=True, metavar="FOLDER", help="folder of run_bag")
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
     add("--clock", choices=CLOCKS, default="order", help="see carmen_to_bag (default %(default)s)")
-    add("--out", type=command_line.output_file, metavar="FILE.json", help="writes all figures there")
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="for all figures")
     return parser

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What hours of a drive did to memory and latency: lines through samples."""
+"""Measures what hours of driving do to memory and latency: lines fitted to samples."""
 
 import numpy as np
 
-# Windows, histories and caches fill meanwhile: of the samples, at most of the time.
+# share of the samples during which windows, histories and caches fill, at most.
 SETTLED_SHARE = 0.5
-SETTLED_HOURS = 0.5  # the map, at 5 m/s: 2000 tiles
+SETTLED_HOURS = 0.5  # until the map is full, at 5 m/s: 2000 tiles
 
 
 def drift(hours, values):
-    """Growth an hour of samples by a straight line, after what fills at first (dict): `per_hour`,
-    its standard error, and the samples' median. hours, values: n >= 5, hours rising."""
+    """Returns the growth per hour of samples by a straight line, without the initial filling
+    (dict): `per_hour`, its standard error, and the samples' median. hours (rising), values: n >=
+    5."""
     hours, values = np.asarray(hours, dtype=float), np.asarray(values, dtype=float)
     settled = hours >= hours[0] + min(SETTLED_HOURS, SETTLED_SHARE * (hours[-1] - hours[0]))
     x, y = hours[settled], values[settled]
@@ -19,7 +20,7 @@ def drift(hours, values):
 
 
 def of_stack(samples):
-    """Figures (dict) of the minutes that soak_stack wrote (list of dict)."""
+    """Returns figures (dict) of the minutes that soak_stack wrote (list of dict)."""
     hours = [sample["hours"] for sample in samples]
     return {
         "hours": hours[-1],
@@ -32,8 +33,8 @@ def of_stack(samples):
 
 
 def of_nodelets(samples, seconds):
-    """Figures (dict) of what the load test wrote (dict of lists of [s, value]), up to `seconds`:
-    before the load began."""
+    """Returns figures (dict) of the load test's output (dict of lists of [s, value]), up to
+    `seconds`, before the load began."""
     def until(pairs):
         return np.array([pair for pair in pairs if pair[0] < seconds])
 

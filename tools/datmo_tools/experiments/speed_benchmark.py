@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How fast the stack is: the command line, and what is measured in which order."""
+"""Measures the speed of the stack: the command line, and what is measured in which order."""
 
 import json
 import subprocess
@@ -15,15 +15,14 @@ from datmo_tools.experiments.speed_context import describe, devel_space
 from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\
-Measures how fast the stack is. micro: each hot path by itself, in processor time, and the ratio to
-its lower bound (its limit, measured in the same run). live: the nodelets on a drive that is played
-at its own pace, at the demonstrator's settings and at heavy ones: latency from the publication of a
-scan by another process to the arrival of its tracks there, both transports included; processor time
-and memory of the nodelets' process. Each live figure is the median over the runs. All figures go to
-a JSON file. --compare prints two such files side by side, or one beside the current measurement,
-and compares the ratios to the limits, which hold on any machine: the exit code is 3 if one of them
-has grown by more than its spread."""
+DESCRIPTION = """\ Measures the speed of the stack. micro: each hot path by itself, in processor
+time, and the ratio to its lower bound (its limit, measured in the same run). live: the nodelets on
+a drive that is played in real time, with the demonstrator's settings and with heavy ones: latency
+from the publication of a scan by another process to the arrival of its tracks there, including both
+transports; processor time and memory of the nodelets' process. Each live figure is the median over
+the runs. All figures are written to a JSON file. --compare prints two such files side by side, or
+one next to a new measurement, and compares the ratios to the limits, which hold on any machine: the
+exit code is 3 if one of them has grown by more than its spread."""
 
 SLOWER = 3  # exit code
 
@@ -73,7 +72,7 @@ def _measure(values):
 
 
 def _measure_live(values, folder):
-    """Figures of each drive, the median over the runs."""
+    """Returns figures of each drive, the median over the runs."""
     launch_file = values.source / "benchmark" / "live_load.launch"
     drives = _drives(values, folder)
     runs = {name: [] for name in drives}
@@ -84,7 +83,7 @@ def _measure_live(values, folder):
 
 
 def _drives(values, folder):
-    """The intersection, as the demonstrator and as a heavy scanner see it."""
+    """Returns the intersection, with the demonstrator and with a heavy scanner."""
     fixtures = values.source / "rosbag_fixtures"
     heavy_bag = folder / "heavy.bag"
     _simulate(values, fixtures / "scenes" / "intersection.yaml", heavy_bag, HEAVY_SCANNER)
@@ -116,13 +115,13 @@ def _parser():
     add = parser.add_argument
     add("parts", nargs="*", metavar="micro|live", help="what to measure (default: both)")
     add("--compare", nargs="+", type=Path, default=[], metavar="FILE.json",
-        help="OLD NEW: print two results side by side instead; OLD: and what is measured now")  # fmt: skip
+        help="OLD NEW: print both side by side instead; OLD: with a new measurement")  # fmt: skip
     add("--runs", type=command_line.count, default=3, metavar="N",
         help="live runs (default %(default)s)")  # fmt: skip
-    add("--quick", action="store_true", help="one short run of everything: does it work?")
+    add("--quick", action="store_true", help="one short run of everything, as a check")
     add("--source", type=Path, default=Path.cwd(), metavar="DIR", help="sources (default: here)")
     add("--build", type=Path, default=Path("build"), metavar="DIR",
-        help="where they are built (default %(default)s)")  # fmt: skip
+        help="build folder (default %(default)s)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("benchmark.json"), metavar="FILE.json",
         help="all figures (default %(default)s)")  # fmt: skip
     return parser

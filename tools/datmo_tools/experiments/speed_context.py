@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where figures come from: the code, the compiler and the machine."""
+"""Describes the origin of figures: the code, the compiler and the machine."""
 
 import datetime
 import os
@@ -10,9 +10,9 @@ from datmo_tools.errors import InputError
 
 
 def describe(source, build):
-    """Context of what is built from the folder `source` in the folder `build` (Paths).
+    """Returns the context of what is built from the folder `source` in the folder `build` (Paths).
 
-    Raises InputError where nothing is built.
+    Raises InputError if nothing is built.
     """
     cache = _cache_of(build)
     return {
@@ -21,12 +21,12 @@ def describe(source, build):
         "machine": f"{_processor(Path('/proc/cpuinfo').read_text())} x {os.cpu_count()}",
         "compiler": _first_line([cache["CMAKE_CXX_COMPILER"], "--version"]),
         "build_type": cache["CMAKE_BUILD_TYPE"],
-        "load_average": os.getloadavg()[0],  # of the minute before: others at work
+        "load_average": os.getloadavg()[0],  # of the minute before: other load
     }
 
 
 def devel_space(build):
-    """Where the folder `build` (Path) puts programs, as a Path; raises InputError where nothing is built."""
+    """Returns where the folder `build` (Path) puts programs (Path). Raises InputError."""
     return Path(_cache_of(build).get("CATKIN_DEVEL_PREFIX", build / "devel"))
 
 
@@ -39,7 +39,7 @@ def _cache_of(build):
 
 
 def cmake_cache(text):
-    """Name -> value of a CMakeCache.txt."""
+    """Returns name -> value of a CMakeCache.txt."""
     entries = {}
     for line in text.splitlines():
         name, equals, value = line.partition("=")
@@ -49,7 +49,7 @@ def cmake_cache(text):
 
 
 def _commit(source):
-    """Short hash, with a mark behind it if the tree differs from the commit."""
+    """Returns the short hash, with a suffix if the tree differs from the commit."""
     return _first_line(["git", "-C", str(source), "describe", "--always", "--dirty"])
 
 
@@ -61,7 +61,7 @@ def _processor(cpuinfo):
 
 
 def _first_line(command):
-    """What a command says; "unknown" where it fails or is not there (no git, no tree of git's)."""
+    """Returns a command's output; "unknown" if it fails or does not exist (no git, no git tree)."""
     try:
         done = subprocess.run(command, check=False, capture_output=True, encoding="utf-8")
     except OSError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The live chain on a drive at its own pace: latency, and what its process uses."""
+"""Measures the live chain on a drive in real time: latency, and its process's resource usage."""
 
 import contextlib
 import json
@@ -23,7 +23,7 @@ MILLISECONDS = 1e3
 
 
 class LiveDrive(NamedTuple):
-    """What is played to the live chain, and with which settings."""
+    """What is played to the live chain, and its settings."""
 
     bag: Path
     config: Path
@@ -31,10 +31,10 @@ class LiveDrive(NamedTuple):
 
 
 def measure(drive, launch_file, folder):
-    """Figures of one run (dict); benchmark/record_latency.cpp says what latency is.
+    """Returns figures of one run (dict); benchmark/record_latency.cpp defines latency.
 
-    launch_file: live_load.launch; folder: where its log and the recorded times are left. The ROS master
-    is the one of ROS_MASTER_URI, started for the run.
+    launch_file: live_load.launch; folder: for its log and the recorded times. The ROS master
+    is that of ROS_MASTER_URI, started for the run.
     """
     recorded, log = folder / "latency.json", folder / "live.log"
     samples = _run(drive, launch_file, recorded, log)
@@ -46,7 +46,7 @@ def measure(drive, launch_file, folder):
 
 
 def summarize(times, samples):
-    """Figures of one run: `times` as record_latency writes them, `samples` of the process."""
+    """Returns figures of one run: `times` from record_latency, `samples` of the process."""
     return {
         "scans": len(times["latency"]) + times["unanswered"],
         "unanswered": times["unanswered"],
@@ -92,7 +92,7 @@ def _master_port():
 
 
 def _manager_pid():
-    """Process id of the nodelet manager, None before it is there."""
+    """Returns the process id of the nodelet manager, None before it exists."""
     with contextlib.suppress(OSError, xmlrpc.client.Error):
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
         found, _, uri = master.lookupNode(CALLER, MANAGER)
@@ -103,4 +103,4 @@ def _manager_pid():
 
 def _last_line(log):
     lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()
-    return f"the last that roslaunch said: {lines[-1]}" if lines else "roslaunch said nothing"
+    return f"roslaunch's last line: {lines[-1]}" if lines else "roslaunch printed nothing"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the hot paths under Google Benchmark, and picks what is worth keeping of its JSON."""
+"""Runs the hot paths under Google Benchmark, and extracts the relevant figures of its JSON."""
 
 import json
 import subprocess
@@ -7,16 +7,16 @@ import subprocess
 from datmo_tools.errors import InputError
 
 MICROSECONDS = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
-REPETITIONS = 5  # of which the median counts
+REPETITIONS = 5  # the median is used
 
 
 def measure(program, folder, quick=False):
-    """Median times by benchmark (see `summarize`); `program`: benchmark_hot_paths."""
+    """Returns median times by benchmark (see `summarize`); `program`: benchmark_hot_paths."""
     output = folder / "micro.json"
     options = ["--benchmark_out_format=json", f"--benchmark_out={output}"]
     options += [f"--benchmark_repetitions={1 if quick else REPETITIONS}"]
     options += [f"--benchmark_min_time={0.001 if quick else 0.2}"]
-    # What else the machine does so falls on a hot path and its limit alike.
+    # So that other load of the machine affects a hot path and its limit alike.
     options += ["--benchmark_enable_random_interleaving=true"]
     done = subprocess.run([str(program), *options], check=False, stdout=subprocess.DEVNULL)
     if done.returncode != 0:
@@ -25,7 +25,7 @@ def measure(program, folder, quick=False):
 
 
 def summarize(report):
-    """Name -> figures, from Google Benchmark's JSON: the median of a benchmark's repetitions.
+    """Returns name -> figures, from Google Benchmark's JSON: the median of the repetitions.
 
     CPU time, because others may use the machine meanwhile. A fitted growth is NAME/fit.
     """
@@ -39,11 +39,11 @@ def summarize(report):
             runs.setdefault(run["run_name"] + "/fit", {}).update(_fit(run))
         elif run["run_type"] == wanted and aggregate == "median":
             runs[run["run_name"]] = _figures(run)
-    return dict(sorted(runs.items()))  # they ran in turns
+    return dict(sorted(runs.items()))  # they ran interleaved
 
 
 def _fit(run):
-    """Of a linear growth: time of one unit, and the fit's error as a share of the mean time."""
+    """Returns a linear growth: time per unit, and the fit's error as a share of the mean time."""
     if run["aggregate_name"] == "RMS":
         return {"error": run["rms"]}
     return {"cpu_us": run["cpu_coefficient"] * MICROSECONDS[run["time_unit"]]}

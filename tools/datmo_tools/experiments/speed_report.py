@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of a benchmark as a table, alone or beside those of another one."""
+"""Formats the figures of a benchmark as a table, alone or next to those of another one."""
 
 import json
 import statistics
@@ -8,14 +8,14 @@ from datmo_tools.errors import InputError
 from datmo_tools.text_table import aligned, rounded
 
 FORMAT = 1  # of the JSON file
-MEASURED = ("micro", "live")  # sections of figures; the others say where they come from
+MEASURED = ("micro", "live")  # sections of figures; the others describe their origin
 NUMBER = "{:.4g}"
-LIMIT = "limit/"  # before the name of a hot path: the work that it cannot do without, and no more
-SPREAD = 1.25  # of a ratio to the limit from one measurement to the next, on a machine that others use
+LIMIT = "limit/"  # prefix of a hot path's name: only the work that it cannot do without
+SPREAD = 1.25  # of a ratio to the limit between measurements, on a shared machine
 
 
 def read(file):
-    """The report of a file (Path); InputError if it is none."""
+    """Returns the report of a file (Path). Raises InputError if it is not one."""
     try:
         report = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -26,14 +26,14 @@ def read(file):
 
 
 def medians(runs):
-    """One figure for each of equal nested dicts: the median over the runs."""
+    """Merges equal nested dicts: the median over the runs for each figure."""
     if isinstance(runs[0], dict):
         return {key: medians([run[key] for run in runs]) for key in runs[0]}
     return statistics.median(runs)
 
 
 def figures(report):
-    """Name with slashes -> number, of all that was measured."""
+    """Returns name with slashes -> number, of everything that was measured."""
     flat = {}
     for section in MEASURED:
         _flatten(report.get(section, {}), (section,), flat)
@@ -49,7 +49,7 @@ def _flatten(value, path, flat):
 
 
 def ratios(report):
-    """Name -> (us, us of its limit, their ratio), of the hot paths whose limit was measured as well."""
+    """Returns name -> (us, us of its limit, their ratio), of hot paths with a measured limit."""
     micro = report.get("micro", {})
     found = {}
     for name, run in micro.items():
@@ -60,7 +60,7 @@ def ratios(report):
 
 
 def table(report):
-    """A line for each figure; first those that have a limit, with it."""
+    """Returns a line for each figure; first those with a limit, with it."""
     rows = [("", "ours, us", "limit, us", "ratio")]
     rows += [(name, *map(NUMBER.format, values)) for name, values in ratios(report).items()]
     limits = [aligned(rows), ""] if len(rows) > 1 else []
@@ -69,7 +69,7 @@ def table(report):
 
 
 def slower(old, new):
-    """Names of the hot paths whose ratio to their limit has risen by more than its spread."""
+    """Returns the hot paths whose ratio to their limit has risen by more than its spread."""
     before, after = ratios(old), ratios(new)
     return [
         name for name in before if name in after and after[name][-1] > SPREAD * before[name][-1]
@@ -77,7 +77,7 @@ def slower(old, new):
 
 
 def judgement(old, new):
-    """A line for each hot path that has a limit in both, and what became of its ratio."""
+    """Returns a line for each hot path with a limit in both, and the change of its ratio."""
     before, after = ratios(old), ratios(new)
     rows = [["times the limit", "old", "new", "new/old", ""]]
     for name in before:
@@ -90,9 +90,9 @@ def judgement(old, new):
 
 
 def comparison(old, new):
-    """A line for each figure that both have, with new/old; then what only one of them has.
+    """Returns a line for each figure that both have, with new/old; then those that only one has.
 
-    Less than 1 is faster or smaller. Nothing in common is an InputError.
+    Less than 1 is faster or smaller. Raises InputError if they have nothing in common.
     """
     before, after = figures(old), figures(new)
     common = [name for name in before if name in after]
@@ -110,7 +110,7 @@ def comparison(old, new):
 
 
 def _differences(old, new):
-    """What makes the figures hard to compare, besides the code."""
+    """Returns what makes the figures hard to compare, besides the code."""
     return [
         f"{name}: {old['context'].get(name)} -> {new['context'].get(name)}"
         for name in ("commit", "machine", "compiler", "build_type")

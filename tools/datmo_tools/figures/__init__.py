@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of README.md and doc/results.md: made by scripts/figures, kept in doc/results.json, rendered from it."""
+"""The figures of README.md and doc/results.md: measured by scripts/figures, stored in
+doc/results.json, and rendered from it."""

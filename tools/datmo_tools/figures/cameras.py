@@ -18,8 +18,8 @@ from datmo_tools.spread import pooled_counts, spread_of
 from datmo_tools.yaml_files import load_yaml
 
 KITTI = "drive 0005"
-CAMERA_DRIVES = ("3", KITTI)  # whose single objects are scored: it takes a minute a drive
-# Labels know the camera's view alone.
+CAMERA_DRIVES = ("3", KITTI)  # whose single objects are scored: it takes a minute per drive
+# Labels cover only the camera's view.
 LABELED_VIEW = ("--visible-to", "none", "--half-angle", "0.7")
 FAR = ("--range", "500")
 
@@ -29,7 +29,7 @@ GRID_ROWS = ("paint_gone", "bodies_lost", "poles_in_lidar", "poles_in_fused")
 
 
 def fusion_jobs(bench):
-    """A job for each drive and seed, at all levels."""
+    """Returns a job for each drive and seed, at all levels."""
     drives = [(str(number), ("--sets", number, "--seeds", seed), f"data_set_{number}_{seed}")
               for number in range(len(PUBLISHED), 0, -1) for seed in bench.seeds]  # fmt: skip
     if (bench.data / DRIVE_0005).is_dir():
@@ -38,8 +38,8 @@ def fusion_jobs(bench):
 
 
 def fusion_figures(results):
-    """Of each drive, and of all simulated ones with a seed taken together, the spread over the
-    seeds; single objects of the camera and fused tracks of one seed."""
+    """Returns for each drive, and for all simulated ones of a seed combined, the spread over the
+    seeds; single objects of the camera and fused tracks are of one seed."""
     by_drive, by_seed = {}, {}
     for result in results:
         by_drive.setdefault(result["drive"], []).append(result)
@@ -56,7 +56,7 @@ def fusion_figures(results):
 
 
 def _together(drives):
-    """Figures by level of several drives (dictionaries by level), as if they were one."""
+    """Combines figures by level of several drives (dictionaries by level) as if they were one."""
     counts = ("moving_objects", "missed_objects", "tracks", "false_tracks", *MOTA_COUNTS)
     return {level: pooled_counts([drive[level] for drive in drives], counts)
             for level in drives[0]}  # fmt: skip
@@ -112,7 +112,7 @@ def _track_figures(scored):
 
 
 def grid_jobs(bench):
-    """A job for each simulated drive with low-level fusion."""
+    """Returns a job for each simulated drive with low-level fusion."""
     return [Job(str(number), partial(_grids, bench, number))
             for number in range(len(PUBLISHED), 0, -1)]  # fmt: skip
 
@@ -130,7 +130,7 @@ def _grids(bench, number, folder):
 
 
 def stereo_grid_jobs(bench):
-    """The labeled drive's image pairs."""
+    """Measures stereo grids on the labeled drive's image pairs."""
     return [Job("drive_0005", partial(_stereo_grids, bench))]
 
 

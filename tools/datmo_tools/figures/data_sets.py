@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Step data_sets: the simulated data sets over several seeds, without and with borders of the road,
-and with the thesis's forms."""
+"""Step data_sets: simulated data sets with several seeds, without and with borders, as in the
+thesis."""
 
 import statistics
 from functools import partial
@@ -15,7 +15,7 @@ from datmo_tools.figures.step import Job
 
 NUMBERS = range(len(PUBLISHED), 0, -1)  # the longest first
 
-# Name of a figure -> its keys in the report of score_run.
+# Name of a figure -> its keys in score_run's report.
 COUNTS = {
     "moving_objects": ("thesis", "moving_objects"),
     "missed_objects": ("thesis", "missed_objects"),
@@ -46,7 +46,7 @@ CLASSES = ("vehicle", "cyclist", "pedestrian")
 
 
 def jobs(bench):
-    """A job for each data set and seed."""
+    """Returns a job for each data set and seed."""
     return [
         Job(f"{number}_{seed}", partial(_measure, bench, number, seed))
         for number in NUMBERS
@@ -55,7 +55,7 @@ def jobs(bench):
 
 
 def figures(results):
-    """Of each set, and of all sets together, the spread over the seeds."""
+    """Returns for each set, and for all sets combined, the spread over the seeds."""
     by_set, by_seed = {}, {}
     for result in results:
         by_set.setdefault(str(result["set"]), []).append(result["figures"])
@@ -67,7 +67,7 @@ def figures(results):
 
 
 def pooled(results):
-    """Figures of all sets with one seed, as if they were one drive."""
+    """Combines the figures of all sets with one seed, as if they were one drive."""
     modes = results[0]["figures"]["runs"]
     runs = {
         mode: _pooled_counts([item["figures"]["runs"][mode] for item in results]) for mode in modes
@@ -86,7 +86,7 @@ def _pooled_counts(runs):
 
 
 def _delays(objects):
-    """From the first scan of an object to its first track, and the least that scans allow."""
+    """Returns the delay from an object's first scan to its first track, and the minimum."""
     return {
         "objects": len(objects),
         "found": sum(item["found"] for item in objects),
@@ -136,7 +136,7 @@ def _at(tree, keys):
 
 
 def _compared(reports, name):
-    """What borders change of the run without them."""
+    """Returns what borders change compared to the run without them."""
     compared = comparison(reports["without"], reports[name])
     return {
         "fewer_false_objects": compared["reduction"]["false_moving_objects_frames"],

@@ -31,7 +31,7 @@ def main(arguments=None):
 
 
 def _work(values):
-    """The exit code."""
+    """Returns the exit code."""
     if values.list:
         print(steps_table())
         return 0
@@ -44,7 +44,7 @@ def _work(values):
 
 
 def steps_table():
-    """What there is to measure, as text."""
+    """Returns the steps as text."""
     rows = [["step", "shows", "by", ""]]
     rows += [[step.name, step.shows, step.command, "on request" if step.on_request else ""]
              for step in STEPS]  # fmt: skip
@@ -52,13 +52,13 @@ def steps_table():
 
 
 def check(source):
-    """0 if the pages are what the file of figures makes of them, 1 with their names otherwise."""
+    """Returns 0 if the pages agree with the file of figures, else 1 after printing their names."""
     pages = rendered(source, results_file.read(source / FILE))
     stale = [name for name, text in pages.items()
              if not (source / name).is_file()
              or (source / name).read_text(encoding="utf-8") != text]  # fmt: skip
     for name in stale:
-        print(f"{name}: not what {FILE} makes of it, expected scripts/figures --render")
+        print(f"{name}: does not agree with {FILE}, expected scripts/figures --render")
     return int(bool(stale))
 
 
@@ -86,7 +86,7 @@ def _measure(values):
 
 
 def _write_done(source, store):
-    """The file of figures and the pages, of all steps that are done at the commit."""
+    """Writes the file of figures and the pages, from all steps that are done at the commit."""
     results = store.results(STEPS)
     if results is not None:
         write_whole((source / FILE).parent, {Path(FILE).name: results_file.as_text(results)})
@@ -105,22 +105,22 @@ def _parser():
     add = parser.add_argument
     folder = {"type": Path, "metavar": "DIR"}
     add("--source", **folder, default=Path.cwd(), help="root of the sources (default: here)")
-    add("--build", **folder, default=Path("build"), help="where they are built")
-    add("--programs", **folder, default=Path("devel/lib/datmo_fusion"), help="of the build")
+    add("--build", **folder, default=Path("build"), help="build folder")
+    add("--programs", **folder, default=Path("devel/lib/datmo_fusion"), help="built programs")
     add("--data", **folder, default=Path("../shared/data"), help="recordings (default %(default)s)")
     add("--out", type=command_line.output_folder, default=Path("demo_output/figures"), metavar="DIR",
-        help="what is done, by commit, and scratch files (default %(default)s)")  # fmt: skip
+        help="finished steps, by commit, and scratch files (default %(default)s)")  # fmt: skip
     add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
-        help="at a time (default: all cores)")  # fmt: skip
+        help="parallel jobs (default: all cores)")  # fmt: skip
     add("--seeds", type=command_line.count, default=5, metavar="N",
-        help="of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
+        help="seeds of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
     add("--only", nargs="+", default=[], metavar="STEP", help="only these steps")
     add("--also", nargs="+", default=[], metavar="STEP", help="optional steps to include")
     action = parser.add_mutually_exclusive_group()
     for name, text in (
-        ("--list", "prints the steps"),
-        ("--render", "measures nothing: renders the pages from doc/results.json"),
-        ("--check", "measures nothing: checks that the pages agree with doc/results.json"),
+        ("--list", "print the steps"),
+        ("--render", "measure nothing: render the pages from doc/results.json"),
+        ("--check", "measure nothing: check that the pages agree with doc/results.json"),
     ):
         action.add_argument(name, action="store_true", help=text)
     return parser

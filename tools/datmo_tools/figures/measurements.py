@@ -11,7 +11,7 @@ from datmo_tools.figures.step import Job, read_json
 SCENES = ("straight_road", "guard_rails")
 ROBUSTNESS_SEEDS = 5
 
-# Of all benchmarks those of a stage.
+# Only the benchmarks of stages.
 HOT_PATHS = (
     "slamStep", "gridUpdate", "detection", "trackerStep", "immPredictAndUpdate", "rankedAssignments",
     "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "objectFusion", "trackFusion",
@@ -20,7 +20,7 @@ HOT_PATHS = (
 
 
 def robustness_jobs(bench):
-    """A job for each scene, whose runs are compared with those without vehicles."""
+    """Returns a job for each scene, whose runs are compared with those without vehicles."""
     return [Job(scene, partial(_robustness, bench, scene)) for scene in SCENES]
 
 
@@ -34,7 +34,7 @@ def _robustness(bench, scene, folder):
 
 
 def operating_curve_jobs(bench):
-    """All data sets together, with borders of the road."""
+    """Measures the operating curve of all data sets combined, with road borders."""
     return [Job("data_sets", partial(_operating_curve, bench))]
 
 
@@ -54,7 +54,7 @@ def _operating_curve(bench, folder):
 
 
 def speed_jobs(bench):
-    """Hot paths and the live chain, one after the other."""
+    """Measures hot paths and the live chain, one after the other."""
     return [Job("benchmark", partial(_speed, bench))]
 
 

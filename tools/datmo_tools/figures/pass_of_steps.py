@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the jobs of many steps, as many at a time as there are cores."""
+"""Runs the jobs of many steps, as many in parallel as there are cores."""
 
 import shutil
 import time
@@ -11,12 +11,12 @@ from tqdm import tqdm
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
 
-# What a job may end with: a program that gave up, a file or a figure that is not as expected.
+# Expected errors of a job: a program that failed, an unexpected file or figure.
 FAILURES = (InputError, StepFailed, OSError, KeyError, TypeError, ValueError)
 
 
 class Outcome(NamedTuple):
-    """Of one job."""
+    """The result of one job."""
 
     step: object
     name: str  # of the job
@@ -26,8 +26,8 @@ class Outcome(NamedTuple):
 
 
 def run_steps(steps, bench, store, jobs):
-    """Runs the steps that are not done, each of which is stored when its last job is; a list of what
-    failed, as text."""
+    """Runs the steps that are not done, and stores each one after its last job; returns the
+    failures as a list of text."""
     todo = [step for step in steps if _is_due(step, bench, store)]
     side_by_side = [step for step in todo if not step.alone]
     failures = _run(side_by_side, bench, store, jobs)
@@ -87,12 +87,12 @@ def _run_job(step, job, store):
 
 
 def _finish(step, outcomes, bench, store):
-    """Stores the step if all its jobs gave something; list of failures."""
+    """Stores the step if all its jobs have a result; returns a list of failures."""
     failures = [outcome.failure for outcome in outcomes if outcome.failure]
     if failures:
         return failures
     seconds = sum(outcome.seconds for outcome in outcomes)
-    # In an order that does not hang on which job was quickest.
+    # In an order that does not depend on the jobs' durations.
     results = [outcome.result for outcome in sorted(outcomes, key=lambda item: item.name)]
     store.add(step, step.figures(results), seconds, bench)
     tqdm.write(f"{step.name}: {seconds:.0f} s of jobs")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps on recordings that are not in the repository, the camera's left out."""
+"""Steps on recordings that are not in the repository, except those with a camera."""
 
 import zipfile
 from functools import partial
@@ -15,17 +15,17 @@ MODEL_CARS = "datmo_bags"
 PEOPLE = "people_2d/general_tracking_moving_1.bag.zip"
 
 OVERLAPS = (0.25, 0.5, 0.7)  # IoU, of KITTI tracking
-# A tenth of a real car's, between the middles of the bodies.
+# A tenth of a real car's, between the centers of the bodies.
 MODEL_CAR_SCORE = ("matching/gate=0.4", "matching/distance=to_center")
 PEOPLE_LABELS = "/ground_truth_people_tracks"
 
 NO_ODOMETRY = "no_odometry.yaml"  # a preset
 
-WHOLE_DRIVE = 0.9  # share of the frames: who moves in as many of them, is there all the drive
+WHOLE_DRIVE = 0.9  # share of the frames: an object in so many is there for the whole drive
 
 
 def drive_0005_jobs(bench):
-    """The scanner alone: with beams every 2 degrees, every degree, and without odometry."""
+    """Returns jobs of the scanner alone: beams every 2 degrees, every degree, no odometry."""
     variants = {
         "2 degrees": (2, ()),
         "2 degrees, road borders": (2, ("--road-border",)),
@@ -51,7 +51,7 @@ def _drive_0005(bench, name, resolution, words, folder):
 
 
 def drive_figures(report):
-    """Of a labeled drive, from the report of score_run."""
+    """Returns figures of a labeled drive, from score_run's report."""
     whole = [item for item in report["objects"]
              if item["required_frames"] >= WHOLE_DRIVE * report["frames"]]  # fmt: skip
     brief = [item for item in report["objects"] if item not in whole]
@@ -71,7 +71,7 @@ def drive_figures(report):
 
 
 def kitti_tracking_jobs(bench):
-    """All classes and overlaps at once."""
+    """Measures all classes and overlaps at once."""
     return [Job("sequences", partial(_kitti_tracking, bench))]
 
 
@@ -96,7 +96,7 @@ def _tracking_figures(score):
 
 
 def slam_jobs(bench):
-    """All logs of the SLAM benchmark that are there."""
+    """Measures all available logs of the SLAM benchmark."""
     return [Job("logs", partial(_slam, bench))]
 
 
@@ -123,7 +123,7 @@ def _mean_and_std(figures):
 
 
 def model_car_jobs(bench):
-    """A job for each bag."""
+    """Returns a job for each bag."""
     bags = sorted((bench.data / MODEL_CARS).glob("*.bag"))
     return [Job(bag.stem, partial(_model_cars, bench, bag)) for bag in bags]
 
@@ -144,7 +144,7 @@ def _model_cars(bench, bag, folder):
 
 
 def people_jobs(bench):
-    """The recording with the yaml file that check_bag writes for it."""
+    """Measures the recording with the yaml file that check_bag writes for it."""
     return [Job("recording", partial(_people, bench))]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""README's table of results and doc/results.md, from the file of figures."""
+"""Renders README's table of results and doc/results.md from the file of figures."""
 
 import math
 from pathlib import Path
@@ -15,9 +15,9 @@ FILE = "doc/results.json"
 
 
 def rendered(source, results):
-    """Dictionary name below the root of the sources (Path) -> text that the figures make of it.
+    """Returns a dictionary name below the root of the sources (Path) -> text with the figures.
 
-    Raises InputError where README.md has no place for its table.
+    Raises InputError if README.md has no lines for its table.
     """
     values = {"commit": results["commit"], "date": results["date"], "machine": results["machine"],
               "steps": results["steps"]}  # fmt: skip
@@ -46,20 +46,20 @@ def _environment():
 
 
 def number(value, digits=0):
-    """With so many digits behind the point; "-" where nothing was measured."""
+    """Formats with this many digits after the decimal point; "-" if nothing was measured."""
     return NO_VALUE if value is None else f"{value:.{digits}f}"
 
 
 def percent(share, digits=0):
-    """A share as a number of percent."""
+    """Converts a share to percent."""
     return number(None if share is None else 100.0 * share, digits)
 
 
 def degrees(angle, digits=1):
-    """An angle in rad as a number of degrees."""
+    """Converts an angle from rad to degrees."""
     return number(None if angle is None else math.degrees(angle), digits)
 
 
 def percent_spread(values, digits=0):
-    """The same of shares, in percent."""
+    """Formats the same for shares, in percent."""
     return spread_text(values, digits, 100.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The steps that are done at a commit, and the one file of figures that is made of them."""
+"""Stores the steps that are done at a commit, and the one file of figures made from them."""
 
 import datetime
 import json
@@ -15,14 +15,14 @@ from datmo_tools.figures.step import read_json
 from datmo_tools.whole_files import write_whole
 
 FORMAT = 1
-CHANGED = "-changed"  # ends the name of a commit that the sources have been changed since
-# All but what no figure depends on.
+CHANGED = "-changed"  # suffix of a commit's name if the sources have been changed since
+# Everything except what no figure depends on.
 SOURCES = (".", ":(exclude)README.md", ":(exclude)CHANGELOG.rst", ":(exclude)doc", ":(exclude)test")
 LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|null))*)\s+\]")
 
 
 def commit_of(source):
-    """Abbreviated name of the last commit that changed SOURCES in a checkout (Path). Raises InputError."""
+    """Returns the abbreviated last commit of SOURCES in a checkout (Path). Raises InputError."""
     name = _git(source, "log", "-1", "--abbrev=8", "--format=%h", "--", *SOURCES)
     changes = _git(source, "status", "--porcelain", "--", *SOURCES)
     return name + (CHANGED if changes else "")
@@ -32,16 +32,16 @@ def _git(source, *words):
     done = subprocess.run(["git", "-C", str(source), *words], check=False, capture_output=True,
                           encoding="utf-8")  # fmt: skip
     if done.returncode != 0:
-        raise InputError(f"{source}: no commit of its own, expected a git checkout: {done.stderr}")
+        raise InputError(f"{source}: no git commit, expected a git checkout: {done.stderr}")
     return done.stdout.strip()
 
 
 class StepStore:
-    """A file for each step, and for each of its jobs, that is done at a commit. Of changed sources none
-    counts as done."""
+    """A file for each step, and for each of its jobs, that is done at a commit. With changed
+    sources, none counts as done."""
 
     def __init__(self, folder, commit):
-        """folder (Path): of all commits."""
+        """folder (Path): for all commits."""
         self.folder, self.commit = folder / commit, commit
 
     def is_done(self, step, bench):
@@ -52,7 +52,7 @@ class StepStore:
         return read_json(file)["seeds"] == _seeds(step, bench)
 
     def of_job(self, step, name):
-        """What add_job() kept of a job: (result, s); None where it has to run."""
+        """Returns what add_job() stored of a job: (result, s); None if it has to run."""
         file = self._job_file(step, name)
         if self.commit.endswith(CHANGED) or not file.is_file():
             return None
@@ -60,12 +60,12 @@ class StepStore:
         return kept["result"], kept["seconds"]
 
     def add_job(self, step, name, result, seconds):
-        """Keeps what a job gave, so that a step that is interrupted goes on with the next one."""
+        """Stores a job's result, so that an interrupted step continues with the next one."""
         file = self._job_file(step, name)
         write_whole(file.parent, {file.name: json.dumps({"result": result, "seconds": seconds})})
 
     def add(self, step, figures, seconds, bench):
-        """Keeps what a step came to; seconds: of all its jobs."""
+        """Stores a step's result; seconds: of all its jobs."""
         record = {
             "shows": step.shows,
             "command": step.command,
@@ -77,7 +77,7 @@ class StepStore:
         write_whole(self.folder, {f"{step.name}.json": json.dumps(record) + "\n"})
 
     def results(self, steps):
-        """All steps that are done (dict), in the order of `steps`; None where none is."""
+        """Returns all steps that are done (dict), in the order of `steps`; None without any."""
         done = {step.name: read_json(self._file(step.name))
                 for step in steps if self._file(step.name).is_file()}  # fmt: skip
         if not done:
@@ -98,20 +98,20 @@ def _seeds(step, bench):
 
 
 def machine():
-    """Processor and cores, for the figures of speed."""
+    """Returns processor and number of cores, for the figures of speed."""
     lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     return {"processor": names[0] if names else platform.machine(), "cores": os.cpu_count()}
 
 
 def as_text(results):
-    """JSON with a line for each figure, lists of numbers on one."""
+    """Returns JSON with a line for each figure, and lists of numbers on one line."""
     text = json.dumps(results, indent=1, ensure_ascii=False) + "\n"
     return LIST_OF_NUMBERS.sub(lambda found: "[" + re.sub(r"\s+", " ", found[1]) + "]", text)
 
 
 def read(file):
-    """The file of figures (dict). Raises InputError."""
+    """Returns the file of figures (dict). Raises InputError."""
     try:
         results = read_json(file)
     except (OSError, ValueError) as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step of scripts/figures is: jobs that run side by side, and what they come to."""
+"""A step of scripts/figures: jobs that run in parallel, and the figures from their results."""
 
 import json
 import sys
@@ -13,17 +13,17 @@ class Bench(NamedTuple):
     """What the steps work with."""
 
     source: Path  # root of the sources
-    build: Path  # where they are built
+    build: Path  # build folder
     programs: Path  # folder of the built programs
     data: Path  # of recordings that are not in the repository
     seeds: tuple  # of the simulated data sets
 
     def config(self, name):
-        """Yaml file (Path) of a sensor set."""
+        """Returns the yaml file (Path) of a sensor set."""
         return self.source / "config" / f"{name}.yaml"
 
     def scene(self, name):
-        """Yaml file (Path) of a simulated scene."""
+        """Returns the yaml file (Path) of a simulated scene."""
         return self.source / "rosbag_fixtures" / "scenes" / f"{name}.yaml"
 
     def call(self, program, *words):
@@ -31,11 +31,11 @@ class Bench(NamedTuple):
         programs.call(self.programs / program, *words)
 
     def experiment(self, name, *words):
-        """The same with a tool of datmo_tools.experiments."""
+        """The same for a tool of datmo_tools.experiments."""
         programs.call(Path(sys.executable), "-m", "datmo_tools", f"experiments.{name}", *words)
 
     def evaluated(self, folder, subcommand, *words):
-        """What evaluate writes (dict) to the folder (Path)."""
+        """Runs evaluate; returns what it writes (dict) to the folder (Path)."""
         self.call("evaluate", subcommand, *words, "--out", folder)
         return read_json(folder / f"{subcommand}.json")
 
@@ -44,7 +44,7 @@ class Job(NamedTuple):
     """A part of a step that needs one core."""
 
     name: str  # of its folder
-    work: Callable  # of that folder (Path), which is deleted after it: what JSON can hold
+    work: Callable  # of that folder (Path), which is deleted later; returns what JSON can hold
 
 
 class Step(NamedTuple):
@@ -52,25 +52,25 @@ class Step(NamedTuple):
 
     name: str
     shows: str  # in a few words
-    command: str  # that makes such a figure by hand
+    command: str  # to measure such a figure by hand
     jobs: Callable  # of a Bench: list of Job
     figures: Callable  # of the list of their results: a dictionary that JSON can hold
     needs: tuple = ()  # paths below Bench.data
-    seeded: bool = False  # by Bench.seeds
+    seeded: bool = False  # whether it depends on Bench.seeds
     on_request: bool = False
-    alone: bool = False  # it measures time: nothing runs beside it
+    alone: bool = False  # it measures time: nothing may run in parallel
 
 
 def only(results):
-    """Figures of a step with one job."""
+    """Returns the figures of a step with one job."""
     return results[0]
 
 
 def by_name(results):
-    """Figures of a step whose jobs give (name, figures)."""
-    return dict(sorted(map(tuple, results)))  # lists where JSON held them
+    """Returns the figures of a step whose jobs return (name, figures)."""
+    return dict(sorted(map(tuple, results)))  # lists after JSON
 
 
 def read_json(file):
-    """What a file (Path) holds."""
+    """Returns the content of a JSON file (Path)."""
     return json.loads(file.read_text(encoding="utf-8"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All steps of scripts/figures: first what README shows, last what needs the machine alone."""
+"""All steps of scripts/figures: those for README first, those that need an idle machine last."""
 
 from datmo_tools.figures import cameras, data_sets, measurements, recordings, risk
 from datmo_tools.figures.step import Step, by_name, only
