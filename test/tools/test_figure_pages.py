@@ -25,8 +25,8 @@ PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distanc
 HORIZONS = ("1", "2", "3", "4")
 # Of one method, as steps.risk has it; of the first one also the reliability.
 RISKS = {
-    "drives": 129, "ttc_median_s": 0.04, "ttc_95_s": 0.2, "lead_share": 0.75, "near_misses": 86,
-    "near_misses_warned": 4, "long_seen": {"contacts": 29, "in_time": 19},
+    "drives": 129, "contacts": 43, "ttc_median_s": 0.04, "ttc_95_s": 0.2, "lead_share": 0.75,
+    "near_misses": 86, "near_misses_warned": 4, "long_seen": {"contacts": 29, "in_time": 19},
     "briefly_seen": {"contacts": 14, "in_time": 5}, "brier": dict.fromkeys(HORIZONS, 0.05),
     "calibration_error": dict.fromkeys(HORIZONS, 0.09), "reliability": [[0.1, 0.05, 30]],
 }  # fmt: skip
@@ -76,12 +76,14 @@ class Pages(InFolder):
     def test_risks_by_tracks_and_method(self):
         methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
         traffic = {"warnings": 8, "seconds": 410.0}
-        pages = self.pages(risk={"true": methods, "own": methods, "traffic": traffic})
+        pages = self.pages(risk={"true": methods, "own": methods, "random": methods, "traffic": traffic})
         self.assertIn("7 min | 19 of 29; 4 of 86; 8 | `x`, `run_bag --risk` |", pages["README.md"])
         page = pages["doc/results.md"]
         self.assertIn("| own | `futures` (ours) | 0.04, 0.20 | 19 of 29 | 5 of 14 | 0.75 | 4 of 86 |", page)
         self.assertEqual(page.count("0.050, 0.050, 0.050, 0.050 | 0.090 |"), 8)
         self.assertIn("| 10 | 5 | 30 |", page)
+        row = "| `rss` | 4 of 86 | 0.050, 0.050, 0.050, 0.050 | 0.090, 0.090, 0.090, 0.090 |"
+        self.assertIn(row, page)
 
     def test_rendered_twice_is_the_same(self):
         write_pages(self.folder, results(people=PEOPLE))
