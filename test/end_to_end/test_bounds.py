@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How bounds of the end-to-end tests are made of figures, and held against them."""
+"""How bounds of the end-to-end tests are computed from figures, and applied to them."""
 
 import io
 import tempfile
@@ -49,7 +49,7 @@ class Bounds(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The intersection, of which missed 0 and a pose error of 0.01 are required."""
+    """The intersection, which requires missed 0 and a pose error of 0.01."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -61,7 +61,7 @@ class Check(unittest.TestCase):
         self.addCleanup(patched.stop)
 
     def failures(self, seed, **figures):
-        """Those of a test that checks these figures."""
+        """Returns the failures of a test that checks these figures."""
         figures = {"missed": 0, "mota": 0.6, "pose_error": 0.003, **figures}
 
         class Scene(unittest.TestCase):

@@ -15,7 +15,7 @@ from scene_figures import intersection_score, of_intersection, without_odometry
 
 MIN_MOVERS = 6
 
-# The scene has one intersection, and the stack does not yet say where it sees any.
+# The scene has one intersection, and the stack does not report yet where it sees one.
 NOT_MEASURED = {"thesis.intersections_found", "thesis.intersections_false"}
 
 

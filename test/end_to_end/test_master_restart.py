@@ -18,7 +18,7 @@ from datmo_tools import registrations
 
 PACKAGE = Path(__file__).resolve().parents[2]
 MANAGER = "/perception"
-# Asked in a process of its own, which a new master tells where the topic is.
+# Queried from a separate process, which a new master tells where the topic is.
 LISTEN = """
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -53,7 +53,7 @@ class MasterRestart(unittest.TestCase):
         return known._replace(publishers=sorted(known.publishers), subscribers=sorted(known.subscribers))
 
     def is_complete(self):
-        """Whether the stack publishes its tracks and listens to its sensors."""
+        """Returns whether the stack publishes its tracks and subscribes to its sensors."""
         try:
             state = self.state()
         except rosgraph.MasterError:  # a node went away between two questions
@@ -62,7 +62,7 @@ class MasterRestart(unittest.TestCase):
                 {("/scan", MANAGER), ("/stereo/points2", MANAGER), ("/odometry", MANAGER)} <= set(state.subscribers))
 
     def manager(self):
-        """Process of the nodelets; None if it does not answer."""
+        """Returns the process of the nodelets; None if it does not answer."""
         try:
             return xmlrpc.client.ServerProxy(self.as_test.lookupNode(MANAGER)).getPid("/test")[2]
         except (OSError, rosgraph.MasterError):

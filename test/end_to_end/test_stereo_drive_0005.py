@@ -69,7 +69,7 @@ class StereoDrive(unittest.TestCase):
 
     @staticmethod
     def scored(computed, thinned, **settings):
-        """The band NEAR of the score, which is printed."""
+        """Returns the band NEAR of the score, which is printed."""
         result = score(computed, thinned, **settings)
         print(f"\n{settings}\n{as_text(sections(result))}", flush=True)
         return next(band for band in result["bands"] if (band["from"], band["to"]) == NEAR)

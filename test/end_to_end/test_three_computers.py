@@ -42,7 +42,7 @@ class ThreeComputers(unittest.TestCase):
         self.check_clocks(machines.clock_offsets(three))
 
     def check_clocks(self, offsets):
-        """All of them are this machine's."""
+        """All of them run on this machine."""
         self.assertEqual(set(offsets), {"clock of perception_" + part for part in ("sensors", "stereo", "risk")})
         for text in offsets.values():
             ahead, uncertainty = map(float, re.match(r"([\d.]+) \+- ([\d.]+) ms", text).groups())

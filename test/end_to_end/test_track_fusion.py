@@ -15,7 +15,7 @@ from scene_figures import fused_tracks, of_fused_tracks
 
 
 def source_pairs(lists):
-    """Dictionary ((source, id), ...) of fused tracks of two sources -> their ids."""
+    """Returns a dictionary ((source, id), ...) of fused tracks of two sources -> their ids."""
     ids = {}
     for item in lists:
         for track in item.tracks:
@@ -36,13 +36,13 @@ class TrackFusion(unittest.TestCase):
                 self.assertTrue(result["false"]["views"], "without a view nothing is in it")
                 for name in frames:
                     frames[name] += result["false"][name]["in_view_frames"]
-        # Of all seeds together: the scanner alone has none to five such tracks in a seed.
+        # Over all seeds together: the scanner alone has none to five such tracks in a seed.
         self.assertLessEqual(frames["fused"], frames["lidar"])
 
     def check_passed(self, result):
         passed = result["passed"]
         self.assertEqual(passed["true_movers"], passed["judged"], passed["false"])
-        # Of what both follow for as long as that takes.
+        # Of what both track for at least that long.
         followed = result["objects"]["followed_by_all"]
         self.assertEqual(followed["for_that_long"]["in_time_share"], 1.0, followed["late_or_never"])
 

@@ -26,7 +26,7 @@ MEDIAN_TTC, LARGE_TTC = 0.1, 0.3
 
 
 def drive_of(name, tracks="true"):
-    """The risks (RiskDrive) of one scene by the shipped method."""
+    """Returns the risks (RiskDrive) of one scene by the shipped method."""
     with tempfile.TemporaryDirectory() as folder:
         code = main([folder, "--programs", str(PROGRAMS), "--config", str(CONFIG), "--tracks", tracks,
                      "--methods", "futures", "--only", name])  # fmt: skip
@@ -84,13 +84,13 @@ class Replayed(unittest.TestCase):
 
 
 def risks_in(path):
-    """Times and bytes of the risks in a bag."""
+    """Returns times and bytes of the risks in a bag."""
     with rosbag.Bag(str(path)) as bag:
         return [(time, message[1]) for _, message, time in bag.read_messages("/risks", raw=True)]
 
 
 def topics_of(path):
-    """Names (set) of a bag's topics."""
+    """Returns the names (set) of a bag's topics."""
     with rosbag.Bag(str(path)) as bag:
         return set(bag.get_type_and_topic_info().topics)
 
