@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A nodelet with a bad parameter does not start, and says why once; its manager and the others go
-// on.
+// A nodelet with a bad parameter does not start, and reports why once; its manager and the other
+// nodelets keep running.
 #include <string>
 #include <vector>
 

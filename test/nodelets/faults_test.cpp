@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong on the road: each fault is counted and named in the diagnostics, nothing crashes,
-// and the chain is right again afterward. The tests go through one drive, in this order.
+// Faults on the road: each one is counted and named in the diagnostics, nothing crashes, and the
+// chain works again afterward. The tests run through one drive, in this order.
 #include <functional>
 #include <limits>
 
@@ -25,7 +25,7 @@ class FaultsTest : public testing::Test {
 
   static void TearDownTestSuite() { delete chain_; }
 
-  /// The next part of the drive.
+  /// Runs the next part of the drive.
   void driveOn(double seconds) {
     ASSERT_TRUE(chain_->drive(now_, now_ + seconds))
         << chain_->diagnosticMessage("grid_slam") << chain_->diagnosticMessage("tracker");
@@ -39,7 +39,7 @@ class FaultsTest : public testing::Test {
     EXPECT_NEAR((pose.position() - truth).norm(), 0.0, 0.5);
   }
 
-  /// Sends the world's scan of now after `spoil`; expects that grid_slam counts it under `key`.
+  /// Sends the world's current scan after `spoil`; expects that grid_slam counts it under `key`.
   void expectCounted(const std::string& key,
                      const std::function<void(sensor_msgs::LaserScan&)>& spoil) {
     const double before = chain_->diagnostic("grid_slam", key);

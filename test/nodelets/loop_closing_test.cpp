@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running loop_closing nodelet behind a scripted grid_slam, whose pose drifts on two laps.
+// The running loop_closing nodelet after a scripted grid_slam, whose pose drifts over two laps.
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running track_fusion nodelet between the tracks of a scripted scanner and stereo camera: what
-// comes out, which scheme of output may be asked for, and what happens when one of them is silent
-// or sends what is none. The tests go through one drive, in this order.
+// The running track_fusion nodelet, fed by the tracks of a scripted scanner and stereo camera: the
+// output, which track scheme can be requested, and what happens if one of them is silent or sends
+// invalid messages. The tests run through one drive, in this order.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -41,7 +41,7 @@ class Lists : public SourceLists<TrackArray> {
 
 class TrackFusionTest : public SourceListsTest<Lists> {
  protected:
-  /// Waits for the fused tracks of some steps before, since fusion waits for a camera that is not
+  /// Waits for the fused tracks of some earlier steps, since fusion waits for a camera that is not
   /// known to be silent.
   static void stepWithoutStereo() {
     sendLidarStep();
@@ -50,7 +50,7 @@ class TrackFusionTest : public SourceListsTest<Lists> {
     now_ += kStep;
   }
 
-  /// The track at this side of the road in the last list; null if there is none.
+  /// Returns the track on this side of the road in the last list; null if there is none.
   static const TrackMessage* trackAt(double left) {
     for (const TrackMessage& track : last().tracks) {
       if (std::abs(track.pose.position.y - left) < 1.0) {

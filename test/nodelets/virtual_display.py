@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A display for tests of what needs a window."""
+"""A display for tests that need a window."""
 
 import contextlib
 import os
