@@ -36,7 +36,7 @@ std::string messageOf(const std::function<void()>& act) {
   return "";
 }
 
-/// A bag in a folder of its own, in many small chunks.
+/// A bag in its own folder, in many small chunks.
 class InputBag : public testing::Test {
  protected:
   InputBag() {
@@ -63,7 +63,7 @@ class InputBag : public testing::Test {
 
   void writeBytes(const std::string& bytes) const { std::ofstream(file_) << bytes; }
 
-  /// What is said of the file, without its name.
+  /// Returns the message about the file, without its name.
   std::string refusal(const std::string& file) const {
     const std::string message = messageOf([&] {
       rosbag::Bag bag;

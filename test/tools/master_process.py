@@ -18,7 +18,7 @@ PATIENCE = 120.0  # s, of what it takes on a machine that is busy many times ove
 
 
 class MasterProcess:
-    """The master of one port: start() and kill(), again and again."""
+    """The master of one port, with start() and kill(), which can be called repeatedly."""
 
     def __init__(self):
         with socket.socket() as probe:
@@ -29,14 +29,14 @@ class MasterProcess:
         self._reads = 0
 
     def start(self):
-        """When it answers."""
+        """Starts it and waits until it answers."""
         self._process = subprocess.Popen([sys.executable, __file__, str(self.port)], stdout=subprocess.PIPE)
         threading.Thread(target=self._count, args=[self._process.stdout], daemon=True).start()
         master = rosgraph.Master("/test", self.uri)
         wait_for(master.is_online, "the master answers")
 
     def kill(self):
-        """As by the kernel: it says nothing any more."""
+        """Kills it without warning, as the kernel would."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
@@ -58,7 +58,7 @@ class MasterProcess:
 
 
 def wait_for(condition, what):
-    """Raises AssertionError if it does not come true."""
+    """Waits for the condition; raises AssertionError if it does not become true."""
     end = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < end, f"not within {PATIENCE:g} s: {what}"

@@ -10,7 +10,7 @@
 namespace datmo::run_bag_cloud_test {
 namespace {
 
-/// A road about the scanner and, 0.6 m above it, what its planar scan has.
+/// A road around the scanner and, 0.6 m above it, what its planar scan measures.
 std::vector<float> pointsOf(const sensor_msgs::LaserScan& scan) {
   std::vector<float> numbers;
   const auto add = [&numbers](double bearing, double range, float z) {
@@ -51,7 +51,7 @@ sensor_msgs::PointCloud2 cloudAt(Stamp stamp) {
 
 class RunBagOnClouds : public RunBag {
  protected:
-  /// The drive with clouds in place of scans.
+  /// The drive with clouds instead of scans.
   void writeClouds(const std::string& topic) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
     for (int i = 0; i < kScans; ++i) {

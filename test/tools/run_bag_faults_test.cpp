@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One message that cannot be right costs itself: stamps far off, velocities that no vehicle has.
+// A message that cannot be valid is dropped without further effects: stamps far off, impossible
+// velocities.
 #include <functional>
 #include <limits>
 #include <set>
@@ -30,7 +31,7 @@ class RunBagFaults : public RunBag {
             scanAt(stamp)};
   }
 
-  /// The drive with `spoil` applied to each step, recorded when it was made.
+  /// The drive with `spoil` applied to each step; record times are unchanged.
   std::string runSpoiled(const Spoil& spoil) {
     writeConfig("mounts: {scanner: {x: 2.0}}\n");
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
@@ -122,7 +123,7 @@ TEST_F(RunBagFaults, AScannersClockThatIsSetCostsOneScan) {
     EXPECT_TRUE(holds(table, "clock_off")) << off;
     const std::vector<double> x = poses();
     ASSERT_EQ(x.size(), static_cast<std::size_t>(kScans - 1)) << off;
-    // The first one of a clock that is set back, which may be an old one.
+    // The first one of a clock that is set back, which may be an old message.
     const int dropped = off > 0.0 ? kEnd : kBegin;
     for (int i = 20; i < kScans; ++i) {
       if (i != dropped) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings as people have them: slashes in frames, no tf, no odometry, and input that is refused.
+// Recordings as found in practice: slashes in frame ids, no tf, no odometry, and rejected input.
 #include "raw_message.h"
 #include "run_bag/input_refusals.h"
 #include "run_bag_drive.h"

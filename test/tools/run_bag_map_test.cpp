@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps that run_bag saves, and starts in.
+// Maps that run_bag saves, and those that it starts in.
 #include "run_bag_drive.h"
 
 #include "datmo_fusion/common/options.h"

@@ -11,7 +11,7 @@ class ObjectFusedRun : public StereoRunBag {
  protected:
   ObjectFusedRun() { arguments_.object_fusion = true; }
 
-  /// How many lists of fused objects have a pedestrian that `sensor` alone saw.
+  /// Returns how many lists of fused objects have a pedestrian that `sensor` alone saw.
   std::size_t listsWithPedestrianOf(const std::string& sensor) const {
     const auto isOne = [&](const ObjectMessage& object) {
       return object.classification == ObjectMessage::CLASS_PEDESTRIAN &&
@@ -24,7 +24,7 @@ class ObjectFusedRun : public StereoRunBag {
         }));
   }
 
-  /// s, from a scan's stamp until its tracks come out.
+  /// Returns the time from a scan's stamp until its tracks are published, s.
   double longestWait() const {
     rosbag::Bag bag(arguments_.output);
     double longest = 0.0;

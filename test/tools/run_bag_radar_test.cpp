@@ -10,12 +10,11 @@
 namespace datmo::run_bag_radar_test {
 namespace {
 
-constexpr float kRelativeSpeed =
-    3.0F;  // m/s, by which what drives ahead is faster than the vehicle
+constexpr float kRelativeSpeed = 3.0F;  // m/s, speed of the vehicle ahead relative to the host
 
 class RunBagWithRadar : public RunBag {
  protected:
-  /// Something that drives ahead, and the wall at the end, in each cycle.
+  /// A vehicle ahead, and the wall at the end, in each cycle.
   void writeRadar(const std::string& topic) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
     for (int i = 0; i < kScans; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What run_bag --report says of a drive whose scanner was silent for a while, and repeated a scan.
+// The output of run_bag --report on a drive whose scanner was silent for a while, and repeated a
+// scan.
 #include "run_bag_drive.h"
 #include <nlohmann/json.hpp>
 

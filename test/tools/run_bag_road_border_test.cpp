@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bag runner with borders of the road, on the small drive between two walls.
+// The bag runner with road borders, on the small drive between two walls.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ class RoadBorderRun : public RunBag {
  protected:
   RoadBorderRun() { arguments_.road_border = true; }
 
-  /// Objects in all messages of a topic.
+  /// Returns the number of objects in all messages of a topic.
   template <typename Message>
   std::size_t objectsOn(const std::string& topic) const {
     rosbag::Bag bag(arguments_.output);

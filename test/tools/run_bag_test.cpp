@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bag runner on a small drive that is written here.
+// The bag runner on a small drive that is generated here.
 #include <csignal>
 #include <filesystem>
 #include <fstream>

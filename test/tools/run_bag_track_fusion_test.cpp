@@ -13,7 +13,7 @@ using Sensors = std::vector<std::string>;
 
 constexpr std::uint32_t kRadarId = 7;
 
-/// What another system says: one object, 12 m ahead of where the drive begins.
+/// Another system's report: one object, 12 m ahead of where the drive begins.
 TrackArray radarTracksAt(Stamp stamp) {
   Track track;
   track.id = kRadarId;
@@ -29,7 +29,7 @@ class TrackFusedRun : public StereoRunBag {
  protected:
   TrackFusedRun() { arguments_.track_fusion = true; }
 
-  /// Whether a source of one of the fused tracks has this name.
+  /// Returns whether a source of one of the fused tracks has this name.
   bool isFusedOf(const std::string& source) const {
     return anyTrack("/tracks", [&](const TrackMessage& track) {
       return std::any_of(track.sources.begin(), track.sources.end(),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the package ships says the same as the code: the sensor sets, nodelets.xml and
-// doc/parameters.md.
+// What the package ships agrees with the code: the sensor sets, nodelets.xml and doc/parameters.md.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A batch of recordings: its plan, and its runs by Snakemake with programs that only pretend."""
+"""A batch of recordings: its plan, and its runs by Snakemake with stand-in programs."""
 
 import contextlib
 import io
@@ -27,7 +27,7 @@ SCORE = {
     "series": {"time_s": [0.0, 0.5, 1.0, 1.5], "missed": [0, 1, 0, 0], "false": [0, 0, 0, 1]},
 }  # fmt: skip
 
-# Notes each start, and does to itself or to what started it what the recording says.
+# Notes each start, and does to itself or its parent process what the recording says.
 RUN_BAG = """\
 #!/bin/sh
 here=$(dirname "$0")
@@ -86,12 +86,13 @@ class Batch(unittest.TestCase):
         (self.folder / "sensors.yaml").touch()
 
     def record(self, **drives):
-        """Recordings of these names; what each of them does to the program."""
+        """Writes recordings with these names; the content is what each of them does to the
+        program."""
         for name, content in drives.items():
             (self.drives / f"{name}.bag").write_text(content)
 
     def batch(self, *words):
-        """Exit code, what it printed, and its report; the starts of run_bag are new ones."""
+        """Returns exit code, output, and report; the starts of run_bag are counted anew."""
         (self.programs / "starts").write_text("")
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The campaign: what each fault does to the messages of a drive, by hand, and what is said of the poses."""
+"""The campaign: what each fault does to the messages of a drive, and what is reported of the
+poses."""
 
 import contextlib
 import io
@@ -45,7 +46,7 @@ def drive():
 
 
 def with_fault(name):
-    """The drive with the fault of this name."""
+    """Returns the drive with the fault of this name."""
     fault = next(each for each in faults() if each.name == name)
     return faulty(drive(), fault, BEGIN)
 
@@ -55,7 +56,7 @@ def of(messages, topic):
 
 
 def offsets(messages, topic):
-    """s, stamps before when they were recorded."""
+    """Returns stamps minus record times (s)."""
     return np.array([message.content.header.stamp.to_sec() - message.recorded
                      for message in of(messages, topic)])  # fmt: skip
 
@@ -147,7 +148,7 @@ class Soak(unittest.TestCase):
 
 
 class Effect(unittest.TestCase):
-    """A drive of 20 s with a fault from 8 s to 11 s; without it the pose is 0.1 m off."""
+    """A drive of 20 s with a fault from 8 s to 11 s; without it the pose error is 0.1 m."""
 
     def setUp(self):
         self.stamps = np.arange(0.0, 20.0, 0.1)
@@ -186,7 +187,7 @@ class Effect(unittest.TestCase):
 
 class Chosen(unittest.TestCase):
     def said(self, *options):
-        """What the command line says with an empty bag, which is no bag."""
+        """Returns the output of the command line with an empty bag, which is not valid."""
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             for file in ("drive.bag", "config.yaml", *PROGRAMS):

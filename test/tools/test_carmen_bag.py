@@ -28,7 +28,7 @@ class Conversion(unittest.TestCase):
         self.bag = self.root / "out.bag"
 
     def convert(self, *lines, options=(), expected_code=0):
-        """Runs the tool without a subprocess; returns what it said on standard error."""
+        """Runs the tool without a subprocess; returns its standard error."""
         write_log(self.log, *lines)
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
@@ -41,7 +41,7 @@ class Conversion(unittest.TestCase):
             return [message for _, message, _ in bag.read_messages([topic])]
 
     def times(self, topic):
-        """Stamps in s after START."""
+        """Returns stamps in s after START."""
         return [round(m.header.stamp.to_sec() - START, 6) for m in self.messages(topic)]
 
 
@@ -214,7 +214,7 @@ class Clocks(Conversion):
         self.assertEqual((steps[0], steps[-1], len(steps)), (200, 100, 999))
 
     def test_rates_stand_stamps_that_nearly_fall_together(self):
-        """0.2 m/s all along, though two stamps are 1 ms apart: 20 m/s between them."""
+        """0.2 m/s throughout, though two stamps are 1 ms apart: 20 m/s between them."""
         stamps = [0, 200_000_000, 201_000_000, 400_000_000]
         poses = [np.array([x, 0.0, 0.0]) for x in (0.0, 0.04, 0.06, 0.08)]
         speeds = [sample.speed for sample in carmen_odometry.samples(stamps, poses)]
@@ -223,7 +223,7 @@ class Clocks(Conversion):
 
 class Errors(Conversion):
     def assert_refused(self, *lines, text, options=()):
-        """Exit code 1, the text in the message, and no bag left behind."""
+        """Expects exit code 1, the text in the message, and no bag left behind."""
         self.assertIn(text, self.convert(*lines, options=options, expected_code=1))
         self.assertEqual([path.name for path in self.root.iterdir()], ["drive.clf"])
 

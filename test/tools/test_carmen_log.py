@@ -40,7 +40,7 @@ class Lines(unittest.TestCase):
         self.assertEqual(self.parse(line).stamp, 976052905_167303000)
 
     def test_robot_laser_without_remissions(self):
-        """As CARMEN's first releases logged it, after the head of their files."""
+        """As CARMEN's first releases logged it, after the header of their files."""
         head, readings = "ROBOTLASER1 0 -0.5 0.03 0.01 50 0.01 0", "3 7 8 9"
         poses, speeds, tail = "1 2 0.1 4 5 0.2", "0.1 0.2 1 2", "1001.5 host 1.5"
         line = self.parse(" ".join((head, readings, poses, speeds, tail)))
@@ -151,7 +151,7 @@ class Logs(unittest.TestCase):
     def test_broken_archive(self):
         path = self.path.with_suffix(".gz")
         packed = bytearray(gzip.compress(flaser(0, ORIGIN).encode()))
-        packed[10] = 0b111  # behind the head: a last block, of the type that there is not
+        packed[10] = 0b111  # behind the header: a last block, of the reserved type
         path.write_bytes(packed)
         with self.assertRaisesRegex(InputError, "drive.gz: expected a CARMEN log .*block type"):
             read_log(path)

@@ -243,7 +243,7 @@ class Frames(Tool):
 
 
 class WrittenYaml(Tool):
-    """run_bag takes the yaml, whatever sections it has."""
+    """run_bag accepts the yaml, whatever sections it has."""
 
     def assert_runs(self, items, *topics):
         self.run_tool(items)

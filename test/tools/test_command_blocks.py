@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading of command blocks: marks, fences in lists, and what nobody would run."""
+"""Reading of command blocks: marks, fences in lists, and blocks that nobody would run."""
 
 import sys
 import unittest

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all tools share: outputs that cannot be written and modules that are missing are said at once."""
+"""Common to all tools: unwritable outputs and missing modules are reported at once."""
 
 import argparse
 import contextlib

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs without and with borders of the road beside each other, with pretended scores."""
+"""Comparison of runs without and with road borders, with made-up scores."""
 
 import contextlib
 import io
@@ -16,7 +16,7 @@ from datmo_tools.evaluate.compare_borders import main
 
 
 def report(false_moving, in_a_scan, tracked, **counts):
-    """Of score_run; tracked: dictionary id -> frames in which the object is tracked."""
+    """A report of score_run; tracked: dictionary id -> frames in which the object is tracked."""
     thesis = {
         "false_moving_objects_episodes": false_moving, "false_moving_objects_frames": in_a_scan,
         "tracks": 12, "false_tracks": 4, "moving_objects": len(tracked), "missed_objects": 0,
@@ -85,7 +85,7 @@ class DataSets(unittest.TestCase):
 
 
 class Tool(unittest.TestCase):
-    """With a pretended score_run that gives what is in the bag as the score."""
+    """With a stand-in for score_run that returns the bag's content as the score."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

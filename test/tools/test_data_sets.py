@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thesis's tables beside ours: against the thesis's text, and runs with pretended programs."""
+"""The thesis's tables beside ours: against the thesis's text, and runs with stand-in programs."""
 
 import contextlib
 import io
@@ -26,7 +26,7 @@ COUNTS = {
 
 
 def rows(text, title):
-    """The rows of the table with this title, without its headings, as lists of words."""
+    """Returns the rows of the table with this title, without its headings, as lists of words."""
     lines = text[text.index(title):].splitlines()
     return [line.split() for line in lines[3:6]]
 
@@ -65,7 +65,7 @@ class Tables(unittest.TestCase):
         text = THESIS.read_text(encoding="utf-8")
 
         def published(number):
-            """The three rows of data of a table, without the data set's number."""
+            """Returns the three data rows of a table, without the data set's number."""
             lines = text[text.index(f"Table {number}: "):].splitlines()[1:12]
             data = [re.fullmatch(r"([123])\t([\d\t]+)", line) for line in lines]
             return [tuple(map(int, row[2].split("\t"))) for row in data if row][:3]

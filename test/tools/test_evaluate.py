@@ -17,7 +17,7 @@ from datmo_tools.evaluate.score_run import find_score_run
 from datmo_tools.whole_files import write_whole
 from evaluation_sample import sample_run
 
-# Notes its words; a run's file holds what scoring it gives, or a complaint and an exit code.
+# Notes its arguments; a run's file holds its score, or an error message and an exit code.
 STAND_IN = """#!/usr/bin/python3
 import json, sys
 from pathlib import Path

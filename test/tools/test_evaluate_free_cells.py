@@ -32,7 +32,7 @@ ORIGIN = np.array([0.0, -10.0])
 
 
 def grid(*free, others=-1):
-    """Cells free where the points (x, y) are, the rest with the percentage `others`."""
+    """Returns cells free where the points (x, y) are, the rest with the percentage `others`."""
     cells = np.full((ROWS, COLUMNS), others, dtype=np.int8)
     for x, y in free:
         cells[math.floor((y + 10.0) / CELL), math.floor(x / CELL)] = 20
@@ -40,7 +40,7 @@ def grid(*free, others=-1):
 
 
 def totals(seen, road=(), obstacles=()):
-    """Of all bands: free of which is known, right, road, found."""
+    """Returns for all bands: free of which is known, right, road, found."""
     points = [np.array(each, dtype=float).reshape(-1, 2) for each in (obstacles, road)]
     return tuple(int(column.sum()) for column in count(seen, *points, IMAGE))
 

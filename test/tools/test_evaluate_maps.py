@@ -45,7 +45,7 @@ def moment(standing=(), resting=(), seen=None, thin=None):
 
 
 def add_map(run, topic, frame, occupied, free, percents=(90, 10)):
-    """Of a run that write_drive has written; points in the true map."""
+    """Evaluates a run that write_drive has written; points in the true map."""
     in_map = [
         [transforms.compose(DRIFT, (x, y, 0.0))[:2] for x, y in points] for points in (occupied, free)
     ]
@@ -97,7 +97,7 @@ class Counting(unittest.TestCase):
 
 class Seen(unittest.TestCase):
     def test_a_map_from_a_pose_in_it(self):
-        """The vehicle at (4, 2), looking along y: (4, 8) is 6 m ahead."""
+        """The vehicle at (4, 2), facing along y: (4, 8) is 6 m ahead."""
         seen = seen_from(grid([(4.2, 8.2)]), (4.0, 2.0, math.pi / 2))
         rows, columns = np.nonzero(seen.cells > 50)
         self.assertEqual(len(rows), 1)
@@ -130,7 +130,7 @@ class CommandLine(EvaluateCase):
 
 
 class Changes(EvaluateCase):
-    """Car 1 is gone, cars 3 and 4 are new; the vehicle passes all but the last."""
+    """Car 1 is gone, cars 3 and 4 are new; the vehicle passes all but the last one."""
 
     def write_drives(self):
         run, before = self.folder / "run.bag", self.folder / "before.bag"
@@ -141,7 +141,7 @@ class Changes(EvaluateCase):
 
     def test_cells_and_things_are_counted(self):
         run, before = self.write_drives()
-        vanished = [(10.2, 2.2), (11.2, 2.2), (10.2, -2.2)]  # one of what still stands there
+        vanished = [(10.2, 2.2), (11.2, 2.2), (10.2, -2.2)]  # one of a car that is still there
         add_map(run, "/map/changes", 20, [(15.2, 0.2)], vanished, (100, 0))
         text, _, result = self.evaluate("changes", run, run, before)
         self.assertEqual(result["vanished"], {"cells": 3, "cells_right": 2, "things": 1,

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""evaluate risk: scores of drives that are worked out by hand, and its way through bags."""
+"""evaluate risk: scores of drives that are worked out by hand, and its reading of bags."""
 
 import unittest
 
@@ -100,7 +100,7 @@ class Scores(unittest.TestCase):
 
 class Tool(EvaluateCase):
     def write(self, name, contact=None):
-        """A drive of 3 s in which something ahead is warned of in the last two."""
+        """A drive of 3 s in which a warning of something ahead is given in the last two."""
         folder = self.folder / "runs"
         folder.mkdir(exist_ok=True)
         with rosbag.Bag(str(folder / f"{name}.bag"), "w") as bag:

@@ -26,12 +26,12 @@ FAR = 10 * SECOND
 
 
 def ns(time):
-    """Stamp (ns) of `time` (s after START)."""
+    """Returns the stamp (ns) of `time` (s after START)."""
     return round((START + time) * SECOND)
 
 
 def relation(begin, end, x, y, yaw):
-    """Relation between two times (s after START)."""
+    """Returns a relation between two times (s after START)."""
     return Relation(ns(begin), ns(end), np.array([x, y, yaw]))
 
 
@@ -97,12 +97,12 @@ class Files(EvaluateCase):
                 bag.write(topic, message, message.header.stamp)
 
     def run_tool(self, *options, expected_code=0):
-        """What the tool says on standard output and error."""
+        """Returns the tool's standard output and error."""
         return self.evaluate("slam", self.bag, self.relations, *options, code=expected_code)[:2]
 
 
 def pose(time, x, yaw=0.0):
-    """PoseWithCovarianceStamped at `time` (s after START)."""
+    """Returns a PoseWithCovarianceStamped at `time` (s after START)."""
     message = PoseWithCovarianceStamped(header=bag_messages.header(ns(time), "map"))
     message.pose.pose.position = Point(x, 0.0, 0.0)
     message.pose.pose.orientation = Quaternion(0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
@@ -111,7 +111,7 @@ def pose(time, x, yaw=0.0):
 
 class Reading(Files):
     def test_comments(self):
-        """The published files have none; those who edit them add some."""
+        """The published files have no comments; people who edit them add some."""
         self.write_relations("# places", "1 2 1 0 0 0 0 0 # the corner", "  # and", "", "2 3 1 0 0 0 0 0")
         self.assertEqual([found.begin for found in read_relations(self.relations)],
                          [1_000_000_000, 2_000_000_000])  # fmt: skip

@@ -37,7 +37,7 @@ ROAD = [(x + 0.5, y + 0.5, -1.73) for x in range(3, 40) for y in range(-8, 8)]
 
 
 def grid(*points, others=20):
-    """Cells occupied where the points (x, y) are, the rest with the percentage `others`."""
+    """Returns cells occupied where the points (x, y) are, the rest with the percentage `others`."""
     cells = np.full((ROWS, COLUMNS), others, dtype=np.int8)
     for x, y in points:
         cells[math.floor((y + 10.0) / CELL), math.floor(x / CELL)] = 80
@@ -45,7 +45,7 @@ def grid(*points, others=20):
 
 
 def totals(seen, *obstacles):
-    """Of all bands: occupied, right, true, found, called free."""
+    """Returns for all bands: occupied, right, true, found, reported free."""
     counts = count(seen, np.array(obstacles, dtype=float).reshape(-1, 2), VIEW)
     return tuple(int(column.sum()) for column in counts)
 
@@ -140,7 +140,7 @@ class Tool(EvaluateCase):
                     bag.write("/points", stamp, kitti_messages.point_cloud(stamp, cloud))
 
     def write_run(self, *grids):
-        """grids: stamp and the place (x, y) of the one occupied cell."""
+        """grids: stamp and position (x, y) of the one occupied cell."""
         with whole_bag(self.folder / "run.bag", "test") as bag:
             for stamp, position in grids:
                 message = OccupancyGrid(header=bag_messages.header(stamp, "base_link"))

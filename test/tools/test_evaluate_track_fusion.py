@@ -34,7 +34,7 @@ class Tool(EvaluateCase):
         return self.run_tool(*words)[2]
 
     def test_car_that_both_follow(self):
-        """Both follow it from 0.2 s on, and it passes at 0.4 s."""
+        """Both track it from 0.2 s on, and it passes at 0.4 s."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.5, SPEED)], [track(4, 21.0, 0.0, SPEED, range(2, 11))],
                    [track(1, 20.0, 0.3, SPEED, sources=members, sources_from=4)])  # fmt: skip
@@ -69,7 +69,7 @@ class Tool(EvaluateCase):
         self.assertIn("0.20 s late, lidar 7 and stereo 4 1.5 m apart", out)
 
     def test_time_without_one_of_the_tracks_does_not_count(self):
-        """The stereo camera has it in the first two frames, and again after 0.6 s."""
+        """The stereo camera tracks it in the first two frames, and again after 0.6 s."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, (0, 1, 7, 8, 9, 10))],
                    [track(1, 20.0, 0.0, SPEED, sources=members, sources_from=9)])  # fmt: skip
@@ -94,7 +94,7 @@ class Tool(EvaluateCase):
                          [(1, 10), (4, 21)])  # fmt: skip
 
     def test_two_tracks_that_do_not_pass(self):
-        """They stay two: a ghost in each frame, and nothing has passed."""
+        """They remain two tracks: a ghost in each frame, and nothing has passed."""
         tracks = [track(1, 20.0, 0.0, SPEED, sources=(("lidar", 7),)),
                   track(2, 21.0, 0.0, SPEED, sources=(("stereo", 4),))]  # fmt: skip
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 21.0, 0.0, SPEED)], tracks)
@@ -110,7 +110,7 @@ class Tool(EvaluateCase):
                          (11, 0))  # fmt: skip
 
     def test_parked_car_that_is_taken_as_moving(self):
-        """False where what moves counts; something real all the same."""
+        """False if only moving objects count, but on a real road user."""
         members = ("lidar", 8), ("stereo", 5)
         at = 15.0, 8.5
         self.write([track(8, *at)], [track(5, *at)], [track(2, *at, sources=members)])
@@ -194,7 +194,7 @@ class Tool(EvaluateCase):
                          [{"id": 1, "label": "Car", "ghost_frames": 2, "id_switches": 1}])
 
     def test_labels_that_do_not_know_who_sees(self):
-        """As KITTI's: what is beside the camera's view counts neither way."""
+        """As in KITTI: objects outside the camera's view are neither counted for nor against."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.0, SPEED), track(8, 0.0, 20.0)], [track(4, 20.0, 0.0, SPEED)],
                    [track(1, 20.0, 0.0, SPEED, sources=members)],

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/figures: what a pass of steps does, and how figures are summarized."""
+"""scripts/figures: a pass of the steps, and how figures are summarized."""
 
 import contextlib
 import io
@@ -37,7 +37,7 @@ class Spread(unittest.TestCase):
 
 
 class Pooled(unittest.TestCase):
-    """Two data sets of one seed, as one."""
+    """Two data sets of one seed, pooled."""
 
     def result(self, misses, required, delays):
         counts = dict.fromkeys(data_sets.COUNTS, 1)
@@ -62,7 +62,7 @@ class Pooled(unittest.TestCase):
 
 
 class FusionFigures(unittest.TestCase):
-    """Two drives with two seeds, and one that was driven once."""
+    """Two drives with two seeds, and one that was driven only once."""
 
     def run_of(self, drive, seed, misses, mota):
         counts = {"moving_objects": 10, "missed_objects": 1, "tracks": 12, "false_tracks": 2,
@@ -115,7 +115,7 @@ class Pass(InFolder):
         return Step(name, "a value", "x", lambda _: [Job("a", counted)], by_name, **rest)
 
     def run_all(self, *chosen):
-        """(failures, what was said)."""
+        """Returns (failures, output)."""
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
             failures = run_steps(chosen, self.bench, self.store, 2)
