@@ -20,7 +20,7 @@ struct Problem {
   Eigen::VectorXd none;
 };
 
-/// Costs of all assignments, by trying everything.
+/// Costs of all assignments, by exhaustive search.
 class BruteForce {
  public:
   explicit BruteForce(const Problem& problem)
@@ -53,7 +53,7 @@ class BruteForce {
   std::vector<double> costs_;
 };
 
-/// Sum of the costs; fails where a column is given twice or forbidden.
+/// Sum of the costs; fails if a column is assigned twice or is forbidden.
 double checkedCost(const Assignment& assignment, const Problem& problem) {
   std::set<int> taken;
   double sum = 0.0;
@@ -115,7 +115,7 @@ TEST_P(AllAssignments, OfEqualCostsToo) {
   for (int run = 0; run < 500; ++run) {
     const int rows = size(engine);
     Problem problem = randomProblem(rows, size(engine), GetParam(), engine);
-    // Few different values: most of them are equal to others.
+    // Few distinct values: most of them are tied.
     problem.cost = (problem.cost / 8.0).array().round();
     problem.none = (problem.none / 8.0).array().round();
     expectAll(problem);
