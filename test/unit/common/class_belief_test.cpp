@@ -113,7 +113,7 @@ TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
   EXPECT_NEAR(both[3], 0.694, kTolerance);
   EXPECT_NEAR(both[2], 0.162, kTolerance);
   EXPECT_EQ(both, jointBelief({b, a}));
-  // Nothing is known from contradictions.
+  // Contradictions leave the class unknown.
   for (const double value : jointBelief({ClassProbabilities{1.0}, ClassProbabilities{0.0, 1.0}})) {
     EXPECT_DOUBLE_EQ(value, 0.2);
   }

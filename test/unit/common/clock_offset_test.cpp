@@ -26,8 +26,8 @@ TEST(ClockOffset, NothingIsKnownBeforeTheFirstAnswer) {
 
 TEST(ClockOffset, OneExchangeBoundsItByHalfOfTheRoundTrip) {
   ClockOffsetEstimator clock = withoutDrift();
-  // Asked at 100.000, answered at 100.110 of the other, received at 100.040: between 0.070 and
-  // 0.110.
+  // Asked at 100.000, answered at 100.110 by the other clock, received at 100.040: between 0.070
+  // and 0.110.
   clock.add(exchange(100.0, 0.100, 0.010, 0.030));
   const ClockOffset offset = clock.at(Stamp::fromSeconds(100.04)).value();
   EXPECT_NEAR(offset.ahead, 0.090, kRounding);

@@ -152,7 +152,7 @@ TEST(OptionTable, HasALineForEachOption) {
             "| `gain` | 1 | 1 | any number | a\\|b |\n");
 }
 
-/// Options of all tiers; what is in the group is of experts, whatever it says.
+/// Options of all tiers; everything in the group is of expert tier, whatever it says itself.
 struct TieredOptions {
   double gate = 2.0;
   int points = 3;

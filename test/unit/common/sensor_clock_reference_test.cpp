@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of two clocks is the right one, and for how long.
+// Which of two clocks is correct, and for how long.
 #include <cmath>
 #include <functional>
 #include <vector>
