@@ -160,8 +160,8 @@ TEST(BoxFitTest, NoisyHeadingsAreAsGoodAsTheirVariance) {
   EXPECT_LE(far_off, kRuns / 100);
 }
 
-/// Mean of the squared errors of the heading over its variance, of sides of 30 points of which each
-/// five share their noise.
+/// Mean of the squared heading error over its variance, for sides of 30 points that share their
+/// noise in groups of five.
 double headingNees(double correlated_points) {
   constexpr double kNoise = 0.05;
   constexpr std::size_t kBlock = 5;

@@ -13,9 +13,10 @@ namespace {
 
 using samples::LidarCloudMaker;
 
-constexpr double kBodyFloor = 0.2;  // m above the ground, of what has wheels
+constexpr double kBodyFloor = 0.2;  // m above the ground, of the body of a vehicle
 
-/// The sides of an upright box that face the lidar at (0.5, 0), points 5 cm apart, as far as 1 mm.
+/// The sides of an upright box that face the lidar at (0.5, 0), with points 5 cm apart that are
+/// exact to 1 mm.
 void addBox(LidarCloudMaker& maker, const Box2& box, double height) {
   const Point2 lidar(0.5, 0.0);
   const Pose2& at = box.center;
@@ -135,7 +136,7 @@ TEST(CloudObjectDetectorTest, BehindTheLidarAnObjectIsOne) {
 }
 
 TEST(CloudObjectDetectorTest, PointsAreWhereTheVehiclesMotionSays) {
-  // The vehicle drives at 10 m/s to a wall at x = 10; its second half is seen 0.1 s later, 1 m
+  // The vehicle drives at 10 m/s toward a wall at x = 10; its second half is seen 0.1 s later, 1 m
   // nearer.
   LidarCloudMaker maker;
   for (int half = 0; half < 2; ++half) {

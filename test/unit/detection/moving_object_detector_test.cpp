@@ -41,7 +41,7 @@ ObjectList detect(const LabeledScan& scan, const MovingObjectDetectorOptions& op
   return MovingObjectDetector(options).detect(scan);
 }
 
-/// By side of the world, of an object seen along x: near, far, left, right.
+/// By direction in the world, of an object seen along x: near, far, left, right.
 struct SeenSides {
   double near, far, left, right;  ///< m^2
 };
@@ -204,8 +204,8 @@ TEST(MovingObjectDetectorTest, TwoSidesOfACarGiveItsWholeBox) {
   EXPECT_LT(right, left) << "the left is where the rear ends";
 }
 
-/// Over random positions of a box, the mean of (error of a side)^2 / its variance, of the sides
-/// seen.
+/// Over random positions of a box, the mean of (error of a side)^2 / its variance, of the visible
+/// sides.
 double sideNees(const RayCaster& scanner, double length, double width) {
   MovingObjectDetectorOptions options;
   options.range_sigma = scanner.range_sigma;

@@ -92,15 +92,15 @@ TEST(StereoObjectDetector, MarksAnEndThatSomethingNearerHides) {
 }
 
 TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
-  // Half of the car is beyond the border, at a tangent of 0.5.
+  // Half of the car is outside the image, beyond a tangent of 0.5.
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, -4.0)}));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(rightOf(objects[0]).variance, kHiddenSide);
   EXPECT_LT(leftOf(objects[0]).variance, 0.2);
 }
 
-/// Whose far end lies along the line of sight, however aside of the camera's axis that is: a car
-/// that goes away, seen at the border of the image.
+/// The far end lies along the line of sight, however far it is from the camera's axis: a car that
+/// drives away, seen at the border of the image.
 TEST(StereoObjectDetector, AnEndInDepthIsNotSeenInTheImage) {
   MadeScene scene = sceneOf({carAt(14.0, 2.4)});
   scene.camera_yaw = degrees(34.0);
@@ -154,7 +154,7 @@ TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {
 }
 
 TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
-  // Windows: the rear of the car is farther away in them.
+  // Windows: the rear of the car appears farther away through them.
   MadeScene scene = sceneOf({boxAt(12.0, 0.0, {0.3, 1.8, 0.9}), boxAt(12.8, 0.0, {3.0, 1.6, 1.5})});
   scene.disparity_noise = 0.25;
   const std::vector<Object> objects = objectsIn(scene);
@@ -195,7 +195,7 @@ TEST(StereoObjectDetector, OrderOfPointsDoesNotMatter) {
     backward.add(points[i].cast<double>());
   }
   StereoObjectDetectorOptions options;
-  options.road.estimate = false;  // it looks at some of the points
+  options.road.estimate = false;  // it uses only some of the points
   const std::vector<Object> one = detect(made, options).list.objects;
   const std::vector<Object> other = detect(backward, options).list.objects;
   ASSERT_EQ(one.size(), 2U);
@@ -264,7 +264,7 @@ TEST(StereoObjectDetector, TakesCloudsWithoutPoints) {
 
 TEST(StereoObjectDetector, TakesCamerasOfAnyImageSize) {
   MadeCloud made(sceneOf({carAt(10.0, 0.0)}));
-  made.cloud().camera.focal_length = 1e5;  // 100,000 px wide; it is thinned, then
+  made.cloud().camera.focal_length = 1e5;  // 100,000 px wide; it is then downsampled
   EXPECT_EQ(detect(made).list.objects.size(), 1U);
   made.cloud().camera.focal_length = 10.0;
   EXPECT_NO_THROW(detect(made));
