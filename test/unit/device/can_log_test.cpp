@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs of candump: their lines, and when their frames come.
+// Logs of candump: their lines, and when their frames are delivered.
 #include "datmo_fusion/device/can_log.h"
 
 #include <chrono>
@@ -63,7 +63,7 @@ TEST(CanLogTest, ItsFramesComeAtTheirRateAndThenItsEnd) {
   EXPECT_EQ(reasonOf([&] { log.next(); }), "bad_frame");
   EXPECT_EQ(log.next().data[0], 3);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(49));
-  EXPECT_EQ(log.next().data[0], 4);  // another recording, joined to it
+  EXPECT_EQ(log.next().data[0], 4);  // another recording, appended to it
   try {
     log.next();
     FAIL() << "it is at its end";

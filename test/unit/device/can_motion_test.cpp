@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle's motion from the frames of a made-up bus, and what is wrong with them.
+// The vehicle's motion from the frames of a made-up bus, and faults of these frames.
 #include "datmo_fusion/device/can_motion.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ class CanMotionTest : public testing::Test {
     return motion_->take(frame, Stamp::fromSeconds(now_));
   }
 
-  /// Speed and yaw rate at once, the counter as it should be.
+  /// Takes speed and yaw rate, with a correct counter.
   std::optional<CanMotion::Motion> takeBoth(double speed, double rate) {
     take(yawFrame(rate));
     return take(speedFrame(speed, counter_++));
@@ -50,7 +50,7 @@ class CanMotionTest : public testing::Test {
 };
 
 TEST_F(CanMotionTest, EachSpeedGivesAMotionWithTheNewestYawRate) {
-  takeBoth(0.0, 0.0);  // whose counter has not moved yet
+  takeBoth(0.0, 0.0);  // whose counter has not advanced yet
   const auto motion = takeBoth(10.0, -5.0);
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->twist.speed, 10.0, 1e-9);
@@ -97,7 +97,7 @@ TEST_F(CanMotionTest, AYawRateWhoseCounterStandsStillIsNotUsedUntilItMoves) {
   const auto speed = [this] { return take(speedFrame(1.0, counter_++)); };
   take(yaw());
   speed();
-  EXPECT_FALSE(speed());  // it has not moved yet
+  EXPECT_FALSE(speed());  // it has not advanced yet
   ++yaw_counter;
   take(yaw());
   EXPECT_TRUE(speed());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in frames of a CAN bus, by hand: both byte orders, signs, scales; and what describes
-// them.
+// Numbers in frames of a CAN bus, worked out by hand: both byte orders, signs, scales; and their
+// descriptions.
 #include "datmo_fusion/device/can_signal.h"
 
 #include <fstream>
@@ -39,7 +39,7 @@ TEST(CanSignalTest, IntelBeginsByTheLeastSignificantBit) {
 
 TEST(CanSignalTest, MotorolaBeginsByTheMostSignificantBitAndGoesOnInTheNextByte) {
   const CanFrame frame = canFrame(0x1A0, {0x12, 0x34, 0x56, 0x78});
-  // Bit 7 is the top one of byte 0: 0x12, 0x34.
+  // Bit 7 is the most significant one of byte 0: 0x12, 0x34.
   EXPECT_EQ(signalOf("7|16@0+ (1,0)").raw(frame), 0x1234U);
   // From bit 3 of byte 0, the low half 0x2, through the whole byte 1: 0x234.
   EXPECT_EQ(signalOf("3|12@0+ (1,0)").raw(frame), 0x234U);

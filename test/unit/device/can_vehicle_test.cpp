@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle's bus, served by a device's thread from a log, and from a socket that takes its
-// place: one of datagrams that are frames as the kernel has them.
+// A vehicle's bus, served by a device's thread from a log, and from a stand-in socket: datagrams
+// that are frames in the kernel's layout.
 #include "datmo_fusion/device/can_vehicle.h"
 
 #include <array>
@@ -165,7 +165,8 @@ class CanBusTest : public testing::Test {
 TEST_F(CanBusTest, AFrameHasTheTimeOfItsReception) {
   const auto socket = bus(60.0);
   CanFrame frame;
-  for (int i = 0; i < 100 && frame.age < 0.05; ++i) {  // the first ones may come before it is on
+  for (int i = 0; i < 100 && frame.age < 0.05;
+       ++i) {  // the first ones may be sent before the bus is on
     sendFrame(samples::canFrame(0x18FEF100, {1, 2, 3}));
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     frame = socket->next();

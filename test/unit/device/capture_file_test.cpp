@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings of the network: which datagrams are in them, and when they come.
+// Network captures: which datagrams they contain, and when these are delivered.
 #include "datmo_fusion/device/capture_file.h"
 
 #include <filesystem>

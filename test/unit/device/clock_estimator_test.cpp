@@ -13,13 +13,13 @@ constexpr double kStart = 1.7e9;      // s, of the computer
 constexpr double kPeriod = 0.025;     // s
 constexpr double kLeastDelay = 1e-3;  // s
 
-/// A device that sends at once, and a network that is only ever late.
+/// A device that sends immediately, and a network that only ever delays.
 class Messages {
  public:
-  /// `drift`: so much slower is the device's clock.
+  /// `drift`: relative drift of the device's clock, positive: slow.
   explicit Messages(double drift) : drift_(drift) {}
 
-  /// The next one; returns by how much (s) its time is too late.
+  /// Takes the next one; returns by how much (s) its time is too late.
   double next() {
     seconds_ += kPeriod;
     const double sent = kStart + seconds_ + host_step;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The language of SICK's scanners in its two dialects: frames, and the fields of telegrams.
+// The protocol of SICK's scanners in its two dialects: frames, and the fields of telegrams.
 #include "datmo_fusion/device/cola.h"
 
 #include "device/device_reason.h"
@@ -23,7 +23,7 @@ std::string nextOf(ColaReader& reader) {
   return telegram ? telegram->bytes : "none";
 }
 
-/// Why bytes are refused in a dialect.
+/// Returns the reason why bytes are refused in a dialect.
 std::string reasonOfBytes(ColaDialect dialect, const std::string& bytes) {
   ColaReader reader(dialect);
   reader.feed(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams over the loopback, with the thread that listens.
+// Datagrams over loopback, with the receiving thread.
 #include <memory>
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all devices have in common: where nobody listens, and options that are out of range.
+// Common to all devices: nobody listening, and options that are out of range.
 #include "datmo_fusion/device/device_runner.h"
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A satellite receiver by TCP and at a serial port, both faked on this computer.
+// A satellite receiver via TCP and at a serial port, both simulated on this computer.
 #include "datmo_fusion/device/nmea_receiver.h"
 
 #include <cmath>
@@ -96,7 +96,7 @@ TEST_F(NmeaReceiverTest, AVelocityWithoutATimeBelongsToThePositionNearerToIt) {
   probe_.host = 5.36;
   fake_.send(vtg(20));
   fake_.send("$GPTXT,broken*00\r\n");
-  EXPECT_EQ(probe_.warnings.take(), "bad_sentence");  // all before it is read
+  EXPECT_EQ(probe_.warnings.take(), "bad_sentence");  // all that precedes it is read
   EXPECT_TRUE(probe_.measurements.isEmpty());
   const Measured fix = exchange(ggaLine(1.4), 5.4);
   EXPECT_EQ(fixOf(fix).satellites, 8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the client of a scanner of SICK's finds out its dialect, and what it does when that changes.
+// How the client of a SICK scanner detects its dialect, and what it does when that changes.
 #include "device/device_probe.h"
 #include "device/fake_sick.h"
 #include <gtest/gtest.h>

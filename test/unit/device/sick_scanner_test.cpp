@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The client of a scanner of SICK's against a fake one on the loopback.
+// The client of a SICK scanner against a fake one on loopback.
 #include "datmo_fusion/device/sick_scanner.h"
 
 #include <cmath>
@@ -34,8 +34,8 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
 
   static bool isBinary() { return GetParam() == ColaDialect::kBinary; }
 
-  /// A scan that was sent at a time of the scanner's (us), and arrives at one of the computer's (s
-  /// after the start).
+  /// Sends a scan stamped with a time of the scanner (us) that arrives at a time of the computer (s
+  /// after the start), and returns the measurement.
   Measured exchange(std::uint16_t counter, std::uint32_t sent, double host) {
     probe_.host = host;
     SickTelegram telegram;
@@ -50,7 +50,7 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
     return secondsBetween(Stamp::fromSeconds(DeviceProbe::kStart), stamp);
   }
 
-  /// To the question for its state; 7: it is measuring.
+  /// Answers the request for its state; 7: it is measuring.
   static std::string stateAnswer(char state) {
     return isBinary() ? bytesOf("sRA STlms \0") + state + bytesOf("\0\0\x08") + "00:00:14" +
                             bytesOf("\0\x08") + "01.01.00" + bytesOf("\0\0\0")
@@ -126,7 +126,7 @@ TEST_P(SickScannerTest, AScannerThatIsGoneAndBackIsConnectedAgain) {
   fake_.close();
   EXPECT_EQ(probe_.faults.take(), "lost_connection");
   connect();
-  const Measured scan = exchange(3, 40000, 2.0);  // it was switched off: its clock begins again
+  const Measured scan = exchange(3, 40000, 2.0);  // it was switched off: its clock restarts
   EXPECT_EQ(scan.missed, 0U);
   EXPECT_NEAR(seconds(scan.stamp), 2.0 - 0.02, 1e-6);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the telegrams of SICK's scanners say, in both dialects.
+// Contents of the telegrams of SICK scanners, in both dialects.
 #include "datmo_fusion/device/sick_telegram.h"
 
 #include <cmath>

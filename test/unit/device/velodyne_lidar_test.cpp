@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lidar of Velodyne's packet by packet: its turns, and the time of each point.
+// A Velodyne lidar packet by packet: its turns, and the time of each point.
 #include "datmo_fusion/device/velodyne_lidar.h"
 
 #include "device/velodyne_lidar_case.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lidar of Velodyne's on the loopback, and a recording of one, with the thread that serves them.
+// A Velodyne lidar on loopback, and a recording of one, with the thread that serves them.
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,8 +26,8 @@ class VelodyneLoopbackTest : public testing::Test {
  protected:
   VelodyneLoopbackTest() { probe_.setup.address = ""; }
 
-  /// The next packets, until something has come into the box; what the network or the machine
-  /// loses of them does not matter.
+  /// Sends the next packets until a measurement is queued; losses by the network or the machine do
+  /// not matter.
   template <typename Box>
   void sendUntil(Box& box, const FakeLidar& lidar) {
     while (box.isEmpty()) {
@@ -76,7 +76,7 @@ TEST_F(VelodyneLoopbackTest, APortThatIsTakenIsReported) {
   first.setup.address = "";
   first.setup.timeout = 0.05;
   first.start(port);
-  first.faults.take();  // it listens, again and again
+  first.faults.take();  // it keeps trying to listen
   probe_.setup.timeout = 0.05;
   probe_.start(port);
   constexpr int kFaults = 100;  // of other kinds, before it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of Velodyne's lidars: tables by model, points and their times, and what is no packet.
+// Packets of Velodyne lidars: tables by model, points and their times, and invalid packets.
 #include "datmo_fusion/device/velodyne_packet.h"
 
 #include <algorithm>
@@ -137,7 +137,7 @@ TEST(VelodynePacketTest, EachFiringHasItsOwnTimeAndAzimuth) {
   EXPECT_NEAR(azimuthOf(points[16]), -0.2 + 0.4 * 0.5, 1e-4);
   EXPECT_NEAR(points[31].time, 55.296e-6 + 15 * 2.304e-6, 1e-9);
   EXPECT_NEAR(azimuthOf(points[31]), -0.2 + 0.4 * (55.296 + 15 * 2.304) / 110.592, 1e-4);
-  // The last block turns as the one before it.
+  // The last block turns like the one before it.
   EXPECT_NEAR(azimuthOf(pointsOf(sample, 11)[16]), -0.2 + 11.5 * 0.4, 1e-4);
 }
 
