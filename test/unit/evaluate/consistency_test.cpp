@@ -18,7 +18,7 @@ Eigen::Matrix2d matrix(double xx, double xy, double yy) {
   return result;
 }
 
-/// Errors drawn from `truth`, judged by `claimed`.
+/// Errors drawn from `truth`, evaluated with the covariance `claimed`.
 Consistency ofRandomErrors(const Eigen::Matrix2d& truth, const Eigen::Matrix2d& claimed) {
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;

@@ -28,7 +28,7 @@ BuiltFrames build(const std::vector<RecordedTracks>& tracks, const RecordedTruth
                      options);
 }
 
-/// The frames alone, of a run whose poses are true.
+/// Returns only the frames, of a run whose poses are true.
 Frames framesOf(const std::vector<RecordedTracks>& tracks, const RecordedTruth& truth,
                 ScoreOptions options = optionsForBriefObjects()) {
   return build(tracks, truth, options, standingVehicle()).frames;
@@ -118,8 +118,8 @@ TEST(BuildFrames, InASingleFrameObjectsAreThereForNoTime) {
   EXPECT_EQ(duty(0.1), Duty::kOptional);
 }
 
-/// A run whose map is turned by 90 degrees against the truth's, and drifts by 3 m along the way
-/// until 1 s.
+/// A run whose map is rotated by 90 degrees relative to the truth's, and drifts by 3 m along the
+/// path until 1 s.
 std::vector<StampedPose> turnedAndDrifting() {
   std::vector<StampedPose> poses;
   for (int i = 0; i <= 20; ++i) {
@@ -128,7 +128,7 @@ std::vector<StampedPose> turnedAndDrifting() {
   return poses;
 }
 
-/// Where a track that the run has at (0, 13) at 1 s comes to lie, with this alignment.
+/// Returns where a track that the run has at (0, 13) at 1 s is placed by this alignment.
 TrackState alignedTrack(TrackAlignment align) {
   ScoreOptions options = optionsForBriefObjects();
   options.align = align;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMergeGap = 1.0;  // s
 
-/// A state every 0.5 s for 30 s, true within the stretches (first and last second).
+/// A state every 0.5 s for 30 s, true within the intervals (first and last second).
 std::vector<RecordedIntersection> statesOf(
     const std::vector<std::pair<double, double>>& stretches) {
   std::vector<RecordedIntersection> states;

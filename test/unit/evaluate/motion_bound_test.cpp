@@ -61,7 +61,7 @@ TEST(MotionBound, EndsTellOfMotionAcross) {
 }
 
 TEST(MotionBound, NoiseInOneScanCountsAgainstTheOthers) {
-  // There and back: the mean is where it is likeliest to have stood.
+  // There and back: the mean is the most likely position if it was stationary.
   MotionBound bound;
   for (const double x : {0.0, 0.6, 0.0}) {
     bound.addRange(x * kAlongX, kAlongX, -kAlongX, kSigma);

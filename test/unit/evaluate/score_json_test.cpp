@@ -7,8 +7,8 @@
 namespace datmo::evaluation::score_json_test {
 namespace {
 
-/// A car that drives along x from 10 m, for 2 s, before a standing vehicle; a track half a meter
-/// beside it from 0.5 s on.
+/// A car that drives along x from 10 m, for 2 s, in front of a stationary vehicle; a track half a
+/// meter beside it from 0.5 s on.
 struct Drive {
   RecordedRun run;
   RecordedTruth truth{{}, standingVehicle(), std::nullopt};
@@ -91,7 +91,7 @@ TEST(ScoreJson, PartsThatTheRunDoesNotHaveAreNull) {
                            "intersections", "intersections_found", "intersections_false"}) {
     EXPECT_TRUE(report["thesis"][name].is_null()) << name;
   }
-  EXPECT_TRUE(report["pose"]["end_error_share"].is_null());  // it stands
+  EXPECT_TRUE(report["pose"]["end_error_share"].is_null());  // it is stationary
 }
 
 TEST(ScoreJson, OptionalPartsAreThereWhereTheRunHasThem) {

@@ -10,7 +10,7 @@ namespace {
 const Stamp kEarlier = Stamp::fromSeconds(1.0);
 const Stamp kLater = Stamp::fromSeconds(1.2);
 
-/// A standing vehicle and what is about it at 1.0 s and 1.2 s.
+/// A stationary vehicle and its surroundings at 1.0 s and 1.2 s.
 RecordedTruth truthOf(const std::vector<RecordedObject>& earlier,
                       const std::vector<RecordedObject>& later) {
   return {{{kEarlier, earlier}, {kLater, later}}, standingVehicle(), std::nullopt};
@@ -22,7 +22,7 @@ std::vector<TrueState> objectsAt(const RecordedTruth& truth, double seconds,
   return view ? view->objects : std::vector<TrueState>();
 }
 
-/// Whether a car, changed so, has to be found.
+/// Returns whether a car, changed like this, has to be found.
 bool isRequired(const RecordedObject& object, const ScoreOptions& options = {}) {
   const auto objects = objectsAt(truthOf({object}, {object}), 1.0, options);
   return objects.size() == 1 && objects.front().duty == Duty::kRequired;
