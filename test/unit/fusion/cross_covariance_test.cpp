@@ -21,7 +21,8 @@ JointCovariance jointOf(const CovariancePair& pair, const CrossCovariance& cross
   return joint;
 }
 
-/// Of both errors, each whitened by itself: the largest is the greatest correlation.
+/// Correlation of both errors, each whitened by itself: the largest singular value is the greatest
+/// correlation.
 double greatestCorrelation(const CovariancePair& pair, const CrossCovariance& cross) {
   const TrackCovariance lower_a = pair.a.llt().matrixL();
   const TrackCovariance lower_b = pair.b.llt().matrixL();
@@ -55,7 +56,7 @@ TEST(CrossCovarianceTest, OneStepIsByHand) {
 }
 
 TEST(CrossCovarianceTest, IsThatOfTheGainsOfKalmanFilters) {
-  // The second one measures in every other step only, and less well; both turn.
+  // The second one measures only in every other step, and less accurately; both turn.
   const LinearMotion motion = coordinatedTurn(0.4, TargetMotionOptions(), kStep);
   TrackState variance;
   variance << 1.0, 2.0, 9.0, 4.0, 0.25, 0.25;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = kPi / 180.0;
 
-/// Takes 30 s of fixes, so that the map is known; returns the last one.
+/// Processes 30 s of fixes, so that the map is known; returns the last one.
 EarthFix drivenBefore(Drive& drive, EarthFrameFilter& filter) {
   EarthFix last;
   for (int i = 0; i < 150; ++i) {
@@ -78,7 +78,7 @@ TEST(EarthFrameFilter, FindsTheMapWithinItsCovariance) {
     EXPECT_LT(std::abs(error.z()), 0.1);
   }
   // Mean of 200 draws of chi-square with 3 degrees of freedom: 2.54 to 3.49 in 99.5 %; the first
-  // solution is not optimal, and may be too careful.
+  // solution is not optimal, and may be conservative.
   EXPECT_GT(nees, 1.5);
   EXPECT_LT(nees, 3.6);
 }
@@ -118,7 +118,7 @@ TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
   }
 }
 
-// 4 s without a fix, 40 m of drift: what is said of the map then grows by it.
+// 4 s without a fix, 40 m of drift: the reported uncertainty of the map grows by it.
 TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
   const EarthFrameOptions options;
   double nees = 0.0;
@@ -144,7 +144,7 @@ TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
   EXPECT_GT(nees_of_last, 6.0) << "else the outage is too short to tell";
 }
 
-// The distance counts, not how far the vehicle is from where the last fix was.
+// The traveled distance counts, not the distance from the last fix.
 TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
@@ -166,7 +166,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   const double distance = 2.0 * kPi * kRadius;
   const double turned = filter.mapInPlane()->covariance(2, 2) - before->covariance(2, 2);
   EXPECT_NEAR(turned, distance * options.map_turn * options.map_turn, 0.01 * turned);
-  // The next fix is at the place of the last one, and finds the map as vague.
+  // The next fix is at the position of the last one, and finds the map equally uncertain.
   EarthFrameFilter by_straight_line(options);
   Drive again(1, 0.1, options);
   drivenBefore(again, by_straight_line);

@@ -26,8 +26,8 @@ Track far(const std::string& source, double speed, double existence = 0.9, std::
 }
 
 TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
-  // Each has its own target of it until the scanner's track comes to the camera's at 1 s, and the
-  // scanner loses it while the camera's old target is not forgotten yet.
+  // Each has its own target of it until the scanner's track approaches the camera's at 1 s, and the
+  // scanner loses it while the camera's old target is not deleted yet.
   TrackFuser fuser{TrackFuserOptions()};
   for (int i = 0; i <= 25; ++i) {
     const double t = 0.1 * i;
@@ -95,8 +95,8 @@ TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
 }
 
 TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
-  // What sensors take for the body's center is in the covariance of both already: where it would
-  // make them one if it counted twice, they are two.
+  // The uncertainty of the body's center between sensors is in the covariance of both already:
+  // counted twice, it would merge the two, which must stay two.
   const TrackFuserOptions options;
   const TrackComparisonOptions& comparison = options.association.comparison;
   const auto ofTwo = [&](double y, std::uint32_t id) {
@@ -127,7 +127,7 @@ TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
 }
 
 TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
-  // Of the camera alone, and so not of the thesis's list, however sure.
+  // Of the camera alone, and therefore not in the thesis's list, however certain it is.
   TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));
   const auto result = fuser.fuse(
       at(0.0), {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", -9.0, 0.99)})});
@@ -167,8 +167,8 @@ TEST(FusedTargetsTest, ASourceWithoutBeamsIsNotMissed) {
   EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
 }
 
-/// How long a car that comes toward the vehicle has not been published since it was first, when
-/// the camera has a track of it `needed` s after it came into its view.
+/// Returns how long an approaching car is not published after it first was, if the camera has a
+/// track of it `needed` s after it came into its view.
 double secondsHidden(double needed, TrackScheme scheme) {
   TrackFuser fuser(withScheme(scheme));
   int hidden = 0;
@@ -218,7 +218,7 @@ TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
                                              stereo(0.0, {far("stereo", 9.0, by_stereo)})});
     return result.list.tracks.at(0).existence_probability;
   };
-  // Odds of 4; of detection / false_agreement_probability the other one's counts: 8, and 1.
+  // Odds of 4; the other one's evidence is detection / false_agreement_probability: 8, and 1.
   EXPECT_NEAR(existence(0.6, 0.8), 32.0 / 33.0, 1e-9);
   EXPECT_NEAR(existence(0.8, 0.6), 0.8, 1e-9);
 }

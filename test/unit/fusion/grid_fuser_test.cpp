@@ -57,7 +57,7 @@ TEST(GridFuserTest, WhereAMoverMayHaveComeTheOtherSourceIsNotCalledFree) {
   GridFuserOptions options = standingWorld(FusionRule::kPriority);
   options.mover_speed = 15.0;
   const GridFuser fuser(options);
-  // In 0.1 s it comes 1.5 m: from stereo's column 6 to the lidar's column 7.
+  // In 0.1 s it comes 1.5 m closer: from stereo's column 6 to the lidar's column 7.
   const FusionResult result =
       fuser.fuse({{matched("lidar", 5.0, {7, 0}), matched("stereo", 4.9, {7, 0})}, {}}, ahead);
   EXPECT_EQ(result.grids.fused.at({6, 0}), kOccupied);

@@ -26,7 +26,7 @@ GridSourceOptions source(int priority = 0, double weight = 0.5, double reliabili
   return options;
 }
 
-/// What one source says of the one cell there is.
+/// One source's value of the only cell.
 struct Said {
   Percent percent;
   GridSourceOptions source = {};
@@ -95,7 +95,7 @@ TEST(GridFusionTest, WeightedSumIsTheMeanOfThoseThatKnow) {
 TEST(GridFusionTest, TheHighestPriorityThatKnowsTheCellHasTheWord) {
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(0)}, {20, source(1)}}), 20);
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(1)}, {20, source(0)}}), 80);
-  // Vision looked there and could not tell: it still decides (eq. 3.2.6).
+  // Vision covered it but could not decide: it still decides (eq. 3.2.6).
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(0)}, {50, source(1)}}), 50);
   EXPECT_EQ(fused(FusionRule::kPriority,
                   {{10, source(0)}, {kUnknownPercent, source(2)}, {90, source(1)}}),
@@ -129,9 +129,9 @@ TEST(GridFusionTest, DempsterShaferAsComputedByHand) {
       fused(FusionRule::kDempsterShafer, {{80, source(0, 0.5, 0.8)}, {20, source(0, 0.5, 0.9)}}),
       46);
   EXPECT_EQ(conflict({{80, source(0, 0.5, 0.8)}, {20, source(0, 0.5, 0.9)}}), 26);
-  // Who says 50 brings no evidence.
+  // A source that reports 50 brings no evidence.
   EXPECT_EQ(fused(FusionRule::kDempsterShafer, {{73}, {50}}), 73);
-  // Three: open 0.4^3, never against, so 1 - 0.032.
+  // Three: open 0.4^3, never in conflict, so 1 - 0.032.
   EXPECT_EQ(fused(FusionRule::kDempsterShafer, {{80}, {80}, {80}}), 97);
 }
 

@@ -16,8 +16,8 @@ Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
 
 SensorGrid gridAt(double seconds) { return {at(seconds), kWindow}; }
 
-/// A lidar and a stereo camera; waits 0.1 s, takes grids within 0.06 s, gives up on a source after
-/// 0.5 s.
+/// A lidar and a stereo camera; waits 0.1 s, accepts grids within 0.06 s, gives up on a source
+/// after 0.5 s.
 class GridMatcherTest : public testing::Test {
  protected:
   static SourceMatcherOptions options() {
@@ -105,7 +105,7 @@ TEST_F(GridMatcherTest, ASilentSourceIsNotWaitedFor) {
   EXPECT_EQ(next(0.6), "lidar 0.6, stereo silent");
   stereo(0.65);
   lidar(0.7);
-  EXPECT_EQ(next(0.7), "");  // it speaks again
+  EXPECT_EQ(next(0.7), "");  // it publishes again
   stereo(0.73);
   EXPECT_EQ(next(0.73), "lidar 0.7, stereo 0.73");
 }
@@ -127,7 +127,7 @@ TEST_F(GridMatcherTest, ASilentReferenceIsReplacedUntilItSpeaksAgain) {
   stereo(0.49);
   EXPECT_EQ(next(0.49), "");
   stereo(0.5);
-  // What it said before, it said in time; the lidar's last grid is near the first of them.
+  // Its earlier grids arrived in time; the lidar's last grid is near the first of them.
   EXPECT_EQ(next(0.5), "stereo 0.01, lidar 0");
   EXPECT_EQ(next(0.5), "stereo 0.3, lidar silent");
   EXPECT_EQ(next(0.5), "stereo 0.49, lidar silent");

@@ -35,7 +35,7 @@ std::vector<CellIndex> occupiedCells(const SensorGrid& grid) {
   return cells;
 }
 
-/// Cells that touch no other one, well inside of the window.
+/// Cells that touch no other one, well inside the window.
 SensorGrid scattered(Random& random) {
   SensorGrid grid = allFree();
   for (int column = -11; column < 12; column += 4) {
@@ -65,7 +65,7 @@ TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardIt) {
   // 2 m ahead: the old frame is 2 m behind.
   const SensorGrid moved = movedGrid(grid, Stamp{2}, Pose2(-2.0, 0.0, 0.0), 0.0);
   ASSERT_EQ(occupiedCells(moved), std::vector<CellIndex>({{6, 3}}));
-  // Nobody had looked at what has come in ahead.
+  // What has come into the window ahead has not been observed.
   EXPECT_EQ(moved.at({15, 0}), kFree);
   EXPECT_EQ(moved.at({16, 0}), kUnknownPercent);
 }

@@ -77,7 +77,7 @@ TEST(PositionOnLane, DistancesAreAlongTheLane) {
   position = positionOn(lane, {-3.0, 0.5});
   EXPECT_NEAR(position.distance, -3.0, 1e-9);
   EXPECT_NEAR(position.lateral, 0.5, 1e-9);
-  position = positionOn(lane, {10.0, 26.0});  // before it begins
+  position = positionOn(lane, {10.0, 26.0});  // before its start
   EXPECT_NEAR(position.distance, 36.0, 1e-9);
   EXPECT_NEAR(position.lateral, 0.0, 1e-9);
   EXPECT_NEAR(position.outside, 6.0, 1e-9);

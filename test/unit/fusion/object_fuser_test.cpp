@@ -51,7 +51,7 @@ TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
 }
 
 TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {
-  // In 0.05 s the vehicle came 1 m ahead: of a pole the older list told 1 m more.
+  // In 0.05 s the vehicle drove 1 m: the older list has a pole 1 m farther away.
   SourceObjects stereo =
       received("stereo", {pointObject(11.0, 0.0, 0.1, "stereo")}, 4.95, Pose2(-1.0, 0.0, 0.0));
   stereo.list.objects[0].delay = 0.01;
@@ -152,7 +152,8 @@ TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
 }
 
 TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
-  // Of the beams on what stereo sees, 4 of 9 end on static points: too few to say that it stands.
+  // 4 of 9 of the beams on what stereo sees end on static points: too few to conclude that it is
+  // stationary.
   const SourceObjects stereo = received("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
   LabeledScan scan = scanAhead(19.5, PointState::kStatic);
   for (ScanPoint& point : scan.points) {
@@ -194,7 +195,7 @@ TEST(ObjectFuserTest, ATableReplacesTheCovarianceOfTheObjects) {
   ObjectFuserOptions options;
   options.sources["stereo"].covariance.range_variance = {0.1, 0.2, 0.3};
   options.sources["stereo"].covariance.bearing_variance = {0.001, 0.002, 0.003};
-  // Seen from 1 m ahead of the vehicle's origin, which turned by a quarter since then.
+  // Seen from 1 m ahead of the vehicle's origin, which has turned by a quarter since then.
   SourceObjects stereo = received("stereo", {pointObject(4.5, 0.0, 7.0, "stereo")}, 5.0,
                                   Pose2(0.0, 0.0, kQuarterTurn));
   stereo.list.views = {ahead("stereo")};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes that an image gives to the scanner's objects, in the fusion of objects.
+// Fusion of the classes that an image gives to the scanner's objects.
 #include <utility>
 #include <vector>
 
@@ -11,7 +11,7 @@
 namespace datmo::object_names_test {
 namespace {
 
-/// What MonoClassifier makes of a scanner's object that the image shows to be a vehicle.
+/// Output of MonoClassifier for a scanner's object that the image shows to be a vehicle.
 Object nameOfVehicle(const Object& of) {
   Object name = of;
   name.position_covariance *= 100.0;
@@ -58,7 +58,7 @@ TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
   EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
 }
 
-/// As RadarObjectDetector has it: no side, but a velocity, under a source's name of one's own.
+/// As output by RadarObjectDetector: no side, but a velocity, under a custom source name.
 Object radarObject(double x) {
   Object object = pointObject(x, 4.0, 0.3, "radar");
   object.side_variance.fill(kHiddenSide);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a group of lights shows on arrival, by its events: those that are given, and what lies
-// between and after them.
+// The state of a group of lights on arrival, by its events: the given ones, and those between and
+// after them.
 #include "lights_ahead.h"
 #include <gtest/gtest.h>
 

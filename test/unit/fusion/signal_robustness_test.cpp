@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM that are written and read again, cut off, changed, or anything.
+// SPATEM and MAPEM that are written and read again, truncated, changed, or random.
 #include <random>
 #include <string>
 
@@ -22,7 +22,7 @@ TEST(SignalMessages, EveryPartOfOneIsRefused) {
   }
 }
 
-/// Any message that a writer can write, which all have other bits.
+/// Returns a random message that a writer can write; each one has different bits.
 Mapem randomMapem(std::mt19937& random) {
   const auto upTo = [&random](std::int64_t max) {
     return std::uniform_int_distribution<std::int64_t>(0, max)(random);
@@ -81,7 +81,7 @@ TEST(SignalMessages, AnyBytesAreReadOrRefused) {
   std::uniform_int_distribution<int> octet(0, 255);
   std::uniform_int_distribution<std::size_t> size(0, 300);
   const auto take = [](const std::string& bytes) {
-    const std::string copy(bytes);  // of its own size, so that a sanitizer sees what is beyond it
+    const std::string copy(bytes);  // of its own size, so that a sanitizer detects reads beyond it
     for (const auto& decode : {+[](const std::string& one) { decodeSpatem(one); },
                                +[](const std::string& one) { decodeMapem(one); }}) {
       try {

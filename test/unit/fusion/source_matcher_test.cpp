@@ -18,8 +18,8 @@ using Matcher = SourceMatcher<int>;
 
 Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
 
-/// What GridMatcherTest does not show: samples that serve once. A lidar and a stereo camera; takes
-/// samples within 0.06 s, gives up on a source after 0.5 s.
+/// What GridMatcherTest does not cover: samples that are used once. A lidar and a stereo camera;
+/// accepts samples within 0.06 s, gives up on a source after 0.5 s.
 class SourceMatcherTest : public testing::Test {
  protected:
   static SourceMatcherOptions options() {
@@ -37,7 +37,7 @@ class SourceMatcherTest : public testing::Test {
   /// "lidar 0.1, stereo 0.12" or "stereo 0.3, lidar silent"; empty if nothing is ready.
   std::string next(double now) { return textOf(matcher_.next(at(now))); }
 
-  /// The same of what waits, of all or after a time.
+  /// The same for early(): of all waiting samples, or of those after a time.
   std::string early(double now) { return textOf(matcher_.early(std::nullopt, at(now))); }
   std::string early(double now, double after) { return textOf(matcher_.early(at(after), at(now))); }
 
@@ -95,7 +95,7 @@ TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
   const auto alone = matcher.next(at(0.0));
   ASSERT_TRUE(alone);
   EXPECT_EQ(alone->samples.size(), 1U);
-  add("mono", -0.1);  // it took more than a scan
+  add("mono", -0.1);  // later than a scan
   EXPECT_FALSE(matcher.next(at(0.0)));
   add("lidar", 0.1);
   const auto both = matcher.next(at(0.1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Our own tracks as CAM and CPM, and what others hear of it.
+// Our own tracks as CAM and CPM, and how others receive them.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -51,7 +51,7 @@ StationTrackList ownList(int others) {
 
 const LocalPlane kHere({degrees(45.19), degrees(5.72), 0.0});
 
-/// A point of a message's plane in ours.
+/// Transforms a point from a message's plane to ours.
 Point2 inOurs(const StationMessage& message, const Point2& point) {
   return kHere.toPlane(message.plane.toGeodetic(point));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stations whose ids seldom come twice, and those that look like it at their start.
+// Stations whose ids rarely repeat, and those that look like it at their start.
 #include <cstddef>
 #include <cstdint>
 #include <optional>

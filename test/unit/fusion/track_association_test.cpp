@@ -19,7 +19,8 @@ Track of(double x, double y, double vx, std::uint32_t id) {
   return carTrack(x, y, vx, 0.0, "", id);
 }
 
-/// Whether track 0 of both sources is one object after steps of 0.1 s, by how they move apart.
+/// Returns whether track 0 of both sources is one object after steps of 0.1 s, with this offset and
+/// drift.
 bool areOne(const TrackAssociationOptions& options, double seconds, double offset, double drift) {
   TrackAssociation association(options);
   std::size_t groups = 2;
@@ -55,7 +56,7 @@ TEST(TrackAssociationTest, NoTracksAndOneSourceAreNoMatter) {
 }
 
 TEST(TrackAssociationTest, TheLikeliestOfAllPairingsNotTheNearestFirst) {
-  // Two abreast, and the camera sees both 1 m to the left: its right one is nearest to the left
+  // Two abreast, and the camera sees both 1 m too far left: its right one is nearest to the left
   // one.
   TrackAssociation association({});
   const std::vector<TrackGroup> groups =
@@ -67,7 +68,7 @@ TEST(TrackAssociationTest, TheLikeliestOfAllPairingsNotTheNearestFirst) {
 }
 
 TEST(TrackAssociationTest, WhatIsNotSureTakesTime) {
-  // 1.5 m beside each other all the time: at first sight too little, after half a second enough.
+  // Always 1.5 m apart: at first the evidence is not sufficient, after half a second it is.
   TrackAssociationOptions options;
   options.required = 12.0;
   EXPECT_FALSE(areOne(options, 0.0, 0.5, 0.0));
@@ -87,7 +88,7 @@ TEST(TrackAssociationTest, WhatDriftsApartPartsAgain) {
 }
 
 TEST(TrackAssociationTest, ThoseWhoWereOneAreFaithful) {
-  // A newcomer is nearer for a moment than the one that was it all the time.
+  // A new track is nearer for a moment than the one that was associated all the time.
   TrackAssociation association({});
   for (int i = 0; i < 20; ++i) {
     association.associate(at(0.1 * i),

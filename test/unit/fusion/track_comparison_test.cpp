@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Without slack between the sensors.
+/// Without tolerance between the sensors.
 TrackComparisonOptions exact() {
   TrackComparisonOptions options;
   options.body_std = 0.0;
@@ -104,7 +104,7 @@ TEST(TrackComparisonTest, WhatIsFarApartIsNotLookedAtAnyCloser) {
       compare(carTrack(0.0, 0.0, 5.0, 0.0), carTrack(80.0, 0.0, 5.0, 0.0), {});
   EXPECT_EQ(far.squared_distance, std::numeric_limits<double>::infinity());
   EXPECT_EQ(far.log_likelihood_ratio, -std::numeric_limits<double>::infinity());
-  // What is near the gate is.
+  // Whatever is near the gate is.
   TrackComparisonOptions options = exact();
   const double edge = std::sqrt(options.gate * 0.08);
   const auto at = [&](double x) {
@@ -135,10 +135,10 @@ TEST(ParallelTracksTest, WhatGoesTheOtherWayIsNotParallel) {
 
 TEST(ParallelTracksTest, OtherTimesAreInterpolatedAndTheShorterHistoryCounts) {
   const Track a = withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0);
-  // Between the points of the other one: the same line, though no stamp is the same.
+  // Between the points of the other one: the same line, although no stamps are equal.
   const Track late = withHistory(carTrack(19.5, 0.0, 10.0, 0.0), 1.95, 10, 0.0);
   EXPECT_TRUE(areParallel(a, late, {}));
-  // Far off before they had anything in common: that does not count.
+  // Far off before they had any time in common: that does not count.
   Track wild = a;
   for (int i = 0; i < 10; ++i) {
     wild.history[static_cast<std::size_t>(i)].pose = Pose2(0.0, 500.0, 0.0);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kRounding = 1e-9;
 const Point2 kSensor(0.0, 0.0);
 
-/// A lorry ahead, of which the rear is at x = 20 m, taken to be so long.
+/// A lorry ahead, with its rear at x = 20 m, assumed to be this long.
 Track lorry(double length) {
   Track track = carTrack(20.0 + 0.5 * length, 0.0, 10.0, 0.0);
   track.box.length = length;
@@ -21,7 +21,7 @@ Track lorry(double length) {
 }
 
 TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
-  // 7 m more; half of it where two standard deviations of the extent, four of the center, are that.
+  // 7 m more; half of it if two standard deviations of the extent, four of the center, equal that.
   Track guessed = lorry(9.0);
   guessed.covariance(0, 0) = 1.75 * 1.75;
   Track rear = lorry(2.0);

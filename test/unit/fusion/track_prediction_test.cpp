@@ -73,8 +73,7 @@ TEST(TrackPredictionTest, TheProcessNoiseIsThatOfTheTimeToEitherSide) {
   const LinearMotion back = motionOf(track, -0.4, kOptions);
   EXPECT_NEAR(ahead.noise(0, 0), back.noise(0, 0), 1e-12);
   EXPECT_NEAR(ahead.noise(0, 2), -back.noise(0, 2), 1e-12);
-  // Whoever gains speed was farther behind: position and velocity of the past vary against each
-  // other.
+  // If it accelerates, it was farther behind: past position and velocity are negatively correlated.
   EXPECT_LT(back.noise(0, 2), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<TrackCovariance>(back.noise).eigenvalues().minCoeff(),
             0.0);

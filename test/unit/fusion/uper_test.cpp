@@ -50,7 +50,7 @@ TEST(Uper, NothingIsReadBeyondTheEnd) {
   std::int64_t value = 0;
   reader.integer(value, 0, 4095);
   EXPECT_EQ(refusalOf([&] { reader.integer(value, 0, 31); }), "truncated_message");
-  reader.integer(value, 0, 15);  // what is left
+  reader.integer(value, 0, 15);  // the remaining bits
   EXPECT_EQ(value, 2);
 }
 
@@ -62,7 +62,7 @@ TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
   // 1, 0000 0001, 101 0 0000
   EXPECT_EQ(writer.bytes(), WireBits().add(1, 1).add(1, 8).add(0xA0, 8).bytes());
 
-  // Of 200 octets the number takes two: 10, and 14 bits.
+  // The length of 200 octets takes two octets: 10, and 14 bits.
   UperWriter longer;
   longer.openType([&](Uper& inner) {
     for (int i = 0; i < 200; ++i) {
@@ -105,7 +105,7 @@ TEST(Uper, AdditionsArePassedOver) {
 
 TEST(Uper, ManyAdditionsArePassedOver) {
   WireBits bits;
-  bits.add(1, 1).add(70, 8);  // more than 64: a length by itself
+  bits.add(1, 1).add(70, 8);  // more than 64: with a length determinant
   for (int i = 0; i < 70; ++i) {
     bits.add(i == 69 ? 1 : 0, 1);
   }

@@ -18,7 +18,7 @@ WindowedEvidenceOptions options() {
   return options;
 }
 
-/// Of looks at this rate (Hz) that all say the same, for as long.
+/// The evidence of equal observations at this rate (Hz), for this long.
 double sumAtRate(double rate, double seconds, double each) {
   WindowedEvidence evidence;
   for (int i = 0; i <= static_cast<int>(seconds * rate); ++i) {
@@ -35,7 +35,7 @@ TEST(WindowedEvidenceTest, TheFirstLookCountsInFullAndLaterOnesByTheTimeBetween)
   EXPECT_NEAR(evidence.sum(), 5.0, kRounding);
   evidence.look(at(1.1), -3.0, options());  // longer than it: in full, not twice
   EXPECT_NEAR(evidence.sum(), 2.0, kRounding);
-  evidence.look(at(1.1), 7.0, options());  // no time, no news
+  evidence.look(at(1.1), 7.0, options());  // no time, no new information
   EXPECT_NEAR(evidence.sum(), 2.0, kRounding);
 }
 

@@ -62,8 +62,8 @@ TEST(CamBits, OfTheLowFrequencyContainerFollow) {
 }
 
 TEST(CamBits, OfWhatIsNotUsedArePassedOver) {
-  // The basic container has an addition; the vehicle's has all that is optional, whose bits stand
-  // behind what is read.
+  // The basic container has an addition; the vehicle's has all optional fields, whose bits follow
+  // what is read.
   const std::string bytes = samples::wireCamHead(0b11, 5).bytes();
   std::string extended = bytes;
   extended[8] = static_cast<char>(static_cast<unsigned char>(extended[8]) | 0x10U);  // bit 67
@@ -125,7 +125,8 @@ TEST(CpmBits, AreReadAsTheyStand) {
 }
 
 TEST(CpmBits, AreWrittenAsTheyStand) {
-  // But for the subclass of a pedestrian, which we do not tell: 0 for 1, 8 bits before the end.
+  // Except for the subclass of a pedestrian, which we do not report: 0 for 1, 8 bits before the
+  // end.
   const std::string read = samples::wireCpm().bytes();
   const Cpm cpm = decodeCpm(read, ItsDictionary::k221);
   const std::string written = encode(cpm, ItsDictionary::k221);
