@@ -111,7 +111,7 @@ TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
     Point2 center = Point2::Zero();
     for (int i = 0; i < 150; ++i) {
       for (int hit = 0; hit < 60; ++hit) {
-        // Some points are hit more than others; some hits are outside.
+        // Some points are hit more often than others; some hits are outside.
         grid.add(center + Point2(random.normal(1.5), random.normal(1.5)), kAnyTime);
       }
       expectSumsOf(grid);

@@ -81,8 +81,8 @@ TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
   OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
   const std::size_t restored = map.evidence().cells.size();
   std::size_t max_known = 0;
-  // A vehicle that gets lost in ever new parts: each time all of the map is searched, and then it
-  // goes on in a part.
+  // A vehicle that is repeatedly lost in new areas: each time the whole map is searched, and then
+  // mapping continues in one part.
   const GridWindow part = map.window();
   for (int i = 1; i <= 40; ++i) {
     map.setWindow(map.extent());
@@ -92,7 +92,7 @@ TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
     updateWith(map, scanTo({{4.3, 0.4}}, 0.1 * i), PointState::kUnknown, pose);
     max_known = std::max(max_known, map.evidence().cells.size());
   }
-  // A scan makes five cells known, which lie in two tiles at the most.
+  // A scan makes five cells known, which lie in at most two tiles.
   EXPECT_LE(max_known, restored + 5U * (4U + 1U));
   EXPECT_GT(map.forgottenTiles(), 30U);
   map.centerOn({0.0, 0.0});

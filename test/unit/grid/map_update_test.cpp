@@ -9,7 +9,7 @@ namespace {
 
 using samples::smallMap;
 
-/// What an instantaneous grid of 20 x 20 cells about the vehicle shows, second by second.
+/// Contents of an instantaneous grid of 20 x 20 cells around the vehicle, second by second.
 class MapUpdateTest : public testing::Test {
  protected:
   void show(const GridUpdate& grid_update, double seconds, const Pose2& base_in_map = Pose2()) {

@@ -199,10 +199,10 @@ TEST(OccupancyMapTest, HitsMatureInTheTimeOfStaticAfter) {
   EXPECT_DOUBLE_EQ(maturity(), 0.0);
   updateWith(map, scanTo({{4.5, 0.5}}, 0.2));
   EXPECT_NEAR(maturity(), 0.25, 1e-6);
-  // Two hits of a cell that is new, beside two of 0.25.
+  // Two hits of a new cell, beside two of 0.25.
   updateWith(map, scanTo({{5.5, 0.5}, {5.5, 0.5}}, 0.9));
   EXPECT_NEAR(maturity(), 0.125, 1e-6);
-  // Three hits that are mature, two that are not.
+  // Three mature hits, two others.
   updateWith(map, scanTo({{4.5, 0.5}}, 1.0));
   EXPECT_NEAR(maturity(), 0.6, 1e-6);
 }

@@ -9,7 +9,7 @@
 namespace datmo::rolling_grid_test {
 namespace {
 
-/// Every cell of the window holds its own index, so that a cell can be told from any other.
+/// Every cell of the window holds its own index, so that it is distinguishable from any other.
 int tag(CellIndex cell) { return 1000 * cell.column + cell.row; }
 
 constexpr int kEmpty = -999999;

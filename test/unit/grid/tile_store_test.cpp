@@ -20,7 +20,7 @@ TileFileOptions noFile() { return {"", 0.0}; }
 
 TileFileOptions fileOf(double tiles) { return {testing::TempDir(), tiles * kTileSize}; }
 
-/// A tile each, of which two are in memory.
+/// One tile each; two fit in memory.
 TileStore<int> storeWithTiles(int tiles, const TileFileOptions& file) {
   TileStore<int> store(2, kEmpty, file);
   for (int i = 0; i < tiles; ++i) {
@@ -107,7 +107,7 @@ TEST(TileStoreTest, ATileComesBackFromTheFileWithAllThatItHeld) {
   store.put({1, 0}, 77);
   EXPECT_EQ(store.at({0, 0}), 0);
   EXPECT_EQ(store.at({1, 0}), 77);
-  for (int i = 4; i < 8; ++i) {  // and goes there again, changed
+  for (int i = 4; i < 8; ++i) {  // and is written there again, changed
     store.put({100 * i, 0}, i);
   }
   EXPECT_EQ(store.at({0, 0}), 0);
@@ -119,7 +119,7 @@ TEST(TileStoreTest, ACopySharesTheFileAndNotItsChanges) {
   TileStore<int> store = storeWithTiles(4, fileOf(100.0));
   TileStore<int> copy = store;
   copy.put({0, 0}, 50);
-  for (int i = 1; i < 4; ++i) {  // the first tile goes into the file again
+  for (int i = 1; i < 4; ++i) {  // the first tile is written to the file again
     copy.put({100 * i, 0}, 50 + i);
   }
   expectTiles(store, 0, 4);
@@ -142,7 +142,7 @@ TEST(TileStoreTest, AFolderThatIsNotThereForgetsAndSaysWhy) {
   EXPECT_NE(store.fileError().find("'/nowhere/at/all'"), std::string::npos) << store.fileError();
 }
 
-/// The system refuses to let a file grow beyond a limit as it does on a full disk.
+/// The system refuses to let a file grow beyond a limit, as on a full disk.
 TEST(TileStoreTest, AFullDiskForgetsAndSaysWhy) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -184,7 +184,7 @@ TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
   TileStore<int> store = storeWithTiles(4, fileOf(3.0));
   {
     TileStore<int> copy = store;
-    copy.put({0, 0}, 10);  // its room stays, as the other one has it
+    copy.put({0, 0}, 10);  // its slot stays allocated, as the other one has it
     EXPECT_EQ(copy.forgotten(), 0U) << "the third tile of the file";
     copy.put({100, 0}, 11);
     EXPECT_EQ(copy.forgotten(), 1U) << "full";
@@ -194,7 +194,7 @@ TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
   expectTiles(store, 0, 5);
 }
 
-/// As of a disk that fails.
+/// As on a failing disk.
 TEST(TileStoreTest, WhatCannotBeReadIsLeftOutAndSaid) {
   TileStore<int> store = storeWithTiles(4, fileOf(100.0));
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
