@@ -24,8 +24,8 @@ class PageError(Exception):
 
 @dataclass
 class Block:
-    """One fenced block. `needs` is a word of MARKS or empty, `files` are the files of a
-    download."""
+    """One fenced block. `needs` is a word of MARKS or empty,
+    `files` are the files of a download."""
 
     line: int
     language: str

@@ -104,8 +104,8 @@ def launch_checks(block, page):
 
 
 def script_of(blocks, progress):
-    """Returns one script of all blocks; it writes each block's line to the file `progress` as it
-    begins."""
+    """Returns one script of all blocks; it writes each block's line to the
+    file `progress` as it begins."""
     return "".join(f"echo {block.line} >'{progress}'\n{block.text}" for block in blocks)
 
 

@@ -89,8 +89,8 @@ def footpath(folder, seed):
 
 
 def intersection_score(folder, seed):
-    """Every object that the scanner sees moving for more than a second is found: evaluate's
-    score."""
+    """Every object that the scanner sees moving for more than a second is found:
+    evaluate's score."""
     recorded = simulated(folder, "intersection", seed)
     return evaluated(computed(recorded), recorded, ASKED, attainable=recorded)
 
@@ -117,8 +117,8 @@ def without_odometry(folder, seed):
 
 
 def fused_tracks(folder, seed):
-    """Returns the score of evaluate track_fusion for what scanner and camera both track, and the
-    bag."""
+    """Returns the score of evaluate track_fusion for what scanner and
+    camera both track, and the bag."""
     recorded = simulated(folder, "intersection", seed, "stereo/enabled=true")
     run = computed(recorded, "--track-fusion")
     return track_fusion.score(run), run
@@ -136,8 +136,8 @@ def of_fused_tracks(score):
 
 
 def low_level_fusion(folder, seed):
-    """Returns what fusion removes from the lidar's grids and adds to them, and the effect on
-    objects."""
+    """Returns what fusion removes from the lidar's grids and adds to them,
+    and the effect on objects."""
     options = ("stereo/enabled=true", "ground_truth/echoes=true")
     recorded = simulated(folder, "intersection", seed, *options)
     fused_bag = computed(recorded, "--low-level-fusion", "--write-grids")

@@ -26,8 +26,8 @@ def simulated(folder, scene, seed=1, *options):
 
 
 def computed(recorded, *options, config=CONFIG):
-    """Returns the bag (Path) that the stack makes of a drive's bag with these options of
-    run_bag."""
+    """Returns the bag (Path) that the stack makes of a drive's bag
+    with these options of run_bag."""
     result = recorded.with_name(recorded.stem + "".join(options) + ".result.bag")
     subprocess.run(
         [RUN_BAG, str(recorded), str(result), "--config", str(config), "--with-truth", "--quiet",

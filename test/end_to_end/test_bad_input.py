@@ -105,8 +105,8 @@ CHANGES = {
 
 
 def drives_with_faults(folder, seed):
-    """Returns the drive without a fault, and by name of the fault the bag to play and the bag of
-    its truth."""
+    """Returns the drive without a fault, and by name of the fault the bag to
+    play and the bag of its truth."""
     drive = simulated(folder, SCENE, seed, *DURATION)
     drives = {name: (changed(drive, name, change), drive) for name, change in CHANGES.items()}
     apart = Path(folder) / "shaken"
@@ -117,8 +117,8 @@ def drives_with_faults(folder, seed):
 
 class BadInput(unittest.TestCase):
     def check_start(self, score):
-        """Before there is a map, it is not known that nothing moves: no track may be reported as
-        moving."""
+        """Before there is a map, it is not known that nothing moves:
+        no track may be reported as moving."""
         series = score["series"]
         early = [n for t, n in zip(series["time_s"], series["false"]) if t < START]
         self.assertGreater(len(early), 0)

@@ -60,8 +60,8 @@ class Figures:
             cls.result = run_drive(folder, cls.resolution)
 
     def whole_drive(self, kind):
-        """Returns the objects of a class that move through the whole drive; at least one, or the
-        test is void."""
+        """Returns the objects of a class that move through the whole drive; at least one,
+        or the test is void."""
         found = [
             item
             for item in self.result["objects"]

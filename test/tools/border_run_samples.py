@@ -92,8 +92,8 @@ def _write_truth(bag, stamp, position):
 
 
 def write_images(path, count=11, delay=STEP // 4, encoding="mono8"):
-    """Images of the drive, each with an offset (ns) from a scan; all pixels of number i have the
-    gray value i."""
+    """Images of the drive, each with an offset (ns) from a scan;
+    all pixels of number i have the gray value i."""
     with whole_bag(path, "test") as bag:
         mount = bag_messages.transform(
             START, "base_link", LEFT_CAMERA, MOUNT, transforms.quaternion_of(AXES))  # fmt: skip

@@ -28,8 +28,8 @@ SIGMA = 0.2  # m, of published points
 
 
 def along(*positions):
-    """Returns a function of the frame: true poses (x, y, yaw) on a straight path, or the given
-    ones."""
+    """Returns a function of the frame: true poses (x, y, yaw) on a straight path,
+    or the given ones."""
 
     def at(frame):
         return positions[frame] if positions else (STEP * frame, 0.0, 0.0)

@@ -27,8 +27,8 @@ def without(items, *topics):
 
 
 def shifted(items, topic, seconds):
-    """Returns the recording with the headers of a topic delayed by this; record times are
-    unchanged."""
+    """Returns the recording with the headers of a topic delayed by this;
+    record times are unchanged."""
     for item in of_topic(items, topic):
         stamp = item.message.header.stamp.to_nsec() + round(seconds * 1e9)
         item.message.header.stamp = simulated.to_ros_time(stamp)
@@ -76,8 +76,8 @@ _match, _matches = Outline.match, {}
 
 
 def match_once(outline, later, guesses):
-    """Replaces Outline.match; most faults do not affect scans, and matching them takes half of the
-    time."""
+    """Replaces Outline.match; most faults do not affect scans,
+    and matching them takes half of the time."""
     key = outline.points.tobytes(), later.points.tobytes(), tuple(map(tuple, guesses))
     if key not in _matches:
         _matches[key] = _match(outline, later, guesses)

@@ -69,8 +69,8 @@ def _box(x, y, length, width):
 
 @lru_cache(maxsize=None)
 def _walls():
-    """Returns n x 2 x 2: houses with gaps on both sides, and parked cars; closed behind, open
-    ahead."""
+    """Returns n x 2 x 2: houses with gaps on both sides, and parked cars;
+    closed behind, open ahead."""
     boxes = [_box(-30.0, -20.0, 1.0, 40.0), _box(120.0, -20.0, 1.0, 40.0)]
     for index in range(14):
         x = -28.0 + 11.0 * index
@@ -81,8 +81,8 @@ def _walls():
 
 
 def _ranges(pose, bearings):
-    """Returns distances (m) from the scanner at `pose` to the nearest wall along bearings; inf:
-    none."""
+    """Returns distances (m) from the scanner at `pose` to the nearest
+    wall along bearings; inf: none."""
     angles = pose[2] + bearings
     directions = np.column_stack([np.cos(angles), np.sin(angles)])[:, None, :]
     begin, end = _walls()[None, :, 0], _walls()[None, :, 1]

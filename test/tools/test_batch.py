@@ -86,8 +86,8 @@ class Batch(unittest.TestCase):
         (self.folder / "sensors.yaml").touch()
 
     def record(self, **drives):
-        """Writes recordings with these names; the content is what each of them does to the
-        program."""
+        """Writes recordings with these names; the content is what each
+        of them does to the program."""
         for name, content in drives.items():
             (self.drives / f"{name}.bag").write_text(content)
 

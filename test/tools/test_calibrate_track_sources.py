@@ -46,8 +46,8 @@ class Tool(unittest.TestCase):
         return out.getvalue(), "", yaml.safe_load(self.table.read_text())["track_fusion"]["sources"]
 
     def test_shares_by_hand(self):
-        """It tracks the car in the later frames, which count more: the car could be seen for
-        longer."""
+        """It tracks the car in the later frames, which count more:
+        the car could be seen for longer."""
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, HALF)])
         out, _, sections = self.run_tool("--min-frames", "1", "--min-tracks", "1")
         seen = [1.0 - math.exp(-0.1 * frame) for frame in range(FRAMES)]

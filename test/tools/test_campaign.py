@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The campaign: what each fault does to the messages of a drive, and what is reported of the
-poses."""
+"""The campaign: what each fault does to the messages of a drive,
+and what is reported of the poses."""
 
 import contextlib
 import io

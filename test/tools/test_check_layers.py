@@ -25,8 +25,8 @@ GOOD = {
 
 class CheckLayers(unittest.TestCase):
     def run_on(self, extra):
-        """Returns exit code and output for the valid tree with `extra` files {path: text} added to
-        it."""
+        """Returns exit code and output for the valid tree with `extra` files {path:
+        text} added to it."""
         with tempfile.TemporaryDirectory() as folder:
             for path, text in {**GOOD, **extra}.items():
                 file = Path(folder, path)

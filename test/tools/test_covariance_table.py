@@ -19,8 +19,8 @@ def random():
 
 
 def pairs(count=4000, lidar=(0.0, 0.0), bias=0.0, nearest=2.0, reach=30.0):
-    """Returns pairs with the laws above; lidar: standard deviations of its range (m) and bearing
-    (rad)."""
+    """Returns pairs with the laws above; lidar:
+    standard deviations of its range (m) and bearing (rad)."""
     generator = random()
     ranges = generator.uniform(nearest, reach, count)
     range_sigmas = np.sqrt(RANGE_LAW[0] + RANGE_LAW[1] * ranges**4 + lidar[0] ** 2)
@@ -32,8 +32,8 @@ def pairs(count=4000, lidar=(0.0, 0.0), bias=0.0, nearest=2.0, reach=30.0):
 
 class Table(unittest.TestCase):
     def assert_recovers(self, table, sigmas=4.0):
-        """Each measured variance agrees with the law, within the uncertainty of its number of
-        pairs."""
+        """Each measured variance agrees with the law,
+        within the uncertainty of its number of pairs."""
         for column, law in ((table.range, (*RANGE_LAW, 4)), (table.bearing, (*BEARING_LAW, -2))):
             # Within a bin ranges differ: the mean of the law over the bin is what is measured.
             edges = np.linspace(-1.0, 1.0, 21)

@@ -70,8 +70,8 @@ class Recordings(Folder):
         self.assertEqual(len(moment.earlier), 0)
 
     def test_earlier_scans_lie_where_they_were_seen(self):
-        """10 m ahead of the vehicle's pose at that time, which was 1 m back for each scan that has
-        passed."""
+        """10 m ahead of the vehicle's pose at that time,
+        which was 1 m back for each scan that has passed."""
         write_run(self.bag)
         self.assert_points(self.moment(0.5, history=0.2).earlier, [(8.0, 0.0), (9.0, 0.0)])
         self.assertEqual(len(self.moment(0.1, history=0.2).earlier), 1)
@@ -180,8 +180,8 @@ class Tool(Folder):
         return sorted(path.name for path in self.folder.glob("*.png"))
 
     def test_sheets(self):
-        """Two views per row, seen from above; one with images. The same input gives the same
-        bytes."""
+        """Two views per row, seen from above; one with images. The same
+        input gives the same bytes."""
         write_run(self.bag)
         self.draw("--at", "0.2,0.5")
         self.assertEqual(self.sheets(), ["out.png"])

@@ -110,8 +110,8 @@ class Scores(unittest.TestCase):
         self.assert_tally(scores.bodies_lost, [2, 1, 0, 1, 0], [3, 2, 1, 1, 0])
 
     def test_what_does_not_count(self):
-        """Curbs; paint in the cell of a body; cells that the lidar's grid does not have; one cell
-        twice."""
+        """Curbs; paint in the cell of a body; cells that the lidar's grid does not have;
+        one cell twice."""
         found = [(8.5, 0.5, PAINT), (8.7, 0.3, BODY), (9.5, 0.5, CURB), (10.5, 0.5, PAINT),
                  (12.1, 0.5, PAINT), (12.2, 0.5, PAINT), (55.0, 0.5, PAINT)]
         scores = self.scores(grid((8.5, 0.5), (9.5, 0.5), (12.5, 0.5)), grid(), found)

@@ -155,8 +155,8 @@ class Tool(EvaluateCase):
         self.assertEqual((wrong["objects"], wrong["frames"]), ([1, 4], 11))
 
     def test_false_tracks_within_the_view(self):
-        """One on the parked car, one on a pole, one on nothing, one behind the camera, and one that
-        is right."""
+        """One on the parked car, one on a pole, one on nothing, one behind the camera,
+        and one that is right."""
         lidar = [track(1, 15.0, 8.5), track(2, 10.0, -8.0), track(3, 25.0, -20.0),
                  track(4, -10.0, 0.0), track(5, 20.0, 0.0, SPEED)]  # fmt: skip
         fused = [track(9, 15.0, 8.5, sources=(("lidar", 1),)), track(5, 20.0, 0.0, SPEED)]

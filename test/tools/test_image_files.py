@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images and calibrations of files, and the messages that play_images makes of them."""
+"""Images and calibrations from files, and the messages that play_images makes of them."""
 
 import tempfile
 import unittest

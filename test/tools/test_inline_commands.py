@@ -20,7 +20,7 @@ FENCED = re.compile(r"^ *```.*?^ *```$", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`(?:rosrun datmo_fusion )?([a-z_0-9]+)( [^`]*)?`")
 ASSIGNMENTS = re.compile(r"`(?!roslaunch (?!datmo_fusion))([^`\n]*:=[^`]*)`")  # not of other packages
 ASSIGNED = re.compile(r"(?<!\w)([a-z]\w*):=")
-# Of run_bag alone: images, which launch files find by the camera's namespace.
+# run_bag only: images, which launch files find by the camera's namespace.
 IMAGES = {"left_image", "right_image", "left_camera_info", "right_camera_info"}
 LAUNCH_FILE = re.compile(r"\b\w+\.launch\b")
 OTHERS = {"cmake", "rosbag"}  # programs of other packages
@@ -28,7 +28,8 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 
 
 def inline_commands(text):
-    """(program of ours, its words, options) of the commands outside of fenced blocks that have options."""
+    """Returns (our program, its arguments, options) of the commands with
+    options outside of fenced blocks."""
     for name, words in SPAN.findall(FENCED.sub("", text)):
         options = OPTION.findall(words)
         if options and name not in OTHERS:
@@ -37,7 +38,7 @@ def inline_commands(text):
 
 @functools.lru_cache(maxsize=None)
 def arguments_taken(file):
-    """Names of the arguments of a file of launch/, those that it passes on included."""
+    """Returns the argument names of a file of launch/, including those that it passes on."""
     return arguments_of(SOURCE / "launch" / file, lambda name: name.replace("$(find datmo_fusion)", str(SOURCE)))
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a ROS master knew is told to the one that is started in its place, by made-up nodes."""
+"""What a ROS master knew is passed on to the master that replaces it; with made-up nodes."""
 
 import threading
 import unittest
@@ -17,7 +17,7 @@ OWN = "/car1/keep_registrations"
 
 
 class Node:
-    """A node's XML-RPC server: what the master tells it."""
+    """A node's XML-RPC server: records what the master reports to it."""
 
     def __init__(self, name, master):
         self.name = name

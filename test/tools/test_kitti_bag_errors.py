@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""kitti_to_bag refuses what it cannot convert, and leaves no half of a bag."""
+"""kitti_to_bag refuses what it cannot convert, and leaves no partial bag behind."""
 
 import contextlib
 import io
@@ -14,7 +14,7 @@ from datmo_tools.convert.kitti_to_bag import main
 
 class Errors(Conversion):
     def assert_refused(self, *texts, options=()):
-        """Exit code 1, all texts in the message, and no file left behind."""
+        """Expects exit code 1, all texts in the message, and no file left behind."""
         said = self.run_tool(*options, expected_code=1)
         for text in texts:
             self.assertIn(text, said)

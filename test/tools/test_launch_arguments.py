@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line of roslaunch: names that no launch file takes are refused, with the nearest one."""
+"""The command line of roslaunch: argument names that no launch file has are refused,
+with the nearest one."""
 
 import tempfile
 import unittest

@@ -22,7 +22,7 @@ class LaunchRefusals(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def refusal(self, file, *words, master="http://localhost:1"):
-        """What roslaunch says; it ends by itself, without a master."""
+        """Returns the output of roslaunch; it ends by itself, without a master."""
         environment = dict(os.environ, ROS_LOG_DIR=str(self.folder), ROS_HOME=str(self.folder),
                            ROS_PACKAGE_PATH=f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}",
                            ROS_MASTER_URI=master, DISPLAY="")

@@ -24,13 +24,13 @@ IMAGES = {"none": set(),
 
 
 def combinations():
-    """(low_level_fusion, road_border, object_fusion, track_fusion, stereo_images)"""
+    """Returns (low_level_fusion, road_border, object_fusion, track_fusion, stereo_images)."""
     return itertools.product(*[[False, True]] * 4, IMAGES)
 
 
 @functools.lru_cache(maxsize=None)
 def loaded(file, **arguments):
-    """The nodes of a launch file, by name, and its parameters, by key."""
+    """Returns the nodes of a launch file, by name, and its parameters, by key."""
     words = [f"{key}:={str(value).lower() if isinstance(value, bool) else value}"
              for key, value in arguments.items()]
     config = load(file, words)
@@ -39,7 +39,7 @@ def loaded(file, **arguments):
 
 
 def nodelets(nodes):
-    """Their types, by name."""
+    """Returns their types, by name."""
     return {name: node.args.split()[1] for name, node in nodes.items()
             if node.args.startswith("load ")}
 
@@ -51,7 +51,7 @@ def remapped(node, topic):
 class LaunchSwitches(unittest.TestCase):
     @staticmethod
     def each(file, **more):
-        """(switches, nodes, parameters) of each combination"""
+        """Yields (switches, nodes, parameters) of each combination."""
         for low_level, borders, objects, tracks, images in combinations():
             switches = {"low_level_fusion": low_level, "road_border": borders,
                         "object_fusion": objects, "track_fusion": tracks,
@@ -97,7 +97,8 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertLessEqual(ours, known)
 
     def test_no_test_has_the_name_of_a_node_that_it_starts(self):
-        """A test is a node of that name, too: of two with one name the master ends the first."""
+        """A test is also a node of that name: of two nodes with one name
+        the master ends the first."""
         for file in sorted((PACKAGE / "test/nodelets").glob("*.test")):
             root = ElementTree.parse(file)
             nodes = {node.get("name") for node in root.iter("node")}

@@ -16,7 +16,7 @@ MACHINES = f"machines:={PACKAGE}/test/nodelets/parts_machines.launch"
 
 
 def loaded(*words):
-    """The nodes by name, and the parameters."""
+    """Returns the nodes by name, and the parameters."""
     config = load("live.launch", list(words))
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""loop_closing without the stack: errors of a path, the table, what is refused."""
+"""loop_closing without the stack: errors of a path, the table, rejected input."""
 
 import contextlib
 import io

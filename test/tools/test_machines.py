@@ -13,11 +13,11 @@ from datmo_tools.experiments import lossy_network, machines
 from datmo_tools.experiments.lossy_network import Quality
 from datmo_tools.experiments.machines_run import Result, by_time, latencies, recovery
 
-ENOUGH = 30.0  # s, for what is done at once
+ENOUGH = 30.0  # s, for what is done immediately
 
 
 def packet(to, payload=b"payload"):
-    """As an IPv4 packet, as far as the relay looks at it."""
+    """Returns an IPv4 packet, with as much content as the relay reads."""
     return struct.pack("!16s4s", b"\x45", socket.inet_aton(to)) + payload
 
 
@@ -57,7 +57,7 @@ class Relay(unittest.TestCase):
         self.relay(Quality(loss=0.5, seed=3))
         for i in range(100):
             self.ends["10.77.0.1"].send(packet("10.77.0.2", bytes([i])))
-        self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # nobody's
+        self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # no machine has this address
         came = []
         while self.comes("10.77.0.2", ENOUGH if len(came) < 30 else 1.0):
             came.append(self.ends["10.77.0.2"].recv(100)[-1])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""mocap_to_bag on made-up recordings: what stands in the bag, options, errors, determinism."""
+"""mocap_to_bag on made-up recordings: contents of the bag, options, errors, determinism."""
 
 import contextlib
 import io
@@ -25,7 +25,7 @@ def ego(seconds):
 
 
 def red(seconds):
-    """2 m ahead of where the ego car starts, in its direction, and slower."""
+    """2 m ahead of the ego car's start, in its direction, and slower."""
     return (2.0, 3.0 + RED_SPEED * seconds, 0.5 * math.pi)
 
 
@@ -37,7 +37,7 @@ class Conversion(unittest.TestCase):
         self.recording, self.bag = self.root / "drive.bag", self.root / "out.bag"
 
     def convert(self, *options, expected_code=0, **recorded):
-        """Runs the tool without a subprocess; returns what it said on standard error."""
+        """Runs the tool without a subprocess; returns its standard error."""
         content = {"ego": ego, "red": red, "ranges": [1.0, 2.0, 4.0, math.inf], **recorded}
         write_recording(self.recording, **content)
         said = io.StringIO()
@@ -131,7 +131,7 @@ class Truth(Conversion):
         self.assertEqual(car.velocity.x, 0.0)
 
     def test_beams_on_the_other_car(self):
-        """Straight ahead 1.9 m from the scanner is its rear side, 0.1 m from its middle."""
+        """Its rear side is straight ahead, 1.9 m from the scanner, and 0.1 m from its middle."""
         size = ("--object-size", "0.2", "0.1", "0.1", "--object-center", "0", "0", "0")
         centered = (*EXACT, *size, "--mount", "0", "0", "0")
         self.convert(*centered, ranges=[5.0, 1.9, 5.0, 5.0])
@@ -154,7 +154,7 @@ class Truth(Conversion):
         self.assertIn(f"5 of {SCANS} scans without truth", said)
 
     def test_repeated_poses_are_none(self):
-        """Motion capture that lost the car goes on to tell where it was."""
+        """Motion capture that has lost the car keeps reporting its last pose."""
         self.convert(*EXACT, ego=lambda seconds: ego(min(seconds, 0.4)))
         stamps = [seconds_of(message) for message in self.messages("/ground_truth/pose")]
         self.assertAlmostEqual(stamps[-1], 0.4, places=6)
@@ -167,7 +167,7 @@ class Odometry(Conversion):
     WHEELS, YAW_RATE, BIAS = 20.0, 0.4, 0.1  # rad/s
 
     def rates(self, seconds):
-        """Stands for 0.3 s, then goes on a circle."""
+        """Stands for 0.3 s, then drives in a circle."""
         return (0.0, 0.0) if seconds < 0.295 else (self.WHEELS, self.YAW_RATE)
 
     def check_twists(self):
@@ -186,7 +186,7 @@ class Odometry(Conversion):
             self.convert("--wheel-radius", "0.05", drive_sensors=sensors)
             samples = self.check_twists()
         x, y, yaw = planar(samples[-1].pose.pose)
-        # Rates between two samples are the mean: half a step of the start counts.
+        # Rates between two samples are the mean: half a step at the start counts.
         turned = self.YAW_RATE * (seconds_of(samples[-1]) - 0.295)
         radius = 0.05 * self.WHEELS / self.YAW_RATE
         expected = [radius * math.sin(turned), radius * (1.0 - math.cos(turned)), turned]

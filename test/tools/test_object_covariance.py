@@ -41,7 +41,8 @@ class Tool(unittest.TestCase):
         self.bag, self.out = self.root / "run.bag", self.root / "table.yaml"
 
     def write(self, *topics, rounds=50, range_sigma=0.3, across_sigma=0.05):
-        """A bag with lists on the topics: each round two scans, and an image between them."""
+        """Writes a bag with lists on the topics: two scans each round,
+        and an image between them."""
         noise = np.random.Generator(np.random.PCG64(1)).standard_normal((rounds, 10, 2)) * [range_sigma, across_sigma]
         with whole_bag(self.bag, "test") as bag:
             for i in range(2 * rounds):
@@ -73,7 +74,7 @@ class Tool(unittest.TestCase):
         return ObjectArray(header=bag_messages.header(stamp, "base_link"), objects=items)
 
     def tracks(self, stamp, distance):
-        """Of all cars, half a meter off; way: of the vehicle, m."""
+        """Returns all cars, half a meter off; way: of the vehicle, m."""
         tracks = []
         for i in range(10):
             middle = Point(distance + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)
@@ -83,7 +84,8 @@ class Tool(unittest.TestCase):
         return TrackArray(header=bag_messages.header(stamp, "map"), tracks=tracks)
 
     def ahead(self, stamp, number, delay=0.0):
-        """How far a car's near side is ahead of the vehicle at a stamp, as it is `delay` later."""
+        """Returns the range of a car's near side from the vehicle at a stamp,
+        measured `delay` later."""
         since = (stamp - START) * 1e-9 % self.ROUND
         return 6.5 + 2.0 * number + self.CAR_SPEED * (since + delay) - self.SPEED * since
 
@@ -100,7 +102,8 @@ class Tool(unittest.TestCase):
         return read["object_fusion"]["sources"][source]["covariance"]
 
     def test_motion_of_vehicle_and_cars_is_taken_out(self):
-        """Without the vehicle's the camera would be 0.3 m off, without the cars' 0.1 m."""
+        """Without the vehicle's motion the camera would be 0.3 m off,
+        without the cars' motion 0.1 m."""
         self.write("/objects", "/objects/stereo", rounds=100)
         score = self.root / "score.json"
         self.calibrate("--json", str(score))

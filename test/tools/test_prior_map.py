@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts in a prior map: what is cut out of a drive, and the score of poses by hand."""
+"""Starts in a prior map: what is cut out of a drive, and the score of poses, worked out by hand."""
 
 import math
 import tempfile
@@ -39,7 +39,7 @@ class PriorMap(unittest.TestCase):
         self.reference = PosePath([BEGIN, BEGIN + 20 * 10**9], [[0, 0, 0], [20, 0, 0]])
 
     def scored(self, offset, turn=0.0, found_at=6):
-        """Poses once a second that claim a place from `found_at` (s) on."""
+        """Returns poses once a second that claim to be located from `found_at` (s) on."""
         computed = self.folder / "computed.bag"
         with rosbag.Bag(str(computed), "w") as bag:
             for second in range(15):
@@ -81,7 +81,7 @@ class PriorMap(unittest.TestCase):
         described.write_text("image: hall.pgm\nresolution: 1.0\norigin: [-2.0, 3.0, 0.0]\n"
                              "occupied_thresh: 0.65\n")  # fmt: skip
         surfaces = MapSurfaces(described)
-        # The image's first row, which is at the top: y from 7 to 8 m.
+        # The image's first row is at the top: y from 7 to 8 m.
         known = surfaces.known([(0.5, 7.5), (0.5, 6.5), (-1.5, 7.1), (7.5, 7.5), (8.5, 7.5)])
         self.assertEqual(list(known), [True, False, True, True, False])
 

@@ -12,12 +12,12 @@ from xml.etree import ElementTree
 
 from launch_files import PACKAGE, load
 
-# Made and left out: large, drawn while somebody looks, or no topic of their own.
+# Published but not recorded: large, drawn only for viewers, or without a topic of their own.
 NOT_RECORDED = {"/tf", "/tf_static", "grids/lidar", "grids/stereo", "grids/mono", "grids/fused", "grids/conflict"}
 
 
 def recorded(*words):
-    """The words of rosbag record."""
+    """Returns the arguments of rosbag record."""
     node, = load("record.launch", ["bag:=drive", *words]).nodes
     return node.args.split()
 
@@ -27,7 +27,8 @@ def printed(*words):
 
 
 def graph_topics():
-    """What no stage makes and some stage takes, with any switches: topic -> type; and what the stages make."""
+    """Returns the inputs that no stage publishes, with any switches (topic -> type), and the
+    stages' outputs."""
     switches = printed("--switches")
     all_but_merging = [name for name in switches if name != "merge_scans"]
     inputs, outputs = {}, set()
@@ -41,7 +42,7 @@ def graph_topics():
 
 
 def topic_arguments(file):
-    """Arguments of a launch file that name a topic of a message: name -> default."""
+    """Returns the arguments of a launch file that name the topic of a message: name -> default."""
     return {tag.get("name"): tag.get("default") for tag in ElementTree.parse(PACKAGE / "launch" / file).findall("arg")
             if re.match(r"topic, \w+/\w+", tag.get("doc") or "")}
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The robustness benchmark: its summary by hand, and its runs with programs that only pretend."""
+"""The robustness benchmark: its summary, worked out by hand,
+and its runs with stand-in programs."""
 
 import contextlib
 import io

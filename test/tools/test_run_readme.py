@@ -11,7 +11,7 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "run_readme"
 
 
 def block(commands, needs=""):
-    """A block of bash, with its mark if it needs something."""
+    """Returns a block of bash, with its mark if it needs something."""
     return (f"<!-- needs: {needs} -->\n" if needs else "") + f"```bash\n{commands}\n```\n"
 
 
@@ -25,7 +25,7 @@ class RunReadme(unittest.TestCase):
         (self.devel / "setup.bash").write_text("export SOURCED=yes\n")
 
     def run_on(self, *texts, options=()):
-        """(exit code, output) for pages with these texts."""
+        """Returns (exit code, output) for pages with these texts."""
         pages = []
         for index, text in enumerate(texts):
             pages.append(self.folder / f"page{index}.md")

@@ -29,14 +29,14 @@ def read(file):
 
 VIEW = read(FILE)
 DISPLAYS = VIEW["Visualization Manager"]["Displays"]
-# What our own displays draw, or what is for who looks for a fault.
+# What our own displays draw, or what is for debugging.
 OFF = {"dropped labels", "intersection", "objects", "object bodies", "object heads", "road borders",
        "road border sigmas", "track covariances", "track sensors", "track bodies", "track labels",
        "track paths", "host tube", "contacts", "contact labels", "risk level"}
 PLUGINS = {each.get("name") for each in
            ElementTree.parse(PACKAGE / "rviz_plugins.xml").getroot().iter("class")}
 
-# Of the input: the stereo camera's nodelets or the bag.
+# Inputs: from the stereo camera's nodelets or the bag.
 INPUTS = {"/stereo/points2"}
 
 
@@ -45,7 +45,8 @@ def text_of(pattern):
 
 
 def published():
-    """Topics that nodelets advertise and stages declare, and those that perception.launch remaps theirs to."""
+    """Returns the topics that nodelets advertise and stages declare, and those to which
+    perception.launch remaps them."""
     topics = set(re.findall(r'advertise<[^>]+>\(\s*"([^"]+)"', text_of("src/nodelets/*")))
     topics |= set(re.findall(r'\.out<[^>]+>\(\s*"([^"]+)"', text_of("src/ros/stage/*_stage.cpp")))
     launch = text_of("launch/perception.launch")
@@ -55,7 +56,7 @@ def published():
 
 
 def drawn():
-    """The namespaces of the markers: those that are named, and those that shapes have two of."""
+    """Returns the namespaces of the markers: the named ones, and those of shapes with two."""
     code = text_of("src/ros/display/*marker*.cpp")
     made = re.findall(r'(?:makeMarker|outlineOf|groundOutline)\([^;"]*?"([^"]+)"', code)
     shapes = re.findall(r'shapeOf\([^;"]*?"([^"]+)"', code)
@@ -116,7 +117,7 @@ class ViewOfAVehicle(unittest.TestCase):
     """One of several vehicles on one master."""
 
     def vehicle_view(self, prefix, namespace):
-        """What open_rviz shows."""
+        """Returns the configuration that open_rviz shows."""
         environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
         with mock.patch.dict(os.environ, environment):
             return open_rviz.vehicle_view(FILE, prefix)

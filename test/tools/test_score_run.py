@@ -76,7 +76,7 @@ class WholeRun(ScoreRunCase):
         ]
         report = self.score("--set", "intersection_merge_gap=0.5")
         self.assertEqual(report["thesis"]["false_moving_objects_frames"], 1.0)
-        # It goes with the vehicle, 1 m from frame to frame, within the gate.
+        # It moves with the vehicle, 1 m from frame to frame, within the gate.
         self.assertEqual(report["thesis"]["false_moving_objects_episodes"], 1)
         self.assertEqual(report["thesis"]["intersections"], 1)
         self.assertEqual(report["thesis"]["intersections_found"], 1)
@@ -87,7 +87,7 @@ class WholeRun(ScoreRunCase):
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
 
     def test_attainable_delays(self):
-        """One beam on the rear of a car that keeps 20 m ahead: 10 m/s, distinguished by the second scan."""
+        """One beam on the rear of a car 20 m ahead: 10 m/s, distinguishable by the second scan."""
         drive = self.folder / "drive.bag"
         write(drive, {"/tf_static": [mount()], "/scan": [scan_at(i) for i in range(FRAMES)]})
         report = self.score("--attainable", drive, "--set", "attainable/range_noise=0.2")
@@ -168,7 +168,7 @@ class WholeRun(ScoreRunCase):
         self.assertEqual(report["clear_mot"]["mota"], 1.0)
 
     def test_matches_of_each_frame(self):
-        """Two cars that change their tracks halfway, and a track of neither."""
+        """Two cars that swap their tracks halfway, and a track of neither."""
         for i, (truth, tracks) in enumerate(zip(self.truth_messages["/ground_truth/objects"],
                                                 self.run_messages["/tracks"])):
             x = CAR_AHEAD + i

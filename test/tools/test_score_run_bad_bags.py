@@ -141,7 +141,8 @@ class BadBags(ScoreRunCase):
         self.assert_no_report(self.run_bag)
 
     def test_bag_that_is_broken_anywhere(self):
-        """Bytes that nobody reads may be any; else the file is named. It never ends otherwise."""
+        """Bytes that are not read may have any value;
+        for others the file is named. It ends in no other way."""
         self.write_bags()
         content = self.truth_bag.read_bytes()
         refused = 0

@@ -13,14 +13,14 @@ from launch_files import PACKAGE
 
 
 def panels_of(node):
-    """The names of the panels in a layout's tree."""
+    """Returns the names of the panels in a layout's tree."""
     if isinstance(node, str):
         return [node]
     return panels_of(node["first"]) + panels_of(node["second"])
 
 
 def node_names():
-    """Of all nodelets of perception.launch."""
+    """Returns the names of all nodelets of perception.launch."""
     text = (PACKAGE / "launch/perception.launch").read_text()
     return set(re.findall(r'name="(\w+)" args="load', text))
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulator as a program: exit codes, messages, and bags that are the same byte for byte."""
+"""The simulator as a program: exit codes, messages, and bags that are identical byte for byte."""
 
 import os
 import subprocess
@@ -96,7 +96,7 @@ class Simulate(unittest.TestCase):
 
 
 class Contract(unittest.TestCase):
-    """What readers of the committed bag rely on."""
+    """Properties of the committed bag that its users rely on."""
 
     @classmethod
     def setUpClass(cls):
@@ -128,7 +128,7 @@ class Contract(unittest.TestCase):
         self.assertEqual((pose.position.x, pose.position.y, pose.orientation.w), (0.0, 0.0, 1.0))
 
     def test_velocity_is_the_change_of_position(self):
-        # To 5 cm per scan in a turn, and only where an object keeps its motion.
+        # Up to 5 cm per scan in a turn, and only if an object keeps its motion.
         last = {}
         checked = 0
         for message, time in self.messages["/ground_truth/objects"]:
@@ -156,7 +156,7 @@ class Contract(unittest.TestCase):
 
 
 class Stereo(unittest.TestCase):
-    """A bag with the stereo camera and the true echoes beside one without."""
+    """Writes a bag with the stereo camera and the true echoes beside one without."""
 
     @classmethod
     def setUpClass(cls):
@@ -168,7 +168,7 @@ class Stereo(unittest.TestCase):
 
     @staticmethod
     def simulated(bag, *options):
-        """Dictionary topic -> list of (message, record time)."""
+        """Returns a dictionary topic -> list of (message, record time)."""
         subprocess.run([SIMULATE, SCENE, bag, "--quiet", "--set", "duration=2", *options],
                        check=True)
         messages = {}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""slam_benchmark without the stack: which files it takes, its table, what it refuses."""
+"""slam_benchmark without the stack: which files it uses, its table, rejected input."""
 
 import contextlib
 import io
@@ -13,12 +13,12 @@ from datmo_tools.experiments.slam_benchmark import find_pairs, main, table
 
 
 def figures(mean):
-    """A score whose figures are all the same."""
+    """Returns a score whose figures are all the same."""
     return {"mean": mean, "std": mean, "max": mean}
 
 
 def result(log):
-    """A log's result."""
+    """Returns a log's result."""
     scored = {
         "used": 2,
         "not_covered": 1,

@@ -15,7 +15,7 @@ from datmo_fusion.msg import ViewFan
 
 class Distances(unittest.TestCase):
     def test_of_boxes(self):
-        """A box of 4 m x 2 m that looks along y: its side is at x = 11, its front at y = 2."""
+        """A box of 4 m x 2 m that faces along y: its side is at x = 11, its front at y = 2."""
         poses, size = np.array([[10.0, 0.0, math.pi / 2]]), np.array([[4.0, 2.0]])
         positions = np.array([[10.5, 1.5], [12.0, 0.0], [10.0, 3.0], [14.0, -6.0]])
         expected = [[0.0], [1.0], [1.0], [5.0]]
@@ -28,7 +28,7 @@ class Distances(unittest.TestCase):
 
 
 class Views(unittest.TestCase):
-    """A camera at (1, 0) that looks along y, 30 degrees to either side, from 2 m to 20 m."""
+    """A camera at (1, 0) that faces along y, 30 degrees to either side, from 2 m to 20 m."""
 
     VIEW = ViewFan(sensor=Pose2D(1.0, 0.0, math.pi / 2), first_bearing=-math.pi / 6,
                    beam_spacing=math.pi / 180, min_range=2.0, range=20.0,

@@ -33,7 +33,7 @@ class Rows(unittest.TestCase):
     """Stations 1 m apart."""
 
     def row(self, *stretches, bounded=None):
-        """Row of (number of stations, depth)."""
+        """Returns a row of (number of stations, depth)."""
         depths = np.concatenate([np.full(count, depth) for count, depth in stretches])
         bounded = np.ones(len(depths), dtype=bool) if bounded is None else bounded
         return row_of(depths, bounded, 1.0, OPTIONS)

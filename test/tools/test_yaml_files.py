@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Yaml files of strangers: read within bounds, or refused in a line."""
+"""Yaml files from outside: read within bounds, or refused with one line."""
 
 import tempfile
 import unittest

@@ -29,8 +29,8 @@ Publication published(const std::string& topic, const boost::shared_ptr<Message>
   return {topic, ros::message_traits::datatype<Message>(), message};
 }
 
-/// The vehicle at (10, 20) looks to the left of the map's x axis; 3 m ahead of it and 1 m to its
-/// left stands a car that looks where the vehicle looks.
+/// The vehicle at (10, 20) faces to the left of the map's x axis; a car 3 m ahead of it and 1 m to
+/// its left has the same heading.
 Frame oneFrame() {
   const auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header.stamp = kStamp;

@@ -109,7 +109,7 @@ def oxts_line(frame, speed=10.0, yaw=0.0, yaw_rate=0.0):
 
 
 def write_png(path, gray, width=WIDTH, height=HEIGHT):
-    """A gray image whose pixels are all `gray`, but the first one: 0."""
+    """Writes a gray image whose pixels are all `gray`, except for the first one: 0."""
     import cv2
     import numpy as np
 
