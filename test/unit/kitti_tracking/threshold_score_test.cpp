@@ -36,7 +36,8 @@ TEST(ThresholdScore, MotpIsTheMeanOverlap) {
   EXPECT_NEAR(score.motp(), (1.0 + 1.0 / 3.0) / 2.0, kTiny);
 }
 
-/// The track between two truths overlaps the left one more, but the other track only has that one.
+/// The track between two truths overlaps the left one more, but the other track overlaps only that
+/// one.
 TEST(ThresholdScore, AsManyMatchesAsPossibleComeFirst) {
   const ThresholdScore score =
       scoreOf({rowAt(0, 1, 0.0), rowAt(0, 2, 0.5)}, {resultAt(0, 1, 0.2), resultAt(0, 2, -0.5)});
