@@ -50,7 +50,7 @@ TEST(FirstContact, IsAtOnceWhereBoxesOverlap) {
 }
 
 TEST(FirstContact, DoesNotTunnel) {
-  // In one move right through: at both ends they are far apart.
+  // One move right through the other: far apart at both ends.
   const auto share = firstContact(moveFromTo({-100, 0.3}, {100, 0.3}, kCar),
                                   moveFromTo({0, -80}, {0, 80}, kSquare));
   ASSERT_TRUE(share);

@@ -51,7 +51,7 @@ TEST(HostFutures, WhatIsNotKnownOfTheCourseGrowsWithTheSquareOfTime) {
   HostFutureOptions options = onlyLane();
   options.lane_deviation = 0.0;
   options.steering_spread = 0.1;
-  // Half of it times t^2, less what the driver's hands take to get there.
+  // Half of it times t^2, less the delay of the driver's steering.
   EXPECT_NEAR(spreadAt(20, options).aside, 0.5 * 0.1 * 16.0, 0.2);
   EXPECT_GT(spreadAt(20, options).aside, 3.0 * spreadAt(10, options).aside);
 }

@@ -14,7 +14,7 @@ namespace {
 const HorizonOptions kHorizon;
 const RandomDraws kDraws(1);
 
-/// Sojourn times so long that no mode is left.
+/// Sojourn times so long that no mode changes.
 ObjectFutureOptions withoutSwitching() {
   ObjectFutureOptions options;
   options.transitions.straight_sojourn = 1e6;
@@ -192,7 +192,7 @@ TEST(ObjectFutures, WhoJoinsTheRoadEndsItsTurnAlongIt) {
   EXPECT_GT(along, 70);
 }
 
-// On an arc of 100 m: after 4 s at 10 m/s 0.4 rad, whichever way it goes.
+// On an arc of 100 m radius: after 4 s at 10 m/s 0.4 rad, in either direction.
 TEST(ObjectFutures, WhoFollowsTheRoadBendsWithIt) {
   ObjectFutureOptions options = withoutSwitching();
   options.road_following.probability = 0.999;

@@ -10,7 +10,7 @@ namespace {
 const RuleOptions kRules;
 const BodySize kHost{2.3, 0.925};
 
-/// A host whose middle starts at the origin and goes along x.
+/// A host whose middle starts at the origin and moves along x.
 BodyPath hostAt(double speed) {
   BodyPath path{0.2, {}};
   for (int i = 0; i <= 20; ++i) {
@@ -47,7 +47,7 @@ TEST(ThesisRisk, FallsAfterTheReactionTime) {
   const Track far = knownTrack(3, {33, 0}, {0, 0});
   EXPECT_EQ(thesisRisk(near, hostAt(10.0), kRules).probability(), 1.0);
   const ObjectRisk risk = thesisRisk(far, hostAt(10.0), kRules);
-  // Circles of 1.5 m: 30 m at 10 m/s, half of the way from 2 s to the horizon of 4 s.
+  // Circles of 1.5 m: 30 m at 10 m/s, half of the interval from 2 s to the horizon of 4 s.
   EXPECT_NEAR(risk.median_ttc, 3.0, 0.01);
   EXPECT_NEAR(risk.probability(), 0.5, 0.01);
 }
