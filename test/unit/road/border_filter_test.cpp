@@ -31,14 +31,14 @@ Object movingAt(const Point2& position) {
 
 class BorderFilterTest : public testing::Test {
  protected:
-  /// The object as the filter passes it on.
+  /// Returns the object as the filter passes it on.
   Object passed(const Object& object) {
     list_.objects = {object};
     EXPECT_TRUE(filter_.filter(Pose2(), road_, list_).empty());
     return list_.objects.at(0);
   }
 
-  /// Whether the filter takes it for less likely to move than on the road.
+  /// Returns whether the filter considers it less likely to move than on the road.
   bool isOutside(const Object& object) {
     const Object result = passed(object);
     const bool weighed = result.motion_log_odds < 0.0;

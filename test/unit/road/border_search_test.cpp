@@ -11,7 +11,7 @@
 namespace datmo::border_search_test {
 namespace {
 
-/// Of hits whatever their age.
+/// Hits of any age.
 HitGridOptions ageless() {
   HitGridOptions options;
   options.min_age = 0.0;
@@ -36,7 +36,7 @@ void addLine(HitGrid& hits, const Pose2& begin, double length, double sigma = 0.
   }
 }
 
-/// Distance of a line from a point of the map, m; positive: the point is to the left.
+/// Signed distance of a line from a point of the map, m; positive: the point is to the left.
 double offsetTo(const FoundBorder& border, const Point2& point) {
   return (border.line.inverse() * point).y();
 }
@@ -129,7 +129,7 @@ TEST_F(BorderSearchTest, ALineWithSomeThingsBesideItStaysWhereItIs) {
 }
 
 TEST_F(BorderSearchTest, TheThesissFormSumsTheHitsUnderUprightWindows) {
-  // One hit counts in nine cells, all of which lie in the window at 4.6 m: from 4.1 to 5.1 m.
+  // One hit counts in nine cells, all of which are in the window at 4.6 m: from 4.1 to 5.1 m.
   hits_.add({10.0, 4.65}, Stamp());
   BorderSearchOptions options = thesisForm();
   options.min_hits = 9.0;

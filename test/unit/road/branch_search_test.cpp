@@ -10,7 +10,7 @@
 namespace datmo::branch_search_test {
 namespace {
 
-/// Whether something stands at a point.
+/// Whether a point is occupied.
 using Blocks = std::function<bool(const Point2&)>;
 
 constexpr double kHalfStreet = 6.0;  ///< m
@@ -25,7 +25,7 @@ bool road(const Point2& point) { return !isInStreetAlongX(point); }
 
 class BranchSearchTest : public ::testing::Test {
  protected:
-  /// A scan of all around from the origin, twice, of a scene.
+  /// Scans a scene all around from the origin, twice.
   void see(const Blocks& blocks) {
     constexpr int kBeams = 1440;
     constexpr double kStep = 0.05;
@@ -109,7 +109,7 @@ TEST_F(BranchSearchTest, NoneLeadsWhereNothingWasSeen) { EXPECT_TRUE(branches().
 
 constexpr double kHalfGap = 4.0;  ///< m
 
-/// A road between rows of 1 m depth, with a gap in that to the left.
+/// A road between rows of 1 m depth, with a gap in the left one.
 bool roadWithGap(const Point2& point) {
   const bool in_gap = point.y() > 0.0 && std::abs(point.x()) < kHalfGap;
   return road(point) && std::abs(point.y()) < kHalfStreet + 1.0 && !in_gap;

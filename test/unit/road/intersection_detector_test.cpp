@@ -13,7 +13,8 @@ constexpr int kCrossroads = 4;  ///< branches
 
 class IntersectionDetectorTest : public ::testing::Test {
  protected:
-  /// Drives to an arc length (m) and observes whenever it is due; times that it came to one.
+  /// Drives to an arc length (m) and observes whenever an observation is due; counts arrivals at an
+  /// intersection.
   int driveTo(double arc_length, int branches, bool bordered = true) {
     int found = 0;
     for (; arc_length_ < arc_length; arc_length_ += 0.25) {

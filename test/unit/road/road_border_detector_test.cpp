@@ -55,7 +55,7 @@ class RoadBorderDetectorTest : public testing::Test {
     return scan;
   }
 
-  /// Drives so far along x, m; the road at its end.
+  /// Drives this far along x, m; returns the road at its end.
   RoadModel drive(double distance, double speed = 8.0) {
     RoadModel road;
     for (double driven = 0.0; driven < distance; driven += speed * kPeriod) {
@@ -65,7 +65,7 @@ class RoadBorderDetectorTest : public testing::Test {
     return road;
   }
 
-  /// m, largest distance of points up to 20 m ahead to the line at y; infinite without any.
+  /// Largest distance of points up to 20 m ahead to the line at y, m; infinite if there are none.
   double worstError(const RoadModel& road, RoadSide side, double y) const {
     double worst = -1.0;
     for (const RoadBorder& border : road.borders) {
@@ -172,7 +172,7 @@ TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionAtWhichItTurns) {
 
 TEST_F(RoadBorderDetectorTest, KeepsABorderThatIsHiddenForAShortTime) {
   drive(30.0);
-  walls_ = {{4.0}, {-2.0, x_ + 4.0, x_ + 16.0}};  // a lorry, as long as it goes along
+  walls_ = {{4.0}, {-2.0, x_ + 4.0, x_ + 16.0}};  // a lorry that keeps up with the vehicle
   const RoadModel road = drive(1.0);
   EXPECT_LT(worstError(road, RoadSide::kRight, -3.0), 1.2);
 }

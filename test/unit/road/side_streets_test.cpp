@@ -68,7 +68,7 @@ TEST_F(SideStreetsTest, FindsNoneTwice) {
 }
 
 TEST_F(SideStreetsTest, WhatIsFoundLastTakesThePlaceOfWhatContradictsIt) {
-  // From a turning vehicle: the opening seems to lie elsewhere, and another line is found.
+  // From a turning vehicle: the opening appears elsewhere, and another line is found.
   HitGrid slanted{HitGridOptions{}};
   for (int i = 0; i < 60; ++i) {
     for (int hits = 0; hits < 4; ++hits) {
