@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a track looks like in the camera's picture: how sure it is, and its class.
+// Drawing of a track in the camera's image: its existence probability, and its class.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -52,7 +52,7 @@ TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
     mountCamera(seconds);
     view_.takeTracks(list);
     const auto picture = show(image(seconds));
-    int rows = 0;  // above the box, where only labels are
+    int rows = 0;  // above the box, where there are only labels
     for (int row = 0; picture && row < 238; ++row) {
       rows += isDrawn(*picture, 300, row) ? 1 : 0;
     }

@@ -18,12 +18,12 @@ constexpr int kSet = 60;         // the message from which on the clock is off
 
 class ClockCheckTest : public testing::Test {
  protected:
-  /// The stamp (s) that comes of one, of a message that was measured at this time (s).
+  /// Returns the stamp (s) after the check, for a message that was measured at this time (s).
   double corrected(double stamp, double measured) {
     return check_.corrected(ros::Time(stamp), Stamp::fromSeconds(measured + kDelay)).toSec();
   }
 
-  /// A drive of 100 messages, at made-up times, whose scanner's clock is set by `step` (s).
+  /// A drive of 100 messages, at simulated times, whose scanner's clock is set by `step` (s).
   void drive(double step, double start = 0.0) {
     for (int i = 1; i <= 100; ++i) {
       const double measured = start + kPeriod * i;
@@ -82,7 +82,7 @@ TEST_F(ClockCheckTest, AClockThatIsSetRightIsSaidOnceAndServedAsItIs) {
   EXPECT_EQ(figure(), 0.0);
 }
 
-/// Ports of a host that only says what its time is.
+/// Ports of a host that only provides its time.
 class TimedPorts : public StagePorts {
  public:
   explicit TimedPorts(bool is_simulated) : is_simulated_(is_simulated) {}

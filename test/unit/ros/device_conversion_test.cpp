@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What devices measure, as messages that the stages take.
+// Measurements of devices, as messages that the stages subscribe to.
 #include "datmo_fusion/ros/convert/device_conversion.h"
 
 #include <limits>

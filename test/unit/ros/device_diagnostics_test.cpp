@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the status of a device says.
+// The diagnostic status of a device.
 #include "datmo_fusion/ros/device_diagnostics.h"
 
 #include <gtest/gtest.h>

@@ -46,7 +46,7 @@ Eigen::Vector3f largest(const std::vector<DrawnVertex>& vertices) {
   return most;
 }
 
-/// m^2, of all triangles.
+/// Area of all triangles, m^2.
 float areaOf(const std::vector<DrawnVertex>& vertices) {
   float area = 0.0F;
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {

@@ -14,7 +14,7 @@
 namespace datmo::exposure_check_test {
 namespace {
 
-/// Stripes, but from one row to another, in shares of the height, of one gray.
+/// Stripes, except for uniform gray from one row to another, in shares of the height.
 sensor_msgs::ImagePtr stripes(std::uint32_t height, double from, double to, std::uint8_t gray) {
   const samples::CameraSample camera{16, height, 10.0};
   auto image = boost::make_shared<sensor_msgs::Image>(camera.image(1.0, 40));

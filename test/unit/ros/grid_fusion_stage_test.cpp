@@ -109,7 +109,7 @@ TEST_F(GridFusionStageTest, WithoutTheReferenceTheOtherOneSetsTheStamps) {
   EXPECT_EQ(warnings("silent_source"), 1U);
 }
 
-/// An obstacle in one cell of the upper row, else free.
+/// An obstacle in one cell of the upper row, otherwise free.
 nav_msgs::OccupancyGrid obstacleAt(double seconds, int column) {
   SensorGrid grid(Stamp::fromSeconds(seconds), kWindow);
   std::fill(grid.cells().begin(), grid.cells().end(), kFree);
@@ -117,7 +117,7 @@ nav_msgs::OccupancyGrid obstacleAt(double seconds, int column) {
   return toMessage(grid, "base_link");
 }
 
-/// Column of the first cell of the upper row that is occupied; -1 if there is none.
+/// Returns the column of the first occupied cell of the upper row; -1 if there is none.
 int obstacleIn(const nav_msgs::OccupancyGrid& message) {
   const SensorGrid grid = fromMessage(message);
   for (int column = 0; column < kWindow.columns; ++column) {

@@ -19,7 +19,7 @@ class GridSlamLocalizationTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// A vehicle that stands, ten scans a second, and around it a wall at `range` (m). Returns the
+  /// A stationary vehicle, ten scans per second, with a wall at `range` (m) around it. Returns the
   /// last output.
   GridSlamOutput stand(int scans, float range) {
     GridSlamOutput last;

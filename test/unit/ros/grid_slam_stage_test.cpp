@@ -21,7 +21,7 @@ class GridSlamStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// Enough beams to know it again.
+  /// Enough beams to recognize it.
   static sensor_msgs::LaserScan scanOfAWall() {
     auto scan = samples::laserScan(std::vector<float>(21, 12.0F));
     scan.angle_increment = static_cast<float>(M_PI / 20.0);
@@ -39,7 +39,7 @@ class GridSlamStageTest : public testing::Test {
     return stage_.mapIfDue(Stamp::fromSeconds(seconds));
   }
 
-  /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
+  /// The vehicle drives ahead at 8 m/s; it is at x = 0 at the start.
   void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
 
   std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }

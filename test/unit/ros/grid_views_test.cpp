@@ -52,7 +52,7 @@ geometry_msgs::PoseWithCovarianceStampedConstPtr pose(const Pose2& base_in_map) 
   return result;
 }
 
-/// Of a point of the vehicle's frame (m) in the panel of this number.
+/// Returns the pixel of a point of the vehicle's frame (m) in the panel of this number.
 Pixel pixelAt(const sensor_msgs::Image& image, int panel, double x, double y) {
   const int column = panel * (kPanelWidth + GridViews::kGap) + static_cast<int>((5.0 - y) * 10.0);
   const int row = GridViews::kTitleHeight + static_cast<int>((10.0 - x) * 10.0);
@@ -141,7 +141,7 @@ TEST(GridViews, MissingGridsLeaveATitledPanel) {
 }
 
 TEST(GridViews, TheMapIsTurnedByThePose) {
-  // The vehicle is at (100, 50) m and looks along y: 6 m ahead and 3 m left is (97, 56) m.
+  // The vehicle is at (100, 50) m and faces along y: 6 m ahead and 3 m left is (97, 56) m.
   SensorGrid map(Stamp::fromSeconds(samples::kStart), {0.5, 80, 80, {160, 60}});
   map.cells().assign(map.cells().size(), 0);
   map.at(map.window().cellAt({96.8, 56.2})) = 100;  // x 96.5 to 97, y 56 to 56.5

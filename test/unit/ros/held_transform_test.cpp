@@ -15,7 +15,7 @@ geometry_msgs::TransformStamped at(double seconds, double x) {
   return transform;
 }
 
-/// After scans that came at these times, each with the stamp of 0.5 s before.
+/// After scans that arrived at these times, each with a stamp 0.5 s earlier.
 HeldTransform after(const std::vector<double>& times) {
   HeldTransform held;
   for (const double time : times) {

@@ -38,7 +38,7 @@ class LidarGridStageTest : public testing::Test {
     stage_.takeOdometry(message);
   }
 
-  /// Whether a point in the vehicle's frame, m, is said to be occupied.
+  /// Returns whether a point in the vehicle's frame, m, is reported occupied.
   static bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, double x, double y) {
     const SensorGrid grid = fromMessage(message);
     return isOccupied(grid.at(grid.window().cellAt({x, y})));

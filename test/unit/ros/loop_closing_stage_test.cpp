@@ -25,7 +25,7 @@ LoopClosingStageOptions stageOptions() {
   return options;
 }
 
-/// Laps round the yard with a live pose that drifts, through a stage.
+/// Drives laps around the yard with a drifting live pose, through a stage.
 class LoopClosingStageTest : public testing::Test {
  protected:
   static LabeledScanMessage message(const Pose2& truth, const Pose2& live, double seconds) {
@@ -132,7 +132,7 @@ TEST_F(LoopClosingStageTest, TheGlobalFrameIsAChildOfTheMapAndMovesGradually) {
 TEST_F(LoopClosingStageTest, AThreadOfItsOwnDoesTheSame) {
   LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
   drive(stage, true);
-  result(stage);  // gives the thread what is left
+  result(stage);  // gives the thread the remaining input
   stage.waitUntilIdle();
   auto optimized = result(stage);
   for (int i = 0; i < 3 && !optimized; ++i) {

@@ -58,7 +58,7 @@ class MapFilesTest : public ::testing::Test {
     std::ofstream(file(name), std::ios::binary) << text;
   }
 
-  /// The message with which a file is refused.
+  /// Returns the message with which a file is refused.
   std::string refusal(const std::string& name,
                       const OccupancyMapOptions& options = smallMap()) const {
     try {

@@ -50,7 +50,7 @@ Percent percentAt(const nav_msgs::OccupancyGrid& message, CellIndex cell) {
 class MapFusionStageTest : public testing::Test {
  protected:
   MapFusionStageTest() {
-    options_.fuser.map.free_probability = 0.2;  // a look at a free cell says as much as a hit
+    options_.fuser.map.free_probability = 0.2;  // a free cell is as informative as a hit
     options_.fuser.sources["lidar"].reliability = 0.8;
     options_.fuser.sources["stereo"].reliability = 0.9;
     start();
@@ -70,7 +70,7 @@ class MapFusionStageTest : public testing::Test {
     return stage_->next(Stamp::fromSeconds(seconds));
   }
 
-  /// Both sources and the pose at this time.
+  /// Adds both sources and the pose at this time.
   std::optional<MapFusionOutput> allAt(double seconds, Percent lidar, Percent stereo,
                                        const Pose2& pose = Pose2(), double variance = 1e-4) {
     take("lidar", gridMessage(seconds, lidar));
@@ -79,7 +79,7 @@ class MapFusionStageTest : public testing::Test {
     return nextAt(seconds);
   }
 
-  /// A map of free cells, with one that is occupied; its name.
+  /// A map of free cells with one occupied cell; returns its name.
   std::string priorMap(CellIndex occupied, double cell_size) {
     std::filesystem::create_directories(folder_);
     OccupancyMapOptions options;

@@ -106,7 +106,7 @@ TEST(Markers, TruthIsDashed) {
   const Marker marker = markersOf(truth, options).markers[0];
   EXPECT_EQ(marker.type, Marker::LINE_LIST);
   EXPECT_LT(marker.scale.x, options.line_width);
-  // Dashes of 0.4 m begin each 0.8 m: 5 along 4 m, 3 along 2 m.
+  // Dashes of 0.4 m begin every 0.8 m: 5 along 4 m, 3 along 2 m.
   ASSERT_EQ(marker.points.size(), 2U * (5 + 3 + 5 + 3));
   EXPECT_DOUBLE_EQ(marker.points[0].x, 2.0);
   EXPECT_DOUBLE_EQ(marker.points[1].x, 1.6);

@@ -140,7 +140,7 @@ TEST(LabeledScanConversion, AScannerNowhereIsRefused) {
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
 
-/// Percent of the cell that holds a point of the map frame, by the message alone.
+/// Percent of the cell that holds a point of the map frame, from the message alone.
 int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
   const auto& origin = grid.info.origin.position;
   const double size = grid.info.resolution;

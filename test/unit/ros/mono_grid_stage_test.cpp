@@ -23,7 +23,7 @@ constexpr double kHeight = 1.5;   // m
 constexpr samples::CameraSample kCamera{1000, 400, 500.0};
 constexpr std::size_t kBeams = 81;
 
-/// A road below the horizon, with a sensor's noise; its first pixel is another one in each image.
+/// A road below the horizon, with a sensor's noise; its first pixel is different in each image.
 sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t number = 0;
   auto image = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, 110));
@@ -35,7 +35,7 @@ sensor_msgs::ImagePtr imageAt(double seconds) {
   return image;
 }
 
-/// Nothing in 160 degrees ahead.
+/// A scan without returns in 160 degrees ahead.
 sensor_msgs::LaserScan scanAt(double seconds) {
   sensor_msgs::LaserScan scan =
       samples::laserScan(std::vector<float>(kBeams, std::numeric_limits<float>::infinity()));

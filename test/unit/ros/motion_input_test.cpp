@@ -15,7 +15,7 @@ using samples::reasonOf;
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
 
-/// Of a vehicle that drives ahead at 10 m/s, whose wheels count 11 m in a second.
+/// Odometry of a vehicle that drives ahead at 10 m/s, whose wheels measure 11 m per second.
 nav_msgs::Odometry odometry(double seconds) {
   nav_msgs::Odometry message;
   message.header.stamp = ros::Time(seconds);
@@ -26,7 +26,7 @@ nav_msgs::Odometry odometry(double seconds) {
   return message;
 }
 
-/// Of a vehicle that drives ahead at 12 m/s, where the SLAM sees it.
+/// Pose of a vehicle that drives ahead at 12 m/s according to the SLAM.
 geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
   geometry_msgs::PoseWithCovarianceStamped message;
   message.header.stamp = ros::Time(seconds);
@@ -42,7 +42,7 @@ MotionOptions optionsWith(bool with_odometry, bool use_poses) {
   return options;
 }
 
-/// A stage that has nothing but its motion.
+/// A stage whose only input is its motion.
 class MovingStage {
  public:
   explicit MovingStage(bool with_odometry, bool use_poses = false)

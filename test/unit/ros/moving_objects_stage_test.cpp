@@ -34,7 +34,7 @@ class MovingObjectsStageTest : public testing::Test {
     stage_.takeRoadBorders(toMessage(road, frame));
   }
 
-  /// Of the one object that is seen then.
+  /// Returns the log odds of motion of the only object seen then.
   double motionLogOdds(const Point2& position, double seconds) {
     const auto output = take(scanWithMover(position, seconds));
     EXPECT_TRUE(output->dropped->objects.empty());

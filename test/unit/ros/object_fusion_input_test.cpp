@@ -87,8 +87,8 @@ TEST_F(ObjectFusionStageTest, AJumpBackStartsAnew) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-/// Beams one degree apart, straight ahead in the middle; all that look at the car's place end there
-/// on what the map knows.
+/// Beams one degree apart, the middle one straight ahead; all beams toward the car end there on
+/// what is in the map.
 LabeledScanMessage wallAt(double ahead, double seconds) {
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(seconds);
@@ -108,7 +108,7 @@ LabeledScanMessage wallAt(double ahead, double seconds) {
 
 class ObjectFusionScanSupportTest : public ObjectFusionStageTest {
  protected:
-  /// State of the one object that stereo sees and the scanner does not list.
+  /// State of the object that stereo sees and the scanner does not list.
   std::uint8_t stateAt(double seconds) {
     take("lidar", list(seconds, {}));
     take("stereo", seconds, 20.0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of risks and of tracks beside them: markers, the driver's picture, the tracks'
-// style.
+// Drawing of risks and of the tracks beside them: markers, the driver's image, the tracks' style.
 #include <cmath>
 #include <limits>
 
@@ -28,7 +27,7 @@ geometry_msgs::Pose2D pose2d(double x, double y, double heading) {
   return pose;
 }
 
-/// The host goes north from (10, 0) by 10 m/s; track 7 is struck at (10, 20) in 1.8 s.
+/// The host drives north from (10, 0) at 10 m/s; track 7 is struck at (10, 20) in 1.8 s.
 RiskArray northward() {
   RiskArray risks;
   risks.header.frame_id = "map";

@@ -24,7 +24,7 @@ class RiskStageTest : public testing::Test {
     stage_.takeOdometry(samples::odometry(samples::kStart + seconds, speed));
   }
 
-  /// A car that stands so far ahead of base_link, between the walls.
+  /// A stationary car this far ahead of base_link, between the walls.
   static TrackArray carAhead(double seconds, double ahead) {
     return samples::standingCar(seconds, samples::kHostSpeed * seconds + ahead);
   }
@@ -73,7 +73,7 @@ TEST_F(RiskStageTest, WarnsAndSaysWhy) {
   EXPECT_NE(risks->reason.find("vehicle 7"), std::string::npos) << risks->reason;
 }
 
-// What comes into view is a road user as likely as a wall, until it is a track or map.
+// A newly visible object is a road user as likely as a wall, until it is a track or in the map.
 TEST_F(RiskStageTest, PointsThatTheMapDoesNotKnowWarnOfNothing) {
   const auto levelWith = [&](PointState state, double start) {
     RiskArrayPtr risks;

@@ -20,7 +20,7 @@ MarkerArray markersOfRoad(const RoadModel& road) {
   return markersOf(toMessage(road, "map"), MarkersOptions());
 }
 
-/// The marker, or an empty one and a failure.
+/// Returns the marker, or an empty one and a failure.
 Marker get(const MarkerArray& markers, const std::string& name, int id) {
   const Marker* found = find(markers, name, id);
   EXPECT_NE(found, nullptr) << name << ' ' << id;

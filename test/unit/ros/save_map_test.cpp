@@ -26,7 +26,7 @@ class SaveMapTest : public ::testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Of a stage that has seen some scans.
+  /// Returns the answer of a stage that has processed some scans.
   datmo_fusion::SaveMap::Response answer(const std::string& name,
                                          const std::string& prior_map = "") {
     GridSlamStageOptions options;
@@ -55,7 +55,8 @@ TEST_F(SaveMapTest, TheMapIsWrittenAndCanBeReadAgain) {
   EXPECT_FALSE(readMap(file("hall.map"), GridSlamStageOptions().slam.map).evidence().cells.empty());
 }
 
-/// Of a drive of 40 m with hardly any room for the map, in memory and in a file in this folder.
+/// After a drive of 40 m with very little space for the map, in memory and in a file in this
+/// folder.
 TEST_F(SaveMapTest, TilesThatAreForgottenAreWarnedOfAndSaid) {
   const auto answerAfterDrive = [this](const std::string& folder) {
     GridSlamStageOptions options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the stages that take a scanner's scans have in common.
+// Common to all stages that process a scanner's scans.
 #include "message_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ class ScanStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// Whether a scan of this stamp was taken.
+  /// Returns whether a scan with this stamp was accepted.
   bool scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);

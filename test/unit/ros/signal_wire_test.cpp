@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM with our own position to advice; what is old, repeated or broken is counted.
+// SPATEM, MAPEM and our own position to advice; stale, repeated or broken messages are counted.
 #include "datmo_fusion/ros/signal_wire.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ class SignalWireTest : public testing::Test {
   /// 20 m from there to the east.
   static std::string mapem() { return encode(samples::mapem()); }
 
-  /// We drive west on it at 10 m/s, the front 20 m before the line; 4 m long.
+  /// We drive west on it at 10 m/s, with the front 20 m before the line; 4 m long.
   static StationTracksMessage ownAt(double seconds) {
     const LocalPlane plane({degrees(45.19), degrees(5.72), 0.0});
     StationTrackList list;

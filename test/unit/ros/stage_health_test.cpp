@@ -12,7 +12,7 @@ namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
 
-/// A stage that takes scans or echoes, and odometry.
+/// A stage that subscribes to scans or echoes, and to odometry.
 class StageHealthTest : public testing::Test {
  protected:
   StageState judge(double seconds) {

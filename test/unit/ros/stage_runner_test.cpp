@@ -9,10 +9,10 @@
 namespace datmo::stage_runner_test {
 namespace {
 
-/// A stage with two inputs that remembers how often it was reset.
+/// A stage with two inputs that counts its resets.
 class StageRunnerTest : public testing::Test {
  protected:
-  /// Null if the message was dropped.
+  /// Returns null if the message was dropped.
   std::unique_ptr<int> take(const std::string& input, double seconds) {
     return runner_.serve([&] {
       runner_.check(input, ros::Time(seconds));
@@ -61,7 +61,7 @@ TEST_F(StageRunnerTest, EachInputHasItsOwnTime) {
 }
 
 TEST_F(StageRunnerTest, AClockThatJumpsBackOnAllInputsResetsThemOnce) {
-  monitor_.setTime(Stamp::fromSeconds(100.0));  // it stands still
+  monitor_.setTime(Stamp::fromSeconds(100.0));  // it does not advance
   take("scan", 100.0);
   take("odometry", 100.0);
   EXPECT_FALSE(take("odometry", 49.9)) << "not confirmed yet";

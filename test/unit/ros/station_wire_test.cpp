@@ -58,12 +58,12 @@ TEST_F(StationWireTest, WhatCannotBeUsedIsCountedByReason) {
   std::string spatem = samples::wireCam().bytes();
   spatem[1] = 4;
   EXPECT_FALSE(wire_.received(spatem, kNoon));
-  EXPECT_EQ(monitor_.droppedCount(), 3U);  // as before: others may talk of other things
+  EXPECT_EQ(monitor_.droppedCount(), 3U);  // as before: others may send other messages
   EXPECT_EQ(monitor_.figures().at("messages of other kinds"), 1.0);
 }
 
 TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
-  // A CAM's time is sent modulo 65.536 s: when a clock begins at 0, half of them lie before it.
+  // A CAM's time is sent modulo 65.536 s: if a clock starts at 0, half of the values are before it.
   for (int high_byte = 0; high_byte < 256; high_byte += 16) {
     std::string cam = samples::wireCam().bytes();
     cam[6] = static_cast<char>(high_byte);  // of the generation time, after a header of 48 bits

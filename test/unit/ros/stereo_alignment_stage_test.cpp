@@ -49,7 +49,7 @@ class StereoAlignmentStageTest : public testing::Test {
     return scan;
   }
 
-  /// The wall, as a camera whose disparities are too large by `bias` (px) sees it.
+  /// The wall, as seen by a camera whose disparities are too large by `bias` (px).
   static sensor_msgs::PointCloud2 cloudAt(double seconds, double bias) {
     std::vector<Eigen::Vector3f> points = samples::wallOnARoad(-0.2, 0.2, 1.5);
     for (Eigen::Vector3f& point : points) {
@@ -88,7 +88,7 @@ class StereoAlignmentStageTest : public testing::Test {
   StereoAlignmentStage stage_{options_, buffer_, monitor_};
 };
 
-/// The wall alone does not tell disparities from mount or surface: the uncertainty of these stays.
+/// The wall alone cannot distinguish disparities from mount or surface: their uncertainty remains.
 TEST_F(StereoAlignmentStageTest, TheBiasOfACameraIsEstimatedAgainstTheScanner) {
   const auto alignment = run(200, 0.6);
   ASSERT_TRUE(alignment);

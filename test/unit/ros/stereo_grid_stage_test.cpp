@@ -23,7 +23,7 @@ class StereoGridStageTest : public testing::Test {
  protected:
   StereoGridStageTest() { stage_.takeCameraInfo(samples::rightCameraInfo()); }
 
-  /// The camera looks ahead from 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
+  /// A forward-looking camera 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
   void mountSensors() {
     tf2_msgs::TFMessage message;
     message.transforms = {samples::cameraMount(), samples::transform("base_link", "scanner", 3.6)};
@@ -130,7 +130,7 @@ TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   expectWall(stage.takeCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
   options_.frames.scanner = "";
-  options_.scanner_height = 2.5;  // above the wall, as far as the camera sees it
+  options_.scanner_height = 2.5;  // above the visible part of the wall
   StereoGridStage high(options_, buffer_, monitor_);
   high.takeCameraInfo(samples::rightCameraInfo());
   const auto grid = high.takeCloud(cloudAt(kStart));
@@ -187,7 +187,7 @@ TEST_F(StereoGridStageTest, BadOptionsAreRefused) {
   EXPECT_THROW(StereoGridStage(options_, buffer_, monitor_), OptionError);
 }
 
-/// A depth image's: 120 x 160 points, holes as NaN; wallOnARoad() leaves them out.
+/// A depth image's cloud: 120 x 160 points, holes as NaN; wallOnARoad() leaves them out.
 sensor_msgs::PointCloud2 organizedCloud() {
   const auto nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Eigen::Vector3f> points = wallOnARoad();

@@ -34,7 +34,7 @@ class StereoObjectsStageTest : public testing::Test {
     return message;
   }
 
-  /// Of the car, which goes ahead.
+  /// Of the car, which drives ahead.
   static std::vector<PointVelocity> velocities() {
     PointVelocity point;
     point.position = {2.0 + samples::kWallAhead, 0.0, 1.0};
@@ -124,7 +124,7 @@ TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
   EXPECT_EQ(drops("bad_camera"), 1U);
 }
 
-/// Over a road with scattered points, which are not of anything.
+/// Over a road with scattered points that belong to no object.
 TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
   std::mt19937 random(1);
   const auto between = [&](double min, double max) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
 
-/// Numbers that single precision holds.
+/// Numbers that are exact in single precision.
 Track sampleTrack() {
   Track track;
   track.id = 5;

@@ -27,7 +27,7 @@ TEST_F(TrackFusionStageTest, BadTracksAreLeftOutAndTheirSourceIsNamed) {
       [](TrackMessage& track) { track.class_probabilities[0] = 2.0F; },
       [](TrackMessage& track) { track.existence_probability = -0.5F; },
       [](TrackMessage& track) { track.id = 0; },
-      [](TrackMessage& track) { track.id = kStereosId; },  // it is there twice
+      [](TrackMessage& track) { track.id = kStereosId; },  // a duplicate
   };
   for (std::size_t i = 0; i < spoils.size(); ++i) {
     const double t = 100.0 + 0.1 * static_cast<double>(i);

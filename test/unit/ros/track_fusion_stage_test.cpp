@@ -101,7 +101,7 @@ TEST_F(TrackFusionStageTest, OfAFasterSourceTheNearestListServes) {
 
 class TrackFusionDelayTest : public TrackFusionStageTest {
  protected:
-  /// Three seconds of both, of which each comes as much too late (s).
+  /// Three seconds of both, each of which arrives this much too late (s).
   void expectBridged(double lidars_delay, double stereos_delay) {
     const auto fused = play(listsOf("lidar", 100.0, 103.0, 0.1, lidars_delay),
                             listsOf("stereo", 100.0, 103.0, 0.1, stereos_delay));
@@ -135,7 +135,7 @@ TEST_F(TrackFusionStageTest, ADelayedSourceIsWaitedForNoLongerThanItMay) {
 
 class TrackFusionGapTest : public TrackFusionStageTest {
  protected:
-  /// Ten seconds of both, in the midst of which this one is silent for three.
+  /// Ten seconds of both, in the middle of which this one is silent for three.
   std::vector<TrackArrayPtr> playWithout(const std::string& silent) {
     Arrivals lists = listsOf(silent, 100.0, 103.05, 0.1);
     lists.merge(listsOf(silent, 106.0, 110.0, 0.1));

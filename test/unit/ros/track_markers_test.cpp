@@ -76,8 +76,8 @@ TEST(TrackMarkers, ALabelIsClearOfItsBoxSeenFrom45DegreesAbove) {
   const MarkerArray markers = markersOf(tracks, options);
   const Marker* label = find(markers, "track labels", 7);
   ASSERT_NE(label, nullptr);
-  // Seen along the box, its far upper edge is 2 m away from the middle, and as high as a point 2 m
-  // above the roof's middle.
+  // Seen along the box, its far upper edge is 2 m away from the middle, and at the same height in
+  // the image as a point 2 m above the roof's middle.
   EXPECT_DOUBLE_EQ(label->pose.position.z - 0.5 * options.text_height, 2.5 + 2.0);
   EXPECT_DOUBLE_EQ(label->pose.position.y, 5.0);
 }

@@ -93,7 +93,7 @@ TEST_F(MountedBufferTest, OneTransformFarOffIsOneTransform) {
   EXPECT_NEAR(planarPose(buffer_.core(), "odom", "base_link", ros::Time(101.9)).x(), 19.0, 1e-6);
 }
 
-/// What was published before it stays, and the stage is warned.
+/// Transforms published before remain, and the stage is warned.
 class BadTransformTest : public MountedBufferTest {
  protected:
   void expectRefused(const tf2_msgs::TFMessage& bad, const std::string& reason) {

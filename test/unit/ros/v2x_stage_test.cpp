@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A receiver, poses, and another station: what passes, and what is left out and counted.
+// A receiver, poses, and another station: what is accepted, and what is dropped and counted.
 #include "datmo_fusion/ros/stage/v2x_stage.h"
 
 #include <cmath>
@@ -31,7 +31,7 @@ class V2xStageTest : public testing::Test {
     transforms_.addStatic(mount);
   }
 
-  /// The vehicle at a step, and the receiver's position at it, if it has one.
+  /// Sends the vehicle's pose at a step, and the receiver's fix at it, if it has one.
   void drive(int from, int to, bool has_fix = true) {
     for (int step = from; step < to; ++step) {
       const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
@@ -156,7 +156,7 @@ TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
   EXPECT_EQ(ours->tracks[0].id, 0U);
   EXPECT_NEAR(std::hypot(ours->tracks[0].velocity_east, ours->tracks[0].velocity_north), kSpeed,
               0.1);
-  // A station that hears it has it where the vehicle is: middleAhead of base_link.
+  // A station that receives it locates the vehicle correctly: middleAhead of base_link.
   const StationTrackList received = fromMessage(*ours, plane_);
   const Point2 middle(kSpeed * kPeriod * (kSteps - 1) + HostVehicleOptions().middleAhead(), 0.0);
   EXPECT_LT((received.tracks[0].position - kMap * middle).norm(), 0.1);

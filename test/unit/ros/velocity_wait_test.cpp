@@ -25,7 +25,7 @@ class VelocityWaitTest : public testing::Test {
     wait_.addObjects(std::move(list), 0.01);
   }
 
-  /// Somebody publishes points, and they are of some use.
+  /// Points are published, and they are of some use.
   void begin() {
     addPoints(kFirst);
     addObjects(kFirst);
