@@ -18,7 +18,7 @@ CloudToScanOptions oneDegree() {
   return options;
 }
 
-/// The range of the beam that looks to `bearing` (rad).
+/// The range of the beam that faces `bearing` (rad).
 float rangeAt(const PlanarScan& scan, double bearing) {
   const auto count = static_cast<double>(scan.ranges.size());
   double steps = std::round((bearing - scan.first_bearing) / scan.beam_spacing);

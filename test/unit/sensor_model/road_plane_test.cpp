@@ -67,7 +67,7 @@ TEST(RoadPlaneTest, AnIncredibleSlopeIsNoRoad) {
 }
 
 TEST(RoadPlaneTest, TheLastPlaneIsWhatTheNextOneStartsFrom) {
-  // 60 mm a meter in one step is too far from flat; in two it is not.
+  // 60 mm per meter in one step is too far from flat; in two steps it is not.
   RoadPlaneEstimator estimator((RoadPlaneOptions()));
   for (const double pitch : {0.03, 0.06}) {
     MadeScene scene;

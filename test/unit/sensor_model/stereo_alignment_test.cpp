@@ -16,7 +16,7 @@ namespace {
 constexpr double kDisparityAtMeter = 200.0;  // px m
 const Twist2 kTwist{8.0, 0.2};
 
-/// 1 = a z + b x of a wall on the ground, as seen from where a camera is thought to be.
+/// 1 = a z + b x of a wall on the ground, as seen from the assumed position of a camera.
 struct Wall {
   double a = 0.1;
   double b = 0.0;
@@ -24,7 +24,7 @@ struct Wall {
 
   double inverse() const { return a + b * tangent; }
 
-  /// Of a camera that is `back` (m) farther back and turned to the left by `turn` (rad).
+  /// Seen by a camera that is `back` (m) farther back and turned to the left by `turn` (rad).
   Wall seenFrom(double back, double turn) const {
     // z = z' cos + x' sin - back, x = x' cos - z' sin
     const double scale = 1.0 + a * back;
@@ -32,7 +32,7 @@ struct Wall {
             (a * std::sin(turn) + b * std::cos(turn)) / scale, tangent};
   }
 
-  /// Pushed away by this along its normal, m.
+  /// The wall moved away by this along its normal, m.
   Wall pushed(double by) const {
     const double scale = 1.0 + by * std::hypot(a, b);
     return {a / scale, b / scale, tangent};
@@ -68,7 +68,7 @@ TEST(StereoAlignment, RatesAreThoseOfAWallSeenFromElsewhere) {
   }
 }
 
-/// Walls ahead and beside, with what a camera with these errors measures of them.
+/// Walls ahead and to the side, as measured by a camera with these errors.
 class Street {
  public:
   Street(const AlignmentVector& errors, const StereoAlignmentOptions& options, std::uint64_t seed)
@@ -168,7 +168,7 @@ TEST(StereoAlignment, WhatIsOfAnotherSurfaceIsLeftOut) {
   EXPECT_GT(filter.alignment().surfaces, 350U);
 }
 
-/// What stands before the vehicle is one surface, however often it is seen.
+/// An object in front of the vehicle is one surface, however often it is seen.
 TEST(StereoAlignment, ASurfaceThatStaysInViewCountsOnce) {
   StereoAlignmentOptions options;
   StereoAlignmentFilter filter(options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stereo camera's grid says of clouds, cameras and options that are not as they should be.
+// What a stereo camera's grid reports about invalid clouds, cameras and options.
 #include <functional>
 #include <limits>
 #include <stdexcept>

@@ -15,7 +15,7 @@ namespace {
 
 using namespace stereo_grids;
 
-/// Share of the occupied cells of one grid that another one has within a cell.
+/// Share of the occupied cells of one grid that another one has within one cell.
 double shareFoundIn(const SensorGrid& other, const SensorGrid& grid) {
   int occupied = 0;
   int found = 0;
@@ -55,7 +55,7 @@ TEST(StereoGridTest, TheOpenRoadIsFreeInViewAndTheRestIsUnknown) {
   }
   EXPECT_EQ(at(grid, 37.0, 0.0), kUnknownPercent);
   EXPECT_EQ(at(grid, -10.0, 0.0), kUnknownPercent);
-  // The image begins 4 m ahead; lines of sight are too high before.
+  // The image begins 4 m ahead; lines of sight are too high before that.
   EXPECT_EQ(at(grid, 2.0, 0.0), kUnknownPercent);
 }
 

@@ -21,7 +21,7 @@ MadeScene wallAhead(double from_y = -3.0, double to_y = 3.0) {
   return scene;
 }
 
-/// A scanner at the bumper that sees what is at `x`, between two y.
+/// A scanner at the bumper that sees an object at `x`, between two y.
 std::vector<Ray> scanOf(double x, double from_y, double to_y, double spacing = degrees(0.5)) {
   std::vector<Ray> rays;
   for (int beam = 0; beam < 360; ++beam) {
@@ -73,7 +73,7 @@ TEST(SurfacePairs, ColumnsOfTwoSurfacesMakeNone) {
   EXPECT_TRUE(pairsOf(scene, scanOf(kWall, -3.0, 3.0)).empty());
 }
 
-/// The scanner sees through a gap what is hidden from the camera, and the other way round.
+/// Through a gap the scanner sees what is hidden from the camera, and vice versa.
 TEST(SurfacePairs, WhatOneOfThemDoesNotSeeMakesNone) {
   EXPECT_TRUE(pairsOf(wallAhead(), scanOf(5.0, -1.5, 1.5)).empty()) << "nothing there for one";
   EXPECT_TRUE(pairsOf(wallAhead(1.0, 3.0), scanOf(kWall, -3.0, 0.5)).empty());

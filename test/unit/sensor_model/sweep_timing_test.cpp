@@ -46,7 +46,7 @@ TEST(SweepTimingTest, TheTimesOfPointsGiveTheTurn) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->clockwise, clockwise);
     EXPECT_NEAR(found->duration, 0.1, 1e-4);
-    // A sector of a degree holds both ends of the turn.
+    // A sector of one degree holds both ends of the turn.
     EXPECT_NEAR(normalizeAngle(found->first_bearing - truth.first_bearing), 0.0, degrees(1.0));
     EXPECT_NEAR(found->timeAt(degrees(-10.0)), truth.timeAt(degrees(-10.0)), 1e-4);
   }
