@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kReach = 100.0;
 
-/// What a line of sight from 1.3 m above the origin ends on, along x.
+/// Returns the end of a line of sight from 1.3 m above the origin, along x.
 std::optional<RayEnd> endAlongX(const World& world, double fall) {
-  // The solids of the end live in the world, not in the state, because nothing moves here.
+  // The solids at the end belong to the world, not to the state, because nothing moves here.
   const RayCaster caster(world, world.at(0.0), Point2::Zero(), kReach);
   return endOf({1.3, fall, kReach}, caster.passages(0.0, kReach));
 }

@@ -8,7 +8,7 @@
 namespace datmo::simulator::true_tracks_test {
 namespace {
 
-/// The host goes at 10 m/s along x; a car before it brakes by 2 m/s^2 from 1 s on.
+/// The host drives at 10 m/s along x; a car ahead of it brakes at 2 m/s^2 from 1 s on.
 World braking() {
   World world(RoadNetwork(),
               {objectKind("car"), Path({{0, 0}, {200, 0}}, 0.0), SpeedProfile({{0.0, 10.0}}), 0.0});

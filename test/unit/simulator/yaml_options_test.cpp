@@ -12,7 +12,7 @@ namespace {
 
 OptionValues valuesOf(const std::string& text) { return optionValues(YAML::Load(text)); }
 
-/// What is said of a file with this text, behind its name; empty: nothing.
+/// Returns the error message for a file with this text, after its name; empty: no error.
 std::string refusalOf(const std::string& text) {
   const std::string file = testing::TempDir() + "yaml_options_test.yaml";
   std::ofstream(file) << text;
