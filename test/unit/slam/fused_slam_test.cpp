@@ -11,14 +11,14 @@
 namespace datmo::fused_slam_test {
 namespace {
 
-/// The yard as a scanner and nobody else sees it.
+/// The yard as seen by a scanner alone.
 SensorGrid gridOf(const Scan& scan) {
   static const LidarGridModel model{LidarGridOptions{}};
   return model.grid(scan);
 }
 
-/// Drives a gentle curve at 4 m/s on grids of the scans, 10 a second; returns how far off it ends,
-/// m.
+/// Drives a gentle curve at 4 m/s on grids of the scans, 10 per second; returns the error at the
+/// end, m.
 double errorAfterDrive(GridSlam& slam, bool with_scans) {
   const Yard yard;
   const Twist2 twist{4.0, 0.05};
@@ -55,7 +55,7 @@ TEST(FusedSlamTest, WithASilentScannerTheGridServes) {
   EXPECT_LT(errorAfterDrive(slam, false), GridSlamOptions{}.map.window.cell_size);
 }
 
-/// What the scan after 20 of the empty yard leads to.
+/// The result of a scan that follows 20 scans of the empty yard.
 class FusedSlamInTheYard : public testing::Test {
  protected:
   FusedSlamInTheYard() {

@@ -30,7 +30,7 @@ Scan scanOf(const std::vector<double>& ranges) {
   return scan;
 }
 
-/// All free but for these cells.
+/// All free except these cells.
 SensorGrid gridWith(const std::vector<CellIndex>& occupied) {
   SensorGrid grid({}, kWindow);
   std::fill(grid.cells().begin(), grid.cells().end(), Percent{20});

@@ -6,10 +6,10 @@
 namespace datmo::kidnapping_detector_test {
 namespace {
 
-/// A detector, and scans of 100 beams, ten a second.
+/// A detector, and scans of 100 beams, ten per second.
 class Scans {
  public:
-  /// The map contradicts 10 beams of each of the first ones.
+  /// The map contradicts 10 beams of each of the first scans.
   Scans() { add(10, 5); }
 
   void add(int contradicted, int scans = 1, int beams = 100) {

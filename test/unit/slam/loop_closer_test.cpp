@@ -14,7 +14,7 @@ constexpr double kStart = 1000.0;  // s, of the yard's stamps
 
 Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
 
-/// Two endless walls 10 m apart with a pillar before one of them every 7 m.
+/// Two endless walls 10 m apart with a pillar in front of one of them every 7 m.
 Scan street(const Pose2& base, double seconds) {
   Scan scan = Yard().scan(base, seconds);
   const Pose2 scanner = base * scan.scanner_in_base;
@@ -81,7 +81,7 @@ TEST(LoopCloserTest, WithoutALoopThePosesStay) {
   EXPECT_NEAR(maxError(lapped.live, closer.graph().poses()), 0.0, 1e-9);
 }
 
-/// Two stretches of 40 m, and what the live SLAM thinks: the second one begins where the first one
+/// Two stretches of 40 m, and the live SLAM's estimate: the second one begins where the first one
 /// did, to within `sigma` (m).
 LoopCounts returnTo(const ScannedWorld& world, double truth_x, double sigma) {
   LoopCloser closer(yardOptions());
@@ -98,7 +98,7 @@ LoopCounts returnTo(const ScannedWorld& world, double truth_x, double sigma) {
 }
 
 TEST(LoopCloserTest, AFalseLoopInARepeatingStreetIsRefused) {
-  // The vehicle is 30 periods farther on, where all looks the same.
+  // The vehicle is 30 periods farther on, where everything looks the same.
   const LoopCounts counts = returnTo(street, 210.0 + 3.0, 10.0);
   EXPECT_EQ(counts.closed, 0U);
   EXPECT_GT(counts.ambiguous, 0U);
@@ -128,8 +128,8 @@ TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
 }
 
 TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
-  // Two places 100 m apart, each visited twice. The path between them is known to 4 m, but for the
-  // last time; on the first visit the second place is taken to be 8 m to the left.
+  // Two places 100 m apart, each visited twice. The path between them is known to 4 m, except for
+  // the last time; on the first visit the second place is assumed to be 8 m to the left.
   const auto places = [](const Pose2& base, double seconds) {
     return base.x() < 70.0 ? Yard().scan(Pose2(-5.0, 0.0, 0.0) * base, seconds)
                            : Yard().scan(Pose2(134.0, 2.0, kPi) * base, seconds);

@@ -12,8 +12,7 @@ ScanPoint pointOf(std::uint32_t beam, double range, PointState state) {
   return {Point2(range, static_cast<double>(beam)), range, 0.0, beam, state};
 }
 
-/// Beam 0 ends on a wall, 1 on a car that moves, 2 where nothing is known, 3 returns nothing, 4 is
-/// blind.
+/// Beam 0 ends on a wall, 1 on a moving car, 2 in unknown space, 3 has no return, 4 is blind.
 LabeledScan fiveBeams() {
   LabeledScan scan;
   scan.field.beams = 5;
