@@ -70,7 +70,7 @@ TEST_F(AssociationTest, TheGateIsAMahalanobisDistance) {
 }
 
 TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
-  // All objects that pass the gate by themselves are found among many, large and small ones.
+  // All objects that pass the gate by themselves are found among many, small and large ones.
   const Target target = predictedAt(0.0, 0.0);
   std::vector<Object> objects;
   for (int i = -60; i <= 60; ++i) {
@@ -168,7 +168,8 @@ TEST_F(AssociationTest, WhereClassesMayDifferTheProbabilityCounts) {
   const double pedestrian = scoreOf(ObjectClass::kPedestrian, 0.8);
   EXPECT_LT(scoreOf(ObjectClass::kPedestrian, 0.9), pedestrian);
   EXPECT_LT(pedestrian, scoreOf(ObjectClass::kPedestrian, 0.5));
-  // The target is a pedestrian by 0.05 (ClassBelief's doubt: 0.0575), as the object by 0.8.
+  // The target is a pedestrian with probability 0.05 (ClassBelief's doubt: 0.0575), the object with
+  // 0.8.
   const double same = 0.0575 * 0.8 + (1.0 - 0.0575) * 0.2 / 4.0;
   EXPECT_NEAR(pedestrian - unknown, std::log(same / 0.2), 1e-9);
   EXPECT_EQ(scoreOf(ObjectClass::kCyclist, 0.8), unknown) << "others are cyclists too";

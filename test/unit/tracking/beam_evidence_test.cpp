@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What beams say of an object's motion by where they ended, and where they passed.
+// Beams as evidence of an object's motion: where they ended, and what they passed.
 #include "beam_evidence_scene.h"
 
 namespace datmo::beam_evidence_test {
@@ -23,7 +23,7 @@ TEST_F(BeamEvidenceTest, TheScanInWhichItWasSeenSaysNothing) {
 TEST_F(BeamEvidenceTest, PositionsWhereNoBeamOfTheirScanEndedAreNotAsked) {
   scan(0.0, {});
   scan(0.1, {{20.0, 0.0}});
-  see(0.1, {{20.0, 1.0}});  // as a camera has it
+  see(0.1, {{20.0, 1.0}});  // as a camera reports it
   const BeamEvidence of_camera = evidence(0.1, elsewhere());
   EXPECT_EQ(of_camera.observed, 0U);
   EXPECT_TRUE(of_camera.by_others);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a track says of its class before it has moved.
+// A track's class before it has moved.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace datmo::class_by_size_test {
 namespace {
 
-/// All sides of it are seen.
+/// All sides of it are visible.
 Object objectOf(double length, double width) {
   Object object;
   object.box = {Pose2(10.0, 2.0, 0.3), length, width};
@@ -19,7 +19,7 @@ Object objectOf(double length, double width) {
   return object;
 }
 
-/// The same as a sensor reports it, of this class.
+/// The same as reported by a sensor, with this class.
 Object reportOf(double length, double width, const char* sensor, ObjectClass object_class,
                 double probability) {
   Object object = objectOf(length, width);

@@ -42,7 +42,7 @@ TEST_F(GrazingTest, NoWallStandsInTheVehiclesOwnPath) {
 }
 
 TEST_F(GrazingTest, AtTheEdgeOfThePathAWallIsHalfAsLikely) {
-  options_.free_path = 1.4;  // m: a beam looks there
+  options_.free_path = 1.4;  // m: a beam faces there
   EXPECT_NEAR(grazingShareAt({20.0, 1.4}), 0.5 * options_.grazing_share, 1e-9);
 }
 
@@ -59,7 +59,7 @@ TEST_F(GrazingTest, AtACreepNobodyKnowsWhereThePathLeads) {
 }
 
 TEST_F(GrazingTest, InABendAWallMayStandStraightAhead) {
-  // 8 m/s on a radius of 50 m to the left, whose outer wall is met by the beam straight ahead.
+  // 8 m/s on a radius of 50 m to the left, whose outer wall is hit by the beam straight ahead.
   constexpr double kRadius = 50.0;
   constexpr double kYawRate = 8.0 / kRadius;
   Pose2 scanner;

@@ -67,7 +67,7 @@ TEST(HypothesisCluster, ASingleTargetIsCertain) {
 TEST(HypothesisCluster, CanonicalizeMergesEqualOnesSortsAndRemovesWhatIsUnused) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{1}, {2}, {3}}), treeOf(2, {{4}}), treeOf(3, {{5}, {6}})};
-  // The second leaf of the first tree and the whole second one are in none.
+  // The second leaf of the first tree and the whole second tree are in no hypothesis.
   cluster.hypotheses = {hypothesisOf(0.3, {2, kAbsent, kAbsent}),
                         hypothesisOf(0.2, {0, kAbsent, 1}), hypothesisOf(0.15, {0, kAbsent, 1})};
   canonicalize(cluster);
@@ -142,8 +142,8 @@ TEST(HypothesisCluster, RemovedLeavesMakeTheirTargetAbsentAndEqualHypothesesOne)
   EXPECT_TRUE(cluster.trees.empty());
 }
 
-/// Three targets; the first two hypotheses differ in what the first two were seen as, the third one
-/// was seen or not in either case.
+/// Three targets; the first two hypotheses differ in the observations of the first two, the third
+/// one was observed or not in either case.
 HypothesisCluster threeTargets() {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{1}, {2}}), treeOf(2, {{3}, {4}}), treeOf(3, {{5}, {6}})};

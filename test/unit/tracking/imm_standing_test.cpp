@@ -154,7 +154,8 @@ TEST(Standing, HowManyOfAModeStopIsByItsVelocity) {
 
 TEST(Standing, WhatIsFastDoesNotStandInTheNextScan) {
   ImmFilter filter = follow([](double t) { return Point2(8.0 * t, 1.2 * t); }, 3.0);
-  // Of a parked car beside it: the speed along the line of sight is vague, that across is not.
+  // For a parked car to the side: the speed along the line of sight is uncertain, that across it is
+  // not.
   const Eigen::Vector2d variance(13.7, 0.09);
   const MeasuredVelocity of_another{{1.7, 0.0}, variance.asDiagonal()};
   filter.predict(immStep(ImmOptions(), kPeriod));

@@ -53,7 +53,7 @@ TEST(MotionLogRatio, AddsTheVelocityWhereNothingGrazes) {
 }
 
 TEST(MotionLogRatio, TheEndOfABeamAlongAWallMovesToo) {
-  // However fast it is, what the beams do not refute is as likely as its share.
+  // However fast it is, an object that the beams do not refute is as likely as its share.
   EXPECT_NEAR(motionLogRatio(evidence(50.0, 0.0, 0.1), 2.0), std::log(10.0), 1e-9);
   EXPECT_NEAR(motionLogRatio(evidence(50.0, 3.0, 0.1), 2.0), std::log(10.0) + 3.0, 1e-9);
 }

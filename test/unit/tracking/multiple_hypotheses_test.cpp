@@ -30,7 +30,7 @@ class MultipleHypothesesTest : public testing::Test {
     return {TargetOptions(), association_, hypotheses_, apart};
   }
 
-  /// One target at the origin, then two objects that may both be it; the second is nearer.
+  /// One target at the origin, then two objects that may both be it; the second one is nearer.
   MultipleHypotheses inDoubt() {
     MultipleHypotheses result = targets();
     see(result, source_, objectsAlong({0.0}));
@@ -38,7 +38,7 @@ class MultipleHypothesesTest : public testing::Test {
     return result;
   }
 
-  /// Weight of "seen as this object" against "missed" of a target that was seen once.
+  /// Weight of "seen as this object" versus "missed" for a target that was seen once.
   double weightOf(const Object& object) const {
     const Target target = predictedAt(0.0, 0.0);
     const double seen =
@@ -61,7 +61,7 @@ TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
   ASSERT_EQ(result.best().size(), 2U);
   EXPECT_EQ(measurementIndex(result, 1), 1U);
   EXPECT_DOUBLE_EQ(probabilityOf(result, 1), 1.0) << "it exists in all of them";
-  // The other object is of a new target, if it is not of the first one: missed, or seen as the
+  // The other object is from a new target, if it is not from the first one: missed, or seen as the
   // second.
   EXPECT_NEAR(probabilityOf(result, 2), (1.0 + second) / (1.0 + first + second), 1e-12);
 }
@@ -106,8 +106,8 @@ TEST_F(MultipleHypothesesTest, ADecisionIsFinalAfterTheScanHistory) {
   }
 }
 
-/// A target goes straight on for a while; then it turns off, and beside it appears something else,
-/// for one scan, nearer to where it was expected.
+/// A target moves straight on for a while; then it turns off, and another object appears beside it,
+/// for one scan, nearer to its predicted position.
 template <typename Targets>
 void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   for (int i = 0; i < 20; ++i) {
@@ -162,8 +162,8 @@ TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
   EXPECT_EQ(result.best().size(), 2U);
 }
 
-/// So many targets in a row, half as far apart as they may have gone; then as many objects between
-/// them: more explanations than could ever be looked at.
+/// This many targets in a row, spaced half as far as they may have moved; then as many objects
+/// between them: more explanations than could ever be evaluated.
 void crowd(MultipleHypotheses& targets, ScanSource& source, int size) {
   std::vector<double> first;
   std::vector<double> second;

@@ -70,7 +70,7 @@ TEST(ObjectCheck, ItWasSeenAboutTheTimeOfItsList) {
   Object object = objectAt(1.0, 2.0);
   object.delay = -0.1;
   EXPECT_TRUE(isValid(object));
-  object.delay = 1e6;  // where it is now would be anybody's guess
+  object.delay = 1e6;  // its present position would be arbitrary
   EXPECT_FALSE(isValid(object));
   object.delay = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(isValid(object));

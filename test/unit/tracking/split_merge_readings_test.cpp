@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which other readings of a cluster's objects there are, and what they weigh.
+// Alternative readings of a cluster's objects, and their weights.
 #include <cmath>
 
 #include "association_scene.h"
@@ -83,7 +83,8 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   EXPECT_EQ(whole.object.heading_variance, kUnknownHeadingVariance) << "it has the target's own";
   EXPECT_EQ(whole.object.object_class, ObjectClass::kUnknown) << "a part is not of the class";
   EXPECT_TRUE(isCandidate(0, 2));
-  // One target instead of two objects of none, and one more object than things within its reach.
+  // One target instead of two objects of no target, and one more object than things within its
+  // reach.
   const Box2 target = cluster_.trees[0].leaves[0].target.box();
   const double area =
       (target.length + 2.0 * options_.margin) * (target.width + 2.0 * options_.margin);

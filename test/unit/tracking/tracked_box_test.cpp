@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSideVariance = 0.01;
 
-/// All four sides seen.
+/// All four sides are visible.
 Object wholeBox(double heading, double length, double width) {
   Object object = objectAt(0.0, 0.0);
   object.box = {Pose2(0.0, 0.0, heading), length, width};
@@ -20,8 +20,8 @@ Object wholeBox(double heading, double length, double width) {
   return object;
 }
 
-/// The rear of a car 1.8 m wide, seen from behind: across x, as scanners report it along the
-/// longer side.
+/// The rear of a car 1.8 m wide, seen from behind: across x, as scanners report it along the longer
+/// side.
 Object rearAt(double x) {
   Object object = wholeBox(0.5 * kPi, 1.8, 0.0);
   object.box.center = Pose2(x, 0.0, 0.5 * kPi);
@@ -29,7 +29,7 @@ Object rearAt(double x) {
   return object;
 }
 
-/// Its front, seen from ahead: the same line, but the car reaches to smaller x.
+/// Its front, seen from ahead: the same line, but the car extends to smaller x.
 Object frontAt(double x) {
   Object object = rearAt(x);
   std::swap(object.side_variance[static_cast<std::size_t>(BoxSide::kRight)],
@@ -50,7 +50,7 @@ TrackedBox convergedOn(const Object& object, const TrackedBoxOptions& options, i
 
 const Eigen::Matrix2d kVelocityCovariance = Eigen::Matrix2d::Identity();
 
-/// A car that is seen from behind as it drives along x.
+/// A car that is seen from behind while it drives along x.
 TrackedBox drivingAhead(const TrackedBoxOptions& options) {
   TrackedBox box(rearAt(10.0), options);
   for (int i = 0; i < 30; ++i) {
@@ -84,10 +84,10 @@ TEST(TrackedBox, BetweenTwoSidesTheCenterIsMeasuredByBoth) {
 TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
-  Object object = wholeBox(0.0, 4.0, 1.8);  // the front seems nearer than it is
+  Object object = wholeBox(0.0, 4.0, 1.8);  // the front appears nearer than it is
   object.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = 1.0;
   const PositionMeasurement measured = box.measurementOf(object);
-  // 2 m behind the center of what is seen there is the rear, and 2.2 m ahead of that the center.
+  // 2 m behind the measured center is the rear, and 2.2 m ahead of that the center.
   EXPECT_NEAR(measured.position.x(), 0.2, 0.02);
   EXPECT_LT(measured.covariance(0, 0) - object.position_covariance(0, 0), 1.2 * kSideVariance);
 }

@@ -124,7 +124,7 @@ TEST(TrackerRobustness, ResetForgetsTheCounts) {
 
 TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   TrackerOptions options;
-  options.gating.max_targets = 300;  // fewer than objects are taken in
+  options.gating.max_targets = 300;  // fewer than the objects accepted
   TrackingScene scene(options);
   for (int i = 0; i < 3; ++i) {
     scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));

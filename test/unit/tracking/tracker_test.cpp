@@ -13,7 +13,7 @@
 namespace datmo::tracker_test {
 namespace {
 
-/// Scans until the first track is published; -1: never.
+/// Returns the number of scans until the first track is published; -1: never.
 int scansUntilConfirmed(TrackingScene& scene, double speed, int max) {
   for (int scan = 1; scan <= max; ++scan) {
     const double x = 15.0 + speed * scene.nextTime();
@@ -38,7 +38,7 @@ TEST(Tracker, ConfirmsWithinTheSameTimeAtTheScannersRate) {
   for (int noise = 0; noise < 21; ++noise) {
     TrackingScene scene(TrackerOptions(), 0.06);
     for (int i = 0; i < noise; ++i) {
-      scene.noise(1.0);  // another stretch of the same noise
+      scene.noise(1.0);  // a different stretch of the same noise
     }
     scans.push_back(scansUntilConfirmed(scene, 4.4, 30));
     EXPECT_GE(scans.back(), 3);
@@ -77,7 +77,7 @@ TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
   }
 }
 
-/// A scan of which only that part of a parked car's side is visible that lies between these x (m);
+/// A scan of a parked car of which only the part of its side between these x (m) is visible;
 /// something nearer hides the rest.
 LabeledScan scanOfSide(double rear, double front, double y, double seconds) {
   std::vector<Point2> ends;

@@ -15,7 +15,7 @@ using samples::sojourn;
 constexpr double kPeriod = 0.1;  // s
 constexpr int kStanding = static_cast<int>(MotionMode::kStanding);
 
-/// Without forgetting, and with bounds far away.
+/// Without forgetting, and with distant bounds.
 TransitionLearningOptions plainLearning(double prior_exposure) {
   TransitionLearningOptions options;
   options.prior_exposure = prior_exposure;
@@ -27,7 +27,7 @@ TransitionLearningOptions plainLearning(double prior_exposure) {
   return options;
 }
 
-/// A row with the given sojourn time (s) and shares of jumps, all others as by default.
+/// A row with the given sojourn time (s) and shares of jumps, all others at their defaults.
 JumpCounts priorCounts(const TransitionLearningOptions& learning) {
   TransitionOptions options;
   options.learning = learning;
@@ -178,7 +178,7 @@ TEST(TransitionModel, MeanAndTotalVarianceAreThoseOfTheExactPosterior) {
 }
 
 TEST(TransitionModel, StepsOfAllLengthsTeachTheSame) {
-  // Jumps between two modes that are seen without doubt.
+  // Jumps between two modes that are observed without ambiguity.
   const TransitionLearningOptions options = plainLearning(5.0);
   JumpCounts truth = priorCounts(options);
   truth.jumps.row(0) << 0.0, 5.0 / 2.0, 0.0, 0.0, 0.0;
