@@ -21,7 +21,7 @@ const Box2 kVan{{10.0, 0.0, 0.0}, 5.0, 2.0};
 const Box2 kBehindVan{{30.0, 0.0, 0.0}, 4.0, 1.8};
 const Box2 kToTheLeft{{0.0, 20.0, 0.0}, 4.0, 1.8};
 
-/// A scanner that sees to the left only.
+/// A scanner that sees only to the left.
 Visibility scanner() {
   const FieldOfView left{Pose2(0.0, 0.0, degrees(90.0)), degrees(-60.0), degrees(60.0), 60.0, 60.0};
   return {left, {}, kOptions};

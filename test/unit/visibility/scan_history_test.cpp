@@ -13,7 +13,7 @@ using samples::scanOf;
 
 class ScanHistoryTest : public testing::Test {
  protected:
-  /// At something that runs across the x axis.
+  /// At an object that extends across the x axis.
   BeamOutcome lookAt(const Point2& position) const {
     return history_.look(0, {position, Point2::UnitY()}).outcome;
   }
@@ -30,10 +30,10 @@ TEST_F(ScanHistoryTest, SeesAHitNearItsEnd) {
 }
 
 TEST_F(ScanHistoryTest, AGrazingBeamMeetsACurbSomeDistanceAlong) {
-  // A curb along y = 2; the beam of 6 degrees meets it at 19.03 m ahead.
+  // A curb along y = 2; the beam at 6 degrees hits it at 19.03 m ahead.
   const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
   history_.add(scanOf({met}, 0.0));
-  const Point2 beside(19.6, 2.0);  // the same beam lights it
+  const Point2 beside(19.6, 2.0);  // the same beam hits it
   EXPECT_EQ(history_.look(0, {beside, Point2::UnitX()}).outcome, BeamOutcome::kHit);
   EXPECT_EQ(history_.look(0, {beside, Point2::UnitY()}).outcome, BeamOutcome::kNothing)
       << "behind the hit";
@@ -68,8 +68,8 @@ TEST_F(ScanHistoryTest, ABeamAlongALineIsNoEvidenceOfIt) {
 }
 
 TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
-  // Beams half a radian apart: the one straight ahead lights a point that lies 0.2 rad beside it,
-  // but meets the line there only behind the scanner, at -3.4 m.
+  // Beams half a radian apart: the one straight ahead hits a point 0.2 rad beside it, but meets the
+  // line there only behind the scanner, at -3.4 m.
   ScanHistoryOptions options;
   options.lit_share = 1.0;
   ScanHistory history(options);

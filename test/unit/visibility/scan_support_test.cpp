@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t kBeams = 161;
 
-/// Beams a degree apart, from 80 degrees on the right to 80 on the left (or the other way round),
-/// none of which meets anything.
+/// Beams one degree apart, from 80 degrees on the right to 80 on the left (or vice versa), none of
+/// which hits anything.
 LabeledScan emptyScan(bool from_the_left = false) {
   LabeledScan scan;
   scan.scanner_in_base = Pose2(2.0, 0.0, 0.0);
@@ -39,7 +39,7 @@ void addWall(LabeledScan& scan, double x, PointState state, double from = -1.0, 
   }
 }
 
-/// A car's rear 20 m ahead of the scanner, of which its range is known to `sigma` (m).
+/// A car's rear 20 m ahead of the scanner, whose range is known to `sigma` (m).
 Object car(double sigma) {
   Object object = boxObject(22.5, 0.0, 1.0, 1.8, 0.0, "stereo");
   object.position_covariance << sigma * sigma, 0.0, 0.0, 0.01;
@@ -78,7 +78,7 @@ TEST(ScanSupportTest, BeamsThatEndFarBehindPassedThrough) {
   addWall(scan, 30.0, PointState::kStatic);
   EXPECT_EQ(evidence(scan, car(1.0)).through_share, 1.0);
   EXPECT_EQ(evidence(scan, car(1.0)).static_share, 0.0);
-  // Its far side may be there, or have been there a moment ago.
+  // Its far side may be there, or may have been there a moment ago.
   EXPECT_EQ(evidence(scan, car(4.0)).through_share, 0.0);
   EXPECT_EQ(evidence(scan, car(1.0), 4.0).through_share, 0.0);
 }
@@ -92,7 +92,7 @@ TEST(ScanSupportTest, WhatIsHiddenIsNotJudged) {
 }
 
 TEST(ScanSupportTest, ACarHiddenFromTheScannerInFrontOfAWallDoesNotStand) {
-  // A van hides all of it but the right edge, beside which the wall is seen.
+  // A van hides all of it except the right edge, beside which the wall is visible.
   LabeledScan scan = emptyScan();
   addWall(scan, 23.5, PointState::kStatic, -1.0, -degrees(1.5));
   addWall(scan, 10.0, PointState::kMoving, -degrees(1.5), 1.0);
@@ -131,7 +131,7 @@ TEST(ScanSupportTest, OutsideTheFieldNothingIsKnown) {
   const PositionEvidence said = evidence(scan, behind);
   EXPECT_EQ(said.static_share, 0.0);
   EXPECT_EQ(said.through_share, 0.0);
-  // Half of it is: the rest is not taken for free.
+  // Half of it is: the rest is not assumed to be free.
   Object at_edge = car(1.0);
   at_edge.box.center = Pose2(
       scan.scanner_in_base * (20.0 * Point2(std::cos(degrees(80.0)), std::sin(degrees(80.0)))),
@@ -154,7 +154,7 @@ TEST(ScanSupportTest, AThinPoleIsLookedAtByTheNearestBeam) {
 }
 
 TEST(ScanSupportTest, WhereAWholeTurnEndsNoBeamIsMissed) {
-  // 514.3 beams are a turn: the last one and the first are nearer together than others.
+  // 514.3 beams are a turn: the last one and the first are closer together than others.
   LabeledScan scan = emptyScan();
   scan.field.beam_spacing = degrees(0.7);
   scan.field.first_bearing = -kPi;

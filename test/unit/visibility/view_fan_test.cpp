@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors could see as fans of beams: out of a visibility, into another frame, and back.
+// Fields of view as fans of beams: from a visibility, into another frame, and back.
 #include "datmo_fusion/common/view_fan.h"
 
 #include <vector>
@@ -26,7 +26,7 @@ Visibility scanner() {
   return {scan, kOptions};
 }
 
-/// A camera to the left, before which something stands.
+/// A camera facing left, with an obstacle in front of it.
 Visibility camera() {
   const FieldOfView field{Pose2(1.0, 0.0, 1.0), degrees(-40.0), degrees(40.0), 20.0, 60.0};
   return {field, {{{8.0, 8.0, 0.3}, 3.0, 2.0}}, kOptions};
