@@ -17,7 +17,7 @@ ProjectedObject projected(const Object& object) {
   return {region.value_or(ImageRegion()), object.box.distanceTo(Point2(0.0, 0.0)), 0.05};
 }
 
-/// As an object of this height would be seen whose near face is at (x, y).
+/// The detection of an object of this height whose near face is at (x, y).
 ImageDetection seenAt(double x, double y, double width, double height, ObjectClass object_class) {
   const double middle = 500.0 - 500.0 * y / x;
   const double feet = 200.0 + 500.0 * test::kCameraHeight / x;

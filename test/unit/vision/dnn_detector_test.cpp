@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Networks are not in the repository: where one is missing, its tests are skipped.
+// Networks are not in the repository: if one is missing, its tests are skipped.
 #include "datmo_fusion/vision/dnn_detector.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the repository, as the data sets are.
+/// Beside the repository, like the data sets.
 const fs::path kModels = fs::path(DATMO_FUSION_SHARED) / "models";
 const fs::path kDarknet = kModels / "yolo-fastest-1.1-xl" / "yolo-fastest-1.1-xl.weights";
 const fs::path kOnnx = kModels / "yolox_nano" / "yolox_nano.onnx";

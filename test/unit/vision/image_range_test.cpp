@@ -13,7 +13,7 @@ namespace {
 using test::detectionOf;
 using test::levelCamera;
 
-/// A person of the mean height at this distance, `columns` beside the middle.
+/// A person of mean height at this distance, `columns` beside the middle.
 ImageDetection personAt(double distance, double columns = 0.0) {
   const double feet = 200.0 + 500.0 * test::kCameraHeight / distance;
   const double height = 500.0 * sizeOf(ObjectClass::kPedestrian).height / distance;
@@ -40,7 +40,7 @@ TEST(ImageRange, FartherAwayIsLessSure) {
 }
 
 TEST(ImageRange, AContradictionMakesItLessSure) {
-  // A child or one on a wall: its feet at 10 m, of the height of one at 20 m.
+  // A child, or a person on a wall: feet at 10 m, with the height of a person at 20 m.
   ImageDetection person = personAt(10.0);
   person.box.min().y() = 0.5 * (person.box.min().y() + person.box.max().y());
   const auto range = rangeOf(levelCamera(), person, ImageRangeOptions());

@@ -20,7 +20,7 @@ using test::objectAt;
 const ImageDetection kPerson = detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275);
 const ImageDetection kCar = detectionOf(ObjectClass::kVehicle, 350, 197, 400, 237.5);
 
-/// Whose detector is right in four of five.
+/// Its detector is right in four of five cases.
 MonoClassifierOptions dnnOptions() {
   MonoClassifierOptions options;
   options.detector = ImageDetectorKind::kDnn;
@@ -103,7 +103,7 @@ TEST(MonoClassifier, ADetectorThatIsRightByChanceAloneSaysNothing) {
   options.min_alone = 0.0;
   options.dnn_reliability.scores = {0.0, 0.5};
   options.dnn_reliability.right = {0.03, 0.2};
-  // What it was mostly where it was wrong must not be taken for what it is.
+  // The most frequent class among the errors must not be taken for the true one.
   options.dnn_reliability.mistaken = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0};
   ObjectList objects;
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};

@@ -26,7 +26,7 @@ constexpr int kHorizon = 200;  // px, of test::levelCamera
 
 int rowAt(double distance) { return static_cast<int>(kHorizon + 750.0 / distance); }
 
-/// Something that stands on the road, `distance` ahead, over all the image's width.
+/// An object on the road, `distance` ahead, over all the image's width.
 void stand(cv::Mat& image, double distance, double height, std::uint8_t gray) {
   const int foot = rowAt(distance);
   const int top = foot - static_cast<int>(500.0 * height / distance);
@@ -55,7 +55,7 @@ Scan scanOf(double distance = std::numeric_limits<double>::infinity()) {
   return scan;
 }
 
-/// What images of a level camera and scans say of cells straight ahead.
+/// What images of a level camera and scans report about cells straight ahead.
 class MonoGridTest : public testing::Test {
  protected:
   void look(const cv::Mat& image, const Scan& scan) {

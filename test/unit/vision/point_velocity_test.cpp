@@ -21,7 +21,7 @@ StereoFeature project(const Eigen::Vector3d& point) {
           200.0 / point.z()};
 }
 
-/// Optical frame of a camera that looks along the fixed frame's x, turned to the left by `heading`.
+/// Optical frame of a camera that faces along the fixed frame's x, turned to the left by `heading`.
 Exposure exposure(double seconds, double x, double heading) {
   Exposure result;
   result.stamp = Stamp::fromSeconds(seconds);
@@ -62,10 +62,10 @@ std::vector<PointVelocity> pedestrian(double distance, const Eigen::Vector3d& ve
   return points;
 }
 
-/// Whose center is known.
+/// With a known center.
 BodyCenter centerAt(double distance) { return {{distance, 0.0}, Eigen::Matrix2d::Zero()}; }
 
-/// With errors of their own alone.
+/// With independent errors only.
 std::vector<PointVelocity> independent(std::vector<PointVelocity> points) {
   for (PointVelocity& point : points) {
     point.common_covariance.setZero();
@@ -171,7 +171,7 @@ TEST(SharedVelocity, WhatAllShareDoesNotAverageOut) {
   EXPECT_TRUE(common->covariance.isApprox(expected));
 }
 
-/// The rear of a van, seen from behind: its points move aside while it turns about its middle.
+/// The rear of a van, seen from behind: its points move sideways while it turns about its middle.
 std::vector<PointVelocity> turningRear(double speed, double turn_rate, int count, Random& random) {
   constexpr double kRear = 12.0;
   constexpr double kMiddle = 14.5;
@@ -193,7 +193,7 @@ TEST(SharedVelocity, OfABodyThatTurnsIsThatOfItsCenterAndHonest) {
   SharedVelocityOptions options;
   double squared_errors = 0.0;
   for (int i = 0; i < kBodies; ++i) {
-    // Its middle is somewhere else than the box's.
+    // Its middle differs from the box's.
     const double hidden = random.normal(kHiddenMiddle);
     const double turn_rate = random.normal(options.turn_rate);
     const auto shared = sharedVelocity(turningRear(5.0, turn_rate, 12, random), center, options);

@@ -13,7 +13,7 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 200;
 constexpr double kDisparity = 6.0;  // px
 
-/// A cloudy texture, seen `right` px to the right and `down` px lower.
+/// A cloudy texture, seen `right` px further right and `down` px lower.
 cv::Mat texture(double right, double down) {
   cv::RNG random(7);
   cv::Mat image(kHeight + 100, kWidth + 100, CV_8UC1);

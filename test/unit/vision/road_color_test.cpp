@@ -14,7 +14,7 @@ constexpr int kSamples = 2000;
 constexpr double kSigma = 6.0;  // gray levels
 const Stamp kStart = Stamp::fromSeconds(1.0);
 
-/// As many samples around each of some gray levels.
+/// An equal number of samples around each of some gray levels.
 PixelColors samplesAround(const std::vector<double>& levels) {
   std::mt19937 engine(1);
   std::normal_distribution<double> noise(0.0, kSigma);
