@@ -29,7 +29,7 @@ class Bounds(unittest.TestCase):
         self.assertEqual((median, worst), (0.8, 0.6))
         self.assertAlmostEqual(bound, 0.4)
 
-    def test_what_always_is_the_same_may_not_change(self):
+    def test_what_is_always_equal_must_not_change(self):
         self.assertEqual(bounds.bound_of("missed", [0, 0, 0]), (0.0, 0.0, 0.0))
         self.assertFalse(bounds.is_within("missed", 1, 0.0))
 
@@ -41,7 +41,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(bounds.is_within("pose_error", 0.00402, 0.004))
         self.assertTrue(bounds.is_within("mota", 0.4999, 0.5))
 
-    def test_every_scene_has_bounds_of_all_that_is_required(self):
+    def test_every_scene_has_bounds_of_all_required_figures(self):
         measured = yaml.safe_load(bounds.FILE.read_text(encoding="utf-8"))["scenes"]
         self.assertEqual(set(measured), set(SCENES))
         for scene, required in REQUIRED.items():

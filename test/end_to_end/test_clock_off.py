@@ -16,7 +16,7 @@ MAX_ADDED = 0.1  # m, at the end of the drive; without the correction 1.3 m and 
 
 
 class ClockOff(unittest.TestCase):
-    def test_the_pose_is_that_of_a_clock_that_is_right(self):
+    def test_the_pose_is_as_accurate_as_with_a_correct_clock(self):
         with tempfile.TemporaryDirectory() as name:
             report = Path(name) / "report.json"
             code = main([str(ROOT / "rosbag_fixtures/intersection.bag"),

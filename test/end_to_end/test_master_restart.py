@@ -73,7 +73,7 @@ class MasterRestart(unittest.TestCase):
         wait_for(lambda: listener.poll() is not None, "somebody who comes later hears the stack")
         self.assertEqual(listener.returncode, 0)
 
-    def test_all_is_found_again(self):
+    def test_everything_is_registered_again(self):
         wait_for(self.is_complete, "the stack is there")
         self.master.wait_for_read()
         manager, before = self.manager(), self.state()

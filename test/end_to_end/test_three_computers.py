@@ -26,7 +26,7 @@ class ThreeComputers(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def test_they_are_as_one(self):
+    def test_the_results_are_those_of_one_computer(self):
         drive = machines.fixture_drive(PACKAGE, self.folder)
         with LossyNetwork(machines_run.COMPUTERS, QUALITY) as network:
             three = machines_run.run(drive, network, True, PACKAGE / "launch/perception.launch", self.folder, [KILL])

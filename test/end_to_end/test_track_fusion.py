@@ -25,7 +25,7 @@ def source_pairs(lists):
 
 
 class TrackFusion(unittest.TestCase):
-    def test_what_both_follow_is_one_true_track(self):
+    def test_objects_tracked_by_both_are_one_true_track(self):
         frames = {"fused": 0, "lidar": 0}
         for seed in seeds("track_fusion"):
             with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
