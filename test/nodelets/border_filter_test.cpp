@@ -77,7 +77,7 @@ class BorderFilterTest : public testing::Test {
 BorderFilterHarness* BorderFilterTest::harness_ = nullptr;
 double BorderFilterTest::now_ = 0.0;
 
-TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
+TEST_F(BorderFilterTest, WithoutBordersAllObjectsPass) {
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 1U);
   EXPECT_EQ(dropped(), 0U);
@@ -98,7 +98,7 @@ TEST_F(BorderFilterTest, ByTheThesisAnObjectOnTheBorderIsDroppedAndReported) {
   EXPECT_NEAR(one.object.pose.position.x, 10.0, 1.0);
 }
 
-TEST_F(BorderFilterTest, BordersThatAreNoneAreCountedAndTheLastOnesServe) {
+TEST_F(BorderFilterTest, InvalidBordersAreCountedAndTheLastOnesAreKept) {
   now_ += 0.06;
   RoadBorders bad = roadNow();
   bad.borders.at(0).points.at(0).x = std::numeric_limits<float>::quiet_NaN();

@@ -57,7 +57,7 @@ class Camera : public Listener {
   ros::Subscriber view_;
 };
 
-TEST(CameraViewNodeletTest, DrawsTracksOnImagesWhileSomebodyLooks) {
+TEST(CameraViewNodeletTest, DrawsTracksOnImagesWhileThereIsASubscriber) {
   Camera camera;
   camera.look();
   ASSERT_TRUE(camera.waitFor([&] { return camera.isLookedAt(); }));

@@ -36,7 +36,7 @@ class OdometryRecorder : public Listener {
   ros::Subscriber odometry_;
 };
 
-TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsReported) {
+TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndFaultsAreReported) {
   const std::string recording = ros::param::param<std::string>("recording", "");
   OdometryRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));

@@ -46,7 +46,7 @@ class ScanRecorder : public Listener {
   ros::Subscriber scan_;
 };
 
-TEST(DeviceTest, AScannersScansComeAndItsFailureIsReported) {
+TEST(DeviceTest, ScansArePublishedAndAFailureIsReported) {
   samples::FakeHokuyo scanner(kPort);
   ScanRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -89,7 +89,7 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsReported) {
       [&recorder] { return recorder.diagnostic("device", "connections") >= 2.0; }));
 }
 
-TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsReported) {
+TEST(SickDeviceTest, ScansArePublishedAndAFailureIsReported) {
   samples::FakeSick scanner(kSickPort);
   ScanRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -181,7 +181,7 @@ bool isWhole(const sensor_msgs::LaserScan& scan) {
          std::abs(scan.ranges[scan.ranges.size() / 2] - 10.0F) < 0.3F;
 }
 
-TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
+TEST(VelodyneDeviceTest, TurnsBecomeCloudsAndDeskewedScans) {
   LidarRecorder recorder;
   TurningLidar lidar{samples::VelodyneSample()};
   ASSERT_TRUE(recorder.waitFor([&] {
@@ -240,7 +240,7 @@ class FixRecorder : public Listener {
   ros::Subscriber twist_;
 };
 
-TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsReported) {
+TEST(NmeaDeviceTest, PositionsAndVelocitiesArePublishedAndAFailureIsReported) {
   samples::FakeServer receiver(kReceiverPort);
   FixRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));

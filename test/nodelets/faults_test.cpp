@@ -62,7 +62,7 @@ Chain* FaultsTest::chain_ = nullptr;
 double FaultsTest::now_ = 0.0;
 double FaultsTest::start_ = 0.0;
 
-TEST_F(FaultsTest, AMissingTransformThatComesLater) {
+TEST_F(FaultsTest, AMissingTransformThatArrivesLater) {
   expectCounted("dropped: missing_transform", [](auto&) {});
   EXPECT_NE(chain_->diagnosticMessage("grid_slam").find("base_link -> scanner"), std::string::npos);
   EXPECT_TRUE(chain_->poses.empty());
@@ -73,7 +73,7 @@ TEST_F(FaultsTest, AMissingTransformThatComesLater) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, ScansThatAreNone) {
+TEST_F(FaultsTest, InvalidScans) {
   expectCounted("dropped: empty_scan", [](auto& scan) { scan.ranges.clear(); });
   expectCounted("dropped: wrong_size", [](auto& scan) { scan.ranges.resize(7); });
   expectCounted("dropped: bad_geometry", [](auto& scan) { scan.angle_increment = 0.0F; });
@@ -101,7 +101,7 @@ TEST_F(FaultsTest, AScanIntoTheOpenIsNoFault) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
+TEST_F(FaultsTest, RepeatedAndLateScans) {
   const double last = now_ - kStep;
   const auto scan_of = [&](double then) {
     return [this, then](sensor_msgs::LaserScan& scan) { scan = world_.scan(then); };
@@ -112,7 +112,7 @@ TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, AStampFarOffIsOneMessage) {
+TEST_F(FaultsTest, AStampFarOffCostsOneMessage) {
   const double restarts = chain_->diagnostic("grid_slam", "warned: clock_restart");
   for (const double off : {1.1, -1.5, 1e6}) {
     expectCounted("dropped: stray_stamp",

@@ -185,7 +185,7 @@ class LoadTest : public testing::Test {
   PacedDrive drive_;
 };
 
-TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
+TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   PacedRates load = kLoad;
   load.objects = parameter("~objects", load.objects);
   ASSERT_TRUE(drive_.start({"stereo_grid", "grid_fusion", "tracker", "stereo_tracker",

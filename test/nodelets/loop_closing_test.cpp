@@ -31,7 +31,7 @@ class LoopClosingHarness : public LabeledScanHarness {
       [this](const nav_msgs::OccupancyGridConstPtr& map) { optimized_maps.push_back(map); });
 };
 
-TEST(LoopClosingTest, TwoLapsWithADriftingPoseComeOutWithoutDrift) {
+TEST(LoopClosingTest, TheDriftOfTwoLapsIsRemoved) {
   LoopClosingHarness harness;
   ASSERT_TRUE(harness.waitForNodelet());
   const std::vector<Pose2> truth = roundTheYard(2);

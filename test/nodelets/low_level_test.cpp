@@ -173,7 +173,7 @@ TEST_F(LowLevelTest, TheRuleChangesWhileItRuns) {
   EXPECT_EQ(askForRule("by luck"), "priority") << "it stays";
 }
 
-TEST_F(LowLevelTest, TheServersParametersAreThoseOfTheNodelet) {
+TEST_F(LowLevelTest, TheParameterServerHasTheNodeletsParameters) {
   EXPECT_NO_THROW(
       readOptions<GridFusionStageOptions>(readParameters(ros::NodeHandle("/grid_fusion"))));
   EXPECT_EQ(ros::param::param<std::string>("/grid_fusion/rule", ""), "priority");
@@ -190,7 +190,7 @@ TEST_F(LowLevelTest, ConflictIsWhereTheSensorsContradictEachOther) {
   EXPECT_EQ(percentAt(conflict, behindTheVehicle()), kUnknownPercent) << "one alone says nothing";
 }
 
-TEST_F(LowLevelTest, WithoutStereoTheFusedGridsGoOnWithTheScanner) {
+TEST_F(LowLevelTest, WithoutStereoTheFusedGridsContinueWithTheScanner) {
   for (int i = 0; i < 20; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepToLidarsGrid());
   }

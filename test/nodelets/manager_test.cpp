@@ -11,7 +11,7 @@
 namespace datmo::manager_test {
 namespace {
 
-TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
+TEST(ManagerTest, AfterAKillItRestartsWithAllNodelets) {
   const World world;
   Chain chain;
   ASSERT_TRUE(chain.waitForNodelets());

@@ -93,7 +93,7 @@ class ObjectFusionTest : public SourceListsTest<Lists> {
   }
 };
 
-TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
+TEST_F(ObjectFusionTest, AnObjectSeenByBothIsOneObject) {
   ASSERT_NO_FATAL_FAILURE(driveOn(16));
   EXPECT_EQ(lists_->fused.size(), 16U);
   EXPECT_EQ(last().header.frame_id, "base_link");
@@ -101,7 +101,7 @@ TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
   EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
 }
 
-TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
+TEST_F(ObjectFusionTest, ObjectsOfStereoAloneAreMovedToTheScannersTime) {
   ASSERT_NO_FATAL_FAILURE(step());
   const double then = toStamp(last().header.stamp).seconds() - kStart;
   const auto pole =
@@ -115,7 +115,7 @@ TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
   EXPECT_EQ(diagnostic("dropped"), 0.0);
 }
 
-TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
+TEST_F(ObjectFusionTest, WithoutStereoTheScannersObjectsContinue) {
   const std::size_t before = lists_->fused.size();
   for (int i = 0; i < 20; ++i) {
     sendLidarStep();

@@ -86,7 +86,7 @@ TEST_F(ObjectLevelTest, BothSensorsLeadToFusedObjectsForEachScan) {
   EXPECT_EQ(chain_->diagnostic("stereo_objects", "dropped"), 0.0);
 }
 
-TEST_F(ObjectLevelTest, WhatBothSeeIsOneObject) {
+TEST_F(ObjectLevelTest, AnObjectSeenByBothIsOneObject) {
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
   ASSERT_TRUE(otherCarIn(*chain_->stereo.back()));
   const ObjectMessage* car = otherCarIn(*chain_->fused.back());
@@ -106,7 +106,7 @@ TEST_F(ObjectLevelTest, FusedObjectsLeadToTracks) {
   EXPECT_EQ(car->sensors, kBothSensors);
 }
 
-TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsGoOnWithTheScanner) {
+TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsContinueWithTheScanner) {
   for (int i = 0; i < 20; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
   }

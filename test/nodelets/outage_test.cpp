@@ -92,7 +92,7 @@ class OutageTest : public testing::Test {
   PacedDrive drive_;
 };
 
-TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
+TEST_F(OutageTest, UnloadedOrKilledNodeletsRecover) {
   std::string out;
   ros::param::get("~out", out);
   ASSERT_TRUE(drive_.start({"tracker", "stereo_tracker", "track_fusion"}));

@@ -109,7 +109,7 @@ class PartsTest : public testing::Test {
 
 PartsChain* PartsTest::chain_ = nullptr;
 
-TEST_F(PartsTest, EachProcessHasItsNodeletsAndAllTogetherMakeRisks) {
+TEST_F(PartsTest, EachProcessHasItsNodeletsAndTogetherTheyPublishRisks) {
   EXPECT_TRUE(hasNodelet("/perception_sensors", "/motion"));
   EXPECT_TRUE(hasNodelet("/perception_stereo", "/stereo_objects"));
   EXPECT_TRUE(hasNodelet("/perception", "/tracker"));
@@ -128,7 +128,7 @@ TEST_F(PartsTest, TheClockOfEachIsKnown) {
   }
 }
 
-TEST_F(PartsTest, EachKilledComesBack) {
+TEST_F(PartsTest, EachOneIsRestartedWhenKilled) {
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception_stereo", chain_->stereo_objects));
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception_risk", chain_->risks));
   const int before = chain_->timings["tracker"];

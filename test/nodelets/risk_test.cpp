@@ -106,7 +106,7 @@ TEST_F(RiskTest, DiagnosticsReportTheLevel) {
   EXPECT_EQ(harness_->diagnostic("dropped"), 0.0);
 }
 
-TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
+TEST_F(RiskTest, InvalidTracksAreCounted) {
   ASSERT_NO_FATAL_FAILURE(sendHost());
   TrackArray tracks = carAhead(now_);
   tracks.tracks.front().covariance[0] = std::numeric_limits<double>::quiet_NaN();
@@ -115,7 +115,7 @@ TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
   now_ += kLongStep;
 }
 
-TEST_F(RiskTest, ALoopedBagBeginsAnew) {
+TEST_F(RiskTest, ALoopedBagStartsOver) {
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(step());
   EXPECT_EQ(harness_->risks.back()->level, RiskArray::LEVEL_NONE);

@@ -114,7 +114,7 @@ TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
   EXPECT_EQ(last().at_intersection, 0);
 }
 
-TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
+TEST_F(RoadBorderTest, DiagnosticsReportTheBorders) {
   EXPECT_TRUE(harness_->waitForCount("processed", 32.0));
   EXPECT_TRUE(harness_->waitFor(
       [] { return harness_->diagnostic("stretches of border on the left") >= 1.0; }));
@@ -124,7 +124,7 @@ TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
   EXPECT_TRUE(harness_->waitFor([] { return harness_->timings["road_border"] == 32; }));
 }
 
-TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
+TEST_F(RoadBorderTest, InvalidScansAreCounted) {
   expectDropped("bad_pose", [](auto& scan) {
     scan.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
   });
@@ -137,7 +137,7 @@ TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
   EXPECT_LT(farthestFromWalls(), 0.5);
 }
 
-TEST_F(RoadBorderTest, WhatIsPublishedChangesWhileItRunsAndNothingIsForgotten) {
+TEST_F(RoadBorderTest, ADynamicOptionChangesTheOutputAndKeepsTheState) {
   constexpr double kAhead = 8.0;  // m
   const double before = farthestAhead();
   ASSERT_GT(before, kAhead + 5.0);
@@ -160,7 +160,7 @@ TEST_F(RoadBorderTest, SilenceIsReported) {
   EXPECT_TRUE(harness_->waitForMessage("runs")) << harness_->diagnosticMessage();
 }
 
-TEST_F(RoadBorderTest, ALoopedBagBeginsAnew) {
+TEST_F(RoadBorderTest, ALoopedBagStartsOver) {
   const RoadBorders& first = *harness_->roads.at(31);
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));

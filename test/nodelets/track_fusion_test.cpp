@@ -76,7 +76,7 @@ class TrackFusionTest : public SourceListsTest<Lists> {
   }
 };
 
-TEST_F(TrackFusionTest, WhatBothFollowIsOneTrack) {
+TEST_F(TrackFusionTest, AnObjectTrackedByBothIsOneTrack) {
   ASSERT_NO_FATAL_FAILURE(driveOn(24));
   EXPECT_EQ(lists_->fused.size(), 24U);
   EXPECT_EQ(last().header.frame_id, "map");
@@ -102,14 +102,14 @@ TEST_F(TrackFusionTest, TheSchemeChangesWhileItRuns) {
   EXPECT_EQ(askForScheme("by luck"), "confirmed_by_all") << "it stays";
 }
 
-TEST_F(TrackFusionTest, TheServersParametersAreThoseOfTheNodelet) {
+TEST_F(TrackFusionTest, TheParameterServerHasTheNodeletsParameters) {
   EXPECT_NO_THROW(
       readOptions<TrackFusionStageOptions>(readParameters(ros::NodeHandle("/track_fusion"))));
   EXPECT_EQ(ros::param::param<std::string>("/track_fusion/scheme", ""), "confirmed_by_all");
   EXPECT_EQ(askForScheme("union"), "union");
 }
 
-TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackGoesOnUnderItsId) {
+TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackKeepsItsId) {
   const std::uint32_t id = idAt(0.0);
   ASSERT_GT(id, 0U);
   const std::size_t before = lists_->fused.size();
@@ -130,7 +130,7 @@ TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackGoesOnUnderItsId) {
   EXPECT_EQ(idAt(0.0), id);
 }
 
-TEST_F(TrackFusionTest, BadInputIsCountedAndTheRestGoesOn) {
+TEST_F(TrackFusionTest, BadInputIsCountedAndTheRestIsProcessed) {
   TrackArray bad = Lists::listOf("stereo", now_);
   bad.header.frame_id = "base_link";
   lists_->sendStereo(bad);

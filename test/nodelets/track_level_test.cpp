@@ -74,7 +74,7 @@ TEST_F(TrackLevelTest, BothSensorsLeadToFusedTracksForEachScan) {
   }
 }
 
-TEST_F(TrackLevelTest, WhatBothFollowIsOneTrack) {
+TEST_F(TrackLevelTest, AnObjectTrackedByBothIsOneTrack) {
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
   const TrackMessage* by_lidar = chain_->otherCarIn(*chain_->lidar.back());
   const TrackMessage* by_stereo = chain_->otherCarIn(*chain_->stereo.back());
@@ -92,7 +92,7 @@ TEST_F(TrackLevelTest, WhatBothFollowIsOneTrack) {
   id_ = car->id;
 }
 
-TEST_F(TrackLevelTest, WithoutStereoTheTrackGoesOnUnderItsId) {
+TEST_F(TrackLevelTest, WithoutStereoTheTrackKeepsItsId) {
   for (int i = 0; i < 18; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
   }

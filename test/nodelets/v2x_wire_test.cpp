@@ -187,7 +187,7 @@ std::string greenLight() {
   return encode(message);
 }
 
-TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
+TEST(V2xWireTest, ThereIsAdviceOnTheLightsAhead) {
   constexpr double kSpeed = 5.0;  // m/s
   Stations stations;
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
