@@ -11,7 +11,7 @@ namespace {
 
 class GraphRunnerTest : public RunBag {};
 
-TEST_F(GraphRunnerTest, AChangeIsAskedOnceForAMessageAndNullIsALostOne) {
+TEST_F(GraphRunnerTest, AChangeIsCalledOncePerMessageAndNullDropsIt) {
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   GraphSwitches switches;
   switches.object_fusion = true;  // several stages subscribe to the odometry

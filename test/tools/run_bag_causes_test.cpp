@@ -182,7 +182,7 @@ TEST_F(RunBagCauses, TheFirstCauseInTheChainIsNamed) {
   }
 }
 
-TEST_F(RunBagCauses, AndOfWhatIsRarer) {
+TEST_F(RunBagCauses, RarerCausesAreNamed) {
   for (const Cause& cause : furtherCauses()) {
     expectSentence(cause);
   }

@@ -84,7 +84,7 @@ TEST_F(RunBagOnClouds, PosesFollowTheDrive) {
   EXPECT_NEAR(x, kSpeed * kPeriod * (kScans - 1), 0.2);
 }
 
-TEST_F(RunBagOnClouds, ANamedCloudServesInPlaceOfScans) {
+TEST_F(RunBagOnClouds, ANamedCloudReplacesScans) {
   writeClouds("/velodyne_points");
   EXPECT_NE(failure().find("cloud:=TOPIC"), std::string::npos) << "how to name it";
   arguments_.remappings["/cloud"] = "/velodyne_points";
@@ -92,7 +92,7 @@ TEST_F(RunBagOnClouds, ANamedCloudServesInPlaceOfScans) {
   EXPECT_EQ(count(arguments_.output, "/pose"), std::size_t{kScans});
 }
 
-TEST_F(RunBagOnClouds, ObjectsOfTheCloudsAreFusedByTheirSwitchAlone) {
+TEST_F(RunBagOnClouds, ObjectsOfCloudsAreFusedOnlyWithTheirSwitch) {
   writeClouds("/cloud");
   arguments_.cloud_objects = true;
   run();
@@ -106,7 +106,7 @@ TEST_F(RunBagOnClouds, ObjectsOfTheCloudsAreFusedByTheirSwitchAlone) {
   EXPECT_GT(of_clouds, 0U);
 }
 
-TEST_F(RunBagOnClouds, ACloudThatIsNotThereIsNamed) {
+TEST_F(RunBagOnClouds, AMissingCloudIsNamed) {
   arguments_.remappings["/cloud"] = "/velodyne_points";
   EXPECT_NE(failure().find("no PointCloud2 on /velodyne_points"), std::string::npos);
 }

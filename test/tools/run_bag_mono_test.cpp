@@ -43,7 +43,7 @@ TEST_F(MonoRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(MonoRun, BesideTheStereoCameraTheImagesServeBoth) {
+TEST_F(MonoRun, WithAStereoCameraTheImagesAreUsedByBoth) {
   appendImages();
   arguments_.object_fusion = true;
   const std::string table = run();

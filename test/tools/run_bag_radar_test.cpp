@@ -54,7 +54,7 @@ TEST_F(RunBagWithRadar, ItsObjectsAreFused) {
   EXPECT_GE(fused, kScans - 3);
 }
 
-TEST_F(RunBagWithRadar, WhatItAloneSeesIsTracked) {
+TEST_F(RunBagWithRadar, ObjectsSeenByItAloneAreTracked) {
   writeRadar("/radar");
   arguments_.radar = true;
   run();
@@ -75,7 +75,7 @@ TEST_F(RunBagWithRadar, WhatItAloneSeesIsTracked) {
   EXPECT_NEAR(track->velocity.x, kSpeed + static_cast<double>(kRelativeSpeed), 1.0);
 }
 
-TEST_F(RunBagWithRadar, ATopicThatIsNotThereIsNamed) {
+TEST_F(RunBagWithRadar, AMissingTopicIsNamed) {
   arguments_.radar = true;
   EXPECT_NE(failure().find("no RadarScan on /radar for --radar"), std::string::npos);
   arguments_.remappings["/radar"] = "/radar_front";

@@ -64,7 +64,7 @@ TEST_F(RoadBorderRun, NoObjectIsDropped) {
   EXPECT_EQ(count(arguments_.output, "/objects/dropped"), 0U);
 }
 
-TEST_F(RoadBorderRun, WhatTheThesisDropsIsMissedAmongTheObjectsAndNothingElse) {
+TEST_F(RoadBorderRun, OnlyObjectsDroppedByTheThesisAreMissing) {
   writeConfig("{moving_objects: {border_filter: {method: thesis}}}");
   run();
   const std::size_t kept = objectsOn<ObjectArray>("/objects");
@@ -96,7 +96,7 @@ TEST_F(RoadBorderRun, ABadOptionOfItsSectionIsNamed) {
   EXPECT_TRUE(holds(message, "road_border: wide")) << message;
 }
 
-TEST(RunBagArguments, BordersGoWithTheStagesThatTheyFeed) {
+TEST(RunBagArguments, BordersRequireTheStagesThatUseThem) {
   const auto parsed = [](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"a", "b", "--config", "c"};
     words.insert(words.end(), more.begin(), more.end());

@@ -77,7 +77,7 @@ class StereoImagesTest : public testing::Test {
   StereoPairSample sample_;
 };
 
-TEST_F(StereoImagesTest, WallStandsWhereItIs) {
+TEST_F(StereoImagesTest, WallIsAtItsDistance) {
   for (const int algorithm : {0, 1}) {
     StereoImagesOptions options = semiGlobal();
     options.stereo_algorithm = algorithm;
@@ -135,7 +135,7 @@ TEST_F(StereoImagesTest, SameImagesGiveTheSameBytes) {
   EXPECT_EQ(take(one, kStart + 0.1)->data, take(other, kStart)->data);
 }
 
-TEST_F(StereoImagesTest, WhatIsNoImageIsDropped) {
+TEST_F(StereoImagesTest, InvalidImagesAreDropped) {
   expectDrop("bad_encoding", [](auto& image, auto&) { image.encoding = "16UC1"; });
   expectDrop("wrong_size", [](auto& image, auto&) { image.data.pop_back(); });
   expectDrop("wrong_size", [](auto& image, auto&) { image.width = 0; });
@@ -143,7 +143,7 @@ TEST_F(StereoImagesTest, WhatIsNoImageIsDropped) {
   expectDrop("zero_stamp", [](auto& image, auto&) { image.header.stamp = ros::Time(); });
 }
 
-TEST_F(StereoImagesTest, WhatIsNoCalibrationOfTheImageIsDropped) {
+TEST_F(StereoImagesTest, InvalidCalibrationsAreDropped) {
   expectDrop("wrong_size", [](auto&, auto& info) { info.width += 1; });
   expectDrop("wrong_size", [](auto& image, auto& info) {
     image.height = info.height /= 2;
@@ -172,7 +172,7 @@ TEST_F(StereoImagesTest, ImagesSmallerThanTheSearchGiveNoPointsOrAreDropped) {
   }
 }
 
-TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnDemand) {
+TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnRequest) {
   const auto late = [](auto& image, auto& info) {
     image.header.stamp = info.header.stamp = toTime(kStart + 0.003);
   };
@@ -185,7 +185,7 @@ TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnDemand) {
   EXPECT_TRUE(take(approximate, kStart, "mono8", late));
 }
 
-TEST_F(StereoImagesTest, LoopedBagBeginsAnew) {
+TEST_F(StereoImagesTest, LoopedBagStartsOver) {
   StageMonitor monitor("stereo_images");
   StereoImages stage(semiGlobal(), monitor);
   EXPECT_TRUE(take(stage, kStart + 60.0));

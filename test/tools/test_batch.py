@@ -141,7 +141,7 @@ class Batch(unittest.TestCase):
         self.assertFalse(report["failed"][0]["finished"])
         self.assertEqual(list((self.drives / "batch" / "recordings").glob("a-*")), [])
 
-    def test_killed_batch_goes_on_where_it_was(self):
+    def test_killed_batch_resumes_where_it_was(self):
         self.record(a="good", b="kills_snakemake", c="good")
         first = self.batch()[2]
         done = [one["name"] for one in first["recordings"]]
@@ -152,7 +152,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(report["totals"]["recordings"], 3)
         self.assertFalse((self.drives / "batch" / "work").exists())
 
-    def test_full_disk_is_reported_and_is_not_the_recordings_fault(self):
+    def test_full_disk_is_reported_and_not_blamed_on_the_recording(self):
         self.record(a="full")
         code, said, report = self.batch()
         self.assertEqual(code, 1)
@@ -166,7 +166,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertTrue((self.programs / "words").read_text().endswith(" --fusion track\n"))
 
-    def test_another_library_makes_results_anew(self):
+    def test_another_library_invalidates_results(self):
         self.record(one="")
         library = self.programs.parent / "libdatmo_fusion_core.so"
         library.write_text("1")

@@ -85,7 +85,7 @@ class BuiltSpace(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertRegex(output, "score_run: .*none.bag")
 
-    def test_launch_files_find_all_that_they_start(self):
+    def test_launch_files_find_all_their_nodes(self):
         for file in sorted((SOURCE / "launch").glob("*.launch")):
             words = ["datmo_fusion", file.name, *LAUNCH_ARGUMENTS.get(file.name, [])]
             with self.subTest(file=file.name):

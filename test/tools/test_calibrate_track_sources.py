@@ -59,12 +59,12 @@ class Tool(unittest.TestCase):
         law = DetectionLaw(**sections["stereo"]["detection"]["vehicle"])
         self.assertAlmostEqual(float(law.at(26.0)), (share * (sum(seen) + 2) - 1) / sum(seen), 1)
 
-    def test_what_is_hidden_is_not_asked_for(self):
+    def test_hidden_objects_are_not_required(self):
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, HALF)], [view(10.0)])
         _, _, sections = self.run_tool("--min-frames", "1")
         self.assertNotIn("detection", sections["stereo"])
 
-    def test_agreement_with_what_another_one_invents(self):
+    def test_agreement_with_false_tracks_of_another_source(self):
         """Of the scanner's 11 frames of a ghost the camera has a track there in 6."""
         self.write([track(7, 15.0, 8.0)], [track(4, 15.5, 8.0, 0.0, HALF)])
         lists = read_track_lists(self.bag, ["/tracks/lidar", "/tracks/stereo"])

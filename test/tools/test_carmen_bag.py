@@ -173,7 +173,7 @@ class Clocks(Conversion):
         self.assertEqual(logged, [0.0, 0.9, 0.4, 0.6])
         self.assertIn("their stamps moved", said)
 
-    def test_stamps_that_rise_are_the_same_with_both(self):
+    def test_increasing_stamps_are_the_same_with_both(self):
         lines = [flaser(0.2 * i, (0.1 * i, 0, 0)) for i in range(30)]
         self.convert(*lines)
         stamps = self.times("/scan")
@@ -181,7 +181,7 @@ class Clocks(Conversion):
         self.convert(*lines, options=["--clock", "order"])
         self.assertEqual(self.times("/scan"), stamps)
 
-    def test_stamp_that_is_there_twice(self):
+    def test_repeated_stamp(self):
         lines = flaser(0.0, ORIGIN), flaser(0.5, ORIGIN), flaser(0.5, (1, 0, 0)), flaser(1, ORIGIN)
         said = self.convert(*lines, options=["--clock", "log"])
         self.assertIn("1 with a stamp twice left out", said)
@@ -200,7 +200,7 @@ class Clocks(Conversion):
         # No feasible neighbor is nearer: the residuals of each run of moved stamps cancel.
         self.assertAlmostEqual(float(np.mean(np.subtract(moved, stamps))), 0.0, delta=1.0)
 
-    def test_typical_steps_stand_bursts_and_pauses(self):
+    def test_typical_steps_tolerate_bursts_and_pauses(self):
         even = [200 * i for i in range(100)]
         self.assertEqual(set(typical_steps(even)), {200})
         self.assertEqual(set(typical_steps(even + [10**6 + s for s in even])), {200})
@@ -213,7 +213,7 @@ class Clocks(Conversion):
         steps = typical_steps(slow + [slow[-1] + 100 * i for i in range(1, 501)])
         self.assertEqual((steps[0], steps[-1], len(steps)), (200, 100, 999))
 
-    def test_rates_stand_stamps_that_nearly_fall_together(self):
+    def test_rates_tolerate_nearly_equal_stamps(self):
         """0.2 m/s throughout, though two stamps are 1 ms apart: 20 m/s between them."""
         stamps = [0, 200_000_000, 201_000_000, 400_000_000]
         poses = [np.array([x, 0.0, 0.0]) for x in (0.0, 0.04, 0.06, 0.08)]

@@ -64,7 +64,7 @@ class Comparison(unittest.TestCase):
 
 
 class DataSets(unittest.TestCase):
-    def test_both_runs_stand_below_each_other(self):
+    def test_both_runs_are_listed_one_below_the_other(self):
         stage = {"grid_slam": {"runs": 10, "mean_s": 0.001}}
         item = {"found_share": 0.9, "rms_m": 0.25, "in_gate_95": 0.96}
         nothing = dict.fromkeys(item)
@@ -107,7 +107,7 @@ class Tool(unittest.TestCase):
         self.assertEqual(json.loads(file.read_text())["lost"], [2])
         self.assertIn("lost: Pedestrian 2", out.getvalue())
 
-    def test_score_run_that_fails_has_said_why(self):
+    def test_failure_of_score_run_is_explained(self):
         with self.assertRaises(SystemExit) as ended:
             main([str(self.folder / "without"), "/nowhere/with"], str(self.program))
         self.assertNotEqual(ended.exception.code, 0)

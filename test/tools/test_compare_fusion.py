@@ -82,7 +82,7 @@ class Table(unittest.TestCase):
         ])  # fmt: skip
         self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
 
-    def test_what_there_is_not(self):
+    def test_missing_values(self):
         run = figures(dict(report(5, 3), delay={"mean_s": None}), None, report(5, 3), TIMES)
         text = comparison_table([("drive", None, "none", [run]), ("drive", None, "object", [])])
         first, second = rows(text)
@@ -204,10 +204,10 @@ class Runs(unittest.TestCase):
         self.assertIn("Moving objects of drive_0005", out)
         self.assertIn("--images", self.words_of("drive_0005", "drive.bag"))
 
-    def test_drive_that_is_not_there_is_reported(self):
+    def test_missing_drive_is_reported(self):
         self.assertIn("missing: not there, so no KITTI drive", self.compare("--sets", "1")[1])
 
-    def test_failed_run_is_reported_and_the_others_go_on(self):
+    def test_failed_run_is_reported_and_the_others_continue(self):
         self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')
         code, out, _ = self.compare(
             "--sets", "1", "--seeds", "3", "--levels", "none", "low", "object")  # fmt: skip

@@ -66,7 +66,7 @@ class Table(unittest.TestCase):
             ratios = column.variance[known] / other.variance[known]
             self.assertLess(np.abs(np.log(ratios)).max(), math.log(1.5))
 
-    def test_lidar_covariance_is_taken_out(self):
+    def test_lidar_covariance_is_subtracted(self):
         self.assert_recovers(covariance_table(pairs(lidar=(0.2, 0.01)), 2.0, 30.0, 30))
 
     def test_variance_stays_above_zero(self):

@@ -32,7 +32,7 @@ def rows(text, title):
 
 
 class Tables(unittest.TestCase):
-    def test_ours_stand_beside_the_thesis(self):
+    def test_ours_are_listed_beside_the_thesis(self):
         text = thesis_tables([{"thesis": COUNTS}, None, {"thesis": COUNTS}])
         self.assertEqual(rows(text, "Table 3.1")[0], ["1", "64", "30", "30"])
         self.assertEqual(rows(text, "Table 3.2")[0], ["1", "10", "7", "6"])
@@ -97,7 +97,7 @@ class Fusion(unittest.TestCase):
                           {"stereo_grid": half, "grid_slam": stage}, grids)
         self.text = fusion_table([runs, None]).splitlines()
 
-    def test_both_runs_stand_below_each_other(self):
+    def test_both_runs_are_listed_one_below_the_other(self):
         words = [line.split() for line in self.text]
         self.assertIn(["1", "scanner", "423", "1.26", "6", "42", "15", "50.0", "1.23", "1.0"], words)
         self.assertIn(["1", "fused", "423", "0.40", "6", "42", "15", "50.0", "1.23", "6.0"], words)
@@ -139,7 +139,7 @@ class Runs(unittest.TestCase):
                          "--programs", str(self.folder), "--out", str(self.folder / "out"), *words])
         return code, out.getvalue(), err.getvalue()
 
-    def test_failed_run_is_reported_and_the_others_go_on(self):
+    def test_failed_run_is_reported_and_the_others_continue(self):
         code, out, _ = self.run_tool()
         self.assertEqual(code, 1)
         self.assertIn("data_set_2: no map", out)

@@ -69,7 +69,7 @@ class Recordings(Folder):
         self.assert_points(moment.dropped[0].mean(axis=0), (5.0, -3.0))
         self.assertEqual(len(moment.earlier), 0)
 
-    def test_earlier_scans_lie_where_they_were_seen(self):
+    def test_earlier_scans_are_drawn_where_they_were_seen(self):
         """10 m ahead of the vehicle's pose at that time,
         which was 1 m back for each scan that has passed."""
         write_run(self.bag)
@@ -107,7 +107,7 @@ class Recordings(Folder):
 
 
 class Lines(unittest.TestCase):
-    def test_edges_of_a_border_lie_across_it(self):
+    def test_edges_of_a_border_are_perpendicular_to_it(self):
         item = SeenBorder("left", np.array([(0.0, 0.0), (0.0, 4.0), (0.0, 8.0)]),
                           np.array([0.1, 0.2, 0.3]), 0.9, 0.0)  # fmt: skip
         expected = [(-0.2, 0.0), (-0.4, 4.0), (-0.6, 8.0)]
@@ -143,7 +143,7 @@ class Images(Folder):
         self.assertEqual({stamp: image.pixels[0, 0] for stamp, image in found.items()},
                          {stamps[0]: 2, stamps[1]: 7})  # fmt: skip
 
-    def test_border_is_drawn_where_it_lies(self):
+    def test_border_is_drawn_at_its_position(self):
         """4 m to the left and 20 m ahead is 20 pixels to the left of the middle and 7.5 below."""
         write_run(self.bag)
         write_images(self.drive)

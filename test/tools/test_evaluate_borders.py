@@ -60,7 +60,7 @@ class Tool(EvaluateCase):
         self.assertEqual((both["rms_m"], both["mean_nees"]), (None, None))
         self.assertEqual(score["false"]["false_share"], None)
 
-    def test_side_without_curb_is_not_asked(self):
+    def test_side_without_curb_is_not_evaluated(self):
         score = self.score(right(-5.0), curbs=CURBS[1:])
         self.assertEqual(score["borders"]["left"][WHOLE]["stations"], 0)
         self.assertEqual(score["borders"]["all"][WHOLE]["found_share"], 1.0)
@@ -102,7 +102,7 @@ class Tool(EvaluateCase):
         score = self.score(curbs=curbs, trajectory=trajectory, options=["--curve-radius", "80"])
         self.assertEqual(score["borders"]["curve"][WHOLE]["stations"], 0)
 
-    def test_junction_is_not_asked(self):
+    def test_junction_is_not_evaluated(self):
         """The vehicle is in it from x = 5 m to x = 10 m; 1 m before and after belong to it."""
         score = self.score(left(5.0), right(-5.0), at_intersection=range(5, 11))
         # 15 stations of a side, of which the last frames have 13, 11, ..., 3 in their range.

@@ -70,7 +70,7 @@ class View(unittest.TestCase):
         self.assert_hidden((20.0, 0.0), True, (10.0, 30.0, 0.0, 4.0, 2.0, 1.5), car)
         self.assert_hidden((20.0, 0.0), False)
 
-    def test_behind_a_low_thing(self):
+    def test_behind_a_low_obstacle(self):
         """The line of sight to 20 m is 0.65 m high above x = 10 m."""
         self.assert_hidden((20.0, 0.0), False, (10.0, 0.0, 0.0, 0.1, 2.0, 0.6))
         self.assert_hidden((20.0, 0.0), True, (10.0, 0.0, 0.0, 0.1, 2.0, 0.7))
@@ -109,7 +109,7 @@ class Scores(unittest.TestCase):
         scores = self.scores(grid(*positions), grid((8.5, 0.5)), found)
         self.assert_tally(scores.bodies_lost, [2, 1, 0, 1, 0], [3, 2, 1, 1, 0])
 
-    def test_what_does_not_count(self):
+    def test_cells_that_do_not_count(self):
         """Curbs; paint in the cell of a body; cells that the lidar's grid does not have;
         one cell twice."""
         found = [(8.5, 0.5, PAINT), (8.7, 0.3, BODY), (9.5, 0.5, CURB), (10.5, 0.5, PAINT),

@@ -60,7 +60,7 @@ class Lists(unittest.TestCase):
         cars = true(20.0, 0.0), true(22.0, 0.0)
         self.assertEqual(self.assert_near([True], seen(20.0, 0.0), truths=cars), [(0, 0)])
 
-    def test_what_moves_is_where_it_was_then(self):
+    def test_moving_objects_are_compared_at_the_stamp(self):
         """50 ms late, a car at 20 m/s is 1 m farther ahead."""
         errors = self.errors(seen(21.0, 0.0, delay=0.05), true(20.0, 0.0, velocity=(20.0, 0.0)))
         self.assertAlmostEqual(errors.along, 0.0)
@@ -71,7 +71,7 @@ class Lists(unittest.TestCase):
         self.assertAlmostEqual(errors.across, -0.1, delta=0.01)
         self.assertAlmostEqual(errors.nees, 0.1**2 / 0.04 + 0.4**2 / 0.01, delta=0.1)
 
-    def test_what_was_not_seen_has_no_error(self):
+    def test_unseen_sides_have_no_error(self):
         sides = (math.inf, 0.0, math.inf, math.inf)
         errors = self.errors(seen(30.4, 0.0, sides=sides), true(30.0, 0.0))
         self.assertAlmostEqual(errors.along, 0.4)
@@ -166,7 +166,7 @@ class Tool(EvaluateCase):
             self.assertEqual(figures["recall"]["all"]["count"][-1], 1)
             self.assertEqual(figures["false_per_list"], 0.0)
 
-    def test_what_stands_need_not_be_found(self):
+    def test_stationary_objects_are_not_required(self):
         self.write("/objects/stereo", object_at(8.0, 0.0), object_at(15.0, 3.0, size=(0.6, 0.6)))
         figures = self.score("--moving-only")[2]["/objects/stereo"]
         self.assertEqual(figures["recall"]["all"]["of"][-1], 1)

@@ -64,7 +64,7 @@ class Metric(unittest.TestCase):
         errors = self.errors([(0, 0, 0), (4, 0, 0)], relation(0.25, 0.75, 2, 0, 0))
         self.assertAlmostEqual(errors.translation[0], 0.0)
 
-    def test_what_is_not_covered(self):
+    def test_uncovered_relations(self):
         poses = [(0, 0, 0), (1, 0, 0), (2, 0, 0)]
         wanted = relation(0, 1, 1, 0, 0), relation(1, 2.4, 1, 0, 0), relation(-1, 0, 1, 0, 0)
         errors = self.errors(poses, *wanted, tolerance=SECOND // 2)
@@ -182,7 +182,7 @@ class Tool(Files):
         self.bag.unlink()
         self.assertIn("no such file", self.run_tool(expected_code=1)[1])
 
-    def test_pose_that_is_no_number(self):
+    def test_nan_pose(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))
         self.write_relations("1000 1002 1 0 0 0 0 0")
         report = self.folder / "slam.json"

@@ -33,7 +33,7 @@ class Tool(EvaluateCase):
     def score(self, *words):
         return self.run_tool(*words)[2]
 
-    def test_car_that_both_follow(self):
+    def test_car_that_both_track(self):
         """Both track it from 0.2 s on, and it passes at 0.4 s."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.5, SPEED)], [track(4, 21.0, 0.0, SPEED, range(2, 11))],
@@ -93,7 +93,7 @@ class Tool(EvaluateCase):
         self.assertEqual([(item["id"], item["frames"]) for item in both["late_or_never"]],
                          [(1, 10), (4, 21)])  # fmt: skip
 
-    def test_two_tracks_that_do_not_pass(self):
+    def test_two_tracks_of_one_source_each(self):
         """They remain two tracks: a ghost in each frame, and nothing has passed."""
         tracks = [track(1, 20.0, 0.0, SPEED, sources=(("lidar", 7),)),
                   track(2, 21.0, 0.0, SPEED, sources=(("stereo", 4),))]  # fmt: skip
@@ -109,7 +109,7 @@ class Tool(EvaluateCase):
         self.assertEqual((score["ghosts"]["fused"]["ghosts"], score["ghosts"]["lidar"]["ghosts"]),
                          (11, 0))  # fmt: skip
 
-    def test_parked_car_that_is_taken_as_moving(self):
+    def test_parked_car_reported_as_moving(self):
         """False if only moving objects count, but on a real road user."""
         members = ("lidar", 8), ("stereo", 5)
         at = 15.0, 8.5
@@ -136,7 +136,7 @@ class Tool(EvaluateCase):
             self.write(fused=[at])
             self.assertEqual(self.score()["passed"]["true_movers"], true)
 
-    def test_what_stands_is_not_judged(self):
+    def test_stationary_tracks_are_not_judged(self):
         members = ("lidar", 8), ("stereo", 5)
         self.write(fused=[track(2, 15.0, 8.5, sources=members, moving=False)])
         score = self.score()

@@ -46,7 +46,7 @@ class Metrics(unittest.TestCase):
         third = Metric("", "a.1.b", "m", 1.0, 2)
         self.assertEqual(third.value({"a": [{"b": 5.0}, {"b": 7.0}]}), 7.0)
 
-    def test_what_is_not_there(self):
+    def test_missing_values(self):
         metric = Metric("", "a.1.b")
         for run in ({}, {"a": None}, {"a": []}, {"a": [{}, {}]}, {"a": [{}, {"b": None}]}):
             self.assertIsNone(metric.value(run))
@@ -206,7 +206,7 @@ class Page(unittest.TestCase):
         runs = [sample_run("a.bag"), sample_run("b.bag", clear_mot={"mota": 0.6})]
         self.assertIn('<td>40.0</td><td class="best">60.0*</td>', page(runs))
 
-    def test_a_run_of_which_little_is_known(self):
+    def test_a_run_with_few_figures(self):
         run = sample_run(objects=0, frames=1, pose=None, timing=None)
         for section in ("hota", "gospa", "errors", "clear_mot", "identity"):
             run[section] = {key: None for key in run[section]}

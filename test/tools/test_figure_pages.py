@@ -48,14 +48,14 @@ class Pages(InFolder):
     def pages(self, **figures):
         return render.rendered(self.folder, results(**figures))
 
-    def test_table_stands_between_the_marks(self):
+    def test_table_is_between_the_marks(self):
         text = self.pages(people=PEOPLE)["README.md"]
         self.assertIn("132 of 153 (86 %), 4 id switches", text)
         self.assertTrue(text.startswith(f"# A\n\n{render.BEGIN}\n| what |"))
         self.assertTrue(text.endswith(f"{render.END}\nrest\n"))
         self.assertNotIn("old", text)
 
-    def test_what_was_not_measured_is_not_there(self):
+    def test_unmeasured_figures_are_left_out(self):
         pages = self.pages(people=PEOPLE)
         self.assertIn("## People around a robot", pages["doc/results.md"])
         self.assertNotIn("Indoors", pages["doc/results.md"])

@@ -64,7 +64,7 @@ class Gaps(unittest.TestCase):
             topics = bag.get_type_and_topic_info().topics
             return {topic: info.message_count for topic, info in topics.items()}
 
-    def test_what_a_gap_takes_out(self):
+    def test_messages_removed_by_a_gap(self):
         # 12 s before, 2 s, 6 s after: 201 messages, of which the 20 after the start of the gap are
         # removed.
         whole, holed = 201, 181
@@ -124,18 +124,18 @@ class Gaps(unittest.TestCase):
         self.assertAlmostEqual(result["end"]["distance_m"], 40.0, places=6)
         self.assertAlmostEqual(result["speed_mps"], SPEED, places=6)
 
-    def test_a_wrong_pose_that_is_sure_of_itself(self):
+    def test_a_wrong_pose_that_is_overconfident(self):
         result = self.scored(2.0, 0.0, 0.5)
         self.assertEqual(result["confident_wrong"], 60)
         self.assertFalse(passed(result))
 
-    def test_a_wrong_pose_that_says_so_is_off_but_not_confident(self):
+    def test_a_wrong_pose_with_large_covariance_is_off_but_not_confident(self):
         result = self.scored(2.0, 0.0, 1.0)
         self.assertEqual(result["confident_wrong"], 0)
         self.assertTrue(result["end"]["beyond"] and result["end"]["admitted"])
         self.assertFalse(passed(result))
 
-    def test_carried_elsewhere_it_may_be_anywhere_if_it_says_so(self):
+    def test_carried_elsewhere_it_may_be_anywhere_if_uncertain(self):
         self.assertTrue(passed(self.scored(2.0, 0.0, 1.0, "carried")))
         self.assertFalse(passed(self.scored(2.0, 0.0, 0.5, "carried")))
 

@@ -131,7 +131,7 @@ class Contents(Conversion):
             [rotation.x, rotation.y, rotation.z, rotation.w], [-0.5, 0.5, -0.5, 0.5]
         )
 
-    def test_points_and_images_on_demand(self):
+    def test_points_and_images_on_request(self):
         self.run_tool()
         self.assertEqual(self.messages("/points") + self.messages("/stereo/left/image_rect"), [])
         self.run_tool("--points", "--images")
@@ -197,7 +197,7 @@ class Contents(Conversion):
         self.assertEqual(self.messages("/ground_truth/objects"), [])
         self.assertEqual(len(self.messages("/scan")), 4)
 
-    def test_missing_scans_on_demand(self):
+    def test_missing_scans_on_request(self):
         (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
         self.run_tool("--allow-missing-scans")
         self.assertEqual(

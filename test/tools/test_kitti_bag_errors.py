@@ -53,7 +53,7 @@ class Errors(Conversion):
         self.bag = self.root / "no" / "out.bag"
         self.assert_refused(str(self.bag), "cannot be written")
 
-    def test_folder_is_no_bag_to_write(self):
+    def test_folder_is_no_output_bag(self):
         self.bag = self.drive
         self.assert_refused(f"{self.drive}: is a folder")
 
@@ -66,7 +66,7 @@ class Errors(Conversion):
         with mock.patch("datmo_tools.convert.kitti_raw.Drive.cloud", side_effect=KeyboardInterrupt):
             self.assert_refused("interrupted, no bag written")
 
-    def test_number_that_is_none(self):
+    def test_nan_option(self):
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
             main([str(self.drive), str(self.bag), "--scan-resolution", "fine"])
         self.assertIn("--scan-resolution: 'fine', expected a finite number", said.getvalue())

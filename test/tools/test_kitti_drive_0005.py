@@ -64,7 +64,7 @@ class Drive0005(unittest.TestCase):
         )
         self.assertLess(math.hypot(end.x - true_end.x, end.y - true_end.y), 1.5)
 
-    def test_who_moves(self):
+    def test_moving_objects(self):
         tracklets = {number: list(seen.values()) for number, seen in self.tracklets.items()}
         moving = {number for number, seen in tracklets.items() if any(item.moving for item in seen)}
         labels = sorted(tracklets[number][0].label for number in moving)

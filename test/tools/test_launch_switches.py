@@ -58,7 +58,7 @@ class LaunchSwitches(unittest.TestCase):
                         "stereo_images": images}
             yield (switches, *loaded(file, **switches, **more))
 
-    def test_there_are_the_nodelets_of_the_switches(self):
+    def test_the_switches_select_the_nodelets(self):
         for switches, nodes, _ in self.each("perception.launch"):
             with self.subTest(**switches):
                 expected = ALWAYS | IMAGES[switches["stereo_images"]]
@@ -109,7 +109,7 @@ class LaunchSwitches(unittest.TestCase):
             self.assertTrue(names, file)
             self.assertFalse(names & nodes, file)
 
-    def test_the_demos_build_what_is_started(self):
+    def test_the_demos_build_all_their_nodes(self):
         started = {node.get("type") for file in (PACKAGE / "launch").glob("*.launch")
                    for node in ElementTree.parse(file).getroot().iter("node")
                    if node.get("pkg") == "datmo_fusion"}
@@ -121,12 +121,12 @@ class LaunchSwitches(unittest.TestCase):
         for demo in ("demo", "risk_demo"):
             self.assertRegex((PACKAGE / "scripts" / demo).read_text(), r'scripts/build" .*\blive\b')
 
-    def test_moving_objects_takes_borders_where_they_are_looked_for(self):
+    def test_moving_objects_subscribes_to_borders_if_enabled(self):
         for switches, _, parameters in self.each("perception.launch"):
             with self.subTest(**switches):
                 self.assertIs(parameters["/moving_objects/road_borders"], switches["road_border"])
 
-    def test_tracker_and_markers_take_what_is_published(self):
+    def test_tracker_and_markers_subscribe_to_published_topics(self):
         for switches, nodes, _ in self.each("perception.launch"):
             with self.subTest(**switches):
                 source = "objects/fused" if switches["object_fusion"] else "objects"
@@ -147,7 +147,7 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(published[-1], "tracks")
                 self.assertEqual(remapped(nodes["markers"], "tracks"), "tracks")
 
-    def test_the_stereo_tracker_follows_what_the_camera_sees(self):
+    def test_the_stereo_tracker_tracks_the_cameras_objects(self):
         for switches, nodes, parameters in self.each("perception.launch"):
             if switches["track_fusion"]:
                 with self.subTest(**switches):
@@ -170,7 +170,7 @@ class LaunchSwitches(unittest.TestCase):
                         self.assertEqual(remapped(nodes[name], "objects"),
                                          remapped(nodes[of], "objects"))
 
-    def test_both_levels_take_the_same_points(self):
+    def test_both_levels_use_the_same_points(self):
         nodes, _ = loaded("perception.launch", low_level_fusion=True, object_fusion=True,
                           points2="cloud", right_camera_info="info")
         for name in ("stereo_alignment", "stereo_grid", "stereo_objects"):
@@ -192,7 +192,7 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(set(nodelets(nodes)),
                                  ALWAYS | members - {"stereo_objects"})
 
-    def test_risk_is_one_more(self):
+    def test_risk_adds_one_nodelet(self):
         for borders in (False, True):
             nodes, parameters = loaded("perception.launch", risk=True, road_border=borders,
                                        odometry="/odom")

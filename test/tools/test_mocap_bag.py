@@ -56,7 +56,7 @@ def seconds_of(message):
 
 
 class Scans(Conversion):
-    def test_clockwise_beams_stand_in_the_order_of_time(self):
+    def test_clockwise_beams_are_in_order_of_time(self):
         self.convert(*EXACT)
         scan = self.messages("/scan")[0]
         self.assertEqual(scan.header.frame_id, "scanner")
@@ -85,7 +85,7 @@ class Scans(Conversion):
             self.assertAlmostEqual(stamp, 0.08 * index - 0.03, places=6)
             self.assertAlmostEqual(recorded * 1e-9, 0.08 * index + 0.05, places=6)
 
-    def test_ranges_are_made_longer_by_what_they_are_short(self):
+    def test_short_ranges_are_corrected(self):
         self.convert("--range-errors", "1:0.1", "3:0.3", ranges=[0.5, 2.0, 6.0, 0.1, 9.0, math.nan])
         scan = self.messages("/scan")[0]
         expected = [0.6, 2.2, 6.3, math.inf, math.inf, math.inf]
@@ -124,7 +124,7 @@ class Truth(Conversion):
             np.testing.assert_allclose([car.velocity.x, car.velocity.y], [0.5, 0.0], atol=1e-6)
             self.assertTrue(car.moving)
 
-    def test_what_is_slow_stands(self):
+    def test_slow_objects_are_stationary(self):
         self.convert("--moving-speed", "0.6")
         (car,) = self.messages("/ground_truth/objects")[0].objects
         self.assertFalse(car.moving)
@@ -153,7 +153,7 @@ class Truth(Conversion):
         self.assertEqual(len(stamps), 6)
         self.assertIn(f"5 of {SCANS} scans without truth", said)
 
-    def test_repeated_poses_are_none(self):
+    def test_repeated_poses_are_ignored(self):
         """Motion capture that has lost the car keeps reporting its last pose."""
         self.convert(*EXACT, ego=lambda seconds: ego(min(seconds, 0.4)))
         stamps = [seconds_of(message) for message in self.messages("/ground_truth/pose")]

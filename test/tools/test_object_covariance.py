@@ -101,7 +101,7 @@ class Tool(unittest.TestCase):
         read = yaml.safe_load(self.out.read_text())
         return read["object_fusion"]["sources"][source]["covariance"]
 
-    def test_motion_of_vehicle_and_cars_is_taken_out(self):
+    def test_motion_of_vehicle_and_cars_is_compensated(self):
         """Without the vehicle's motion the camera would be 0.3 m off,
         without the cars' motion 0.1 m."""
         self.write("/objects", "/objects/stereo", rounds=100)
@@ -120,7 +120,7 @@ class Tool(unittest.TestCase):
             across = math.sqrt(table["bearing_variance"][i]) * (2.0 * i + 1.0)
             self.assertTrue(0.03 < across < 0.08, across)
 
-    def test_two_bags_are_one(self):
+    def test_two_bags_are_pooled(self):
         self.write("/objects", "/objects/stereo", rounds=20)
         paired = []
         for runs in ([str(self.bag)], [str(self.bag)] * 2):

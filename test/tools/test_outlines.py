@@ -86,7 +86,7 @@ class Offsets(unittest.TestCase):
             apart = offset(outline(10.3, 0.1, yaw, size=size), outline(10.0, 0.0))
             np.testing.assert_allclose(apart.value, (0.3, 0.1), atol=0.02)
 
-    def test_only_what_both_saw(self):
+    def test_only_common_parts(self):
         for sides, known in (((0.0, HIDDEN, 0.0, 0.0), (False, False)),
                              ((HIDDEN, 0.0, HIDDEN, HIDDEN), (True, False)),
                              ((HIDDEN, 0.0, HIDDEN, 0.0), (True, True))):  # fmt: skip

@@ -55,7 +55,7 @@ class PriorMap(unittest.TestCase):
         self.assertAlmostEqual(result["heading_deg"], 1.0)
         self.assertFalse(result["wrong"])
 
-    def test_a_place_is_wrong_by_position_or_heading(self):
+    def test_a_pose_is_wrong_by_position_or_heading(self):
         self.assertTrue(self.scored(0.6)["wrong"])
         self.assertTrue(self.scored(0.1, 6.0)["wrong"])
 
@@ -75,7 +75,7 @@ class PriorMap(unittest.TestCase):
         counts = [" ".join(row[10:14]) for row in rows[2:]]
         self.assertEqual(counts, ["2 1 2 0", "1 0 0 1", "0 0 0 0", "1 0 0 0"])
 
-    def test_what_of_a_view_a_map_knows(self):
+    def test_known_share_of_a_view(self):
         (self.folder / "hall.pgm").write_bytes(b"P5\n10 5\n255\n" + bytes(10) + bytes([254] * 40))
         described = self.folder / "hall.yaml"
         described.write_text("image: hall.pgm\nresolution: 1.0\norigin: [-2.0, 3.0, 0.0]\n"

@@ -48,7 +48,7 @@ def topic_arguments(file):
 
 
 class RecordLaunch(unittest.TestCase):
-    def test_all_that_the_stages_take_is_recorded(self):
+    def test_all_inputs_of_the_stages_are_recorded(self):
         inputs, _ = graph_topics()
         words = recorded()
         for topic, kind in inputs.items():
@@ -75,7 +75,7 @@ class RecordLaunch(unittest.TestCase):
         remaps = {node.name: dict(node.remap_args) for node in load("live.launch", ["lidar:=velodyne"]).nodes}
         self.assertIn(remaps["device"]["points"], recorded())
 
-    def test_with_results_all_that_the_stages_make_is_recorded(self):
+    def test_with_results_all_outputs_of_the_stages_are_recorded(self):
         _, outputs = graph_topics()
         words = recorded("results:=true")
         self.assertLessEqual(outputs - NOT_RECORDED, set(words))

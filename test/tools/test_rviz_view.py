@@ -74,7 +74,7 @@ class RvizView(unittest.TestCase):
         self.assertGreater(len(topics), 8)
         self.assertLessEqual(topics, published())
 
-    def test_the_namespaces_are_those_that_are_drawn(self):
+    def test_the_namespaces_are_the_drawn_ones(self):
         for display in DISPLAYS:
             if "Namespaces" in display:
                 with self.subTest(display=display["Name"]):
@@ -86,7 +86,7 @@ class RvizView(unittest.TestCase):
         self.assertEqual(shown & OFF, set())
         self.assertLessEqual({"vehicle", "scan", "ground truth"}, shown)
 
-    def test_displays_and_panels_of_our_own_are_those_that_there_are(self):
+    def test_our_displays_and_panels_exist(self):
         for name in ("perception.rviz", "risk.rviz"):
             view = yaml.safe_load((PACKAGE / "config" / name).read_text(encoding="utf-8"))
             classes = {each["Class"] for each in
@@ -127,7 +127,7 @@ class ViewOfAVehicle(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.home = folder.name
 
-    def test_of_one_that_is_alone_it_is_the_file_itself(self):
+    def test_for_a_single_vehicle_it_is_the_file_itself(self):
         for namespace in ("", "/"):
             self.assertEqual(self.vehicle_view("", namespace), FILE)
 
@@ -142,7 +142,7 @@ class ViewOfAVehicle(unittest.TestCase):
         panel = next(each for each in view["Panels"] if each["Class"] == "datmo_fusion/DriverView")
         self.assertEqual((panel["Risks Topic"], panel["Tracks Topic"]), ("/car1/risks", "/car1/tracks"))
 
-    def test_all_else_is_as_it_was(self):
+    def test_everything_else_is_unchanged(self):
         text = Path(self.vehicle_view("car1/", "/car1")).read_text(encoding="utf-8")
         view = yaml.safe_load(text.replace("/car1/", "/").replace("car1/", ""))
         self.assertEqual(view, VIEW)
@@ -159,7 +159,7 @@ class ViewOfAVehicle(unittest.TestCase):
         self.assertEqual(len({self.vehicle_view(prefix, namespace) for prefix, namespace in
                               (("car1/", "/car1"), ("car2/", "/car2"), ("", "/car3"), ("car4/", ""))}), 4)
 
-    def test_a_view_that_is_none_is_named(self):
+    def test_an_invalid_view_is_named(self):
         file = Path(self.home, "a.rviz")
         for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected a configuration")):
             file.write_text(text)
@@ -169,7 +169,7 @@ class ViewOfAVehicle(unittest.TestCase):
                 self.assertEqual(open_rviz.main(), 1)
             self.assertRegex(said.getvalue(), f"open_rviz: {file}.*{problem}")
 
-    def test_the_launch_file_hands_the_prefix_on(self):
+    def test_the_launch_file_passes_the_prefix_on(self):
         nodes = load("live.launch", ["rviz:=true", "frame_prefix:=car1/"]).nodes
         words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
         self.assertEqual(words, ["--frame-prefix", "car1/", "-d", FILE])

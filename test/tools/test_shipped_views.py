@@ -30,7 +30,7 @@ class ShippedViews(unittest.TestCase):
         layout = json.loads((PACKAGE / "config/foxglove_layout.json").read_text())
         self.assertEqual(sorted(panels_of(layout["layout"])), sorted(layout["configById"]))
 
-    def test_the_layout_names_topics_that_there_are(self):
+    def test_the_layout_names_existing_topics(self):
         text = (PACKAGE / "config/foxglove_layout.json").read_text()
         code = "".join(file.read_text() for folder in ("src/nodelets", "src/ros", "launch")
                        for file in (PACKAGE / folder).rglob("*") if file.is_file())

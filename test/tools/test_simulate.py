@@ -85,7 +85,7 @@ class Simulate(unittest.TestCase):
         self.assert_refused(self.folder, self.bag, expected=[f"{self.folder}: expected a yaml"])
         self.assert_refused(SCENE, self.folder, expected=[f"{self.folder}: is a folder"])
 
-    def test_key_that_is_no_name(self):
+    def test_key_that_is_not_a_name(self):
         scene = self.folder / "bad.yaml"
         scene.write_text("ego: {}\n? [a]\n: b\n")
         self.assert_refused(scene, self.bag, expected=["bad.yaml: a key in line 2"])
@@ -118,7 +118,7 @@ class Contract(unittest.TestCase):
             for message, time in self.messages[topic]:
                 self.assertEqual(message.header.stamp, time)
 
-    def test_truth_stands_at_the_scans_stamps(self):
+    def test_truth_has_the_scans_stamps(self):
         stamps = [time for _, time in self.messages["/echoes"]]
         for topic in ("/ground_truth/objects", "/ground_truth/pose"):
             self.assertEqual([time for _, time in self.messages[topic]], stamps)
@@ -199,7 +199,7 @@ class Stereo(unittest.TestCase):
             self.assertGreater(len(points), 20000)
             self.assertTrue(np.all((points[:, 2] > 2.999) & (points[:, 2] < 60.001)))
 
-    def test_points_with_velocity_come_before_the_points(self):
+    def test_points_with_velocity_precede_the_points(self):
         clouds = self.messages["/stereo/point_velocities"]
         self.assertEqual([(message.header.stamp, time) for message, time in clouds],
                          [(message.header.stamp, time)
@@ -232,7 +232,7 @@ class Stereo(unittest.TestCase):
                 for item in message.objects if "stereo" in item.visible_to]
         self.assertGreater(len(seen), 100)
 
-    def test_true_echoes_stand_beside_the_scans(self):
+    def test_true_echoes_accompany_the_scans(self):
         pairs = list(zip(self.messages["/echoes"], self.messages["/ground_truth/echoes"]))
         self.assertEqual(len(pairs), len(self.messages["/ground_truth/echoes"]))
         for (scan, _), (truth, _) in pairs:

@@ -106,7 +106,7 @@ class StageGraph(unittest.TestCase):
                     for key, value in stage["parameters"].items():
                         self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
 
-    def test_what_crosses_from_part_to_part_is_in_the_documents(self):
+    def test_topics_between_parts_are_documented(self):
         """The table of doc/machines.md: topic, type, publisher, and the parts that subscribe."""
         page = (PACKAGE / "doc/machines.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
@@ -179,7 +179,7 @@ class Parts(unittest.TestCase):
         return {node.name: (node.package, node.type, node.args.split()[:2], sorted(node.remap_args), node.respawn)
                 for node in nodes if "part_clock" not in node.args}
 
-    def test_all_parts_together_are_the_whole(self):
+    def test_all_parts_together_are_the_whole_stack(self):
         for switches, images in (([], "none"), (LEVELS, "rectified"), ([*LEVELS, *OTHERS], "raw")):
             more = ["aggregator:=true", f"stereo_images:={images}"]
             whole = self.by_name(self.loaded([], switches, *more))

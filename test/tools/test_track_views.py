@@ -39,7 +39,7 @@ class Views(unittest.TestCase):
                               ((4.0, 4.0), False), ((4.0, 6.0), True), ((1.0, -5.0), False)):
             self.assertEqual(is_in_view([self.VIEW], position), inside, position)
 
-    def test_behind_what_it_saw(self):
+    def test_behind_the_end_of_its_view(self):
         """To the left it saw 10 m far; what ended the beams may be the object itself."""
         for position, seen in (((2.0, 15.0), True), ((0.0, 15.0), False), ((0.0, 9.0), True),
                             ((0.0, 10.4), True), ((0.0, 10.6), False)):  # fmt: skip

@@ -86,7 +86,7 @@ std::size_t linesIn(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
+TEST_F(RunBag, ResultsAreWrittenAsTextOnRequest) {
   arguments_.text.tum = arguments_.output + ".tum";
   arguments_.text.kitti = arguments_.output + ".kitti";
   arguments_.text.mot = arguments_.output + ".mot";
@@ -95,14 +95,14 @@ TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
   EXPECT_EQ(linesIn(bytes(arguments_.text.kitti)), linesIn(bytes(arguments_.text.mot)));
 }
 
-TEST_F(RunBag, NoTextIsLeftWhereThereIsNoBag) {
+TEST_F(RunBag, WithoutABagNoTextIsLeft) {
   arguments_.text.tum = arguments_.output + ".tum";
   arguments_.input = "/nowhere.bag";
   EXPECT_THROW(run(), std::exception);
   EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum));
 }
 
-TEST(TextOutputs, AFileThatCannotBeWrittenIsNamedAtTheStart) {
+TEST(TextOutputs, AnUnwritableFileIsNamedAtTheStart) {
   EXPECT_THROW(TextOutputs({"", "/nowhere/tracks.txt", ""}), std::runtime_error);
 }
 
