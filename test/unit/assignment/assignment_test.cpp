@@ -82,7 +82,7 @@ TEST(Assignment, GivesUpTheNearestForTheBestSum) {
   EXPECT_DOUBLE_EQ(result.cost, 4.0);
 }
 
-TEST(Assignment, ARowGivesItsColumnUpAndStaysUnassigned) {
+TEST(Assignment, ARowGivesUpItsColumnAndStaysUnassigned) {
   CostMatrix cost(2, 1);
   cost << -5.0, -9.0;
   const Assignment result = solveAssignment(cost, Eigen::VectorXd::Zero(2));
@@ -136,7 +136,7 @@ TEST(Assignment, HundredsOfRowsWithTheSameColumnsEndUpOptimal) {
   }
 }
 
-TEST(Assignment, CutShortItIsValidAndEveryRowGetsWhatIsLeft) {
+TEST(Assignment, CutShortItIsValidAndEveryRowGetsAFreeColumn) {
   const CostMatrix cost = samePreferences(40, 60);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(40, 1e6);
   const Assignment best = solveAssignment(cost, none);
@@ -149,7 +149,7 @@ TEST(Assignment, CutShortItIsValidAndEveryRowGetsWhatIsLeft) {
   EXPECT_EQ(cut.column_of_row, solveAssignment(cost, none, 5000).column_of_row);
 }
 
-TEST(Assignment, CutShortARowRatherHasNoneThanADearerColumn) {
+TEST(Assignment, CutShortARowStaysUnassignedRatherThanPayMore) {
   CostMatrix cost(3, 2);
   cost << 1.0, 2.0,  //
       3.0, 4.0,      //
