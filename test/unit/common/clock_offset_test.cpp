@@ -20,7 +20,7 @@ ClockOffsetEstimator withoutDrift() {
   return ClockOffsetEstimator(options);
 }
 
-TEST(ClockOffset, NothingIsKnownBeforeTheFirstAnswer) {
+TEST(ClockOffset, IsUnknownBeforeTheFirstAnswer) {
   EXPECT_FALSE(withoutDrift().at(Stamp::fromSeconds(1.0)));
 }
 
@@ -34,7 +34,7 @@ TEST(ClockOffset, OneExchangeBoundsItByHalfOfTheRoundTrip) {
   EXPECT_NEAR(offset.uncertainty, 0.020, kRounding);
 }
 
-TEST(ClockOffset, TheFastestWaysOfEitherDirectionCountTogether) {
+TEST(ClockOffset, TheFastestDelaysOfBothDirectionsAreCombined) {
   ClockOffsetEstimator clock = withoutDrift();
   clock.add(exchange(100.0, -0.005, 0.002, 0.050));  // below -0.005 + 0.002
   clock.add(exchange(101.0, -0.005, 0.050, 0.004));  // above -0.005 - 0.004
@@ -43,7 +43,7 @@ TEST(ClockOffset, TheFastestWaysOfEitherDirectionCountTogether) {
   EXPECT_NEAR(offset.uncertainty, 0.003, kRounding);
 }
 
-TEST(ClockOffset, WhatIsOlderBoundsItLessAsTheClocksDrift) {
+TEST(ClockOffset, OlderExchangesAreLooserBoundsAsTheClocksDrift) {
   ClockOffsetOptions options;
   options.max_drift = 1e-3;
   ClockOffsetEstimator clock(options);
@@ -65,7 +65,7 @@ TEST(ClockOffset, ADriftIsFollowed) {
   EXPECT_LE(offset.uncertainty, 0.001 + kRounding);
 }
 
-TEST(ClockOffset, OneThatIsSetIsKnownWithTheNextExchange) {
+TEST(ClockOffset, AStepIsKnownAfterTheNextExchange) {
   ClockOffsetEstimator clock((ClockOffsetOptions()));
   clock.add(exchange(100.0, 0.0, 0.001, 0.001));
   clock.add(exchange(101.0, 1.0, 0.003, 0.003));
