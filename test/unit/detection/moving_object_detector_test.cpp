@@ -71,7 +71,7 @@ TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
   EXPECT_EQ(list.stamp, Stamp::fromSeconds(5.0));
 }
 
-TEST(MovingObjectDetectorTest, WhatIsStaticIsNoObject) {
+TEST(MovingObjectDetectorTest, StaticPointsAreNoObject) {
   EXPECT_TRUE(detect(labeledScan({{10.0, 40, kS}, {10.0, 41, kS}})).objects.empty());
 }
 
@@ -122,7 +122,7 @@ TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
   }
 }
 
-TEST(MovingObjectDetectorTest, TheThesisTakesAnyMovingPoint) {
+TEST(MovingObjectDetectorTest, TheThesisUsesAnyMovingPoint) {
   const LabeledScan scan =
       labeledScan({{10.0, 40, kM}, {10.0, 41, kU}, {10.0, 42, kU}, {10.0, 43, kU}});
   EXPECT_EQ(detect(scan).objects.at(0).dynamic_state, DynamicState::kUnknown);
@@ -137,7 +137,7 @@ TEST(MovingObjectDetectorTest, AStaticPointNextToAMoverDoesNotHideIt) {
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
-TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
+TEST(MovingObjectDetectorTest, AnAttachmentToAWallIsPartOfIt) {
   const ObjectList list =
       detect(labeledScan({{10.0, 40, kU}, {10.0, 41, kU}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
@@ -145,7 +145,7 @@ TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
-TEST(MovingObjectDetectorTest, WhatMovesNextToAWallStillMoves) {
+TEST(MovingObjectDetectorTest, AMoverNextToAWallIsStillReported) {
   const ObjectList list =
       detect(labeledScan({{10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
@@ -260,7 +260,7 @@ TEST(MovingObjectDetectorTest, SidesAreAsGoodAsTheirVariance) {
   }
 }
 
-TEST(MovingObjectDetectorTest, HeadingIsSurerTheLongerTheObject) {
+TEST(MovingObjectDetectorTest, HeadingIsMoreCertainForLongerObjects) {
   const double pair = detect(labeledScan({{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}}))
                           .objects[0]
                           .heading_variance;

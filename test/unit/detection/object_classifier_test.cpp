@@ -51,13 +51,13 @@ TEST(ObjectClassifier, ProbabilitiesSumToOneHoweverOddTheSize) {
   }
 }
 
-TEST(ObjectClassifier, ItsProbabilityShowsWhatCannotBeClassified) {
+TEST(ObjectClassifier, LowProbabilityShowsUnclassifiableObjects) {
   EXPECT_LT(probability(seen(1.72, 0.6), ObjectClass::kPedestrian), 0.9)
       << "a cyclist from behind looks like that as well";
   EXPECT_GT(probability(seen(1.5, 4.2, 1.8), ObjectClass::kVehicle), 0.9);
 }
 
-TEST(ObjectClassifier, WhatWasNotSeenMayBeLarger) {
+TEST(ObjectClassifier, PartiallySeenObjectsMayBeLarger) {
   SeenSize half = seen(1.75, 0.6);
   const double whole_cyclist = probability(half, ObjectClass::kCyclist);
   half.wider = true;

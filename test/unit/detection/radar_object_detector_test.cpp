@@ -53,7 +53,7 @@ TEST(RadarObjects, VelocityAlongTheLineOfSightIsOverTheGround) {
   }
 }
 
-TEST(RadarObjects, PositionIsAsSureAsRangeAndBearing) {
+TEST(RadarObjects, PositionIsAsCertainAsRangeAndBearing) {
   RadarObjectDetectorOptions options;
   options.reflection_sigma = 0.0;
   const Object ahead = detect({{50.0, 0.0, 5.0}}, Pose2(), {}, options).list.objects.at(0);
@@ -68,7 +68,7 @@ TEST(RadarObjects, PositionIsAsSureAsRangeAndBearing) {
   EXPECT_GT(four.box.length, 0.0);
 }
 
-TEST(RadarObjects, WhatStandsIsLeftOutAtAnySpeedOfTheVehicle) {
+TEST(RadarObjects, StationaryObjectsAreLeftOutAtAnySpeedOfTheVehicle) {
   const Pose2 radar(3.5, -0.5, degrees(-20.0));
   const Twist2 twist{15.0, 0.4};
   std::vector<RadarReturn> returns;
@@ -82,7 +82,7 @@ TEST(RadarObjects, WhatStandsIsLeftOutAtAnySpeedOfTheVehicle) {
   EXPECT_GT(found.standing, 0U);
 }
 
-TEST(RadarObjects, AreApartByPlaceOrBySpeed) {
+TEST(RadarObjects, AreSeparatedByPositionOrSpeed) {
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {21.0, 0.0, 5.2}}).list.objects.size(), 1U);
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {24.0, 0.0, 5.0}}).list.objects.size(), 2U);
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {20.5, 0.0, 9.0}}).list.objects.size(), 2U);
@@ -92,7 +92,7 @@ TEST(RadarObjects, AreApartByPlaceOrBySpeed) {
   EXPECT_EQ(detect({{150.0, -0.015, 5.0}, {150.0, 0.015, 5.0}}).list.objects.size(), 1U);
 }
 
-TEST(RadarObjects, OfTooFewReturnsAreNone) {
+TEST(RadarObjects, RequireEnoughReturns) {
   RadarObjectDetectorOptions options;
   options.min_returns = 3;
   const std::vector<RadarReturn> returns{
@@ -104,7 +104,7 @@ TEST(RadarObjects, OfTooFewReturnsAreNone) {
   EXPECT_TRUE(detect({}).list.objects.empty());
 }
 
-TEST(RadarObjects, AreAsSureAsTheySay) {
+TEST(RadarObjects, HaveConsistentCovariances) {
   // A curve, with a radar at a front corner: objects of known position and velocity, whose
   // reflections lie anywhere on them; noise as in the options.
   constexpr int kCycles = 2000;
