@@ -40,7 +40,7 @@ TEST(CanLogTest, LinesOfAllKindsOfFramesAreRead) {
   EXPECT_FALSE(canLogLine("  "));
 }
 
-TEST(CanLogTest, WhatIsNoLineIsRefused) {
+TEST(CanLogTest, InvalidLinesAreRefused) {
   for (const char* line :
        {"can0 123#00", "(now) can0 123#00", "(1.2.3) can0 123#00",
         "(99999999999999999999) can0 123#00", "(1.2.3.4) can0", "() can0 123#00", "(1.0) can0",
@@ -52,7 +52,7 @@ TEST(CanLogTest, WhatIsNoLineIsRefused) {
   }
 }
 
-TEST(CanLogTest, ItsFramesComeAtTheirRateAndThenItsEnd) {
+TEST(CanLogTest, FramesAreDeliveredAtTheirRateAndThenTheEnd) {
   const std::string file = testing::TempDir() + "can_log_test.log";
   std::ofstream(file) << "(1000.0) can0 1A0#01\n(1000.01) can1 1A0#02\n\nbroken\n"
                          "(1000.05) can0 1A0#03\n(3.0) can0 1A0#04\n";

@@ -40,7 +40,7 @@ class HokuyoScannerTest : public testing::Test {
   DeviceProbe probe_{DeviceKind::kHokuyo};
 };
 
-TEST_F(HokuyoScannerTest, AScanComesAsItWasSent) {
+TEST_F(HokuyoScannerTest, AScanIsDeliveredAsSent) {
   start();
   connect();
   const Measured scan = exchange(100, 5.0);
@@ -50,7 +50,7 @@ TEST_F(HokuyoScannerTest, AScanComesAsItWasSent) {
   EXPECT_NEAR(scan.clock.offset, kStart + 4.9, 1e-3);
 }
 
-TEST_F(HokuyoScannerTest, HalfPacketsBecomeOneScan) {
+TEST_F(HokuyoScannerTest, SplitPacketsBecomeOneScan) {
   start();
   connect();
   const std::string bytes = FakeHokuyo::scan(100, {1000, 2000, 3000, 4000, 5000});
@@ -60,7 +60,7 @@ TEST_F(HokuyoScannerTest, HalfPacketsBecomeOneScan) {
   EXPECT_EQ(probe_.measurements.take().scan().ranges.size(), FakeHokuyo::kBeams);
 }
 
-TEST_F(HokuyoScannerTest, ScansThatAreMissingAreCounted) {
+TEST_F(HokuyoScannerTest, MissingScansAreCounted) {
   start();
   connect();
   EXPECT_EQ(exchange(100, 0.0).missed, 0U);
@@ -68,7 +68,7 @@ TEST_F(HokuyoScannerTest, ScansThatAreMissingAreCounted) {
   EXPECT_EQ(exchange(225, 0.125).missed, 3U);
 }
 
-TEST_F(HokuyoScannerTest, StampsGoOnWhereTheDevicesClockBeginsAgain) {
+TEST_F(HokuyoScannerTest, StampsContinueWhenTheDevicesClockWraps) {
   start();
   connect();
   exchange(0xFFFFFF - 9, 0.0);
@@ -79,7 +79,7 @@ TEST_F(HokuyoScannerTest, StampsGoOnWhereTheDevicesClockBeginsAgain) {
               1e-6);
 }
 
-TEST_F(HokuyoScannerTest, ADriftingClockAndOneThatIsSetAreFollowed) {
+TEST_F(HokuyoScannerTest, DriftAndStepsOfTheClockAreFollowed) {
   start();
   connect();
   constexpr double kDrift = 1e-4;
@@ -105,7 +105,7 @@ TEST_F(HokuyoScannerTest, ADriftingClockAndOneThatIsSetAreFollowed) {
   EXPECT_NEAR(secondsBetween(scan.stamp, after.stamp), 0.025, 2e-3);
 }
 
-TEST_F(HokuyoScannerTest, ADeviceThatIsGoneAndBackIsConnectedAgain) {
+TEST_F(HokuyoScannerTest, ADeviceThatReturnsIsConnectedAgain) {
   start();
   connect();
   exchange(100, 0.0);

@@ -56,7 +56,7 @@ TEST_F(HokuyoSerialTest, OldFirmwareIsSwitchedToTheProtocol) {
   expectScan();
 }
 
-TEST_F(HokuyoSerialTest, OneThatStillSendsToWhoHasGoneIsStopped) {
+TEST_F(HokuyoSerialTest, OneThatIsStillSendingIsStopped) {
   start();
   ASSERT_EQ(serial_->receive('\n'), "SCIP2.0");
   const std::string scan = FakeHokuyo::scan(50, {1000, 2000, 3000, 4000, 5000});
@@ -67,7 +67,7 @@ TEST_F(HokuyoSerialTest, OneThatStillSendsToWhoHasGoneIsStopped) {
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_F(HokuyoSerialTest, OneThatIsUnpluggedIsReported) {
+TEST_F(HokuyoSerialTest, AnUnpluggedOneIsReported) {
   start();
   ASSERT_EQ(serial_->receive('\n'), "SCIP2.0");
   answer("QT", "00");

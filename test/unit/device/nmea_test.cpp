@@ -86,7 +86,7 @@ TEST(NmeaTest, APositionIsReadWithItsHeightAboveTheEllipsoid) {
   }
 }
 
-TEST(NmeaTest, TheQualityTellsHowGoodAPositionIs) {
+TEST(NmeaTest, TheQualityGivesTheAccuracyOfAPosition) {
   const auto fix = [](const std::string& quality) {
     return nmeaFix(
         sentence("GPGGA,123519,4807.038,S,01131.000,E," + quality + ",08,1.0,545.4,M,46.9,M,,"),

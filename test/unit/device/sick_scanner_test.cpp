@@ -65,7 +65,7 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
 INSTANTIATE_TEST_SUITE_P(Dialects, SickScannerTest,
                          testing::Values(ColaDialect::kBinary, ColaDialect::kText));
 
-TEST_P(SickScannerTest, AScanComesAsItWasSent) {
+TEST_P(SickScannerTest, AScanIsDeliveredAsSent) {
   start();
   const Measured scan = exchange(1, 1020000, 5.0);
   EXPECT_EQ(scan.scan().ranges.size(), 4U);
@@ -73,7 +73,7 @@ TEST_P(SickScannerTest, AScanComesAsItWasSent) {
   EXPECT_NEAR(seconds(scan.stamp), 5.0 - 0.02, 1e-6);
 }
 
-TEST_P(SickScannerTest, HalfPacketsBecomeOneScan) {
+TEST_P(SickScannerTest, SplitPacketsBecomeOneScan) {
   start();
   for (const char byte : colaFrame(SickTelegram().in(GetParam()))) {
     fake_.send(std::string(1, byte));
@@ -81,14 +81,14 @@ TEST_P(SickScannerTest, HalfPacketsBecomeOneScan) {
   EXPECT_EQ(probe_.measurements.take().scan().ranges.size(), 4U);
 }
 
-TEST_P(SickScannerTest, ScansThatAreMissingAreCountedAcrossTheCountersEnd) {
+TEST_P(SickScannerTest, MissingScansAreCountedAcrossTheCountersEnd) {
   start();
   EXPECT_EQ(exchange(0xFFFE, 1000000, 0.0).missed, 0U);
   EXPECT_EQ(exchange(0xFFFF, 1040000, 0.04).missed, 0U);
   EXPECT_EQ(exchange(2, 1160000, 0.16).missed, 2U);
 }
 
-TEST_P(SickScannerTest, StampsGoOnWhereTheScannersClockBeginsAgain) {
+TEST_P(SickScannerTest, StampsContinueWhenTheScannersClockWraps) {
   start();
   exchange(1, 0xFFFFFFFFU - 9999, 0.0);
   const Measured scan = exchange(2, 30000, 0.04);
@@ -96,7 +96,7 @@ TEST_P(SickScannerTest, StampsGoOnWhereTheScannersClockBeginsAgain) {
   EXPECT_NEAR(seconds(scan.stamp), 0.02, 1e-6);
 }
 
-TEST_P(SickScannerTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
+TEST_P(SickScannerTest, DriftAndAStepOfTheClockAreFollowed) {
   start();
   constexpr double kDrift = 1e-4;
   std::uint16_t counter = 0;
@@ -119,7 +119,7 @@ TEST_P(SickScannerTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
   EXPECT_NEAR(seconds(scan.stamp), host + 0.04 - 0.02, 1e-3);
 }
 
-TEST_P(SickScannerTest, AScannerThatIsGoneAndBackIsConnectedAgain) {
+TEST_P(SickScannerTest, AScannerThatReturnsIsConnectedAgain) {
   start();
   exchange(100, 5000000, 0.0);
   fake_.send(colaFrame(SickTelegram().in(GetParam())).substr(0, 20));
@@ -142,14 +142,14 @@ TEST_P(SickScannerTest, AWrongScanIsOneFaultAndAnotherConnection) {
   EXPECT_EQ(exchange(1, 1000000, 0.0).scan().ranges.size(), 4U);
 }
 
-TEST_P(SickScannerTest, OtherTelegramsArePassedOver) {
+TEST_P(SickScannerTest, OtherTelegramsAreSkipped) {
   start();
   fake_.answer(isBinary() ? bytesOf("sSN LMDscandatamon \0\x01") : "sSN LMDscandatamon 1");
   EXPECT_EQ(exchange(1, 1000000, 0.0).missed, 0U);
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_P(SickScannerTest, ScansOfAnOldConnectionArePassedOver) {
+TEST_P(SickScannerTest, ScansOfAnOldConnectionAreSkipped) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.command();
@@ -167,7 +167,7 @@ TEST_P(SickScannerTest, AnotherModelIsRefused) {
   EXPECT_EQ(probe_.faults.take(), "wrong_device");
 }
 
-TEST_P(SickScannerTest, AnErrorInPlaceOfAnAnswerIsReported) {
+TEST_P(SickScannerTest, AnErrorAnswerIsReported) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.command();
@@ -196,7 +196,7 @@ TEST_P(SickScannerTest, SilenceIsNoFaultWhileItWarmsUp) {
   EXPECT_EQ(probe_.faults.take(), "silent_device");
 }
 
-TEST_P(SickScannerTest, ADirtyWindowAndAnErrorAreReportedAndScansGoOn) {
+TEST_P(SickScannerTest, ADirtyWindowAndAnErrorAreReportedAndScansContinue) {
   start();
   SickTelegram telegram;
   telegram.state = 2;

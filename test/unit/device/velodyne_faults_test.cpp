@@ -12,7 +12,7 @@ using samples::VelodyneStream;
 
 using VelodyneFaultTest = samples::VelodyneLidarTest;
 
-TEST_F(VelodyneFaultTest, PacketsThatAreLostAreCountedAndTheirTurnGoesOn) {
+TEST_F(VelodyneFaultTest, LostPacketsAreCountedAndTheirTurnContinues) {
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 1.0);
   stream.skip(3);
@@ -39,7 +39,7 @@ TEST_F(VelodyneFaultTest, ATurnWithALongGapIsLeftOut) {
   EXPECT_EQ(points(turns[1]).size(), 900U * VelodyneModel::kChannels);
 }
 
-TEST_F(VelodyneFaultTest, PacketsThatOvertookEachOtherCostThemselvesAlone) {
+TEST_F(VelodyneFaultTest, ReorderedPacketsCostOnlyThemselves) {
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 3.0);
   std::swap(packets_[100].bytes, packets_[101].bytes);
@@ -62,7 +62,7 @@ TEST_F(VelodyneFaultTest, TheHourIsNoStep) {
   EXPECT_NEAR(secondsBetween(turns[0].stamp, turns[1].stamp), 900 * 110.592e-6, 2e-6);
 }
 
-TEST_F(VelodyneFaultTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
+TEST_F(VelodyneFaultTest, DriftAndAStepOfTheClockAreFollowed) {
   constexpr double kDrift = 1e-4;
   VelodyneSample sample;
   sample.distances = {0};
@@ -127,7 +127,7 @@ TEST_F(VelodyneFaultTest, AnotherModelIsRefusedUnlessItIsNamed) {
   EXPECT_GE(clouds().size(), 1U);
 }
 
-TEST_F(VelodyneFaultTest, ANamedModelIsHeldAgainstThePackets) {
+TEST_F(VelodyneFaultTest, ANamedModelIsCheckedAgainstThePackets) {
   options_.model = "HDL-32E";
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 1.0);

@@ -50,7 +50,7 @@ TEST_F(VelodyneLidarTest, TimesOfAllPointsAreThoseOfTheirAzimuth) {
   }
 }
 
-TEST_F(VelodyneLidarTest, TheSeamIsWhereItIsAskedFor) {
+TEST_F(VelodyneLidarTest, TheSeamIsAtTheRequestedBearing) {
   options_.seam = kPi / 2.0;  // to the left
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 3.0);

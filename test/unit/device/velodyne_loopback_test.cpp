@@ -41,7 +41,7 @@ class VelodyneLoopbackTest : public testing::Test {
   VelodyneStream stream_{VelodyneSample()};
 };
 
-TEST_F(VelodyneLoopbackTest, ALidarThatIsGoneAndBackIsServedAgain) {
+TEST_F(VelodyneLoopbackTest, ALidarThatReturnsIsServedAgain) {
   const int port = FakeLidar::freePort();
   const FakeLidar lidar(port);
   probe_.setup.timeout = 0.05;
@@ -59,7 +59,7 @@ TEST_F(VelodyneLoopbackTest, ALidarThatIsGoneAndBackIsServedAgain) {
   EXPECT_FALSE(cloudOf(probe_.measurements.take()).points.empty());
 }
 
-TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreNotTaken) {
+TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreIgnored) {
   const int port = FakeLidar::freePort();
   const FakeLidar lidar(port);
   probe_.setup.timeout = 0.05;
@@ -70,7 +70,7 @@ TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreNotTaken) {
   EXPECT_TRUE(probe_.devices.isEmpty());
 }
 
-TEST_F(VelodyneLoopbackTest, APortThatIsTakenIsReported) {
+TEST_F(VelodyneLoopbackTest, APortInUseIsReported) {
   const int port = FakeLidar::freePort();
   DeviceProbe first(DeviceKind::kVelodyne);
   first.setup.address = "";

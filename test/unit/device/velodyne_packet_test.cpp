@@ -84,7 +84,7 @@ TEST(VelodynePacketTest, APointIsWhereTheManualHasIt) {
   EXPECT_FLOAT_EQ(points[0].intensity, 77.0F);
 }
 
-TEST(VelodynePacketTest, LasersThatLookAsideAreTurned) {
+TEST(VelodynePacketTest, AzimuthOffsetsOfLasersAreApplied) {
   VelodyneSample sample;
   sample.product = kVlp32c;
   sample.azimuth = 9000;  // to the right
@@ -159,7 +159,7 @@ TEST(VelodynePacketTest, ReturnsOutOfRangeAreLeftOut) {
   EXPECT_EQ(pointsOf(sample, 0).size(), 8U);
 }
 
-TEST(VelodynePacketTest, WhatIsNoPacketIsRefused) {
+TEST(VelodynePacketTest, InvalidPacketsAreRefused) {
   const std::string good = VelodyneSample().bytes();
   EXPECT_EQ(reasonOf([&] { VelodynePacket packet(good); }), "none");
   for (std::size_t length : {0U, 512U, 1205U}) {
