@@ -44,7 +44,7 @@ std::size_t trackCount(const Frames& frames, Stamp stamp) {
   return 0;
 }
 
-TEST(BuildFrames, TruthIsBroughtToTheStampsOfTheTracks) {
+TEST(BuildFrames, TruthIsInterpolatedToTheStampsOfTheTracks) {
   const auto frames = framesOf({tracksAt(0.05, {}), tracksAt(0.15, {})}, drivingCar(0.2));
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_NEAR(frames[0].truths.at(0).box.center.x(), 10.5, 1e-9);
@@ -74,7 +74,7 @@ TEST(BuildFrames, WithoutOverlapThereIsNoFrame) {
   EXPECT_TRUE(framesOf({tracksAt(50.0, {})}, drivingCar()).empty());
 }
 
-TEST(BuildFrames, StandingTracksDoNotCountUnlessWanted) {
+TEST(BuildFrames, StationaryTracksDoNotCountByDefault) {
   RecordedTrack standing = movingTrackAt(7, 20.0);
   standing.moving = false;
   const Stamp stamp = Stamp::fromSeconds(1.0);
@@ -146,7 +146,7 @@ TrackState alignedTrack(TrackAlignment align) {
   return {};
 }
 
-TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
+TEST(BuildFrames, PoseAtStampRemovesTheDrift) {
   const TrackState track = alignedTrack(TrackAlignment::kPoseAtStamp);
   EXPECT_NEAR(track.box.center.x(), 10.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
@@ -163,7 +163,7 @@ TEST(BuildFrames, FirstPoseLeavesTheDriftIn) {
   EXPECT_NEAR(track.velocity.x(), 10.0, 1e-9);
 }
 
-TEST(BuildFrames, NoneTakesTheMapAsItIs) {
+TEST(BuildFrames, NoneLeavesTheMapUnchanged) {
   const TrackState track = alignedTrack(TrackAlignment::kNone);
   EXPECT_NEAR(track.box.center.x(), 0.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 13.0, 1e-9);

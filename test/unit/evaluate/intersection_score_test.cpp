@@ -45,7 +45,7 @@ TEST(ScoreIntersections, AFlickerIsOne) {
   EXPECT_EQ(score.wrong, 2U);  // 10 s to 13 s, and 15 s to 16 s
 }
 
-TEST(ScoreIntersections, ARunThatDoesNotLookHasNoCounts) {
+TEST(ScoreIntersections, ARunWithoutDetectionHasNoCounts) {
   const auto score = scoreIntersections(statesOf({{2, 4}}), std::nullopt, kMergeGap);
   EXPECT_EQ(score.intersections, 1U);
   EXPECT_FALSE(score.found);

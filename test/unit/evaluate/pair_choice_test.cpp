@@ -29,7 +29,7 @@ double bruteForce(const std::vector<PairGain>& pairs, std::size_t index, std::ve
 
 TEST(PairChoice, NothingToChooseFrom) { EXPECT_TRUE(choosePairs({}).empty()); }
 
-TEST(PairChoice, PairsThatShareNothingAreAllChosen) {
+TEST(PairChoice, DisjointPairsAreAllChosen) {
   EXPECT_EQ(choosePairs({{0, 7, 1.0}, {3, 2, 0.1}, {1, 0, 5.0}}), (Indices{0, 1, 2}));
 }
 

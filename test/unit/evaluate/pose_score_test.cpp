@@ -77,7 +77,7 @@ TEST(ScorePoses, AJumpIsFoundWhateverTheDriftBefore) {
   EXPECT_NEAR(score.largest_jump, 1.5 - 0.04, 1e-9);  // from 40 m, one second before
 }
 
-TEST(ScorePoses, ErrorsAreOfOneSizeWhereverTheVehicleHeads) {
+TEST(ScorePoses, ErrorsAreIndependentOfTheHeading) {
   // Always 1 m too far to the vehicle's left from 2 s on, while it turns around.
   const auto turning = [](double path_length) {
     return Pose2(path_length, 0.0, 0.05 * path_length);
@@ -104,7 +104,7 @@ TEST(ScorePoses, AnOldDriftIsNoJumpWhenTheVehicleTurns) {
   EXPECT_NEAR(score->largest_jump, 0.2, 1e-9);
 }
 
-TEST(ScorePoses, AStandingVehicleHasNoShareAndNoRelations) {
+TEST(ScorePoses, AStationaryVehicleHasNoShareAndNoRelations) {
   const auto standing = driveOf([](double) { return Pose2(); });
   const auto score = scorePoses(standing, standing);
   ASSERT_TRUE(score);

@@ -33,7 +33,7 @@ std::vector<StandingObject> scoreOf(const std::vector<TrackState>& tracks) {
   return scoreStandingObjects(frames, matchFrames(frames, options), scene, options);
 }
 
-TEST(ScoreStandingObjects, HoldsThoseThatCouldBeTakenForMovers) {
+TEST(ScoreStandingObjects, HoldsThoseThatCouldBeMistakenForMovers) {
   const auto objects = scoreOf({});
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].id, 2U);

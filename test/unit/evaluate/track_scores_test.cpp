@@ -52,7 +52,7 @@ void expectSame(const TrackScores& a, const TrackScores& b) {
 
 class RandomRuns : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(RandomRuns, TheSumsFitTogether) {
+TEST_P(RandomRuns, TheSumsAreConsistent) {
   const TrackScores scores = scoreTracks(randomRun(GetParam()), TrackScoreOptions());
   const ClearMot& clear_mot = scores.clear_mot;
   EXPECT_EQ(clear_mot.matches + clear_mot.misses, clear_mot.required);
