@@ -55,7 +55,7 @@ TEST(CrossCovarianceTest, OneStepIsByHand) {
   EXPECT_TRUE(cross.isApprox(identity * (0.25 * 1.5 * 0.5), 1e-9));
 }
 
-TEST(CrossCovarianceTest, IsThatOfTheGainsOfKalmanFilters) {
+TEST(CrossCovarianceTest, AgreesWithTheGainsOfKalmanFilters) {
   // The second one measures only in every other step, and less accurately; both turn.
   const LinearMotion motion = coordinatedTurn(0.4, TargetMotionOptions(), kStep);
   TrackState variance;
@@ -107,7 +107,7 @@ TEST(CrossCovarianceTest, AnEvenOneHasItsCorrelation) {
       evenCrossCovariance({identity * 4.0, identity * 9.0}, 0.5).isApprox(identity * 3.0, 1e-9));
 }
 
-TEST(CrossCovarianceTest, TheJointCovarianceIsPositiveWhateverComesIn) {
+TEST(CrossCovarianceTest, TheJointCovarianceIsAlwaysPositive) {
   Random random(3);
   constexpr double kLimit = 0.95;
   const LinearMotion motion = coordinatedTurn(0.4, TargetMotionOptions(), kStep);
@@ -122,7 +122,7 @@ TEST(CrossCovarianceTest, TheJointCovarianceIsPositiveWhateverComesIn) {
   }
 }
 
-TEST(CrossCovarianceTest, ErrorsThatGrowAreNotPassedOn) {
+TEST(CrossCovarianceTest, GrowingErrorsAreNotPropagated) {
   // An IMM filter's covariance jumps up as another mode gains weight.
   const TrackCovariance identity = TrackCovariance::Identity();
   const CovariancePair before{identity, identity};

@@ -43,14 +43,14 @@ TEST(LocalPlane, ThereAndBack) {
   }
 }
 
-TEST(LocalPlane, WhatIsNotOnTheEarth) {
+TEST(LocalPlane, PositionsOffTheEarth) {
   EXPECT_TRUE(isValid({0.8, 0.1, 200.0}));
   EXPECT_FALSE(isValid({1.6, 0.1, 200.0}));
   EXPECT_FALSE(isValid({std::nan(""), 0.1, 200.0}));
   EXPECT_FALSE(isValid({0.8, 0.1, 1e7}));
 }
 
-TEST(EarthFrameFilter, KnowsNothingWhileItStands) {
+TEST(EarthFrameFilter, IsUnknownAtRest) {
   EarthFrameFilter filter{EarthFrameOptions()};
   EarthFix fix;
   for (int i = 0; i < 1000; ++i) {
@@ -101,7 +101,7 @@ TEST(EarthFrameFilter, FixFarOffIsLeftOut) {
       3.0);
 }
 
-TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
+TEST(EarthFrameFilter, LossOfAllDigitsStartsItOver) {
   for (const double far : {1e9, 1e150, 1e300}) {
     Drive drive(3, 0.5, EarthFrameOptions());
     EarthFrameFilter filter{EarthFrameOptions()};
@@ -119,7 +119,7 @@ TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
 }
 
 // 4 s without a fix, 40 m of drift: the reported uncertainty of the map grows by it.
-TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
+TEST(EarthFrameFilter, AccountsForTheMapsDriftInAnOutage) {
   const EarthFrameOptions options;
   double nees = 0.0;
   double nees_of_last = 0.0;
@@ -145,7 +145,7 @@ TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
 }
 
 // The traveled distance counts, not the distance from the last fix.
-TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
+TEST(EarthFrameFilter, ALoopWithoutFixesCountsAsDistance) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);
@@ -176,7 +176,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   EXPECT_GT(filter.mapInPlane()->covariance(2, 2), by_straight_line.mapInPlane()->covariance(2, 2));
 }
 
-TEST(EarthFrameFilter, APoseThatTremblesIsNoDrive) {
+TEST(EarthFrameFilter, AJitteringPoseIsNoDistance) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);

@@ -81,7 +81,7 @@ TEST(EarthFrameFilter, FixThatIsLeftOutAtTheStartIsCounted) {
   EXPECT_EQ(filter.counts().used, 59U);
 }
 
-TEST(ConsistentPairs, PairsThatBendTheFitToThemselvesAreFound) {
+TEST(ConsistentPairs, PairsThatPullTheFitAreDetected) {
   std::vector<PointPair> pairs;
   const Pose2 motion(4e5, -3e5, 2.0);
   for (int i = 0; i < 12; ++i) {
@@ -99,7 +99,7 @@ TEST(ConsistentPairs, PairsThatBendTheFitToThemselvesAreFound) {
   EXPECT_LT(found.variance_factor, 1e-3);
 }
 
-TEST(ConsistentPairs, FewAreTakenAsTheyAre) {
+TEST(ConsistentPairs, FewFixesAreNotFiltered) {
   EXPECT_EQ(consistentPairs({}, 13.8).count, 0U);
   EXPECT_EQ(consistentPairs({PointPair(), PointPair()}, 13.8).count, 2U);
 }

@@ -33,7 +33,7 @@ TEST(FusedIdTest, TheIdStaysWhileOneSensorLosesTheObjectAndFindsItAgain) {
   EXPECT_EQ(ids.size(), 1U);
 }
 
-TEST(FusedIdTest, WhereTracksPartTheIdGoesWithTheOneThatItHadForLongest) {
+TEST(FusedIdTest, WhenTracksPartTheLongestMemberKeepsTheId) {
   // The camera tracks a cyclist all the time; the scanner's second track of him ends up on a car.
   TrackFuser fuser{TrackFuserOptions()};
   std::uint32_t with_camera = 0;
@@ -57,7 +57,7 @@ TEST(FusedIdTest, WhereTracksPartTheIdGoesWithTheOneThatItHadForLongest) {
   EXPECT_EQ(with_camera, at_first);
 }
 
-TEST(FusedIdTest, WhatAllLoseForAMomentIsKnownAgain) {
+TEST(FusedIdTest, AnObjectBrieflyLostByAllKeepsItsId) {
   TrackFuserOptions options;
   options.memory = 1.5;
   const auto idsAcross = [&](double gap) {

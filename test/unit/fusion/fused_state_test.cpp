@@ -62,7 +62,7 @@ TEST(FusedStateTest, AMixtureCoversBothOfTwoThatContradictEachOther) {
   EXPECT_TRUE(isPositive(mixture.covariance));
 }
 
-TEST(FusedStateTest, AMixtureOfThreeIsThatOfAllWhateverTheirOrder) {
+TEST(FusedStateTest, AMixtureOfThreeIsIndependentOfTheirOrder) {
   // Mean (0 + 0 + 6) / 3, variance (1 + 2 + 3) / 3 + (4 + 4 + 16) / 3.
   std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(0.0, 2.0),
                                     estimateAt(6.0, 3.0)};
@@ -75,7 +75,7 @@ TEST(FusedStateTest, AMixtureOfThreeIsThatOfAllWhateverTheirOrder) {
   }
 }
 
-TEST(FusedStateTest, OfThreeTheThirdIsFusedWithWhatTheOthersAreTogether) {
+TEST(FusedStateTest, TheThirdOfThreeIsFusedWithTheResultOfTheOthers) {
   const std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(6.0, 3.0),
                                           estimateAt(3.0, 2.0)};
   TrackCombinationOptions options;
@@ -109,7 +109,7 @@ TEST(FusedStateTest, IntersectionOfEqualCovariancesIsTheMean) {
   EXPECT_TRUE(fused.covariance.isApprox(a.covariance, 1e-9));
 }
 
-TEST(FusedStateTest, IntersectionTakesOfEachWhatItKnowsBetter) {
+TEST(FusedStateTest, IntersectionUsesTheBetterPartOfEach) {
   // One knows x and its derivatives well, the other y. By symmetry the weight is one half.
   StateEstimate a = estimateAt(0.0, 1.0);
   StateEstimate b = estimateAt(1.0, 1.0);
@@ -143,7 +143,7 @@ TEST(FusedStateTest, IntersectionHasTheLeastDeterminant) {
   }
 }
 
-TEST(FusedStateTest, IntersectionIgnoresWhatHasNoNewInformation) {
+TEST(FusedStateTest, IntersectionIgnoresEstimatesWithoutNewInformation) {
   const StateEstimate sure = estimateAt(0.0, 1.0);
   const StateEstimate fused = fusedBy(kIntersection, sure, estimateAt(1.0, 4.0));
   EXPECT_NEAR(fused.covariance(0, 0), 1.0, kMinWeight);
@@ -178,7 +178,7 @@ TEST(FusedStateTest, OrderDoesNotMatter) {
   }
 }
 
-TEST(FusedStateTest, TurnedEstimatesAreTheFusedOneTurned) {
+TEST(FusedStateTest, FusionIsRotationInvariant) {
   Random random(4);
   const TrackCovariance turn = stateRotation(0.7);
   for (int i = 0; i < 100; ++i) {
@@ -251,7 +251,7 @@ TEST(FusedStateTest, NearlySingularEstimatesAreFused) {
   }
 }
 
-TEST(FusedStateTest, HowMuchOfTheSecondOneIsNewsIsByTheMethod) {
+TEST(FusedStateTest, TheMethodDecidesTheSecondOnesNewInformation) {
   // For equally good ones: half the variance, (1 + correlation) / 2 of it, all of it.
   Random random(7);
   const StateEstimate a = randomEstimate(random);

@@ -25,7 +25,7 @@ Track far(const std::string& source, double speed, double existence = 0.9, std::
   return track;
 }
 
-TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
+TEST(FusedTargetsTest, TheIdIsKeptWhicheverSourceLosesAJustFusedObject) {
   // Each has its own target of it until the scanner's track approaches the camera's at 1 s, and the
   // scanner loses it while the camera's old target is not deleted yet.
   TrackFuser fuser{TrackFuserOptions()};
@@ -42,7 +42,7 @@ TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
   }
 }
 
-TEST(FusedTargetsTest, WhatTheSpeedSaysOfTheClassCountsOnce) {
+TEST(FusedTargetsTest, SpeedAsEvidenceOfTheClassCountsOnce) {
   TrackFuser fuser{TrackFuserOptions()};
   const auto moving = [](double x, const std::string& source) {
     Track track = carTrack(x, 0.0, 7.0, 0.0, source, 5);
@@ -68,7 +68,7 @@ TEST(FusedTargetsTest, WhatTheSpeedSaysOfTheClassCountsOnce) {
   }
 }
 
-TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
+TEST(FusedTargetsTest, TheCamerasClassIsKeptWhenTheScannerAloneTracksIt) {
   TrackFuserOptions options;
   options.sources["lidar"].class_by_speed = false;
   options.sources["stereo"].class_by_speed = false;
@@ -94,7 +94,7 @@ TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
   }
 }
 
-TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
+TEST(FusedTargetsTest, ReacquiredObjectsAreMatchedByTheirUnmodifiedCovariance) {
   // The uncertainty of the body's center between sensors is in the covariance of both already:
   // counted twice, it would merge the two, which must stay two.
   const TrackFuserOptions options;
@@ -126,7 +126,7 @@ TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
   EXPECT_GT(borderline, 0) << "or this shows nothing";
 }
 
-TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
+TEST(FusedTargetsTest, UnpublishedTracksHideNothing) {
   // Of the camera alone, and therefore not in the thesis's list, however certain it is.
   TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));
   const auto result = fuser.fuse(
@@ -135,7 +135,7 @@ TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
   EXPECT_EQ(result.list.tracks[0].sources[0].source, "lidar");
 }
 
-TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
+TEST(FusedTargetsTest, AConfirmedOneOfLowExistenceHidesNothing) {
   TrackFuser fuser(withScheme(TrackScheme::kUnion));
   EXPECT_EQ(idsOf(fuser.fuse(at(0.0),
                              {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", 9.0)})})),
@@ -185,7 +185,7 @@ double secondsHidden(double needed, TrackScheme scheme) {
   return 0.1 * hidden;
 }
 
-TEST(FusedTargetsTest, WhatComesIntoAnothersViewIsNotHiddenUntilThatConfirmsIt) {
+TEST(FusedTargetsTest, ATrackEnteringAnothersViewStaysPublishedUntilConfirmed) {
   for (const TrackScheme scheme : {TrackScheme::kByExistence, TrackScheme::kFusedPlusFallback}) {
     EXPECT_EQ(secondsHidden(0.2, scheme), 0.0);
     EXPECT_EQ(secondsHidden(1.0, scheme), 0.0);
@@ -203,7 +203,7 @@ TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
   EXPECT_NEAR(result.list.tracks[0].age, 30.0, 1e-6);
 }
 
-TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
+TEST(FusedTargetsTest, TheMostCertainSourceIsCountedOnce) {
   TrackFuserOptions options;
   for (auto& [name, source] : options.sources) {
     constexpr double kFar = 300.0;  // m

@@ -59,7 +59,7 @@ TEST(GridMotionTest, NoMotionIsTheIdentity) {
   EXPECT_EQ(moved.stamp(), Stamp{2});
 }
 
-TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardIt) {
+TEST(GridMotionTest, StationaryCellsApproachWhenTheVehicleDrivesTowardThem) {
   SensorGrid grid = allFree();
   grid.at({10, 3}) = kOccupied;
   // 2 m ahead: the old frame is 2 m behind.
@@ -110,7 +110,7 @@ TEST(GridMotionTest, ThereAndBackOccupiedCellsStayWithinACell) {
   }
 }
 
-TEST(GridMotionTest, NothingFreeIsLeftWhereAMoverMayHaveCome) {
+TEST(GridMotionTest, CellsThatAMoverMayHaveReachedAreNotFree) {
   SensorGrid grid = allFree();
   grid.at({2, 3}) = kOccupied;
   grid.at({3, 3}) = 60;
@@ -136,7 +136,7 @@ TEST(GridMotionTest, AMarginLargerThanTheGridLeavesNothingFree) {
   }
 }
 
-TEST(GridMotionTest, AMotionOutOfTheWindowLeavesNothingKnown) {
+TEST(GridMotionTest, AMotionOutOfTheWindowLeavesAllUnknown) {
   for (const Pose2& motion : {Pose2(1e3, 0.0, 0.3), Pose2(0.0, -1e12, 0.0)}) {
     const SensorGrid moved = movedGrid(allFree(), Stamp{2}, motion, 0.0);
     for (const Percent percent : moved.cells()) {

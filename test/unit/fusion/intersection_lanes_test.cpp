@@ -32,7 +32,7 @@ TEST(ApproachLanes, NodesAreStepsFromTheReferencePoint) {
   EXPECT_NEAR((found.lanes[1].points[1] - Point2(25.0, 33.0)).norm(), 0.0, 1e-6);
 }
 
-TEST(ApproachLanes, APlaceOnTheEarthIsANodeToo) {
+TEST(ApproachLanes, APositionOnTheEarthIsANodeToo) {
   MapIntersection intersection = samples::mapem().intersections[0];
   intersection.lanes.resize(1);
   intersection.lanes[0].nodes = {{true, 57200000, 451900000}, {true, 57200000, 451910000}};
@@ -42,7 +42,7 @@ TEST(ApproachLanes, APlaceOnTheEarthIsANodeToo) {
   EXPECT_NEAR(found.lanes[0].points[1].y(), 111.13, 0.1);
 }
 
-TEST(ApproachLanes, LanesThatVehiclesDoNotComeOnAndThoseThatCannotBeUsedAreLeftOut) {
+TEST(ApproachLanes, NonVehicleAndUnusableLanesAreLeftOut) {
   MapIntersection intersection = samples::mapem().intersections[0];
   intersection.lanes[0].direction = MapLane::kEgress;
   intersection.lanes[1].computed->is_changed = true;

@@ -56,7 +56,7 @@ TEST(ObjectAssociationTest, SidesAreComparedThatBothSaw) {
   EXPECT_FALSE(pairing(part, whole, exact()).possible);
 }
 
-TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
+TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsUnknown) {
   ObjectAssociationOptions options = exact();
   options.unknown_size_std = 1.0;
   // One end of a bus each, 3 m apart.
@@ -95,7 +95,7 @@ TEST(ObjectAssociationTest, PairingIsSymmetric) {
   EXPECT_NEAR(pairing(a, b, options).score, pairing(b, a, options).score, 1e-9);
 }
 
-TEST(ObjectAssociationTest, WhatMovesMayBeElsewhereAtAnotherTime) {
+TEST(ObjectAssociationTest, MovingObjectsMayBeElsewhereAtAnotherTime) {
   const Object a = pointObject(10.0, 0.0, 0.05);
   Object b = pointObject(11.0, 0.0, 0.05, "stereo");
   EXPECT_FALSE(pairing(a, b, exact()).possible);

@@ -49,7 +49,7 @@ TEST(ObjectCombinationTest, RangeOfTheOneAndBearingOfTheOtherMeet) {
   EXPECT_LT(fused.position_covariance(1, 1), 0.01);
 }
 
-TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
+TEST(ObjectCombinationTest, ASideSeenByOneIsAsThatOneSawIt) {
   // The rear and the left of a car of 4 m x 2 m at 10 m; the other sees rear, left and right.
   Object lidar = boxObject(10.5, 0.5, 1.0, 1.0, 0.0004);
   hide(lidar, BoxSide::kFront);
@@ -77,7 +77,7 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   EXPECT_NEAR(box.length, 1.9, 1e-6);
 }
 
-TEST(ObjectCombinationTest, ASideThatNobodySawStaysHidden) {
+TEST(ObjectCombinationTest, AnUnseenSideStaysHidden) {
   Object lidar = pointObject(10.0, 0.0, 0.05);
   for (const BoxSide side : {BoxSide::kFront, BoxSide::kLeft, BoxSide::kRight}) {
     hide(lidar, side);
@@ -114,7 +114,7 @@ TEST(ObjectCombinationTest, TheLengthIsAlongTheAxisOnWhichBothAgree) {
   EXPECT_NEAR(fused.box.center.heading(), 0.0, 1e-6);
 }
 
-TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
+TEST(ObjectCombinationTest, HeadingsAreFusedByTheirInformation) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
   b.box.center = Pose2(10.0, 0.0, 0.2);
@@ -163,7 +163,7 @@ TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kLeft)]));
 }
 
-TEST(ObjectCombinationTest, TheSurerOneDecidesTheDirection) {
+TEST(ObjectCombinationTest, TheMoreCertainOneDecidesTheDirection) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
   b.box.center = Pose2(10.0, 0.0, kPi);
@@ -241,7 +241,7 @@ TEST(ObjectCombinationTest, VelocitiesAreFusedByTheirInformation) {
   EXPECT_NEAR(fused.velocity->covariance(0, 0), 0.75, 1e-12);
 }
 
-TEST(ObjectCombinationTest, WhatTheRoadSaysCountsOnce) {
+TEST(ObjectCombinationTest, EvidenceOfTheRoadCountsOnce) {
   Object a = pointObject(10.0, 2.0, 0.1);
   Object b = pointObject(10.0, 2.0, 0.1, "stereo");
   a.motion_log_odds = -2.0;
@@ -286,7 +286,7 @@ TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
   EXPECT_EQ(combined(fused, a).sensors, fused.sensors);
 }
 
-TEST(ObjectCombinationTest, PointsAreThoseOfWhoeverKnowsThePositionBest) {
+TEST(ObjectCombinationTest, PointsAreThoseOfTheMostAccurateSource) {
   Object camera = pointObject(10.0, 0.0, 0.5, "stereo");
   Object scanner = pointObject(10.0, 0.0, 0.1, "lidar");
   camera.points = {{9.0, 0.1}, {11.0, 0.0}};

@@ -59,7 +59,7 @@ struct SidesCase {
                     ///< common
 };
 
-TEST(ObjectConsistencyTest, CovariancesAreHonest) {
+TEST(ObjectConsistencyTest, CovariancesAreConsistent) {
   constexpr int kRuns = 5000;
   // Mean of 5000 values of chi-square with two degrees of freedom: 2 +- 3.3 * 2 / sqrt(5000).
   constexpr double kBound = 0.094;

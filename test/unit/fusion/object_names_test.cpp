@@ -29,7 +29,7 @@ ObjectFusionResult fuseNames(std::vector<Object> seen, std::vector<Object> names
       {received("lidar", std::move(seen)), received("mono", std::move(names))}, scan);
 }
 
-TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
+TEST(ObjectNames, ANameAddsOnlyAClass) {
   Object seen = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
   hide(seen, BoxSide::kFront);
   seen.moving_fraction = 0.25;
@@ -48,7 +48,7 @@ TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
   EXPECT_EQ(object.side_variance, expected.side_variance);
 }
 
-TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
+TEST(ObjectNames, AClassWithoutItsObjectIsNoObject) {
   const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
   const ObjectFusionResult left_out = fuseNames({}, {nameOfVehicle(gone)});
   EXPECT_TRUE(left_out.list.objects.empty());
@@ -84,7 +84,7 @@ TEST(ObjectNames, ARadarUnderAnotherNameSeesObjects) {
   EXPECT_TRUE(both.list.objects[0].velocity);
 }
 
-TEST(ObjectNames, ASensorThatIsNoOthersSeesObjects) {
+TEST(ObjectNames, AnIndependentSensorSeesObjects) {
   Object object = pointObject(15.0, 4.0, 0.3, "far_camera");
   object.side_variance.fill(kHiddenSide);
   EXPECT_EQ(fuseFrontRadar({}, {object}).list.objects.size(), 1U);

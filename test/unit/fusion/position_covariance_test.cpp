@@ -41,7 +41,7 @@ TEST(PositionCovarianceTest, TheBinIsThatOfTheRangeFromTheSensor) {
   EXPECT_NEAR(options.at({3.1, 0.0}, sensor)(1, 1), 0.002 * 2.1 * 2.1, 1e-12);
 }
 
-TEST(PositionCovarianceTest, BeyondTheLastBinItsVariancesHold) {
+TEST(PositionCovarianceTest, BeyondTheLastBinItsVariancesApply) {
   const Eigen::Matrix2d far = table().at({100.0, 0.0}, Point2::Zero());
   EXPECT_NEAR(far(0, 0), 0.09, 1e-12);
   EXPECT_NEAR(far(1, 1), 0.003 * 1e4, 1e-9);

@@ -68,7 +68,7 @@ TEST_F(SignalAdviceTest, YellowPassesOnlyWhereItCannotStop) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalAdviceTest, ASpeedThatIsNotKnownWellCountsAtTheArrival) {
+TEST_F(SignalAdviceTest, SpeedUncertaintyCountsForTheArrival) {
   show({event(SignalState::kProtected, 12.0, 20.0)});
   host_.speed_sigma = 0.5;  // 9 m/s to 11 m/s: up to 11.2 s and the margin
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
@@ -78,7 +78,7 @@ TEST_F(SignalAdviceTest, ASpeedThatIsNotKnownWellCountsAtTheArrival) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalAdviceTest, BothLanesCountWhereThePlaceIsNotKnownWellEnough) {
+TEST_F(SignalAdviceTest, BothLanesCountIfThePositionIsUncertain) {
   show({event(SignalState::kProtected, 30.0, 30.0)});
   show({event(SignalState::kStop, 30.0, 30.0)}, 4);
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
@@ -97,7 +97,7 @@ TEST_F(SignalAdviceTest, BothLanesCountWhereThePlaceIsNotKnownWellEnough) {
   EXPECT_EQ(advise()->reason, "position_uncertain");
 }
 
-TEST_F(SignalAdviceTest, GroupsOfOneLaneThatDifferAreNotKnown) {
+TEST_F(SignalAdviceTest, GroupsOfOneLaneThatDifferGiveNoVerdict) {
   lanes_[0].groups = {3, 4};
   show({event(SignalState::kProtected, 30.0, 30.0)});
   show({event(SignalState::kStop, 30.0, 30.0)}, 4);
@@ -124,7 +124,7 @@ TEST_F(SignalAdviceTest, OffTheLanesThereIsNoAdvice) {
   EXPECT_FALSE(advise());
 }
 
-TEST_F(SignalAdviceTest, LightsThatAreOldOffOrNotThereSayNothing) {
+TEST_F(SignalAdviceTest, OldDisabledOrMissingLightsGiveNoAdvice) {
   show({event(SignalState::kProtected, 30.0, 30.0)});
   const IntersectionSignals good = *signals_;
   signals_->stamp = host_.stamp + -2.1;
@@ -183,7 +183,7 @@ struct Cycle {
 
 /// Approaches at constant speed with each offset of the cycle: the advice is what is then observed,
 /// from the first time at which there is advice.
-TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthTheAdviceHolds) {
+TEST_F(SignalAdviceTest, OnSimulatedApproachesTheAdviceIsCorrect) {
   int said = 0;
   int passes = 0;
   int not_said = 0;

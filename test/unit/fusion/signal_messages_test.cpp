@@ -63,7 +63,7 @@ TEST(Mapem, ItsBitsAreThoseOfTheStandard) {
   EXPECT_EQ(intersection.lanes[1].computed->y, 3500);
 }
 
-TEST(Spatem, WhatIsNotReadIsPassedOver) {
+TEST(Spatem, UnreadFieldsAreSkipped) {
   const WireBits bits = samples::spatemWithAll();
   const std::size_t size = bits.size();
   const Spatem message = decodeSpatem(bits.bytes());
@@ -77,7 +77,7 @@ TEST(Spatem, WhatIsNotReadIsPassedOver) {
             "truncated_message");
 }
 
-TEST(Mapem, WhatIsNotReadIsPassedOver) {
+TEST(Mapem, UnreadFieldsAreSkipped) {
   const WireBits bits = samples::mapemWithAll();
   const Mapem message = decodeMapem(bits.bytes());
   ASSERT_EQ(message.intersections.size(), 1U);

@@ -11,7 +11,7 @@ namespace {
 
 using samples::refusalOf;
 
-TEST(SignalMessages, EveryPartOfOneIsRefused) {
+TEST(SignalMessages, EveryTruncationIsRefused) {
   const std::string spatem = samples::wireSpatem().bytes();
   for (std::size_t size = 0; size < spatem.size(); ++size) {
     EXPECT_EQ(refusalOf([&] { decodeSpatem(spatem.substr(0, size)); }), "truncated_message");
@@ -51,7 +51,7 @@ Mapem randomMapem(std::mt19937& random) {
   return message;
 }
 
-TEST(SignalMessages, WhatIsWrittenIsRead) {
+TEST(SignalMessages, WrittenMessagesAreRead) {
   std::mt19937 random(11);
   for (int i = 0; i < 300; ++i) {
     const Mapem message = randomMapem(random);

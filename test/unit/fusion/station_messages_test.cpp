@@ -64,7 +64,7 @@ TEST(StationOfCam, IsATrackOfItself) {
   EXPECT_NEAR(std::sqrt(track.covariance(3, 3)), 0.5 / 1.96, 1e-9);  // no more certain than along
 }
 
-TEST(StationOfCam, IsLessSureAcrossTheFasterItIs) {
+TEST(StationOfCam, LateralUncertaintyGrowsWithSpeed) {
   Cam cam = camOfWire();
   cam.speed.value = 4000;
   EXPECT_NEAR(std::sqrt(trackOf(cam).covariance(3, 3)), 40.0 * degrees(1.0) / 1.96, 1e-9);
@@ -160,7 +160,7 @@ TEST(StationOfCam, WithoutPositionIsRefused) {
   EXPECT_EQ(reasonOf(samples::wireCamHead(0, 15).add(0b0100, 4).bytes()), "no_track");
 }
 
-TEST(StationOfCpm, HasWhatItPerceives) {
+TEST(StationOfCpm, HasItsPerceivedObjects) {
   const StationMessage message =
       decodeStation(samples::wireCpm().bytes(), samples::kWireNoon, kOptions);
   EXPECT_EQ(message.list.stamp, samples::kWireNoon);
@@ -189,7 +189,7 @@ TEST(StationOfCpm, HasWhatItPerceives) {
               1e-9);
 }
 
-TEST(StationOfCpm, LeavesOutWhatHasNoNumberOrPlace) {
+TEST(StationOfCpm, LeavesOutObjectsWithoutIdOrPosition) {
   Cpm cpm = decodeCpm(samples::wireCpm().bytes(), ItsDictionary::k221);
   cpm.objects.resize(4, cpm.objects[0]);
   cpm.objects[1].id.reset();

@@ -76,7 +76,7 @@ class ThreeSourcesTest : public ::testing::TestWithParam<TrackCombinationMethod>
   TrackFuserOptions options_ = withThree(GetParam());
 };
 
-TEST_P(ThreeSourcesTest, WhatTheyAreTogetherDoesNotDependOnTheirOrderNorTheirNames) {
+TEST_P(ThreeSourcesTest, FusionDoesNotDependOnTheirOrderNorTheirNames) {
   for (const double last_speed : {5.0, 0.0}) {  // it agrees with the others, and contradicts them
     const Track expected =
         afterTwoSeconds(options_, {"lidar", "radar", "stereo"}, {0, 1, 2}, last_speed);
@@ -98,7 +98,7 @@ TEST_P(ThreeSourcesTest, WhereOneContradictsTheOthersEachIsAsLikely) {
   EXPECT_NEAR(together.covariance(2, 2), 50.0 / 9.0 + 0.175, 1e-6);
 }
 
-TEST_P(ThreeSourcesTest, ThreeAreNoLessSureThanTwo) {
+TEST_P(ThreeSourcesTest, ThreeAreNoLessCertainThanTwo) {
   const Track three = afterTwoSeconds(options_, {"lidar", "radar", "stereo"}, {0, 1, 2}, 5.0);
   TrackFuser fuser(options_);
   Track two;

@@ -34,7 +34,7 @@ bool areOne(const TrackAssociationOptions& options, double seconds, double offse
   return groups == 1;
 }
 
-TEST(TrackAssociationTest, WhatAgreesIsOneAndAllElseStaysByItself) {
+TEST(TrackAssociationTest, TracksThatAgreeAreOneAndAllOthersStaySeparate) {
   TrackAssociation association({});
   const std::vector<TrackGroup> groups =
       association.associate(at(0.0), {lidar({of(0.0, 0.0, 10.0, 4), of(40.0, 0.0, 10.0, 2)}),
@@ -67,7 +67,7 @@ TEST(TrackAssociationTest, TheLikeliestOfAllPairingsNotTheNearestFirst) {
   EXPECT_EQ(groups[1][1].track, 1U);
 }
 
-TEST(TrackAssociationTest, WhatIsNotSureTakesTime) {
+TEST(TrackAssociationTest, AmbiguousPairsTakeTime) {
   // Always 1.5 m apart: at first the evidence is not sufficient, after half a second it is.
   TrackAssociationOptions options;
   options.required = 12.0;
@@ -82,12 +82,12 @@ TEST(TrackAssociationTest, TheParallelTestDoesNotWait) {
   EXPECT_FALSE(areOne(options, 0.0, 4.5, 0.0));
 }
 
-TEST(TrackAssociationTest, WhatDriftsApartPartsAgain) {
+TEST(TrackAssociationTest, TracksThatDriftApartAreSeparatedAgain) {
   EXPECT_TRUE(areOne({}, 1.0, 0.0, 0.0));
   EXPECT_FALSE(areOne({}, 5.0, 0.0, 2.0));
 }
 
-TEST(TrackAssociationTest, ThoseWhoWereOneAreFaithful) {
+TEST(TrackAssociationTest, AssociatedPairsAreKept) {
   // A new track is nearer for a moment than the one that was associated all the time.
   TrackAssociation association({});
   for (int i = 0; i < 20; ++i) {
@@ -119,7 +119,7 @@ TEST(TrackAssociationTest, PredictedTracksAreNoNewEvidence) {
   EXPECT_EQ(steps(false), 2U);
 }
 
-TEST(TrackAssociationTest, AThirdSourceJoinsWhatAgreesWithBoth) {
+TEST(TrackAssociationTest, AThirdSourceJoinsAPairThatItAgreesWith) {
   TrackAssociation association({});
   const PresentTracks radar{2, true, {of(0.4, 0.0, 10.0, 5)}};
   const std::vector<TrackGroup> groups = association.associate(
@@ -128,7 +128,7 @@ TEST(TrackAssociationTest, AThirdSourceJoinsWhatAgreesWithBoth) {
   EXPECT_EQ(groups[0].size(), 3U);
 }
 
-TEST(TrackAssociationTest, WhatIsForgottenHasToAgreeAgain) {
+TEST(TrackAssociationTest, ForgottenPairsHaveToAgreeAgain) {
   TrackAssociationOptions options;
   options.required = 12.0;
   TrackAssociation association(options);

@@ -34,7 +34,7 @@ double fusedHeading(const Track& a, const Track& b) {
   return heading;
 }
 
-TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
+TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxFollowsIt) {
   const Track fused = combined({lidarCar(), stereoCar()});
   EXPECT_NEAR(fused.state[0], 10.2, 1e-9);
   EXPECT_NEAR(fused.state[2], 5.1, 1e-9);
@@ -64,7 +64,7 @@ TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
   EXPECT_NEAR(combined({a, b}).heading_variance, 0.012, 1e-9);
 }
 
-TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
+TEST(TrackCombinationTest, OfContradictoryHeadingsTheMoreCertainOneIsKept) {
   const Track a = lidarCar();
   Track b = stereoCar();
   b.heading_variance = 0.02;
@@ -74,7 +74,7 @@ TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
   EXPECT_NEAR(fusedHeading(a, b), 1.0, 1e-9);
 }
 
-TEST(TrackCombinationTest, TheFrontIsWhereTheMotionSays) {
+TEST(TrackCombinationTest, TheFrontIsInTheDirectionOfMotion) {
   Track a = lidarCar();
   Track b = stereoCar();
   turnTo(b, kPi);
@@ -88,7 +88,7 @@ TEST(TrackCombinationTest, TheFrontIsWhereTheMotionSays) {
   EXPECT_NEAR(std::cos(fusedHeading(a, b)), -1.0, 1e-9);  // of the surer one
 }
 
-TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
+TEST(TrackCombinationTest, TheSizeIsThatOfTheMoreCertainCenter) {
   // The lidar sees the rear: it knows the width, but not where the center is along the car.
   Track a = lidarCar();
   a.box.length = 3.0;
@@ -202,7 +202,7 @@ TEST(TrackCombinationTest, OfThreeEachCountsAsMuchAsTheOthers) {
   }
 }
 
-TEST(TrackCombinationTest, OfThreeHeadingsOneThatContradictsTheSurestHasNoSay) {
+TEST(TrackCombinationTest, OfThreeHeadingsTheOneThatContradictsTheBestIsIgnored) {
   Track surest = lidarCar();
   surest.heading_variance = 0.005;
   Track near = stereoCar();

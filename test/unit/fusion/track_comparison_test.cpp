@@ -57,7 +57,7 @@ TEST(TrackComparisonTest, SensorsMayDifferAlongABodyMoreThanAcross) {
   EXPECT_NEAR(across, 1.0 / (0.08 + 2.0 * (0.2025 + 0.09)), kRounding);
 }
 
-TEST(TrackComparisonTest, IsSymmetricAndDoesNotHangOnTheAxes) {
+TEST(TrackComparisonTest, IsSymmetricAndDoesNotDependOnTheAxes) {
   const TrackComparisonOptions options;
   const Track a = carTrack(10.0, 0.0, 5.0, 1.0);
   const Track b = carTrack(10.8, 0.5, 4.0, 0.5, "stereo");
@@ -76,7 +76,7 @@ TEST(TrackComparisonTest, IsSymmetricAndDoesNotHangOnTheAxes) {
               kRounding);
 }
 
-TEST(TrackComparisonTest, OneClassSpeaksForOneObjectAndTwoAgainst) {
+TEST(TrackComparisonTest, EqualClassesSupportOneObjectAndDifferentOnesDoNot) {
   const auto of = [](ObjectClass object_class) {
     Track track = carTrack(10.0, 0.0, 1.5, 0.0);
     track.class_probabilities.fill(0.05);
@@ -99,7 +99,7 @@ TEST(TrackComparisonTest, OneClassSpeaksForOneObjectAndTwoAgainst) {
   EXPECT_NEAR(ratio(classless, person), nothing_known, kRounding);
 }
 
-TEST(TrackComparisonTest, WhatIsFarApartIsNotLookedAtAnyCloser) {
+TEST(TrackComparisonTest, DistantTracksAreNotEvaluatedFurther) {
   const TrackComparison far =
       compare(carTrack(0.0, 0.0, 5.0, 0.0), carTrack(80.0, 0.0, 5.0, 0.0), {});
   EXPECT_EQ(far.squared_distance, std::numeric_limits<double>::infinity());
@@ -128,7 +128,7 @@ TEST(ParallelTracksTest, MeansOverTheCommonHistoryDecide) {
       areParallel(a, withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0, 0.4), options));
 }
 
-TEST(ParallelTracksTest, WhatGoesTheOtherWayIsNotParallel) {
+TEST(ParallelTracksTest, OppositeDirectionsAreNotParallel) {
   const Track a = withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0);
   EXPECT_FALSE(areParallel(a, withHistory(carTrack(20.0, 0.0, -10.0, 0.0), 2.0, 20, 0.0, kPi), {}));
 }
@@ -148,7 +148,7 @@ TEST(ParallelTracksTest, OtherTimesAreInterpolatedAndTheShorterHistoryCounts) {
   EXPECT_FALSE(areParallel(a, wild, {}));
 }
 
-TEST(ParallelTracksTest, WithoutHistoryThePresentCounts) {
+TEST(ParallelTracksTest, WithoutHistoryTheCurrentStateCounts) {
   const Track a = carTrack(20.0, 0.0, 10.0, 0.0);
   EXPECT_TRUE(areParallel(a, carTrack(20.5, 0.5, 10.0, 0.0), {}));
   EXPECT_FALSE(areParallel(a, carTrack(20.5, 2.5, 10.0, 0.0), {}));

@@ -147,7 +147,7 @@ class TrackConsistencyTest : public ::testing::TestWithParam<ConsistencyCase> {
   TwoTrackers trackers_;
 };
 
-TEST_P(TrackConsistencyTest, EachTrackerIsHonest) {
+TEST_P(TrackConsistencyTest, EachTrackerIsConsistent) {
   for (const Consistency& alone : {trackers_.ofA(), trackers_.ofB()}) {
     EXPECT_GT(alone.nees, kMinNees);
     EXPECT_LT(alone.nees, kMaxNees);
@@ -162,7 +162,7 @@ TEST_P(TrackConsistencyTest, CovarianceIntersectionIsNot) {
   EXPECT_LT(trackers_.fusedBy(TrackCombinationMethod::kCovarianceIntersection).nees, kMaxNees);
 }
 
-TEST_P(TrackConsistencyTest, BarShalomCampoIsAsSureAsItSays) {
+TEST_P(TrackConsistencyTest, BarShalomCampoIsConsistent) {
   const Consistency fused = trackers_.fusedBy(TrackCombinationMethod::kBarShalomCampo);
   EXPECT_GT(fused.nees, kMinNees);
   EXPECT_LT(fused.nees, kMaxNees);

@@ -20,7 +20,7 @@ Track lorry(double length) {
   return track;
 }
 
-TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
+TEST(TrackExtentsTest, AGuessedExtentCountsByTheCertaintyOfItsCenter) {
   // 7 m more; half of it if two standard deviations of the extent, four of the center, equal that.
   Track guessed = lorry(9.0);
   guessed.covariance(0, 0) = 1.75 * 1.75;
@@ -30,7 +30,7 @@ TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
   EXPECT_NEAR(rear.state.x(), 22.75, kRounding);
 }
 
-TEST(TrackExtentsTest, WhoSawJustTheRearIsExtendedAwayFromTheSensor) {
+TEST(TrackExtentsTest, AViewOfTheRearIsExtendedAwayFromTheSensor) {
   Track whole = lorry(9.0);
   Track rear = lorry(2.0);
   reconcileExtents(whole, kSensor, rear, kSensor);
@@ -65,7 +65,7 @@ TEST(TrackExtentsTest, FromTheOtherSideItGrowsTheOtherWay) {
   EXPECT_NEAR(front.state.x(), 24.5, kRounding);
 }
 
-TEST(TrackExtentsTest, AHeadingThatIsOffByAQuarterTurnIsNoMatter) {
+TEST(TrackExtentsTest, AHeadingErrorOfAQuarterTurnDoesNotMatter) {
   Track whole = lorry(9.0);
   Track rear = lorry(2.0);
   rear.box = {Pose2(21.0, 0.0, 0.5 * kPi), 2.5, 2.0};
@@ -76,7 +76,7 @@ TEST(TrackExtentsTest, AHeadingThatIsOffByAQuarterTurnIsNoMatter) {
   EXPECT_NEAR(rear.state.x(), 24.5, kRounding);
 }
 
-TEST(TrackExtentsTest, AbreastTheCenterStaysAndIsLessSure) {
+TEST(TrackExtentsTest, AbreastTheCenterIsKeptAndLessCertain) {
   Track whole = lorry(9.0);
   Track part = lorry(9.0);
   part.box.length = 3.0;

@@ -51,7 +51,7 @@ TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
   EXPECT_EQ(result.list.views.size(), 2U);
 }
 
-TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
+TEST(TrackFuserTest, ASuddenStopInOneSourceLeavesTheVelocityUncertain) {
   // They were one for two seconds, at 5 m/s; now one of them is wrong.
   TrackFuser fuser(withScheme(TrackScheme::kByExistence));
   const auto step = [&](double t, double speed_of_stereo) {
@@ -70,7 +70,7 @@ TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
   EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
 }
 
-TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain) {
+TEST(TrackFuserTest, TheBodysCenterBetweenSensorsIsUncertain) {
   const TrackFuserOptions options = withScheme(TrackScheme::kByExistence);
   const double body_variance = square(options.association.comparison.body_std);
   TrackFuser fuser(options);
@@ -95,13 +95,13 @@ TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain
   }
 }
 
-TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
+TEST(TrackFuserTest, ConfirmedByAllIsSeenByBoth) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kConfirmedByAll);
   ASSERT_EQ(result.list.tracks.size(), 1U);
   EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
 }
 
-TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
+TEST(TrackFuserTest, TwoSourcesOfOneSensorCountOnce) {
   // With object fusion enabled, the first tracker receives the camera's objects, too.
   const auto published = [](const std::vector<std::string>& sensors) {
     TrackFuser fuser(withScheme(TrackScheme::kConfirmedByAll));
@@ -138,7 +138,7 @@ TEST(TrackFuserTest, ASourceThatReportsNoClassesLeavesThemOpen) {
   EXPECT_TRUE(isValid(result.list.tracks[0])) << "no probability is 0/0";
 }
 
-TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
+TEST(TrackFuserTest, TracksOfOneSourceArePublishedWhereTheOtherIsBlind) {
   // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3, by the default at
   // this range, for the observed part.
   const double pedestrian = existenceOf(ObjectClass::kPedestrian);
@@ -148,7 +148,7 @@ TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
   EXPECT_EQ(existenceOf(ObjectClass::kPedestrian, 0.8), 0.0) << "its tracker is not sure";
 }
 
-TEST(TrackFuserTest, ASourceIsBelievedAsMuchAsTheClassThatItClaims) {
+TEST(TrackFuserTest, ASourceIsTrustedByTheClassThatItReports) {
   const auto existenceOfPerson = [](double share) {
     TrackFuserOptions options;
     options.sources["stereo"].true_share.pedestrian = share;
@@ -164,7 +164,7 @@ TEST(TrueShare, IsTheMeanOverTheClassesItMayBeOf) {
   EXPECT_NEAR(share.of({0.1, 0.0, 0.5, 0.3, 0.1}), 0.5 * 0.8 + 0.3 * 0.7 + 0.2 * 0.4, 1e-12);
 }
 
-TEST(TrackFuserTest, WhatASourceLacksFarAwayCountsLess) {
+TEST(TrackFuserTest, MissesFarAwayCountLess) {
   TrackFuserOptions options;
   options.scheme = TrackScheme::kUnion;
   options.published_existence = 0.5;
@@ -198,7 +198,7 @@ TEST(TrackDetection, FallsWithRange) {
   EXPECT_LT(detection.probability(50.0), 0.001);
 }
 
-TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
+TEST(TrackFuserTest, UnionHasAllTracksWithTheirSources) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kUnion);
   ASSERT_EQ(result.list.tracks.size(), 4U);
   std::multiset<std::string> tags;
@@ -247,7 +247,7 @@ TEST(TrackFuserTest, ASilentSourceIsNotMissed) {
   }
 }
 
-TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
+TEST(TrackFuserTest, ListsOfOtherTimesArePredictedToTheTimeOfFusion) {
   TrackFuser fuser{TrackFuserOptions()};
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
@@ -262,7 +262,7 @@ TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
   }
 }
 
-TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
+TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersAreFused) {
   TrackFuserOptions options = withScheme(TrackScheme::kUnion);
   options.max_tracks = 2;
   TrackFuser fuser(options);

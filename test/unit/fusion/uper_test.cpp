@@ -35,7 +35,7 @@ TEST(Uper, IntegersTakeTheBitsOfTheirRange) {
   EXPECT_EQ(value, 5);
 }
 
-TEST(Uper, WhatIsBeyondARangeIsRefused) {
+TEST(Uper, ValuesOutOfRangeAreRefused) {
   UperReader reader("\xff\xff");
   std::int64_t value = 0;
   EXPECT_EQ(refusalOf([&] { reader.integer(value, 0, 3601); }),
@@ -54,7 +54,7 @@ TEST(Uper, NothingIsReadBeyondTheEnd) {
   EXPECT_EQ(value, 2);
 }
 
-TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
+TEST(Uper, OpenTypesAreWholeOctetsAfterTheirLength) {
   UperWriter writer;
   writer.present(true);
   std::int64_t value = 5;
@@ -78,7 +78,7 @@ TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
   EXPECT_EQ(value, 7);
 }
 
-TEST(Uper, AnOpenTypeEndsWhereItsNumberSays) {
+TEST(Uper, AnOpenTypeEndsAtItsLength) {
   const std::string bytes = WireBits().add(1, 8).add(0xFF, 8).add(0x11, 8).bytes();
   UperReader reader(bytes);
   std::int64_t value = 0;
@@ -87,7 +87,7 @@ TEST(Uper, AnOpenTypeEndsWhereItsNumberSays) {
       "truncated_message");
 }
 
-TEST(Uper, AdditionsArePassedOver) {
+TEST(Uper, AdditionsAreSkipped) {
   // Three additions (the number less one in seven bits), the first and the third are there.
   const std::string bytes = WireBits()
                                 .add(2, 7)
@@ -103,7 +103,7 @@ TEST(Uper, AdditionsArePassedOver) {
   EXPECT_EQ(value, 42);
 }
 
-TEST(Uper, ManyAdditionsArePassedOver) {
+TEST(Uper, ManyAdditionsAreSkipped) {
   WireBits bits;
   bits.add(1, 1).add(70, 8);  // more than 64: with a length determinant
   for (int i = 0; i < 70; ++i) {
@@ -117,7 +117,7 @@ TEST(Uper, ManyAdditionsArePassedOver) {
   EXPECT_EQ(value, 42);
 }
 
-TEST(Uper, AddedChoicesArePassedOver) {
+TEST(Uper, AddedChoicesAreSkipped) {
   const std::string bytes =
       WireBits().add(0, 1).add(3, 6).addOpen(WireBits().add(9, 8)).add(42, 8).bytes();
   UperReader reader(bytes);

@@ -27,7 +27,7 @@ double sumAtRate(double rate, double seconds, double each) {
   return evidence.sum();
 }
 
-TEST(WindowedEvidenceTest, TheFirstLookCountsInFullAndLaterOnesByTheTimeBetween) {
+TEST(WindowedEvidenceTest, TheFirstObservationCountsInFullAndLaterOnesByTheInterval) {
   WindowedEvidence evidence;
   evidence.look(at(0.0), 4.0, options());
   EXPECT_NEAR(evidence.sum(), 4.0, kRounding);
@@ -39,7 +39,7 @@ TEST(WindowedEvidenceTest, TheFirstLookCountsInFullAndLaterOnesByTheTimeBetween)
   EXPECT_NEAR(evidence.sum(), 2.0, kRounding);
 }
 
-TEST(WindowedEvidenceTest, DoesNotHangOnTheRateOfLooks) {
+TEST(WindowedEvidenceTest, DoesNotDependOnTheRateOfObservations) {
   EXPECT_NEAR(sumAtRate(10.0, 1.5, 2.0), 2.0 + 1.5 / 0.5 * 2.0, kRounding);
   EXPECT_NEAR(sumAtRate(10.0, 1.5, 2.0), sumAtRate(40.0, 1.5, 2.0), kRounding);
 }
@@ -52,7 +52,7 @@ TEST(WindowedEvidenceTest, OneObservationIsLimitedInBothDirections) {
   EXPECT_NEAR(evidence.sum(), 0.0, kRounding);
 }
 
-TEST(WindowedEvidenceTest, ForgetsWhatIsOlderThanTheWindow) {
+TEST(WindowedEvidenceTest, ForgetsEvidenceOlderThanTheWindow) {
   WindowedEvidence evidence;
   evidence.look(at(0.0), 3.0, options());
   evidence.look(at(1.0), 2.0, options());

@@ -14,7 +14,7 @@
 namespace datmo {
 namespace {
 
-TEST(WireRobustness, EveryPartOfOneIsRefused) {
+TEST(WireRobustness, EveryTruncationIsRefused) {
   const std::string cam = samples::wireCam().bytes();
   for (std::size_t size = 0; size < cam.size(); ++size) {
     const std::string part = cam.substr(0, size);
