@@ -36,7 +36,7 @@ TEST(MapEvidenceTest, ARestoredMapKnowsTheSame) {
   EXPECT_EQ(restored.occupancyImage(), map.occupancyImage());
 }
 
-TEST(MapEvidenceTest, WhatLeftTheWindowIsInTheEvidence) {
+TEST(MapEvidenceTest, CellsThatLeftTheWindowAreInTheEvidence) {
   OccupancyMap map = mapWithSurface();
   map.centerOn({100.0, 0.0});
   EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
@@ -56,7 +56,7 @@ TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
   expectSurface(restored);
 }
 
-TEST(MapEvidenceTest, WhatTheWindowCameBackToIsInTheEvidence) {
+TEST(MapEvidenceTest, RevisitedCellsAreInTheEvidence) {
   OccupancyMap map = mapWithSurface();
   const std::size_t known = map.evidence().cells.size();
   map.centerOn({100.0, 50.0});
@@ -74,7 +74,7 @@ TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
+TEST(MapEvidenceTest, ChangingWindowsRepeatedlyDoesNotMakeItGrow) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 4;
   options.tile_file.folder.clear();
@@ -99,7 +99,7 @@ TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
+TEST(MapEvidenceTest, TheNewWindowHoldsCellsThatFitNowhereElse) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 1;
   options.tile_file.folder.clear();
@@ -115,7 +115,7 @@ TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, WhatMemoryHasNoRoomForIsInTheFile) {
+TEST(MapEvidenceTest, TilesBeyondTheMemoryLimitAreInTheFile) {
   OccupancyMapOptions options = smallMap();
   const auto drive = [](OccupancyMap& map) {
     for (int i = 0; i <= 20; ++i) {

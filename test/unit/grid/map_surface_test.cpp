@@ -40,7 +40,7 @@ TEST(MapSurfaceTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
               1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
 }
 
-TEST(MapSurfaceTest, ABeamSeesThroughAStaticSurfaceThatLiesWellInFrontOfItsEnd) {
+TEST(MapSurfaceTest, ABeamPassesThroughAStaticSurfaceWellInFrontOfItsEnd) {
   OccupancyMapOptions options = smallMap();
   options.surface_sigma = 0.1;
   OccupancyMap map(options);

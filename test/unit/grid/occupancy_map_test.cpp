@@ -16,7 +16,7 @@ using samples::scanTo;
 using samples::smallMap;
 using samples::updateWith;
 
-TEST(OccupancyMapTest, NothingIsKnownAtFirst) {
+TEST(OccupancyMapTest, IsUnknownInitially) {
   const OccupancyMap map(smallMap());
   EXPECT_DOUBLE_EQ(map.occupancy({3, 3}), 0.5);
   EXPECT_DOUBLE_EQ(map.occupancy({3000, 3}), 0.5);
@@ -132,7 +132,7 @@ TEST(OccupancyMapTest, AWideBeamIsMovingOnlyIfItsWholeFootprintWasFree) {
   EXPECT_EQ(map.judge({4.5, 2.0}, {0.0, 1.6}), PointState::kStatic) << "row 3 is within reach";
 }
 
-TEST(OccupancyMapTest, WhatWasHitForAShortTimeIsNotStatic) {
+TEST(OccupancyMapTest, CellsHitForAShortTimeAreNotStatic) {
   OccupancyMap map(smallMap());
   for (int i = 0; i <= 7; ++i) {
     updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
@@ -180,7 +180,7 @@ TEST(OccupancyMapTest, TheNearestCellsHitsAreThoseWhoseMeanIsNearest) {
   EXPECT_FALSE(map.nearestHits({5.2, 8.5}));
 }
 
-TEST(OccupancyMapTest, ASurfaceIsAsOldAsItsHitsInTheMean) {
+TEST(OccupancyMapTest, ASurfaceHasTheMeanAgeOfItsHits) {
   OccupancyMap map(smallMap());
   for (const double seconds : {0.0, 1.0, 3.5, 5.0}) {
     const bool seen = seconds < 4.0;

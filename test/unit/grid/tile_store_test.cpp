@@ -80,7 +80,7 @@ TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
   EXPECT_EQ(store.at({200, 0}), 3);
 }
 
-TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
+TEST(TileStoreTest, PermanentTilesAreNotForgotten) {
   TileStore<int> store(2, 0, noFile());
   store.putPermanently({0, 0}, 1);
   for (int i = 1; i <= 5; ++i) {
@@ -94,7 +94,7 @@ TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
   EXPECT_EQ(store.at({500, 0}), 5);
 }
 
-TEST(TileStoreTest, WhatMemoryHasNoRoomForIsInTheFile) {
+TEST(TileStoreTest, TilesBeyondTheMemoryLimitAreInTheFile) {
   const TileStore<int> store = storeWithTiles(6, fileOf(100.0));
   expectTiles(store, 0, 6);
   EXPECT_EQ(store.size(), 6U);
@@ -127,7 +127,7 @@ TEST(TileStoreTest, ACopySharesTheFileAndNotItsChanges) {
   EXPECT_EQ(copy.at({100, 0}), 51);
 }
 
-TEST(TileStoreTest, AFullFileForgetsAndSaysWhy) {
+TEST(TileStoreTest, AFullFileForgetsAndReportsWhy) {
   const TileStore<int> store = storeWithTiles(6, fileOf(1.5));
   EXPECT_EQ(store.forgotten(), 3U) << "two in memory, one in the file";
   EXPECT_EQ(store.at({0, 0}), 0);
@@ -136,14 +136,14 @@ TEST(TileStoreTest, AFullFileForgetsAndSaysWhy) {
   EXPECT_NE(store.fileError().find("max_size"), std::string::npos) << store.fileError();
 }
 
-TEST(TileStoreTest, AFolderThatIsNotThereForgetsAndSaysWhy) {
+TEST(TileStoreTest, AMissingFolderForgetsAndReportsWhy) {
   const TileStore<int> store = storeWithTiles(4, {"/nowhere/at/all", 100.0});
   EXPECT_EQ(store.forgotten(), 2U);
   EXPECT_NE(store.fileError().find("'/nowhere/at/all'"), std::string::npos) << store.fileError();
 }
 
 /// The system refuses to let a file grow beyond a limit, as on a full disk.
-TEST(TileStoreTest, AFullDiskForgetsAndSaysWhy) {
+TEST(TileStoreTest, AFullDiskForgetsAndReportsWhy) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -180,7 +180,7 @@ TEST(TileStoreTest, LapsOfTheSameStreetDoNotMakeTheFileGrow) {
   expectTiles(store, 0, 6);
 }
 
-TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
+TEST(TileStoreTest, SpaceIsReusedWhenNoCopyHasTheTile) {
   TileStore<int> store = storeWithTiles(4, fileOf(3.0));
   {
     TileStore<int> copy = store;
@@ -195,7 +195,7 @@ TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
 }
 
 /// As on a failing disk.
-TEST(TileStoreTest, WhatCannotBeReadIsLeftOutAndSaid) {
+TEST(TileStoreTest, UnreadableTilesAreLeftOutAndReported) {
   TileStore<int> store = storeWithTiles(4, fileOf(100.0));
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     std::error_code none;
