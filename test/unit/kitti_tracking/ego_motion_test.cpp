@@ -114,7 +114,7 @@ TEST(EgoMotionTest, CarsThatMoveDoNotDecide) {
   EXPECT_NEAR(drive.ego.twist().yaw_rate, 0.0, 0.005);
 }
 
-TEST(EgoMotionTest, GoesOnAsItDidWithTooFewMatches) {
+TEST(EgoMotionTest, ContinuesItsMotionWithTooFewMatches) {
   Drive drive;
   for (int i = 0; i < 10; ++i) {
     drive.frame({6.0, 0.0}, parkedCars());
@@ -139,7 +139,7 @@ TEST(EgoMotionTest, NothingSeenIsNoMotion) {
   EXPECT_EQ(ego.twist().forward_speed, 0.0);
 }
 
-TEST(EgoMotionTest, TheErrorsAreAsLargeAsItSays) {
+TEST(EgoMotionTest, TheErrorsAreConsistentWithTheCovariance) {
   // NEES of speed and yaw rate over noise of the measurements; the expected positions are exact.
   Random random(7);
   const Eigen::Matrix2d exact = 1e-6 * Eigen::Matrix2d::Identity();

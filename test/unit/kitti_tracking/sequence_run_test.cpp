@@ -84,7 +84,7 @@ TEST(SequenceRun, BoxesAreThoseOfTheDetections) {
   EXPECT_EQ(cars, 4);
 }
 
-TEST(SequenceRun, ATrackThatIsMissedGoesOn) {
+TEST(SequenceRun, AMissedTrackContinues) {
   DetectedSequence sequence = street(20);
   auto& cars = sequence.detections[0];
   cars.erase(std::remove_if(cars.begin(), cars.end(),
@@ -99,7 +99,7 @@ TEST(SequenceRun, ATrackThatIsMissedGoesOn) {
   }
 }
 
-TEST(SequenceRun, LongAndSureTracksScoreHigher) {
+TEST(SequenceRun, LongAndCertainTracksScoreHigher) {
   DetectedSequence sequence = street(20);
   sequence.detections[0].push_back(detection(10, boxAt(-12.0, 40.0), 0.0));
   std::map<int, double> best;
@@ -126,7 +126,7 @@ TEST(SequenceRun, FramesWithoutDetectionsAndNoDetectionsAtAll) {
   EXPECT_EQ(runSequence(nothing, runOptions()).frames, 0U);
 }
 
-TEST(SequenceRun, WithoutEgoMotionTheVehicleStands) {
+TEST(SequenceRun, WithoutEgoMotionTheVehicleIsStationary) {
   RunOptions options = runOptions();
   options.estimate_ego_motion = false;
   const SequenceRun run = runSequence(street(20), options);

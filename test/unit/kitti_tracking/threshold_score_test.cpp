@@ -45,13 +45,13 @@ TEST(ThresholdScore, AsManyMatchesAsPossibleComeFirst) {
   EXPECT_NEAR(score.overlap, 0.7 / 1.3 + 1.0 / 3.0, kTiny);
 }
 
-TEST(ThresholdScore, OfEqualManyMatchesTheGreatestOverlap) {
+TEST(ThresholdScore, OfEquallyManyMatchesTheGreatestOverlap) {
   const ThresholdScore score =
       scoreOf({rowAt(0, 1, 0.0), rowAt(0, 2, 0.3)}, {resultAt(0, 1, 0.3), resultAt(0, 2, 0.0)});
   EXPECT_NEAR(score.overlap, 2.0, kTiny);
 }
 
-TEST(ThresholdScore, WhatNeedNotBeFoundIsNoErrorEitherWay) {
+TEST(ThresholdScore, OptionalObjectsAreNoErrorEitherWay) {
   const TrackedObject van = rowAt(0, 1, 0.0, ObjectType::kVan);
   const ThresholdScore found = scoreOf({van}, {resultAt(0, 1, 0.0)});
   EXPECT_EQ(found.matches, 1U);
