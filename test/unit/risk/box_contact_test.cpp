@@ -42,7 +42,7 @@ TEST(FirstContact, ComesWhenTheGapIsClosed) {
   EXPECT_NEAR(*share * 10.0, 7.5, kReached);
 }
 
-TEST(FirstContact, IsAtOnceWhereBoxesOverlap) {
+TEST(FirstContact, IsImmediateIfBoxesOverlap) {
   const auto share =
       firstContact(moveFromTo({0, 0}, {1, 0}, kCar), moveFromTo({1, 0}, {9, 0}, kSquare));
   ASSERT_TRUE(share);

@@ -30,7 +30,7 @@ TEST(Braked, StopsAfterItsBrakingDistance) {
   EXPECT_NEAR(path.poses[5].center.x(), 5.0, 1e-9);
 }
 
-TEST(Braked, WithoutDecelerationGoesOn) {
+TEST(Braked, WithoutDecelerationContinues) {
   const BodyPath path = braked(straight({0, 0}, {10, 0}), 0.0, 0.0);
   EXPECT_NEAR(path.poses.back().center.x(), 50.0, 1e-9);
 }
@@ -44,7 +44,7 @@ TEST(TimeToBrake, EndsWhereTheBrakingDistanceBegins) {
   EXPECT_NEAR(brakeThreat(encounter, 5.0), 100.0 / 60.0 / 5.0, 0.07);
 }
 
-TEST(TimeToBrake, IsZeroWhereItIsTooLate) {
+TEST(TimeToBrake, IsZeroIfItIsTooLate) {
   const BodyPath host = straight({0, 0}, {10, 0});
   const BodyPath wall = straight({10, 0}, {0, 0});
   const Encounter encounter{host, kCar, wall, kCar};
@@ -61,7 +61,7 @@ TEST(TimeToBrake, IsTheHorizonWithoutContact) {
   EXPECT_EQ(steerThreat(encounter, 5.0), 0.0);
 }
 
-TEST(BrakeThreat, IsHopelessForWhoIsStruckFromBehind) {
+TEST(BrakeThreat, IsImpossibleWhenStruckFromBehind) {
   const BodyPath host = straight({0, 0}, {5, 0});
   const BodyPath follower = straight({-15, 0}, {15, 0});
   const Encounter encounter{host, kCar, follower, kCar};

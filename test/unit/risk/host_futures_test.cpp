@@ -47,7 +47,7 @@ TEST(HostFutures, ADriverStaysInHisLaneHoweverFarAhead) {
   EXPECT_LT(spreadAt(20, options).along, 0.1);
 }
 
-TEST(HostFutures, WhatIsNotKnownOfTheCourseGrowsWithTheSquareOfTime) {
+TEST(HostFutures, CourseUncertaintyGrowsWithTheSquareOfTime) {
   HostFutureOptions options = onlyLane();
   options.lane_deviation = 0.0;
   options.steering_spread = 0.1;
@@ -80,7 +80,7 @@ TEST(HostFutures, CurvatureIsThatOfTheCircleDriven) {
   }
 }
 
-TEST(HostFutures, WhoStandsDoesNotSway) {
+TEST(HostFutures, AStationaryHostDoesNotSway) {
   const Spread spread = spreadAt(20, onlyLane(), 0.0);
   EXPECT_EQ(spread.aside, 0.0);
   EXPECT_EQ(spread.along, 0.0);

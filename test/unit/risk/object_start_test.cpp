@@ -22,7 +22,7 @@ std::optional<RoadFollower> followerOf(const Track& track) {
   return roadFollower(track, startOf(track, 0.3), kRoad, kTurnShare, RoadFollowingOptions());
 }
 
-TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
+TEST(RoadFollower, ASlightDepartureFromTheRoadIsProbablyNoise) {
   const Track track = vagueOncoming(1.5);
   const auto follower = followerOf(track);
   ASSERT_TRUE(follower);
@@ -39,7 +39,7 @@ TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
   EXPECT_NEAR(follower->start.heading_sigma, 0.2 * std::sqrt(1.0 - share), 1e-9);
 }
 
-TEST(RoadFollower, WhoLeavesItForSureDoes) {
+TEST(RoadFollower, AClearDepartureIsReal) {
   Track track = vagueOncoming(4.0);
   track.covariance(3, 3) = 0.04;
   const auto follower = followerOf(track);
@@ -47,14 +47,14 @@ TEST(RoadFollower, WhoLeavesItForSureDoes) {
   EXPECT_LT(follower->probability, 1e-6);
 }
 
-TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
+TEST(RoadFollower, PedestriansAndStationaryObjectsHaveNoRoad) {
   const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
   EXPECT_FALSE(followerOf(walks));
   const Track stands = knownTrack(2, {20, 3}, {0, 0});
   EXPECT_FALSE(followerOf(stands));
 }
 
-TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
+TEST(RoadFollower, AnUnknownClassFollowsItLessProbably) {
   Track track = vagueOncoming(1.5);
   const double driver = followerOf(track)->probability;
   track.class_probabilities.fill(1.0);  // each a share of 1: more than all
@@ -74,7 +74,7 @@ TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
   EXPECT_NEAR(turns / (1.0 - turns), 0.3 * straight / (1.0 - straight), 1e-9);
 }
 
-TEST(RoadFollower, ModesThatAreNotKnownAreNoEvidence) {
+TEST(RoadFollower, UnknownModesAreNoEvidence) {
   Track track = vagueOncoming(1.5);
   track.mode_probabilities = {1.0 - kTurnShare, 0.0, kTurnShare, 0.0, 0.0};  // as of any object
   const double usual = followerOf(track)->probability;
@@ -90,20 +90,20 @@ TEST(RoadFollower, AnUnknownClassAndAPoleAreNoEvidenceAgainstADriver) {
   EXPECT_NEAR(followerOf(track)->probability, driver, 1e-12);
 }
 
-TEST(RoadFollower, WhoIsAlmostAlongTheRoadAndTurnsTowardItJoins) {
+TEST(RoadFollower, ObjectsAlmostAlongTheRoadThatTurnTowardItJoin) {
   EXPECT_GT(followerOf(joiningCar(0.45))->joining, 0.6);
   Track leaves = joiningCar(0.45);
   leaves.mode_probabilities = {0.4, 0.4, 0.18, 0.02, 0.0};
   EXPECT_LT(followerOf(leaves)->joining, 0.2);
 }
 
-TEST(RoadFollower, WhoCrossesItStraightOnDoesNotJoin) {
+TEST(RoadFollower, ObjectsThatCrossItStraightDoNotJoin) {
   Track crosses = joiningCar(1.5);
   crosses.mode_probabilities = {0.96, 0.0, 0.02, 0.02, 0.0};
   EXPECT_LT(followerOf(crosses)->joining, 0.15);
 }
 
-TEST(TurnIntoRoad, IsTheNearerWay) {
+TEST(TurnIntoRoad, IsTheNearerDirection) {
   EXPECT_NEAR(turnIntoRoad(0.3, 0.0), -0.3, 1e-12);
   EXPECT_NEAR(turnIntoRoad(kPi - 0.3, 0.0), 0.3, 1e-12);
   EXPECT_NEAR(turnIntoRoad(-kPi + 0.3, 0.0), -0.3, 1e-12);

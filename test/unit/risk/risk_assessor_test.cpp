@@ -15,7 +15,7 @@ ObjectRisk riskOfFirst(const RiskInput& input, const RiskOptions& options = {}) 
   return riskOf(RiskAssessor(options).assess(input), input.tracks.tracks.front().id);
 }
 
-TEST(RiskAssessor, TimeToContactOfAStandingCarAhead) {
+TEST(RiskAssessor, TimeToContactOfAStationaryCarAhead) {
   // Front bumper 3.7 m ahead of base_link, the car's rear at 28 m: 24.3 m at 10 m/s.
   const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})}));
   EXPECT_GT(risk.contact_probability[2], 0.8);
@@ -38,7 +38,7 @@ TEST(RiskAssessor, OncomingTrafficInItsLaneIsNoRisk) {
 }
 
 // Without borders as evidence of the road, the host still drives along one.
-TEST(RiskAssessor, OncomingTrafficOfVagueVelocityKeepsToTheRoadOfTheHost) {
+TEST(RiskAssessor, OncomingTrafficOfUncertainVelocityKeepsToTheRoadOfTheHost) {
   Track track = knownTrack(1, {45, 4.0}, {-10.0, -1.3});
   track.covariance.diagonal() << 0.25, 0.04, 0.25, 0.64, 1e-4, 1e-4;
   track.heading_variance = 0.04;
@@ -138,7 +138,7 @@ TEST(RiskAssessor, WarnsWithAReason) {
   EXPECT_NE(report.reason.find("vehicle 5 at the front"), std::string::npos) << report.reason;
 }
 
-TEST(RiskAssessor, AStandingHostIsInformedOnly) {
+TEST(RiskAssessor, AStationaryHostIsInformedOnly) {
   RiskInput input = inputAt(0.0, {knownTrack(1, {20, 0}, {-10, 0})});
   RiskAssessor assessor{RiskOptions()};
   assessor.assess(input);
@@ -148,7 +148,7 @@ TEST(RiskAssessor, AStandingHostIsInformedOnly) {
   EXPECT_EQ(report.level, RiskLevel::kInformation);
 }
 
-TEST(RiskAssessor, AReversingHostMeetsWhatIsBehind) {
+TEST(RiskAssessor, AReversingHostMeetsObjectsBehind) {
   const ObjectRisk risk = riskOfFirst(inputAt(-2.0, {knownTrack(1, {-8, 0}, {0, 0})}));
   // 8 m less 0.9 m and 2 m at 2 m/s.
   EXPECT_NEAR(risk.median_ttc, 2.55, 0.3);
@@ -156,7 +156,7 @@ TEST(RiskAssessor, AReversingHostMeetsWhatIsBehind) {
 }
 
 // A cyclist beside the host, so close that half of his possible positions overlap with it.
-TEST(RiskAssessor, WhatWouldHaveBeenStruckAlreadyIsNotTrue) {
+TEST(RiskAssessor, StatesAlreadyInContactAreRejected) {
   Track beside = knownTrack(1, {1.4, -1.35}, {8, 0}, ObjectClass::kCyclist);
   beside.box.length = 1.8;
   beside.box.width = 0.6;
@@ -185,7 +185,7 @@ TEST(RiskAssessor, BrakingAgainstOncomingTrafficHasTime) {
   EXPECT_GT(risk.time_to_brake, 1.0);
 }
 
-TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
+TEST(RiskAssessor, LeavesOutInvalidAndOldTracks) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Track not_a_number = knownTrack(1, {20, 0}, {0, 0});
   not_a_number.covariance(0, 0) = nan;
@@ -200,7 +200,7 @@ TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
   EXPECT_EQ(report.objects.size(), 1U);
 }
 
-TEST(RiskAssessor, OfFiveHundredTracksTheSurest) {
+TEST(RiskAssessor, OfFiveHundredTracksTheMostCertain) {
   std::vector<Track> tracks;
   for (std::uint32_t i = 1; i <= 500; ++i) {
     tracks.push_back(knownTrack(i, {20.0 + i, 0}, {0, 0}));
@@ -212,7 +212,7 @@ TEST(RiskAssessor, OfFiveHundredTracksTheSurest) {
   EXPECT_GT(report.objects[1].id, 400U);
 }
 
-TEST(RiskAssessor, WhatIsFarAwayIsUnreachable) {
+TEST(RiskAssessor, DistantObjectsAreUnreachable) {
   const RiskReport report =
       RiskAssessor{RiskOptions()}.assess(inputAt(10.0, {knownTrack(1, {400, 0}, {-10, 0})}));
   EXPECT_EQ(report.counts.unreachable, 1U);
@@ -233,7 +233,7 @@ TEST(RiskAssessor, EveryMethodSeesACarAhead) {
   }
 }
 
-TEST(RiskAssessor, RefusesAMethodThatThereIsNot) {
+TEST(RiskAssessor, RefusesAnUnknownMethod) {
   EXPECT_THROW(readOptions<RiskOptions>({{"method", std::string("guess")}}), OptionError);
 }
 

@@ -30,12 +30,12 @@ TEST(BoxRisk, TimeToContactIsGapOverClosingSpeed) {
   EXPECT_EQ(risk.contact_probability[3], 1.0);
 }
 
-TEST(BoxRisk, IsNoneOfWhatPasses) {
+TEST(BoxRisk, IsInfiniteForPassingObjects) {
   const Track track = knownTrack(3, {40, 2.5}, {-10, 0});
   EXPECT_EQ(boxRisk(track, hostAt(15.0), kHost, kRules).probability(), 0.0);
 }
 
-TEST(ThesisRisk, CirclesWarnOfWhatPassesToo) {
+TEST(ThesisRisk, CirclesWarnOfPassingObjectsToo) {
   const Track track = knownTrack(3, {40, 2.5}, {-10, 0});
   const ObjectRisk risk = thesisRisk(track, hostAt(15.0), kRules);
   EXPECT_EQ(risk.probability(), 1.0);
@@ -52,7 +52,7 @@ TEST(ThesisRisk, FallsAfterTheReactionTime) {
   EXPECT_NEAR(risk.probability(), 0.5, 0.01);
 }
 
-TEST(ThesisRisk, APedestrianGrowsAboutWhereHeIs) {
+TEST(ThesisRisk, APedestriansAreaGrowsAroundHim) {
   const Track away = knownTrack(3, {0, 6}, {0, 2}, ObjectClass::kPedestrian);
   // He walks away, but no direction is assumed: 0.5 m + 1.5 m + 2 m/s reach 6 m after 2 s.
   EXPECT_NEAR(thesisRisk(away, hostAt(0.0), kRules).median_ttc, 2.0, 0.01);
