@@ -64,7 +64,7 @@ class BorderTrackTest : public testing::TestWithParam<BorderCurve> {
   std::normal_distribution<double> distribution_{0.0, 1.0};
 };
 
-TEST_P(BorderTrackTest, ComesToTheTruthAndItsErrorsAreNoLargerThanItSays) {
+TEST_P(BorderTrackTest, ConvergesToTheTruthWithConsistentErrors) {
   constexpr int kRuns = 200;
   constexpr int kSteps = 30;
   double squares = 0.0;
@@ -120,7 +120,7 @@ TEST(BorderTrack, OffsetByHand) {
   EXPECT_NEAR(track.covariance()(0, 0), 0.0225, 1e-9);
 }
 
-TEST(BorderTrack, LeavesOutWhatIsBeyondTheGate) {
+TEST(BorderTrack, LeavesOutHitsBeyondTheGate) {
   BorderTrackOptions options = withoutDrift();
   options.gate = 3.0;
   const Eigen::Matrix2d covariance = Eigen::Vector2d(0.01, 1e-6).asDiagonal();

@@ -105,7 +105,7 @@ TEST_F(BranchSearchTest, NoStreetLeadsAwayInAnOpenSpace) {
   EXPECT_TRUE(branches().empty());
 }
 
-TEST_F(BranchSearchTest, NoneLeadsWhereNothingWasSeen) { EXPECT_TRUE(branches().empty()); }
+TEST_F(BranchSearchTest, NoneLeadsIntoUnseenSpace) { EXPECT_TRUE(branches().empty()); }
 
 constexpr double kHalfGap = 4.0;  ///< m
 
@@ -131,7 +131,7 @@ TEST_F(BranchSearchTest, AStreetHasASideSomewhere) {
   EXPECT_TRUE(leadsTo(0.5 * kPi, degrees(20.0)));
 }
 
-TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
+TEST_F(BranchSearchTest, ReportsTheShareOfItsLengthWithObjectsBeside) {
   see(road);
   ASSERT_EQ(branches().size(), 2U);
   for (const RoadBranch& branch : branches()) {
@@ -139,7 +139,7 @@ TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
   }
 }
 
-TEST_F(BranchSearchTest, WhatStandsInItIsNoSide) {
+TEST_F(BranchSearchTest, AnObjectInItIsNoSide) {
   see([](const Point2& point) {
     const bool on_post = (point - Point2(0.0, 16.0)).norm() < 0.3;
     return roadWithGap(point) || on_post;

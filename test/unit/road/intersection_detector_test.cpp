@@ -77,7 +77,7 @@ TEST_F(IntersectionDetectorTest, OneOfThreeInBetweenEndsNone) {
   EXPECT_TRUE(detector_.atIntersection());
 }
 
-TEST_F(IntersectionDetectorTest, WhereNoBorderWasThereIsNoRoad) {
+TEST_F(IntersectionDetectorTest, WithoutBordersThereIsNoRoad) {
   EXPECT_EQ(driveTo(200.0, kCrossroads, false), 0);
 }
 
@@ -86,7 +86,7 @@ TEST_F(IntersectionDetectorTest, BehindAFewParkedCarsThereIsNone) {
   EXPECT_EQ(driveTo(100.0, kCrossroads, false), 0);
 }
 
-TEST_F(IntersectionDetectorTest, OneThatStandsKeepsItsState) {
+TEST_F(IntersectionDetectorTest, AStationaryVehicleKeepsItsState) {
   driveTo(50.0, kRoad);
   driveTo(60.25, kCrossroads);
   ASSERT_TRUE(detector_.atIntersection());

@@ -126,7 +126,7 @@ TEST_F(RoadBorderDetectorTest, OneSideOnly) {
   EXPECT_TRUE(std::isinf(worstError(road, RoadSide::kLeft, 4.0)));
 }
 
-TEST_F(RoadBorderDetectorTest, BordersEndAtASideStreetAndGoOnBehindIt) {
+TEST_F(RoadBorderDetectorTest, BordersEndAtASideStreetAndContinueBehindIt) {
   walls_ = {{-3.0}, {4.0, -100.0, 45.0}, {4.0, 60.0, 300.0}};
   drive(30.0);
   bool before = false;
@@ -184,7 +184,7 @@ TEST_F(RoadBorderDetectorTest, NothingReflects) {
   EXPECT_FALSE(road.at_intersection);
 }
 
-TEST_F(RoadBorderDetectorTest, AStandingVehicleSeesTheSameRoad) {
+TEST_F(RoadBorderDetectorTest, AStationaryVehicleSeesTheSameRoad) {
   drive(30.0);
   RoadModel road;
   for (int scan = 0; scan < 300; ++scan) {
@@ -195,7 +195,7 @@ TEST_F(RoadBorderDetectorTest, AStandingVehicleSeesTheSameRoad) {
   EXPECT_FALSE(road.at_intersection);
 }
 
-TEST_F(RoadBorderDetectorTest, AWaitingVehicleDoesNotBecomeSurerOfItsBorders) {
+TEST_F(RoadBorderDetectorTest, AWaitingVehicleDoesNotBecomeMoreCertainOfItsBorders) {
   const auto sigmaAhead = [this](const RoadModel& road) {
     double sigma = 0.0;
     for (const RoadBorder& border : road.borders) {
@@ -228,7 +228,7 @@ TEST_F(RoadBorderDetectorTest, ForgetsAllAfterAJumpAGapAndAReset) {
   EXPECT_TRUE(drive(0.1).borders.empty());
 }
 
-TEST_F(RoadBorderDetectorTest, SaysTheSameOfTheSameScans) {
+TEST_F(RoadBorderDetectorTest, TheSameScansGiveTheSameRoad) {
   std::vector<LabeledScan> scans;
   for (int i = 0; i < 60; ++i) {
     scans.push_back(scanFrom(Pose2(0.5 * i, 0.0, 0.0)));
@@ -269,7 +269,7 @@ TEST_F(RoadBorderDetectorTest, AWindowShorterThanTheSpacingHasBothItsEnds) {
   }
 }
 
-TEST_F(RoadBorderDetectorTest, RefusesAMethodThatThereIsNot) {
+TEST_F(RoadBorderDetectorTest, RefusesAnUnknownMethod) {
   EXPECT_THROW(readOptions<RoadBorderDetectorOptions>({{"method", std::string("guess")}}),
                OptionError);
 }
