@@ -12,7 +12,7 @@
 namespace datmo::camera_view_test {
 namespace {
 
-TEST_F(CameraViewTest, AnUnsureTrackIsFainter) {
+TEST_F(CameraViewTest, AnUncertainTrackIsFainter) {
   view_.takeCameraInfo(cameraInfo());
   const auto strength = [this](double seconds, float existence) {
     mountCamera(seconds);

@@ -41,13 +41,13 @@ class ClockCheckTest : public testing::Test {
   ClockCheck check_{"scan", monitor_};
 };
 
-TEST_F(ClockCheckTest, AStampIsPutRightAndSaid) {
+TEST_F(ClockCheckTest, AStampIsCorrectedAndReported) {
   drive(0.1);
   EXPECT_EQ(samples::warnings(monitor_, "clock_off"), 41U);
   EXPECT_NEAR(figure(), 0.1, 1e-6);
 }
 
-TEST_F(ClockCheckTest, AStampThatIsNoneStaysNone) {
+TEST_F(ClockCheckTest, AnInvalidStampStaysInvalid) {
   drive(0.1);
   EXPECT_EQ(corrected(0.0, 10.1), 0.0);
   EXPECT_EQ(corrected(0.05, 10.1), 0.05) << "would be before the beginning of time";
@@ -59,7 +59,7 @@ TEST_F(ClockCheckTest, AStampAtTheEndOfTimeIsNotMovedBeyondIt) {
   EXPECT_EQ(check_.corrected(ros::TIME_MAX, Stamp::fromSeconds(10.1 + kDelay)), ros::TIME_MAX);
 }
 
-TEST_F(ClockCheckTest, ALoopedBagBeginsAnewAndTheFigureSaysSo) {
+TEST_F(ClockCheckTest, ALoopedBagStartsOverAsDoesItsFigure) {
   drive(0.1);
   for (int i = 1; i <= 40; ++i) {
     const double measured = kPeriod * i;
@@ -69,7 +69,7 @@ TEST_F(ClockCheckTest, ALoopedBagBeginsAnewAndTheFigureSaysSo) {
   EXPECT_EQ(figure(), 0.0);
 }
 
-TEST_F(ClockCheckTest, AClockThatIsSetRightIsSaidOnceAndServedAsItIs) {
+TEST_F(ClockCheckTest, ACorrectedClockIsReportedOnceAndUsedUnchanged) {
   for (int i = 1; i <= 200; ++i) {
     const double measured = kPeriod * i;
     const double stamp = measured + (i < kSet ? 0.1 : 0.0);
@@ -96,7 +96,7 @@ class TimedPorts : public StagePorts {
   bool is_simulated_;
 };
 
-TEST_F(ClockCheckTest, InSimulatedTimeStampsStayAsTheyAre) {
+TEST_F(ClockCheckTest, InSimulatedTimeStampsAreUnchanged) {
   for (const bool is_simulated : {true, false}) {
     ros::Time last;
     const auto take = withClockCheck<sensor_msgs::LaserScan>(

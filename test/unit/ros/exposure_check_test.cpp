@@ -41,7 +41,7 @@ TEST(ExposureCheck, AClippedRoadOrHoodAtNightIsNoCutImage) {
   EXPECT_EQ(faultOf(stripes(40, 0.75, 1.0, 1)), "");
 }
 
-TEST(ExposureCheck, WhatIsOfOneGrayIsCut) {
+TEST(ExposureCheck, UniformGrayIsCut) {
   EXPECT_EQ(faultOf(stripes(40, 0.5, 1.0, 128)), "half_image");
   EXPECT_EQ(faultOf(stripes(40, 0.75, 1.0, 255)), "half_image");
   EXPECT_EQ(faultOf(stripes(40, 0.0, 0.5, 128)), "half_image");

@@ -34,7 +34,7 @@ TEST_F(GridFusionStageTest, TheRuleChangesWhileItRuns) {
   EXPECT_EQ(bothAt(100.2, kOccupied, kFree)->fused->data[0], kFree) << "the last one goes on";
 }
 
-TEST_F(GridFusionStageTest, AfterTheLongestWaitItGoesOnWithoutTheOther) {
+TEST_F(GridFusionStageTest, AfterTheLongestWaitItContinuesWithoutTheOther) {
   bothAt(99.9, kFree, kFree);
   take("lidar", 100.0, kOccupied);
   EXPECT_FALSE(nextAt(100.05));
@@ -51,7 +51,7 @@ TEST_F(GridFusionStageTest, TheCallersClockNeedNotBeTheStamps) {
   EXPECT_TRUE(stage_.next(now(0.11)));
 }
 
-TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersGoOn) {
+TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
   bothAt(100.0, kFree, kFree);
   stage_.change({{"rule", std::string("priority")}});
   int fused = 0;
@@ -158,7 +158,7 @@ TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   EXPECT_EQ(monitor_.droppedCount(), 0U) << "odometry is not read";
 }
 
-TEST_F(GridFusionStageTest, ASourceWhoseMotionIsNotKnownIsLeftOut) {
+TEST_F(GridFusionStageTest, ASourceOfUnknownMotionIsLeftOut) {
   stage_.change({{"rule", std::string("priority")}});
   take("stereo", obstacleAt(99.95, 8));
   take("lidar", 100.0, kFree);
@@ -177,7 +177,7 @@ TEST_F(GridFusionStageTest, ASourceWhoseMotionIsNotKnownIsLeftOut) {
   EXPECT_EQ(monitor_.warningCount(), 1U);
 }
 
-TEST_F(GridFusionStageTest, AJumpBackStartsAnew) {
+TEST_F(GridFusionStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(bothAt(200.0, kFree, kFree));
   EXPECT_TRUE(bothAt(100.0, kFree, kFree));
   EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
@@ -188,7 +188,7 @@ TEST_F(GridFusionStageTest, AJumpBackStartsAnew) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(GridFusionStageTest, AThirdSourceIsOneMoreEntry) {
+TEST_F(GridFusionStageTest, AThirdSourceAddsAnEntry) {
   options_.fuser.sources["radar"].priority = 2;
   options_.fuser.rule = FusionRule::kPriority;
   GridFusionStage stage(options_, monitor_);

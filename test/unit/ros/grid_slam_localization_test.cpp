@@ -43,7 +43,7 @@ class GridSlamLocalizationTest : public testing::Test {
   double now_ = 100.0;  // s
 };
 
-TEST_F(GridSlamLocalizationTest, LocatedIsSaidWithoutAReason) {
+TEST_F(GridSlamLocalizationTest, LocatedIsReportedWithoutAReason) {
   const GridSlamOutput output = stand(20, 20.0F);
   ASSERT_TRUE(output.localization && output.pose);
   EXPECT_EQ(output.localization->header.stamp, output.pose->header.stamp);

@@ -18,7 +18,7 @@ using samples::find;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
+TEST(Markers, ObjectsNotSeenMovingArePaleInTheColorOfTheirClass) {
   ObjectArray objects;
   objects.objects.resize(2);
   objects.objects[1].dynamic_state = ObjectMessage::STATE_MOVING;
@@ -34,7 +34,7 @@ TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
   EXPECT_NE(find(markers, "object heads", 1), nullptr);
 }
 
-TEST(Markers, VehicleIsAsLargeAsConfiguredAndGoesWithItsFrame) {
+TEST(Markers, VehicleHasTheConfiguredSizeAndMovesWithItsFrame) {
   std_msgs::Header scan;
   scan.frame_id = "base_link";
   scan.stamp = ros::Time(5.0);

@@ -39,7 +39,7 @@ class ToldDetector : public ImageDetector {
   std::function<void()> told_;
 };
 
-TEST_F(MonoClassifierThread, TheDetectorGivesWayToAllOtherThreads) {
+TEST_F(MonoClassifierThread, TheDetectorYieldsToAllOtherThreads) {
   const int threads_before = cv::getNumThreads();
   int nice = 0;
   stage_ = makeStage([] { return 0.0; }, std::make_unique<ToldDetector>([&] {

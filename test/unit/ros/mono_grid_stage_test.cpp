@@ -97,21 +97,21 @@ TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
   EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
 }
 
-TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsOfNoUse) {
+TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsNotUsed) {
   mount();
   stage_.takeScan(scanAt(kStart - 0.05));
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(MonoGridStageTest, OfImagesThatWaitTheNewestStays) {
+TEST_F(MonoGridStageTest, OfWaitingImagesTheNewestIsKept) {
   mount();
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
   EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
 }
 
-TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneServes) {
+TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneIsUsed) {
   mount();
   const auto black = imageAt(kStart);
   black->data.assign(black->data.size(), 0);
@@ -138,7 +138,7 @@ TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U) << "of the scanner";
 }
 
-TEST_F(MonoGridStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(MonoGridStageTest, AClockJumpBackStartsOver) {
   mount();
   stage_.takeScan(scanAt(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);

@@ -144,7 +144,7 @@ TEST_F(PointVelocityStageTest, APairThatIsDroppedDoesNotScaleTheNextVelocities) 
   EXPECT_NEAR(boardSpeed(*next), -kBoardSpeed, 0.1 * kBoardSpeed);
 }
 
-TEST_F(PointVelocityStageTest, AnImageThatIsNoneDoesNotTakeTheStampOfAGoodOne) {
+TEST_F(PointVelocityStageTest, AnInvalidImageDoesNotBlockTheStampOfAGoodOne) {
   takePair(0);
   auto broken = image(kStart + kPeriod, 0, false, "camera");
   broken->data.pop_back();
@@ -161,7 +161,7 @@ TEST_F(PointVelocityStageTest, ALongGapGivesNoPoints) {
   EXPECT_TRUE(pointVelocities(*late).empty());
 }
 
-TEST_F(PointVelocityStageTest, AJumpBackStartsAnew) {
+TEST_F(PointVelocityStageTest, AJumpBackStartsOver) {
   takePair(1000);
   takePair(1001);
   const auto first = takePair(0);

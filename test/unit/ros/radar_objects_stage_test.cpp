@@ -80,7 +80,7 @@ TEST_F(RadarObjectsStageTest, WithoutMountOrMotionACycleIsDropped) {
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 2U);
 }
 
-TEST_F(RadarObjectsStageTest, ReturnsThatAreNoneAreLeftOutAndCounted) {
+TEST_F(RadarObjectsStageTest, InvalidReturnsAreLeftOutAndCounted) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
@@ -98,7 +98,7 @@ TEST_F(RadarObjectsStageTest, ReturnsThatAreNoneAreLeftOutAndCounted) {
   EXPECT_EQ(monitor_.figures().at("bad returns"), 6.0);
 }
 
-TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreTaken) {
+TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreUsed) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
@@ -107,7 +107,7 @@ TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreTaken) {
   EXPECT_EQ(monitor_.figures().at("bad returns"), 200.0);
 }
 
-TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreTakenFromAbove) {
+TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreProjectedToThePlane) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);

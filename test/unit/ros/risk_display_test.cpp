@@ -133,7 +133,7 @@ TEST(DriverView, LevelNoneHasNoCause) {
   EXPECT_FALSE(view.icons.at(0).is_cause);
 }
 
-TEST(DriverView, DoesWithoutTracksAndWithoutPath) {
+TEST(DriverView, IsDrawnWithoutTracksAndWithoutPath) {
   TrackArray elsewhere = oneTrack();
   elsewhere.header.frame_id = "odom";
   EXPECT_TRUE(driverViewOf(northward(), nullptr).icons.empty());
@@ -153,7 +153,7 @@ std_msgs::ColorRGBA bodyColor(const MarkerArray& markers, int id) {
   return body ? body->color : std_msgs::ColorRGBA();
 }
 
-TEST(TrackStyle, ColorsStandForWhatIsChosen) {
+TEST(TrackStyle, ColorsShowTheChosenProperty) {
   TrackArray tracks = oneTrack();
   tracks.tracks.push_back(tracks.tracks[0]);
   tracks.tracks[1].id = 8;
@@ -173,7 +173,7 @@ TEST(TrackStyle, ColorsStandForWhatIsChosen) {
   EXPECT_EQ(bodies().first, bodies().second);
 }
 
-TEST(TrackStyle, UnsureTracksFadeAndAreLeftOut) {
+TEST(TrackStyle, UncertainTracksFadeAndAreLeftOut) {
   TrackStyle style;
   const float faded = bodyColor(markersOf(oneTrack(), style), 7).a;
   style.fade_by_existence = false;

@@ -39,7 +39,7 @@ std::string reasonToPublish(const std::function<void(RoadModel&)>& spoil) {
   return reasonOf([&] { toMessage(road, "map"); });
 }
 
-TEST(RoadConversion, ThereAndBack) {
+TEST(RoadConversion, RoundTrip) {
   RoadModel road = straightRoad();
   road.at_intersection = true;
   road.borders[1].side_street = true;
@@ -117,7 +117,7 @@ TEST(RoadConversion, PointsAreBoundedOverAllBorders) {
   EXPECT_EQ(reasonAfter(filled(kMaxBorderPoints + 4)), "many_points");
 }
 
-TEST(RoadConversion, WhatIsWrongIsReportedWithItsValue) {
+TEST(RoadConversion, ErrorsAreReportedWithTheValue) {
   RoadModel road = straightRoad();
   road.borders[0].points.pop_back();
   road.borders[0].points.pop_back();

@@ -46,7 +46,7 @@ TEST(RoadMarkers, EachStretchIsALineInTheColorOfItsSide) {
   EXPECT_NE(left.color.b, right.color.b);
 }
 
-TEST(RoadMarkers, WhatIsLikelyIsWideAndLessTransparent) {
+TEST(RoadMarkers, LikelyBordersAreWideAndLessTransparent) {
   const MarkerArray markers = markersOfRoad(samples::straightRoad());  // 0.75 and 0.5
   const Marker likely = get(markers, "road borders", 0);
   const Marker doubtful = get(markers, "road borders", 1);

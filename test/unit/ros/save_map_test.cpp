@@ -57,7 +57,7 @@ TEST_F(SaveMapTest, TheMapIsWrittenAndCanBeReadAgain) {
 
 /// After a drive of 40 m with very little space for the map, in memory and in a file in this
 /// folder.
-TEST_F(SaveMapTest, TilesThatAreForgottenAreWarnedOfAndSaid) {
+TEST_F(SaveMapTest, ThereIsAWarningOfForgottenTiles) {
   const auto answerAfterDrive = [this](const std::string& folder) {
     GridSlamStageOptions options;
     options.slam.map.window = {20.0, 20.0, 0.2};
@@ -87,7 +87,7 @@ TEST_F(SaveMapTest, ARelativePathIsRefused) {
   EXPECT_NE(response.message.find("expected an absolute path"), std::string::npos);
 }
 
-TEST_F(SaveMapTest, WhereItCannotBeWrittenIsReportedAndCounted) {
+TEST_F(SaveMapTest, WriteErrorsAreReportedAndCounted) {
   const auto response = answer(file("none/hall.map"));
   EXPECT_FALSE(response.success);
   EXPECT_EQ(samples::warnings(monitor_, "map_not_saved"), 1U);

@@ -58,7 +58,7 @@ class ScanMergeStageTest : public testing::Test {
   ScanMergeStage stage_{options(), buffer_, monitor_};
 };
 
-TEST_F(ScanMergeStageTest, TheRearScanIsBroughtToTheFrontsStamp) {
+TEST_F(ScanMergeStageTest, TheRearScanIsCompensatedToTheFrontsStamp) {
   drive(0.0);
   drive(0.1);
   take("rear", 0.10, 5.0F);  // the wall is at x = -6 m
@@ -89,7 +89,7 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   EXPECT_NEAR(merged->ranges[kBehind], 6.0, 1e-5);
 }
 
-TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherGoesOn) {
+TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherContinues) {
   drive(0.0);
   take("rear", 0.0, 5.0F);
   take("front", 0.0, 7.0F);

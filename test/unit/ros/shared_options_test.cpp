@@ -49,7 +49,7 @@ SharedOptions sharedOf(const std::map<std::string, OptionValues>& sections) {
   });
 }
 
-TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
+TEST(SharedOptions, FramesAreSetOnceAndUsedByEachStage) {
   const SharedOptions shared =
       sharedOf({{"frames", {{"odom", std::string("/wheels")}, {"base", std::string("robot")}}}});
   const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
@@ -59,7 +59,7 @@ TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
   EXPECT_EQ(readStageOptions<TrackerStageOptions>({}, shared).frames.base, "robot");
 }
 
-TEST(SharedOptions, APrefixStandsBeforeAllFrames) {
+TEST(SharedOptions, APrefixIsAddedToAllFrames) {
   const SharedOptions shared =
       sharedOf({{"frames", {{"prefix", std::string("/car1/")}}}, {"mounts", {{"laser/x", 2.0}}}});
   EXPECT_EQ(shared.frames.map, "car1/map");
@@ -155,7 +155,7 @@ TEST(SharedOptions, VehicleIsDeclaredOnce) {
   EXPECT_EQ(readStageOptions<MarkersOptions>({}, shared).vehicle.height, 2.0);
 }
 
-TEST(SharedOptions, WhatIsNotKnownIsLeftToTheStages) {
+TEST(SharedOptions, UnsetValuesAreLeftToTheStages) {
   const auto stages = [](const std::map<std::string, OptionValues>& sections) {
     const SharedOptions shared = sharedOf(sections);
     const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);

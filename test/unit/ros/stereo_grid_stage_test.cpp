@@ -71,7 +71,7 @@ TEST_F(StereoGridStageTest, ACloudMakesAGridOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoGridStageTest, DiagnosticsReportWhatWasSeen) {
+TEST_F(StereoGridStageTest, DiagnosticsReportTheCloudsContent) {
   mountSensors();
   takeAt(kStart);
   const auto& figures = monitor_.figures();
@@ -82,7 +82,7 @@ TEST_F(StereoGridStageTest, DiagnosticsReportWhatWasSeen) {
   EXPECT_NEAR(figures.at("road's slope ahead [m/m]"), 0.0, 0.02);
 }
 
-TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
+TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreTransformedToTheCamera) {
   mountSensors();
   options_.frames.camera = "camera";
   StereoGridStage stage(options_, buffer_, monitor_);
@@ -96,7 +96,7 @@ TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
   expectWall(stage.takeCloud(message));
 }
 
-TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsServe) {
+TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsAreUsed) {
   mountSensors();
   options_.camera.focal_length = 500.0;
   options_.camera.baseline = 0.2;
@@ -104,7 +104,7 @@ TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsServe) {
   expectWall(stage.takeCloud(cloudAt(kStart)));
 }
 
-TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoComes) {
+TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoArrives) {
   mountSensors();
   StereoGridStage stage(options_, buffer_, monitor_);
   EXPECT_FALSE(stage.takeCloud(cloudAt(kStart)));
@@ -139,7 +139,7 @@ TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
 }
 
-TEST_F(StereoGridStageTest, ACameraThatLooksStraightDownIsRefused) {
+TEST_F(StereoGridStageTest, ACameraFacingStraightDownIsRefused) {
   mountSensors();
   tf2_msgs::TFMessage message;
   message.transforms = {samples::transform("base_link", "camera", 2.0)};
@@ -151,7 +151,7 @@ TEST_F(StereoGridStageTest, ACameraThatLooksStraightDownIsRefused) {
   EXPECT_EQ(drops("bad_camera"), 1U);
 }
 
-TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneServed) {
+TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneProcessed) {
   mountSensors();
   const auto dropped = [this](const std::function<void(sensor_msgs::PointCloud2&)>& spoil,
                               const std::string& reason) {
@@ -174,7 +174,7 @@ TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneServed) {
   expectWall(takeAt(kStart + 0.1));
 }
 
-TEST_F(StereoGridStageTest, AJumpBackStartsAnew) {
+TEST_F(StereoGridStageTest, AJumpBackStartsOver) {
   mountSensors();
   EXPECT_TRUE(takeAt(200.0));
   expectWall(takeAt(100.0));
@@ -226,7 +226,7 @@ TEST_F(StereoGridStageTest, OrganizedCloudsOfDepthCamerasMakeGrids) {
   EXPECT_EQ(drops("bad_camera_info"), 0U);
 }
 
-TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNoneOfAPair) {
+TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNotThatOfAPair) {
   stage_.takeCameraInfo(depthImageInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
 }

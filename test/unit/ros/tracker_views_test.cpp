@@ -120,17 +120,17 @@ TEST_F(TrackerViewsTest, HiddenFromTheScannerAndSeenByTheCameraItIsKept) {
   }
 }
 
-TEST_F(TrackerViewsTest, WhatBothWouldSeeAndNoneDoesEnds) {
+TEST_F(TrackerViewsTest, TracksMissedByBothEnd) {
   follow();
   EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
 }
 
-TEST_F(TrackerViewsTest, WhatTheCameraWouldSeeEndsThoughTheScannerIsBlocked) {
+TEST_F(TrackerViewsTest, TracksMissedByTheCameraEndThoughTheScannerIsBlocked) {
   follow();
   EXPECT_LE(lifeWithout(Scanner::kBlocked, Camera::kFree), 10);
 }
 
-TEST_F(TrackerViewsTest, HiddenFromBothItGoesOnUnseen) {
+TEST_F(TrackerViewsTest, HiddenFromBothItContinuesUnseen) {
   follow();
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kBlocked, Camera::kBlocked), silence, kPeriod);
@@ -148,7 +148,7 @@ TEST_F(TrackerViewsTest, AScanWithoutFieldIsNoEvidenceAgainstWhatTheCameraCannot
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kSilent, Camera::kBlocked), silence, kPeriod);
 }
 
-TEST_F(TrackerViewsTest, TheTracksHaveWhatTheirSensorsCouldSee) {
+TEST_F(TrackerViewsTest, TheTracksHaveTheirSensorsViews) {
   step(Scanner::kFree, Camera::kFree, {});
   EXPECT_EQ(views(), 2U);
   step(Scanner::kFree, Camera::kNone, {});
@@ -170,13 +170,13 @@ class CameraTrackerTest : public TrackerViewsTest {
   }
 };
 
-TEST_F(CameraTrackerTest, HiddenFromTheCameraItGoesOnWhateverTheScannerSees) {
+TEST_F(CameraTrackerTest, HiddenFromTheCameraItContinuesWhateverTheScannerSees) {
   follow({"camera"});
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kFree, Camera::kBlocked), silence, kPeriod);
 }
 
-TEST_F(CameraTrackerTest, WhatTheCameraWouldSeeEnds) {
+TEST_F(CameraTrackerTest, TracksMissedByTheCameraEnd) {
   follow({"camera"});
   EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
 }
