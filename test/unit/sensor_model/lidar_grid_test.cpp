@@ -47,7 +47,7 @@ std::size_t count(const SensorGrid& grid, Percent percent) {
   return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
 }
 
-TEST(LidarGridTest, AScanWithoutRaysSaysNothing) {
+TEST(LidarGridTest, AScanWithoutRaysIsUninformative) {
   const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanOf({}));
   EXPECT_EQ(grid.stamp(), Stamp::fromSeconds(12.0));
   EXPECT_EQ(grid.window(), smallGrid().window.window());
@@ -127,7 +127,7 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   EXPECT_EQ(grid.at({2, 1}), kUnknownPercent);  // the wedge is narrow there
 }
 
-TEST(LidarGridTest, BesideItsAxisABeamIsFreeAsFarAsAFlatSurfaceLetsIt) {
+TEST(LidarGridTest, BesideItsAxisABeamIsFreeUpToAFlatSurface) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
   options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
@@ -194,7 +194,7 @@ TEST(LidarGridTest, AnEndOutsideOfTheWindowLeavesItFreeUpToItsBorder) {
   }
 }
 
-TEST(LidarGridTest, AScannerOutsideOfTheWindowIsServed) {
+TEST(LidarGridTest, AScannerOutsideTheWindowIsSupported) {
   const SensorGrid grid =
       LidarGridModel(smallGrid()).grid(scanOf({rayTo({-20.5, 0.5}, {5.5, 0.5})}));
   EXPECT_EQ(count(grid, kFree), 15U);

@@ -120,7 +120,7 @@ void run(StereoAlignmentFilter& filter, Street& street, int images) {
 }
 
 /// Chi squared of five terms in 40 runs: 5, between 4.1 and 6.1 with 95 %; drift widens it.
-TEST(StereoAlignment, ErrorsAreWhatTheCovarianceSays) {
+TEST(StereoAlignment, ErrorsAreConsistentWithTheCovariance) {
   const StereoAlignmentOptions options = independent();
   constexpr int kRuns = 40;
   double nees = 0.0;
@@ -153,7 +153,7 @@ TEST(StereoAlignment, AWrongMountIsNotTakenForABiasOfDisparities) {
   EXPECT_FALSE(filter.isFault(AlignmentTerm::kTime));
 }
 
-TEST(StereoAlignment, WhatIsOfAnotherSurfaceIsLeftOut) {
+TEST(StereoAlignment, PointsOfOtherSurfacesAreLeftOut) {
   const StereoAlignmentOptions options = independent();
   Street street(AlignmentVector::Zero(), options, 1);
   StereoAlignmentFilter filter(options);
@@ -186,7 +186,7 @@ TEST(StereoAlignment, ASurfaceThatStaysInViewCountsOnce) {
   EXPECT_LT(expected.alignment().sigma(AlignmentTerm::kDisparity), 0.28);
 }
 
-TEST(StereoAlignment, OptionsThatAreNoneAreRefused) {
+TEST(StereoAlignment, InvalidOptionsAreRefused) {
   StereoAlignmentOptions options;
   options.disparity.sigma = -1.0;
   EXPECT_THROW(StereoAlignmentFilter{options}, OptionError);

@@ -74,7 +74,7 @@ TEST(SurfacePairs, ColumnsOfTwoSurfacesMakeNone) {
 }
 
 /// Through a gap the scanner sees what is hidden from the camera, and vice versa.
-TEST(SurfacePairs, WhatOneOfThemDoesNotSeeMakesNone) {
+TEST(SurfacePairs, SurfacesHiddenFromOneMakeNone) {
   EXPECT_TRUE(pairsOf(wallAhead(), scanOf(5.0, -1.5, 1.5)).empty()) << "nothing there for one";
   EXPECT_TRUE(pairsOf(wallAhead(1.0, 3.0), scanOf(kWall, -3.0, 0.5)).empty());
 }
@@ -97,7 +97,7 @@ TEST(SurfacePairs, FewBeamsAndSlantedSurfacesMakeNone) {
   EXPECT_TRUE(pairsOf(side, rays).empty()) << "60 degrees and more from the normal";
 }
 
-TEST(SurfacePairs, OptionsThatAreNoneAreRefused) {
+TEST(SurfacePairs, InvalidOptionsAreRefused) {
   SurfacePairOptions options;
   options.min_beams = 1;
   EXPECT_THROW(SurfacePairFinder{options}, OptionError);

@@ -25,14 +25,14 @@ struct Ring {
   std::vector<float> times;
 };
 
-TEST(SweepTimingTest, ATurnToTheLeftComesToEachBearingInTurn) {
+TEST(SweepTimingTest, ATurnToTheLeftReachesTheBearingsInOrder) {
   const SweepTiming sweep{degrees(90.0), false, 0.1, -0.02};
   EXPECT_NEAR(sweep.timeAt(degrees(90.0)), -0.02, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(180.0)), -0.02 + 0.025, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(0.0)), -0.02 + 0.075, 1e-9);
 }
 
-TEST(SweepTimingTest, OneToTheRightComesToThemTheOtherWayRound) {
+TEST(SweepTimingTest, ATurnToTheRightReachesThemInReverseOrder) {
   const SweepTiming sweep{degrees(90.0), true, 0.1, 0.0};
   EXPECT_NEAR(sweep.timeAt(degrees(0.0)), 0.025, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(180.0)), 0.075, 1e-9);
@@ -68,7 +68,7 @@ TEST(SweepTimingTest, TimesThatDoNotFollowTheBearingGiveNone) {
 
 TEST(SweepTimingTest, NoPointsGiveNone) { EXPECT_FALSE(sweepOf({}, {}, {0.0, 0.0})); }
 
-TEST(SweepTimingTest, TheManualsTurnIsThere) {
+TEST(SweepTimingTest, TheManualsTurnIsReproduced) {
   SweepOptions options;
   EXPECT_FALSE(options.timing());
   options.duration = 0.1;
