@@ -54,7 +54,7 @@ Seen lookRound(const Scene& scene) {
 
 class DataSetScene : public testing::TestWithParam<DataSet> {};
 
-TEST_P(DataSetScene, HoldsWhatTheThesisSays) {
+TEST_P(DataSetScene, HoldsTheThesissContents) {
   const DataSet& expected = GetParam();
   const Scene scene =
       readScene(DATMO_FUSION_SCENES "/data_set_" + std::to_string(expected.number) + ".yaml");

@@ -46,7 +46,7 @@ TEST(FeatureFlow, TheFirstExposureHasNoPoints) {
   EXPECT_GT(flow.measure(world, kInterval).size(), 100U);
 }
 
-TEST(FeatureFlow, VelocitiesAreHonestWhileTheVehicleDrives) {
+TEST(FeatureFlow, VelocitiesAreConsistentWhileTheVehicleDrives) {
   const World world = streetWith("pedestrian", Pose2(12.0, -1.0, 0.5 * kPi), 1.4, 8.0);
   StereoCameraOptions options;
   options.wrong_feature_share = 0.0;

@@ -61,7 +61,7 @@ class SceneFile : public testing::Test {
   EXPECT_LT((message).find(first), (message).find(second)) << message; \
   EXPECT_NE((message).find(second), std::string::npos) << message
 
-TEST_F(SceneFile, ContactIsTrueWhereItIsAllowed) {
+TEST_F(SceneFile, ContactIsReportedIfAllowed) {
   // A car parked in the lane 20 m ahead: from bumper to bumper it is less.
   const std::string standing =
       "actors:\n  - {kind: car, path: [[20, -2], [80, -2]], speed: [[0, 0.0]]}\n";
@@ -85,7 +85,7 @@ TEST_F(SceneFile, ContactIsTrueWhereItIsAllowed) {
   EXPECT_NE(scene.contact->object, kNoObject);
 }
 
-TEST_F(SceneFile, HasNoContactWhereNothingIsMet) {
+TEST_F(SceneFile, HasNoContactIfNothingIsHit) {
   std::string text = kSmallScene;
   text.replace(text.find("duration: 5.0,"), 14, "duration: 5.0, contact: true,");
   EXPECT_FALSE(readScene(write(text)).contact);

@@ -78,7 +78,7 @@ TEST(StereoCamera, SitsWhereItIsMounted) {
   }
 }
 
-TEST(StereoCamera, FenceHidesOnlyWhatIsBehindAndBelow) {
+TEST(StereoCamera, FenceHidesOnlyObjectsBehindAndBelow) {
   const StereoCameraOptions options = idealStereo();
   World world = emptyWorld();
   world.addSolid(wallAt(10.0, 1.0));
@@ -210,7 +210,7 @@ TEST(StereoCamera, SameSeedSamePoints) {
   EXPECT_NE(pointsIn(world, options, 3), pointsIn(world, options, 4));
 }
 
-TEST(StereoCamera, TruthNamesWhatItSees) {
+TEST(StereoCamera, TruthNamesItsVisibleObjects) {
   World world = emptyWorld();
   world.addStanding(objectKind("car"), {20.0, 0.0, kPi / 2.0});
   world.addStanding(objectKind("car"), {45.0, 10.0, kPi / 2.0});  // beyond its effective range

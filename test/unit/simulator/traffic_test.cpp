@@ -42,7 +42,7 @@ TEST(Traffic, MeetsTheEgoVehicleWhereTheLaneSays) {
   }
 }
 
-TEST(Traffic, MoreOfItLeavesTheFirstMoversAsTheyAre) {
+TEST(Traffic, MoreOfItLeavesTheFirstMoversUnchanged) {
   const World few = worldWith(2, 7);
   const World many = worldWith(5, 7);
   ASSERT_EQ(many.movers().size(), 5U);

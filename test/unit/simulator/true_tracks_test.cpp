@@ -31,7 +31,7 @@ std::vector<ObjectTruth> truthsAt(const World& world, double time, bool visible 
   return truths;
 }
 
-TEST(IdealTracker, KnowsStateAndModeOfWhatMoves) {
+TEST(IdealTracker, KnowsStateAndModeOfMovingObjects) {
   const World world = braking();
   IdealTracker tracker(world);
   const TruePerception perception = tracker.at(3.0, truthsAt(world, 3.0));
@@ -44,7 +44,7 @@ TEST(IdealTracker, KnowsStateAndModeOfWhatMoves) {
             0.9);
 }
 
-TEST(IdealTracker, WhatStandsIsPoints) {
+TEST(IdealTracker, StationaryObjectsArePoints) {
   const World world = braking();
   IdealTracker tracker(world);
   const TruePerception perception = tracker.at(0.0, truthsAt(world, 0.0));
@@ -54,7 +54,7 @@ TEST(IdealTracker, WhatStandsIsPoints) {
   }
 }
 
-TEST(IdealTracker, KeepsWhatHasMovedAndWhatItHasSeen) {
+TEST(IdealTracker, KeepsObjectsThatHaveMovedAndHaveBeenSeen) {
   const World world = braking();
   IdealTracker tracker(world);
   EXPECT_TRUE(tracker.at(0.0, truthsAt(world, 0.0, false)).tracks.empty());
