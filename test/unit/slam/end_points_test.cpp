@@ -38,7 +38,7 @@ TEST(EndPointsTest, AWallAtAFlatAngleIsSampledAlongItselfHoweverFarTheStep) {
   EXPECT_NEAR(points[1].sampling(1, 1), 0.0, 1e-12);
 }
 
-TEST(EndPointsTest, WhatStandsOutIsSampledByTheBeamsSpacing) {
+TEST(EndPointsTest, ProtrudingPointsAreSampledByTheBeamsSpacing) {
   const auto points = endPoints(scanOf({{30.0, -3.0}, {10.0, 0.0}, {30.0, 3.0}}), 3.0);
   EXPECT_NEAR(points[1].sampling(1, 1), 1.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(0, 0), 0.0, 1e-12);

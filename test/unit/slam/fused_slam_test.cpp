@@ -38,19 +38,19 @@ double errorAfterDrive(GridSlam& slam, bool with_scans) {
   return (estimate.position() - truth.position()).norm();
 }
 
-TEST(FusedSlamTest, OnScansThroughTheGridItIsAsGoodAsOnScans) {
+TEST(FusedSlamTest, WithScansThroughTheGridItIsAsAccurateAsWithScans) {
   GridSlam slam{GridSlamOptions{}};
   EXPECT_LT(errorAfterDrive(slam, true), 0.15);  // odometry alone: 1.2 m and 6 degrees
 }
 
-TEST(FusedSlamTest, OnCellsAloneItKeepsToTheirSize) {
+TEST(FusedSlamTest, WithCellsAloneItsErrorIsBelowTheirSize) {
   GridSlamOptions options;
   options.grid_ends = GridEnds::kCells;
   GridSlam slam{options};
   EXPECT_LT(errorAfterDrive(slam, true), options.map.window.cell_size);
 }
 
-TEST(FusedSlamTest, WithASilentScannerTheGridServes) {
+TEST(FusedSlamTest, WithASilentScannerTheGridIsUsed) {
   GridSlam slam{GridSlamOptions{}};
   EXPECT_LT(errorAfterDrive(slam, false), GridSlamOptions{}.map.window.cell_size);
 }
@@ -78,13 +78,13 @@ class FusedSlamInTheYard : public testing::Test {
   Box2 box_{Pose2(9.0, 0.0, 0.0), 1.0, 2.0};
 };
 
-TEST_F(FusedSlamInTheYard, WhatTheGridConfirmsMovesAndIsNotMapped) {
+TEST_F(FusedSlamInTheYard, PointsConfirmedByTheGridMoveAndAreNotMapped) {
   const Scan scan = yard_.scan(Pose2(), 2.0, &box_);
   EXPECT_GE(moving(slam_.process(gridOf(scan), scan)), 5);
   EXPECT_LT(slam_.map().occupancy(slam_.map().window().cellAt({8.5, 0.0})), 0.3);
 }
 
-TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
+TEST_F(FusedSlamInTheYard, EndsRefutedByTheGridAreNoPoints) {
   const Scan scan = yard_.scan(Pose2(), 2.0, &box_);
   const SlamResult result = slam_.process(gridOf(yard_.scan(Pose2(), 2.0)), scan);
   EXPECT_EQ(moving(result), 0);
@@ -95,7 +95,7 @@ TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
   EXPECT_EQ(result.labeled_scan.blind_beams.size() + result.labeled_scan.points.size(), 81U);
 }
 
-TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingWasKnown) {
+TEST_F(FusedSlamInTheYard, CellsOfOthersAloneDoNotMoveAndAreMappedInUnknownSpace) {
   const Scan scan = yard_.scan(Pose2(), 2.0);
   SensorGrid grid = gridOf(scan);
   const CellIndex in_free_space = grid.window().cellAt({9.0, 0.0});

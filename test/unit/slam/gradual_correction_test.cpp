@@ -31,7 +31,7 @@ TEST(GradualCorrectionTest, TheVehicleIsMovedAndTurnedNoFasterThanAllowed) {
   EXPECT_NEAR(end.heading(), target.heading(), 1e-9);
 }
 
-TEST(GradualCorrectionTest, BehindAGapNothingJumps) {
+TEST(GradualCorrectionTest, AfterAGapNothingJumps) {
   const GradualCorrectionOptions options;
   GradualCorrection correction(options);
   const Pose2 target(50.0, 0.0, 0.0);
@@ -40,7 +40,7 @@ TEST(GradualCorrectionTest, BehindAGapNothingJumps) {
   EXPECT_NEAR(after.x(), options.speed, 1e-9) << "as in a second";
 }
 
-TEST(GradualCorrectionTest, AClockThatStandsOrJumpsBackMovesNothing) {
+TEST(GradualCorrectionTest, AClockThatStopsOrJumpsBackMovesNothing) {
   GradualCorrection correction{GradualCorrectionOptions()};
   correction.advance(Stamp::fromSeconds(1000.0), Pose2(), Pose2(1.0, 0.0, 0.0));
   EXPECT_EQ(correction.advance(Stamp::fromSeconds(999.0), Pose2(), Pose2(1.0, 0.0, 0.0)).x(), 0.0);

@@ -97,7 +97,7 @@ TEST(GridSlamDriftTest, AtRestItDoesNot) {
   EXPECT_NEAR(rest.drift(2, 2), end.drift(2, 2), 0.1 * end.drift(2, 2));
 }
 
-TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
+TEST(GridSlamDriftTest, DistanceDrivenWithoutAMatchStaysUncertain) {
   GridSlam slam{GridSlamOptions{}};
   Vehicle vehicle;
   vehicle.go(slam, {4.0, 0.0}, 20);
@@ -110,7 +110,7 @@ TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
   EXPECT_GT(sinceStart(after), 0.9 * sinceStart(before));
 }
 
-TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapInWhichOnlyOdometryThatErrsWasReceived) {
+TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapWithOnlyBiasedOdometry) {
   // Errors of 4 % of the speed and 1 degree/s, unknown to the SLAM, and 2 s without a hit.
   double nees = 0.0;
   const std::vector<Twist2> errors = {

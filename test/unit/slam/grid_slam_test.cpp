@@ -53,7 +53,7 @@ TEST(GridSlamTest, CorrectsBiasedOdometry) {
               0.0, degrees(0.5));
 }
 
-TEST(GridSlamTest, OdometryThatComesLateIsNotTakenForNow) {
+TEST(GridSlamTest, LateOdometryIsNotTakenForCurrent) {
   // A turn that begins immediately, which odometry reports one and a half scans later.
   constexpr double kPeriod = 0.06;
   constexpr double kLate = 0.1;
@@ -86,7 +86,7 @@ TEST(GridSlamTest, WorksWithoutOdometry) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
-TEST(GridSlamTest, AYawRateAloneServesWithoutASpeed) {
+TEST(GridSlamTest, AYawRateAloneIsUsedWithoutASpeed) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   const Twist2 twist{4.0, 0.4};
@@ -118,7 +118,7 @@ TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
-TEST(GridSlamTest, SomethingThatComesIntoFreeSpaceIsMovingAndNotMapped) {
+TEST(GridSlamTest, AnObjectEnteringFreeSpaceIsMovingAndNotMapped) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   for (int i = 0; i < 20; ++i) {
@@ -266,7 +266,7 @@ TEST(GridSlamTest, AnEncoderCountsOverAGapOfScansAndOdometry) {
   }
 }
 
-TEST(GridSlamTest, WithoutScansThePoseFollowsTheOdometryForAsLongAsItTakes) {
+TEST(GridSlamTest, WithoutScansThePoseFollowsTheOdometryIndefinitely) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   Drive end;

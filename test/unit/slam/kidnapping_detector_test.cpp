@@ -42,7 +42,7 @@ TEST(KidnappingDetectorTest, ASmallerRiseIsTraffic) {
   EXPECT_FALSE(scans.detector.isSuspected());
 }
 
-TEST(KidnappingDetectorTest, WhatFillsTheViewLittleByLittleIsTraffic) {
+TEST(KidnappingDetectorTest, AGradualRiseIsTraffic) {
   Scans scans;
   for (int contradicted = 10; contradicted <= 100; contradicted += 3) {
     scans.add(contradicted);
@@ -61,7 +61,7 @@ TEST(KidnappingDetectorTest, ABumpIsForgotten) {
   EXPECT_FALSE(scans.detector.isKidnapped());
 }
 
-TEST(KidnappingDetectorTest, FewBeamsSayNothingAndEndASuspicion) {
+TEST(KidnappingDetectorTest, FewBeamsAreUninformativeAndEndASuspicion) {
   Scans scans;
   scans.add(19, 20, 19);
   EXPECT_FALSE(scans.detector.isSuspected());

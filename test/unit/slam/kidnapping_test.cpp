@@ -78,7 +78,7 @@ TEST(KidnappingTest, ItIsFoundInTheMapItWasIn) {
   }
 }
 
-TEST(KidnappingTest, WhereTheMapKnowsNothingItGoesOnInANewOne) {
+TEST(KidnappingTest, InUnmappedSpaceItContinuesInANewMap) {
   const Step last = drive(kUnknown, 80).back();
   EXPECT_EQ(last.result.localization, Localization::kLocated);
   EXPECT_EQ(last.result.maps_begun, 1);
@@ -110,7 +110,7 @@ TEST(KidnappingTest, NothingMovesMeanwhile) {
   }
 }
 
-TEST(KidnappingTest, WhoStaysOnTheWayStaysLocated) {
+TEST(KidnappingTest, WithoutKidnappingItStaysLocated) {
   for (const Step& step : drive(std::nullopt, 60)) {
     EXPECT_EQ(step.result.localization, Localization::kLocated);
     EXPECT_LT(sigmaOf(step), 0.3);

@@ -95,7 +95,7 @@ TEST(MapDriftTest, OfSurfacesOfTwoAgesTheMeanAgeCoversTheDriftWithinAFactorOfTwe
   EXPECT_GT(by_rate.drift.covariance()(0, 0), 20.0 * squares) << "the rates' mean is far off";
 }
 
-TEST(MapDriftTest, AnErrorOfTheHeadingLeadsAside) {
+TEST(MapDriftTest, AHeadingErrorCausesLateralDrift) {
   Drive drive(false);
   drive.straight(100);
   const double heading_variance = drive.drift.covariance()(2, 2);
@@ -144,7 +144,7 @@ TEST(MapDriftTest, AScaleThatIsNotEstimatedStaysUnknown) {
   EXPECT_DOUBLE_EQ(drive.drift.scaleSigma(), 0.05);
 }
 
-TEST(MapDriftTest, SurfacesOfLongAgoShowTheScaleOnlyOverTheDistanceDrivenSince) {
+TEST(MapDriftTest, OldSurfacesShowTheScaleOnlyOverTheDistanceDrivenSince) {
   constexpr double kLongAgo = 1e6;  // s
   Drive drive(true);
   for (int i = 1; i <= 100; ++i) {
@@ -174,7 +174,7 @@ TEST(MapDriftTest, APriorMapHoldsThePose) {
   EXPECT_LT(drive.drift.covariance()(0, 0), 0.01 * square(kPositionSigma));
 }
 
-TEST(MapDriftTest, WhatWasWrittenWithoutAMatchErrsAsThePredictionDid) {
+TEST(MapDriftTest, UnmatchedScansHaveTheErrorOfThePrediction) {
   Drive drive(false);
   drive.straight(100);
   const double before = drive.drift.covariance()(0, 0);
@@ -184,7 +184,7 @@ TEST(MapDriftTest, WhatWasWrittenWithoutAMatchErrsAsThePredictionDid) {
   EXPECT_NEAR(drive.drift.covariance()(0, 0) - before, 4.0, 0.01) << "the last one's, once";
 }
 
-TEST(MapDriftTest, WithoutMatchesItIsCarriedAlong) {
+TEST(MapDriftTest, WithoutMatchesItIsPropagated) {
   Drive drive(false);
   drive.straight(100);
   const Eigen::Matrix3d before = drive.drift.covariance();

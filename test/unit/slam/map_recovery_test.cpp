@@ -97,7 +97,7 @@ TEST(MapRecoveryTest, ItIsFoundWhereNothingElseFits) {
   EXPECT_LT(steps.back().result.labeled_scan.base_in_map.covariance(0, 0), 0.1);
 }
 
-TEST(MapRecoveryTest, OdometryThatComesLateStillBoundsTheGap) {
+TEST(MapRecoveryTest, LateOdometryStillBoundsTheGap) {
   const Eigen::Matrix3d in_time =
       run({2.0, 2.0}, 4).back().result.labeled_scan.base_in_map.covariance;
   const Eigen::Matrix3d late =
@@ -118,7 +118,7 @@ TEST(MapRecoveryTest, WithoutOdometryItIsFoundToo) {
   EXPECT_LT(errorOf(steps.back()).head<2>().norm(), 0.3);
 }
 
-TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapIsNoWayIntoTheOlder) {
+TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapDoesNotLeadIntoTheOlder) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   const Twist2 twist{2.0, 0.0};
@@ -163,7 +163,7 @@ TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {
   }
 }
 
-TEST(MapRecoveryTest, PutDownElsewhereItGoesOnInANewMap) {
+TEST(MapRecoveryTest, PutDownElsewhereItContinuesInANewMap) {
   const std::vector<Step> steps = run({2.0, 2.0, 0.0, 0.0, true}, 70);
   EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
   EXPECT_EQ(steps.back().result.maps_begun, 1);

@@ -137,7 +137,7 @@ TEST(MotionCompensationOf, AVehicleAtRestChangesNothing) {
   }
 }
 
-TEST(MotionCompensationOf, NoRaysIsAtOnce) {
+TEST(MotionCompensationOf, NoRaysIsInstantaneous) {
   EXPECT_EQ(sweepDuration({}), 0.0);
   EXPECT_TRUE(compensateMotion({}, {14.0, 0.0}).rays.empty());
 }
@@ -149,7 +149,7 @@ TEST(MotionCompensationOf, TheSweepLastsToItsLatestRay) {
   EXPECT_DOUBLE_EQ(sweepDuration(scan), 0.079);
 }
 
-TEST(ScanAt, AnotherTimeIsAsTheVehicleWouldHaveMeasuredItThen) {
+TEST(ScanAt, CompensationToAnotherTimeEqualsAMeasurementThen) {
   const Scan scan = scanOf({"", 0.0, 0.0, {}});
   const Pose2 base(-1.0, 0.5, 0.1);  // the vehicle has driven on
   const Stamp later = scan.stamp + 0.1;

@@ -28,7 +28,7 @@ TEST(OdometryPoses, BeforeTheFirstOneItIsMovedBack) {
   EXPECT_NEAR(poses.at(at(99.8))->x(), -2.0, 1e-9);
 }
 
-TEST(OdometryPoses, NoneServesBeyondItsHold) {
+TEST(OdometryPoses, NoneIsUsedBeyondItsHold) {
   OdometryPoses poses(0.5);
   EXPECT_FALSE(poses.at(at(100.0)));
   addAt(100.0, poses);

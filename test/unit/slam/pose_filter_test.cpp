@@ -157,7 +157,7 @@ PoseFilter measuredAt(const Twist2& twist) {
   return filter;
 }
 
-TEST(PoseFilterTest, AVelocityOfLongAgoTellsLittleOfNow) {
+TEST(PoseFilterTest, AnOldVelocityIsHardlyInformative) {
   // Once 10 m/s; since then the matches may have seen it brake. A random walk of 3 m/s^1.5.
   const auto speedAfter = [](double age) {
     PoseFilter filter = measuredAt({4.0, 0.0});
@@ -191,7 +191,7 @@ TEST(PoseFilterTest, OverAGapTheMeanVelocityOfBothEndsHolds) {
   EXPECT_EQ(filter.velocity().forward_speed, 4.0);
 }
 
-TEST(PoseFilterTest, ARestartKeepsWhatIsKnownOfTheOdometry) {
+TEST(PoseFilterTest, ARestartKeepsTheOdometrysCalibration) {
   PoseFilter filter({}, {});
   BiasedDrive drive(0.03, degrees(0.5), 7);
   drive.run(filter, 600);

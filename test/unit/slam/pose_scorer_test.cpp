@@ -109,7 +109,7 @@ TEST(PoseScorer, WithoutPointsNothingFits) {
   EXPECT_EQ(scorer.bestOf({Pose2(1.0, 0.0, 0.0), Pose2()}).x(), 1.0);
 }
 
-TEST(PoseScorer, FarAwayNothingIsKnown) {
+TEST(PoseScorer, FarAwayTheMapIsUnknown) {
   Random random(4);
   const auto points = ends(20, random);
   const OccupancyMap map = mapOf(points);
@@ -117,7 +117,7 @@ TEST(PoseScorer, FarAwayNothingIsKnown) {
 }
 
 // Under the undefined-behavior sanitizer: none of it may be cast to a cell.
-TEST(PoseScorer, WhatIsNotFiniteIsNowhereInTheMap) {
+TEST(PoseScorer, NonFinitePointsAreOutsideTheMap) {
   Random random(5);
   auto points = ends(20, random);
   const OccupancyMap map = mapOf(points);

@@ -71,7 +71,7 @@ bool isConfidentlyWrong(const SlamResult& result, const Pose2& truth) {
               degrees(3.0));
 }
 
-TEST(PriorMapTest, FromAnywhereItIsFoundOnTheWay) {
+TEST(PriorMapTest, GlobalLocalizationSucceedsWhileDriving) {
   const OccupancyMap map = mapOfYard();
   for (const Pose2& start :
        {Pose2(2.0, 1.0, 0.1), Pose2(20.0, -3.0, 3.0), Pose2(-5.0, 4.0, -0.8)}) {
@@ -128,7 +128,7 @@ TEST(PriorMapTest, FromAGuessItIsFoundThere) {
   EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
 }
 
-TEST(PriorMapTest, AWrongGuessIsGivenUp) {
+TEST(PriorMapTest, AWrongGuessIsAbandoned) {
   GridSlam slam{GridSlamOptions{}};
   SearchRegion guess;
   guess.prior.pose = {11.0, 1.0, 0.1};
@@ -144,7 +144,7 @@ TEST(PriorMapTest, AWrongGuessIsGivenUp) {
   EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
 }
 
-TEST(PriorMapTest, WhileItIsLostThePriorMapStaysAsItIs) {
+TEST(PriorMapTest, WhileItIsLostThePriorMapIsUnchanged) {
   GridSlam slam{GridSlamOptions{}};
   slam.startIn({mapOfYard(), {{}, true}});
   const MapEvidence before = mapOfYard().evidence();
@@ -202,7 +202,7 @@ Scan scanInSymmetricYard(const Pose2& base, double seconds) {
       base, seconds);
 }
 
-TEST(PriorMapTest, WhereTwoPlacesFitNoneIsTaken) {
+TEST(PriorMapTest, IfTwoPlacesFitNoneIsChosen) {
   OccupancyMap map{GridSlamOptions{}.map};
   const auto show = [](OccupancyMap& shown, const Pose2& base, double seconds) {
     const Scan scan = scanInSymmetricYard(base, seconds);

@@ -115,7 +115,7 @@ TEST(ScanMatcherTest, RefinementIsBetterThanTheBestSample) {
   EXPECT_LT(refined_error, 0.5 * plain_error);
 }
 
-TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
+TEST(ScanMatcherTest, AlongACorridorPredictionAndCovarianceAreKept) {
   const std::vector<Point2> points = corridor();
   const OccupancyMap map = mapOf(points);
   Random random(1);
@@ -187,12 +187,12 @@ double shiftByNewcomer(double min_maturity, bool measured) {
   return ScanMatcher(options).match(map, seenFrom(seen, {}), prediction, random).pose.pose.x();
 }
 
-TEST(ScanMatcherTest, WhatHasJustComeIntoViewDoesNotTakeThePoseAlong) {
+TEST(ScanMatcherTest, NewlyVisiblePointsDoNotPullThePose) {
   EXPECT_NEAR(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, true), 0.0, 0.02);
   EXPECT_LT(shiftByNewcomer(1.0, true), -0.15) << "all alike";
 }
 
-TEST(ScanMatcherTest, WithoutOdometryWhatHasJustComeIntoViewCounts) {
+TEST(ScanMatcherTest, WithoutOdometryNewlyVisiblePointsCount) {
   EXPECT_LT(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, false), -0.15);
 }
 

@@ -25,7 +25,7 @@ LabeledScan fiveBeams() {
   return scan;
 }
 
-TEST(StaticRanges, MarkWhatStandsAndClearWhatIsFree) {
+TEST(StaticRanges, MarkStaticPointsAndClearFreeSpace) {
   const auto ranges = staticRanges(fiveBeams(), true);
   ASSERT_EQ(ranges.size(), 5U);
   EXPECT_EQ(ranges[0], 10.0F);
@@ -35,17 +35,17 @@ TEST(StaticRanges, MarkWhatStandsAndClearWhatIsFree) {
   EXPECT_TRUE(std::isnan(ranges[4]));
 }
 
-TEST(StaticRanges, WhatIsNotKnownIsLeftOutOnDemand) {
+TEST(StaticRanges, UnknownPointsAreLeftOutOnRequest) {
   EXPECT_TRUE(std::isnan(staticRanges(fiveBeams(), false)[2]));
 }
 
-TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
+TEST(StaticRanges, WithoutAFreeRangeABeamWithoutReturnIsUninformative) {
   LabeledScan scan = fiveBeams();
   scan.field.free_range = 0.0;
   EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
 }
 
-TEST(StaticRanges, NothingIsKnownBeyondWhatABeamWithoutReturnClears) {
+TEST(StaticRanges, BeyondItsFreeRangeABeamWithoutReturnIsUninformative) {
   LabeledScan scan = fiveBeams();
   EXPECT_EQ(staticRange(scan.field), 40.0);
   scan.points = {pointOf(0, 45.0, PointState::kStatic)};
@@ -73,7 +73,7 @@ TEST(StaticRanges, BeamsBeyondTheFieldAreLeftOut) {
   EXPECT_TRUE(staticRanges(scan, true).empty());
 }
 
-TEST(StaticPoints, AreThoseThatStand) {
+TEST(StaticPoints, AreTheStaticOnes) {
   EXPECT_EQ(staticPoints(fiveBeams(), true).size(), 2U);
   const auto known = staticPoints(fiveBeams(), false);
   ASSERT_EQ(known.size(), 1U);
