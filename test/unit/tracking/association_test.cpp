@@ -51,7 +51,7 @@ TEST_F(AssociationTest, MoreCertainToExistScoresHigher) {
   EXPECT_LT(sure.missed, unsure.missed);
 }
 
-TEST_F(AssociationTest, OnlyWhatIsWithinTheGateByRisingX) {
+TEST_F(AssociationTest, OnlyObjectsWithinTheGateByAscendingX) {
   const Target target = predictedAt(0.0, 0.0);
   EXPECT_EQ(candidatesOf(target, objectsAlong({50.0, 0.4, -50.0, -0.3})),
             (std::vector<std::size_t>{1, 2}));
@@ -69,7 +69,7 @@ TEST_F(AssociationTest, TheGateIsAMahalanobisDistance) {
   EXPECT_TRUE(candidatesOf(target, {object}).empty());
 }
 
-TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
+TEST_F(AssociationTest, ThePregateLosesNothingWithinTheGate) {
   // All objects that pass the gate by themselves are found among many, small and large ones.
   const Target target = predictedAt(0.0, 0.0);
   std::vector<Object> objects;
@@ -89,7 +89,7 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
   EXPECT_EQ(candidatesOf(target, objects).size(), expected);
 }
 
-TEST_F(AssociationTest, TheQuickAnswerLosesNothingWhateverSidesAreSeen) {
+TEST_F(AssociationTest, ThePregateLosesNothingWhateverSidesAreVisible) {
   Random random(1);
   const auto anyObject = [&random] {
     Object object = objectAt(random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0));
@@ -146,7 +146,7 @@ Object ofClass(ObjectClass object_class, double probability) {
   return object;
 }
 
-TEST_F(AssociationTest, SurelyDifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
+TEST_F(AssociationTest, ClearlyDifferentClassesAreNeverAssociated) {
   const auto of = [](ObjectClass object_class) { return ofClass(object_class, 0.99); };
   const Target cyclist(of(ObjectClass::kCyclist), 0, 1, TargetOptions());
   EXPECT_TRUE(candidatesOf(cyclist, {of(ObjectClass::kVehicle)}).empty());
@@ -156,7 +156,7 @@ TEST_F(AssociationTest, SurelyDifferentClassesAreNeverJoinedAnUnknownOneIsWithAn
   EXPECT_EQ(candidatesOf(unknown, {of(ObjectClass::kVehicle)}).size(), 1U);
 }
 
-TEST_F(AssociationTest, WhereClassesMayDifferTheProbabilityCounts) {
+TEST_F(AssociationTest, PossiblyDifferentClassesCountByProbability) {
   const Target cyclist(ofClass(ObjectClass::kCyclist, 0.8), 0, 1, TargetOptions());
   const auto scoreOf = [&](ObjectClass object_class, double probability) {
     const AssociationScan scan = source_.scan({ofClass(object_class, probability)});

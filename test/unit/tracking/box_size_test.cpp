@@ -110,7 +110,7 @@ TEST(BoxSize, AClassSetsTheSize) {
   EXPECT_EQ(size.mean(), before);
 }
 
-TEST(BoxSize, AWrongClassIsForgottenByWhatIsSeen) {
+TEST(BoxSize, AWrongClassIsCorrectedByMeasurements) {
   const BoxSizeOptions options;
   BoxSize size(options);
   size.classify(ObjectClass::kPedestrian, 1.0);
@@ -149,7 +149,7 @@ TEST(BoxSize, ScansOfOneMomentCountAsOne) {
   EXPECT_LT(longer.variance().x(), 0.5 * few.variance().x()) << "as many, each of its own moment";
 }
 
-TEST(BoxSize, AScanWithoutTimeSaysNothingNew) {
+TEST(BoxSize, AScanWithoutElapsedTimeAddsNothing) {
   const BoxSizeOptions options;
   BoxSize size(options);
   size.update({whole(4.2), whole(1.75)}, 0.0, options);
@@ -185,7 +185,7 @@ TEST(BoxSize, TheLikelihoodsAreThoseOfTheSizes) {
   EXPECT_NEAR(seen.vehicle, 0.9 * density(options.vehicle) / best + 0.1, kTolerance);
 }
 
-TEST(BoxSize, WhatWasSaidOfTheClassIsNotInTheLikelihoods) {
+TEST(BoxSize, ClassReportsAreNotInTheLikelihoods) {
   const BoxSizeOptions options;
   BoxSize size = afterRear(1.8, options);
   const RoadUserLikelihoods before = size.likelihoods(options);

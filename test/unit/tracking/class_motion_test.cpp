@@ -21,7 +21,7 @@ Object measurementIndex(ObjectClass object_class, double probability, const Poin
   return object;
 }
 
-TEST(ClassMotion, PeopleTurnFasterThanVehiclesAndWhatHasNoClassMovesLikeThese) {
+TEST(ClassMotion, PeopleTurnFasterThanVehiclesAndUnknownClasses) {
   EXPECT_GT(turnRateOf(ObjectClass::kPedestrian), turnRateOf(ObjectClass::kCyclist));
   EXPECT_GT(turnRateOf(ObjectClass::kCyclist), turnRateOf(ObjectClass::kVehicle));
   EXPECT_EQ(turnRateOf(ObjectClass::kUnknown), turnRateOf(ObjectClass::kVehicle));
@@ -64,7 +64,7 @@ double predictionErrorOf(ObjectClass object_class) {
   return error;
 }
 
-TEST(ClassMotion, OneWhoWalksInCirclesIsPredictedBetterAsAPedestrian) {
+TEST(ClassMotion, WalkingInCirclesIsPredictedBetterAsAPedestrian) {
   EXPECT_LT(predictionErrorOf(ObjectClass::kPedestrian),
             0.9 * predictionErrorOf(ObjectClass::kVehicle));
 }

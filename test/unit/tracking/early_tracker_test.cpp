@@ -143,13 +143,13 @@ class EarlyTrackerTest : public testing::TestWithParam<TrackerAssociation> {
   std::vector<std::vector<Object>> scans_ = made();
 };
 
-TEST_P(EarlyTrackerTest, WithCompleteListsItIsAsIfItHadWaitedForThemButForIds) {
+TEST_P(EarlyTrackerTest, EqualsATrackerOfCompleteListsExceptForIds) {
   for (const int lag : {0, 1, 3}) {
     expectAsIfItHadWaited(lag);
   }
 }
 
-TEST_P(EarlyTrackerTest, TheNextEarlyListGoesOnFromTheCompleteOnes) {
+TEST_P(EarlyTrackerTest, TheNextEarlyListContinuesFromTheCompleteOnes) {
   EarlyTracker tracker(with(GetParam()));
   Tracker waiting(with(GetParam()));
   for (int step = 0; step < kSteps; ++step) {
@@ -166,7 +166,7 @@ TEST_P(EarlyTrackerTest, TheNextEarlyListGoesOnFromTheCompleteOnes) {
   }
 }
 
-TEST_P(EarlyTrackerTest, WhatWaitsIsBounded) {
+TEST_P(EarlyTrackerTest, TheQueueIsBounded) {
   EarlyTracker tracker(with(GetParam()));
   for (int step = 0; step < kSteps; ++step) {
     tracker.processEarly(early(step));
@@ -186,7 +186,7 @@ TEST_P(EarlyTrackerTest, WhatWaitsIsBounded) {
 
 // Both confirmed at once by the complete lists, which arrive two scans later; early only one is
 // seen.
-TEST_P(EarlyTrackerTest, WhatIsPublishedEarlyKeepsItsIdAndNoOtherGetsIt) {
+TEST_P(EarlyTrackerTest, AnEarlyPublishedTrackKeepsItsUniqueId) {
   for (const double first : {-10.0, 10.0}) {  // either may be the first of both
     const double second = -first;
     EarlyTracker tracker(with(GetParam()));
@@ -207,14 +207,14 @@ TEST_P(EarlyTrackerTest, WhatIsPublishedEarlyKeepsItsIdAndNoOtherGetsIt) {
   }
 }
 
-TEST_P(EarlyTrackerTest, WhatEarlyListsAloneHaveIsNotConfirmed) {
+TEST_P(EarlyTrackerTest, ObjectsOfEarlyListsAloneAreNotConfirmed) {
   EarlyTracker tracker(with(GetParam()));
   for (int step = 0; step < 20; ++step) {
     EXPECT_TRUE(tracker.processEarly(inputAt(step, {objectAt(5.0, 3.0)})).tracks.empty());
   }
 }
 
-TEST_P(EarlyTrackerTest, IdsThatWerePublishedEarlyAreNotGivenOutAgainAfterAReset) {
+TEST_P(EarlyTrackerTest, EarlyPublishedIdsAreNotReusedAfterAReset) {
   EarlyTracker tracker(with(GetParam()));
   tracker.process(inputAt(0, {objectAt(5.0, 3.0)}));
   const auto published = [&] {
@@ -231,7 +231,7 @@ TEST_P(EarlyTrackerTest, IdsThatWerePublishedEarlyAreNotGivenOutAgainAfterAReset
   EXPECT_GT(published(), before);
 }
 
-TEST(EarlyTracker, WhatEarlyListsCutShortIsCounted) {
+TEST(EarlyTracker, SearchesCutShortByEarlyListsAreCounted) {
   double now = 0.0;
   EarlyTracker tracker(with(TrackerAssociation::kMultipleHypotheses),
                        [&now] { return now += 1.0; });

@@ -51,7 +51,7 @@ TEST(FusedObjects, APoleIsNeverTracked) {
   }
 }
 
-TEST(FusedObjects, WhatStoodForLongMustBeSeenToMove) {
+TEST(FusedObjects, LongStationaryObjectsMustBeSeenToMove) {
   // Stereo's noise leaves it open whether it moves; that it was tracked for long does not.
   TrackingScene scene;
   for (int i = 0; i < 30; ++i) {
@@ -66,7 +66,7 @@ TEST(FusedObjects, WhatStoodForLongMustBeSeenToMove) {
   }
 }
 
-TEST(FusedObjects, WhatStoodUntilNowDoesNotMoveForOneEcho) {
+TEST(FusedObjects, OneEchoDoesNotMakeAStationaryObjectMove) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({stereoAt(10.0 + scene.noise(0.1), scene.noise(0.1))});
@@ -101,7 +101,7 @@ TEST(FusedObjects, AClassThatFlipsDoesNotBreakTheTrack) {
   }
 }
 
-TEST(FusedObjects, AClassThatChangesForGoodChangesThatOfTheTrack) {
+TEST(FusedObjects, APermanentClassChangeIsAdopted) {
   TrackingScene scene;
   for (int i = 0; i < 60; ++i) {
     const ObjectClass said = i < 30 ? ObjectClass::kPedestrian : ObjectClass::kCyclist;

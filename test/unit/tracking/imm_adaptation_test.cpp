@@ -121,7 +121,7 @@ TEST(ImmAdaptation, WrongTransitionsAreLearnedAndErrorsShrink) {
   EXPECT_NEAR(adaptive.mean, 4.0, adaptive.bound);
 }
 
-TEST(ImmAdaptation, RightTransitionsStayAndErrorsDoNotGrow) {
+TEST(ImmAdaptation, RightTransitionsAreKeptAndErrorsDoNotGrow) {
   const Comparison result = compare(assumed());
   EXPECT_LT(divergence(assumed(), result.learned),
             0.1 * divergence(restlessLeftTurners(), assumed()));

@@ -65,7 +65,7 @@ ImmStep withStopFromAnySpeed() {
   return step;
 }
 
-TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
+TEST(ImmFilter, MissesGrowTheCovarianceAndLeadToThePriorModes) {
   ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
   const ImmStep step = withStopFromAnySpeed();
   double trace = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
@@ -125,7 +125,7 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
 }
 
-TEST(ImmFilter, OneMeasurementLeavesStandingItsShareOfOutliersTwoDoNot) {
+TEST(ImmFilter, OneMeasurementMayBeAnOutlierOfStandingTwoMayNot) {
   const ImmOptions options;
   ImmFilter filter = follow([](double) { return Point2(20.0, 5.0); }, 3.0);
   ASSERT_GT(filter.modeProbabilities()[kStanding], 0.9);
@@ -176,7 +176,7 @@ TEST(ImmFilter, FarFromTheOriginNoDigitsAreLost) {
   EXPECT_TRUE(there.modeProbabilities().isApprox(here.modeProbabilities(), 1e-6));
 }
 
-TEST(ImmFilter, WhatMayNotBeLearnedEqualsTheFixedTransitions) {
+TEST(ImmFilter, WithoutAdaptationTransitionsAreFixed) {
   ImmOptions options;
   options.transitions.adaptive = true;
   options.transitions.learning.prior_exposure = 1e5;

@@ -64,7 +64,7 @@ TEST(KalmanFilter, VelocityUpdateByHand) {
 }
 
 /// The same as a measurement of position + delay * velocity, in textbook form.
-TEST(KalmanFilter, DelayedMeasurementIsOfWhereTheVelocityLeadsTo) {
+TEST(KalmanFilter, DelayedMeasurementIsExtrapolatedWithTheVelocity) {
   constexpr double kDelay = 0.3;
   StateEstimate predicted;
   predicted.mean << 1.0, 2.0, 3.0, -4.0, 0.5, 0.1;

@@ -47,7 +47,7 @@ TEST(MeasuredVelocity, AWalkerIsATrackWithinHalfASecond) {
   EXPECT_TRUE(!without || *without > *measured);
 }
 
-TEST(MeasuredVelocity, OneThatTellsNothingIsAsNone) {
+TEST(MeasuredVelocity, AnUninformativeOneHasNoEffect) {
   constexpr double kCycling = 4.0;    // m/s
   constexpr double kUnknown = 100.0;  // m/s
   TrackingScene with;
@@ -63,7 +63,7 @@ TEST(MeasuredVelocity, OneThatTellsNothingIsAsNone) {
   EXPECT_FALSE(without.tracks().tracks.empty());
 }
 
-TEST(MeasuredVelocity, WhatStandsIsNoTrack) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }
+TEST(MeasuredVelocity, StationaryObjectsAreNoTracks) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }
 
 TEST(MeasuredVelocity, TheTrackHasItFromItsFirstScanOn) {
   TrackingScene scene;
@@ -77,7 +77,7 @@ TEST(MeasuredVelocity, TheTrackHasItFromItsFirstScanOn) {
   EXPECT_LE(track.covariance(2, 2), kSpeedSigma * kSpeedSigma);
 }
 
-TEST(MeasuredVelocity, OneThatIsOfSomethingElseDoesNotMoveATrack) {
+TEST(MeasuredVelocity, AnotherObjectsVelocityDoesNotMoveATrack) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({seenAt(scene, 15.0 + kPeriod * kWalking * i, {kWalking, 0.0})});

@@ -104,7 +104,9 @@ TEST(MotionByBeams, ACarBeyondABorderIsATrackHardlyLater) {
 
 TEST(MotionByBeams, AWalkerIsATrackWithinTwoSeconds) { EXPECT_LE(medianDelay(0.6, 0.6, 1.4), 2.0); }
 
-TEST(MotionByBeams, WhatStandsIsNoTrackForWhoStands) { EXPECT_EQ(medianDelay(4.4, 1.8, 0.0), 5.0); }
+TEST(MotionByBeams, StationaryObjectsAreNoTracksForAStationaryVehicle) {
+  EXPECT_EQ(medianDelay(4.4, 1.8, 0.0), 5.0);
+}
 
 /// Returns how many of the scans of a 10 s drive past stationary objects publish a moving track,
 /// over all seeds.
@@ -123,7 +125,7 @@ int falseScans(const std::vector<Box2>& boxes) {
   return scans;
 }
 
-TEST(MotionByBeams, ARowOfParkedCarsIsSeldomTakenForTraffic) {
+TEST(MotionByBeams, ARowOfParkedCarsIsRarelyTakenForTraffic) {
   std::vector<Box2> row;
   for (int i = 0; i < 16; ++i) {
     row.push_back({Pose2(10.0 + 7.0 * i, 5.0, 0.0), 4.4, 1.8});
@@ -131,7 +133,7 @@ TEST(MotionByBeams, ARowOfParkedCarsIsSeldomTakenForTraffic) {
   EXPECT_LE(falseScans(row), 0.02 * kStandingSeeds * 10.0 / kPeriod);
 }
 
-TEST(MotionByBeams, HousesWithYardsAreSeldomTakenForTraffic) {
+TEST(MotionByBeams, HousesWithYardsAreRarelyTakenForTraffic) {
   std::vector<Box2> houses;
   for (int i = 0; i < 5; ++i) {
     houses.push_back({Pose2(10.0 + 24.0 * i, -14.0, 0.0), 18.0, 10.0});

@@ -53,7 +53,7 @@ class MultipleHypothesesTest : public testing::Test {
   HypothesisOptions hypotheses_;
 };
 
-TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
+TEST_F(MultipleHypothesesTest, WeightsTheHypothesesOfAnAmbiguousScan) {
   const MultipleHypotheses result = inDoubt();
   const double first = weightOf(objectAt(-0.5, 0.0));
   const double second = weightOf(objectAt(0.45, 0.0));
@@ -66,7 +66,7 @@ TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
   EXPECT_NEAR(probabilityOf(result, 2), (1.0 + second) / (1.0 + first + second), 1e-12);
 }
 
-TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
+TEST_F(MultipleHypothesesTest, AMissIsEvidenceAgainstMoreTargets) {
   MultipleHypotheses result = inDoubt();
   see(result, source_, {});
   const TargetOptions options;
@@ -89,7 +89,7 @@ TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
   EXPECT_NEAR(probabilityOf(result, 2), (second + neither) / (first + second + neither), 1e-9);
 }
 
-TEST_F(MultipleHypothesesTest, WhatIsUnlikelyIsDropped) {
+TEST_F(MultipleHypothesesTest, UnlikelyHypothesesAreDropped) {
   hypotheses_.min_ratio = 0.9;
   EXPECT_EQ(probabilityOf(inDoubt(), 2), 1.0);
 }
@@ -127,7 +127,7 @@ void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighborGotWrong) {
+TEST_F(MultipleHypothesesTest, LaterScansCorrectTheNearestNeighborsErrors) {
   MultipleHypotheses alone = targets();
   turnOffBesideAnother(alone, source_, false);
   MultipleHypotheses result = targets();
@@ -145,7 +145,7 @@ TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighborGotWron
       expected.filter().estimate().mean, 1e-3));
 }
 
-TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
+TEST_F(MultipleHypothesesTest, ClearlyDifferentClassesAreNeverTheSameTarget) {
   const auto of = [](ObjectClass object_class) {
     Object object = objectAt(0.0, 0.0);
     object.object_class = object_class;
@@ -195,7 +195,7 @@ TEST_F(MultipleHypothesesTest, FullTreesEndTheSearch) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
+TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsKept) {
   hypotheses_.max_joint_targets = 10;
   MultipleHypotheses result = targets();
   crowd(result, source_, 25);
@@ -205,7 +205,7 @@ TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesAsTheNearestNeighbor) {
+TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesLikeTheNearestNeighbor) {
   double now = 0.0;
   const StepClock clock = [&now] { return now += 1.0; };
   MultipleHypotheses result = targets();
@@ -238,7 +238,7 @@ TEST_F(MultipleHypothesesTest, AFullListRefusesNewObjectsAndCountsEachOnce) {
   EXPECT_LE(result.counts().refused_births, 4U) << "three objects, in whatever hypotheses";
 }
 
-TEST_F(MultipleHypothesesTest, RemovesAndForgetsButNumbersGoOn) {
+TEST_F(MultipleHypothesesTest, RemovesAndForgetsButNumbersContinue) {
   MultipleHypotheses result = inDoubt();
   result.removeIf([](const Target& target) { return target.number() == 1; });
   EXPECT_EQ(probabilityOf(result, 1), 0.0);

@@ -108,7 +108,7 @@ TEST_F(SplitMergeReadings, PartsAndCoversAreRelatedWithinTheGateOrNot) {
   EXPECT_EQ(relatedObjects(target, scan, options_), std::vector<std::size_t>{2});
 }
 
-TEST_F(SplitMergeReadings, NothingToReadAnew) {
+TEST_F(SplitMergeReadings, NoAlternativeReadings) {
   follow(box(0.0, 0.0, 5.0, 2.0));
   read({box(0.0, 0.0, 5.0, 2.0)});
   EXPECT_EQ(readings_.size(), 1U) << "one object";

@@ -66,7 +66,7 @@ std::uint64_t tracksOf(double speed, double sigma, unsigned seed) {
   return scene.tracker().counts().confirmed_tracks;
 }
 
-TEST(StereoNoise, WhatStandsIsNoTrack) {
+TEST(StereoNoise, StationaryObjectsAreNoTracks) {
   for (const double sigma : {0.3, 0.5, 1.0, 1.5}) {
     int tracks = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -76,7 +76,7 @@ TEST(StereoNoise, WhatStandsIsNoTrack) {
   }
 }
 
-TEST(StereoNoise, WhatDrivesIsOne) {
+TEST(StereoNoise, MovingObjectsAreTracks) {
   for (const double sigma : {0.3, 0.5, 1.0}) {
     int tracks = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {

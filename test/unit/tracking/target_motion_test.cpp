@@ -110,7 +110,7 @@ TEST_P(EveryMotion, TwoStepsEqualOne) {
   EXPECT_TRUE(noise.isApprox(whole.noise, 1e-9)) << noise << "\n\n" << whole.noise;
 }
 
-TEST_P(EveryMotion, NoTimeChangesNothing) {
+TEST_P(EveryMotion, ZeroTimeChangesNothing) {
   EXPECT_TRUE(motion(0.0).transition.isApprox(TrackCovariance::Identity(), 1e-12));
   EXPECT_TRUE(motion(0.0).noise.isZero(1e-12));
 }

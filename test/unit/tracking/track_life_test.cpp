@@ -40,7 +40,7 @@ int scansWithout(TrackingScene& scene, const Visibility& view) {
   return scans;
 }
 
-TEST(TrackLife, WhereItShouldBeSeenATrackDiesSoonerThanWhereItIsHidden) {
+TEST(TrackLife, AVisibleTrackEndsSoonerThanAHiddenOne) {
   TrackingScene open;
   TrackingScene blocked;
   drive(open, 50);
@@ -131,7 +131,7 @@ TEST(TrackLife, ObjectsOfATrackAreThoseOfTheSensorsList) {
   EXPECT_TRUE(scene.tracks().tracks[0].objects.empty());
 }
 
-TEST(TrackLife, ClassProbabilitiesFollowWhatWasSaid) {
+TEST(TrackLife, ClassProbabilitiesFollowTheReports) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     Object object = objectAt(10.0 + kSpeed * (scene.nextTime() - 100.0), 0.0);

@@ -61,7 +61,7 @@ TrackedBox drivingAhead(const TrackedBoxOptions& options) {
   return box;
 }
 
-TEST(TrackedBox, SizeConvergesToWhatIsSeen) {
+TEST(TrackedBox, SizeConvergesToTheMeasurements) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.3, 4.9, 2.0), options);
   EXPECT_NEAR(box.at(Point2::Zero()).length, 4.9, 0.02);
@@ -81,7 +81,7 @@ TEST(TrackedBox, BetweenTwoSidesTheCenterIsMeasuredByBoth) {
   EXPECT_NEAR(box.centerCovariance()(0, 0), 0.0, 1e-9) << "the size does not matter to it";
 }
 
-TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
+TEST(TrackedBox, OfTwoSidesTheMoreCertainOneCountsMoreIfTheSizeIsKnown) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
   Object object = wholeBox(0.0, 4.0, 1.8);  // the front appears nearer than it is
@@ -122,7 +122,7 @@ TEST(TrackedBox, TheOtherSideIsTrustedOnlyAsFarAsTheSizeIsKnown) {
       << "by then the filter's center rests on the front";
 }
 
-TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
+TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInTheRemainingLength) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
   Object middle = wholeBox(0.0, 1.4, 1.8);
@@ -133,7 +133,7 @@ TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
   EXPECT_NEAR(measured.covariance(0, 0) - middle.position_covariance(0, 0), 3.0 * 3.0 / 12.0, 0.02);
 }
 
-TEST(TrackedBox, GrowthMovesTheCenterAndLeavesTheSideThatWasSeen) {
+TEST(TrackedBox, GrowthMovesTheCenterAndKeepsTheVisibleSide) {
   const TrackedBoxOptions options;
   TrackedBox box = convergedOn(rearAt(10.0), options);
   Object longer = wholeBox(0.0, 8.0, 1.8);
@@ -242,7 +242,7 @@ TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
   EXPECT_NEAR(headingOf(box), 0.0, 1e-6);
 }
 
-TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyWhereItIsSurer) {
+TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyIfMoreCertain) {
   const TrackedBoxOptions options;
   const Eigen::Vector2d velocity = 5.0 * Eigen::Vector2d(std::cos(0.2), std::sin(0.2));
   TrackedBox sure = convergedOn(wholeBox(0.0, 4.4, 1.8), options);

@@ -69,7 +69,7 @@ TEST(Tracker, EstimatesStateInTheFixedFrameFromAMovingVehicle) {
   EXPECT_EQ(track.hits, 40U);
 }
 
-TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
+TEST(Tracker, NeverPublishesStationaryObjectsThatOnlySeemToMove) {
   TrackingScene scene;
   for (int i = 0; i < 100; ++i) {
     scene.scan({objectAt(12.0 + scene.noise(0.2), 3.0 + scene.noise(0.2))});
@@ -109,7 +109,7 @@ TEST(Tracker, NeverPublishesAParkedCarWhoseVisiblePartSlides) {
   }
 }
 
-TEST(Tracker, NeverStartsFromAStaticObjectButFollowsOneThatIsTracked) {
+TEST(Tracker, NeverStartsFromAStaticObjectButKeepsATrackedOne) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({objectAt(5.0 * scene.nextTime(), 0.0, DynamicState::kStatic)});
@@ -203,7 +203,7 @@ TEST(Tracker, ClutterIsNotPublished) {
   EXPECT_LE(scene.tracker().counts().confirmed_tracks, 2U);
 }
 
-TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
+TEST(Tracker, AnObjectThatStopsStaysAStationaryTrack) {
   TrackingScene scene;
   double x = 10.0;
   for (int i = 0; i < 100; ++i) {
@@ -216,7 +216,7 @@ TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
   EXPECT_NEAR(scene.tracks().tracks.front().box.center.heading(), 0.0, 0.2);
 }
 
-TEST(Tracker, IdsRiseAndAreNotReusedAfterDeathOrReset) {
+TEST(Tracker, IdsIncreaseAndAreNotReusedAfterDeathOrReset) {
   TrackingScene scene;
   std::uint32_t last = 0;
   for (int life = 0; life < 4; ++life) {

@@ -177,7 +177,7 @@ TEST(TransitionModel, MeanAndTotalVarianceAreThoseOfTheExactPosterior) {
   EXPECT_NEAR((1.0 - after.row(1).squaredNorm()) / (strength + 1.0), variance, 0.02 * variance);
 }
 
-TEST(TransitionModel, StepsOfAllLengthsTeachTheSame) {
+TEST(TransitionModel, LearningDoesNotDependOnTheStepLength) {
   // Jumps between two modes that are observed without ambiguity.
   const TransitionLearningOptions options = plainLearning(5.0);
   JumpCounts truth = priorCounts(options);
@@ -218,7 +218,7 @@ TEST(TransitionModel, ForgetsInSecondsNotInSteps) {
   EXPECT_TRUE(other.learned().jumps.isApprox(model.learned().jumps, 1e-9));
 }
 
-TEST(TransitionModel, NothingLearnedLeavesTheBounds) {
+TEST(TransitionModel, LearnedValuesStayWithinTheBounds) {
   TransitionLearningOptions options;
   options.forgetting = 1e6;
   options.max_sojourn = 50.0;
@@ -252,7 +252,7 @@ TEST(TransitionModel, ExtremeStepsAndLikelihoodsStayFinite) {
   }
 }
 
-TEST(TransitionModel, ANewPriorKeepsWhatWasLearned) {
+TEST(TransitionModel, ANewPriorKeepsTheLearnedCounts) {
   const TransitionLearningOptions options = plainLearning(2.0);
   TransitionModel model(priorCounts(options), options);
   model.predict(kPeriod);

@@ -35,7 +35,7 @@ TEST_F(Priors, StartFromTheSojournTimes) {
   EXPECT_NEAR(sojourn(counts, kStanding), options_.standing_sojourn, 1e-12);
 }
 
-TEST_F(Priors, GiveNoModelWhereNothingIsAdapted) {
+TEST_F(Priors, GiveNoModelWithoutAdaptation) {
   options_.adaptive = false;
   EXPECT_FALSE(TransitionPriors(options_).modelOf(ObjectClass::kVehicle).has_value());
 }

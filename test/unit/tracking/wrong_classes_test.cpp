@@ -119,7 +119,7 @@ TEST(WrongClassesTest, InAFifthOfTheFramesLoseNoTrack) {
   }
 }
 
-TEST(WrongClassesTest, TheTracksClassIsRightAllTheSame) {
+TEST(WrongClassesTest, TheTracksClassIsRightNonetheless) {
   int named = 0;
   int followed = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -132,7 +132,7 @@ TEST(WrongClassesTest, TheTracksClassIsRightAllTheSame) {
   EXPECT_GE(named, 0.95 * followed) << named << " of " << followed;
 }
 
-TEST(WrongClassesTest, ShapeAndMotionAreAsWithClassesThatAreRight) {
+TEST(WrongClassesTest, ShapeAndMotionAreThoseOfTheRightClasses) {
   Outcomes wrong;
   Outcomes right;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
