@@ -31,7 +31,7 @@ double seen(const Visibility* scan, const ObjectList& list, const Box2& box) {
   return jointVisibility(scan, list, kOptions).detectionProbability(box, 0.0);
 }
 
-TEST(JointVisibility, OfNoSensorNothingIsKnown) {
+TEST(JointVisibility, WithoutSensorsItIsUnknown) {
   EXPECT_EQ(seen(nullptr, {}, kBehindVan), kOptions.unknown_probability);
 }
 
@@ -71,7 +71,7 @@ TEST(JointVisibility, IndependentChancesJoin) {
       << "nothing is surer than that";
 }
 
-TEST(JointVisibility, WhatASensorSawHidesWhatIsBehindItFromThatSensorAlone) {
+TEST(JointVisibility, ObjectsOccludeOnlyForTheSensorThatSawThem) {
   ObjectList list{{}, {objectOf(kVan, {"camera"})}, {{"camera", fieldOf(degrees(30.0))}}};
   EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.min_probability);
   list.objects[0].sensors = {"lidar"};

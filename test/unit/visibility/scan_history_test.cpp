@@ -67,7 +67,7 @@ TEST_F(ScanHistoryTest, ABeamAlongALineIsNoEvidenceOfIt) {
   EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}).outcome, BeamOutcome::kNothing);
 }
 
-TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
+TEST(ScanHistorySparseTest, ABeamThatDivergesFromTheLineIsNoEvidenceOfIt) {
   // Beams half a radian apart: the one straight ahead hits a point 0.2 rad beside it, but meets the
   // line there only behind the scanner, at -3.4 m.
   ScanHistoryOptions options;
@@ -84,7 +84,7 @@ TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
   EXPECT_EQ(history.look(0, {position, Point2::UnitY()}).outcome, BeamOutcome::kFree);
 }
 
-TEST_F(ScanHistoryTest, SeesFreeWhatABeamWentThrough) {
+TEST_F(ScanHistoryTest, CellsThatABeamPassedAreFree) {
   history_.add(scanOf({{20.0, 0.0}}, 0.0));
   EXPECT_EQ(lookAt({10.0, 0.0}), BeamOutcome::kFree);
   EXPECT_EQ(lookAt({19.0, 0.0}), BeamOutcome::kFree);
@@ -95,7 +95,7 @@ TEST_F(ScanHistoryTest, SeesNothingBehindAHit) {
   EXPECT_EQ(lookAt({21.0, 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ABeamWithoutReturnIsFreeAsFarAsTheFieldSays) {
+TEST_F(ScanHistoryTest, ABeamWithoutReturnIsFreeUpToTheFreeRange) {
   history_.add(scanOf({}, 0.0));
   EXPECT_EQ(lookAt({39.3, 0.0}), BeamOutcome::kFree);
   EXPECT_EQ(lookAt({39.7, 0.0}), BeamOutcome::kNothing);
@@ -113,13 +113,13 @@ TEST_F(ScanHistoryTest, SeesNothingOutsideOfTheField) {
   EXPECT_EQ(lookAt({0.5, 10.0}), BeamOutcome::kNothing) << "the field ends at 80 degrees";
 }
 
-TEST_F(ScanHistoryTest, SeesNothingBeyondAllNumbers) {
+TEST_F(ScanHistoryTest, SeesNothingAtNonFinitePositions) {
   history_.add(scanOf({}, 0.0));
   EXPECT_EQ(lookAt({std::numeric_limits<double>::quiet_NaN(), 0.0}), BeamOutcome::kNothing);
   EXPECT_EQ(lookAt({std::numeric_limits<double>::infinity(), 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ABlindBeamSaysNothing) {
+TEST_F(ScanHistoryTest, ABlindBeamIsUninformative) {
   LabeledScan scan = scanOf({}, 0.0);
   scan.blind_beams = {40};
   history_.add(scan);
@@ -144,7 +144,7 @@ TEST_F(ScanHistoryTest, AFullTurnIsSeenAllRound) {
   EXPECT_EQ(history_.look(0, {{0.0, -10.0}, Point2::UnitX()}).outcome, BeamOutcome::kFree);
 }
 
-TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
+TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldIsUninformative) {
   LabeledScan scan = scanOf({{20.0, 0.0}}, 0.0);
   scan.field = {};
   history_.add(scan);
@@ -152,7 +152,7 @@ TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
   EXPECT_EQ(lookAt({10.0, 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ForgetsWhatIsOld) {
+TEST_F(ScanHistoryTest, ForgetsOldScans) {
   for (int i = 0; i <= 50; ++i) {
     history_.add(scanOf({}, 0.1 * i));
   }
@@ -162,7 +162,7 @@ TEST_F(ScanHistoryTest, ForgetsWhatIsOld) {
   EXPECT_EQ(history_.size(), 0U);
 }
 
-TEST(ScanHistoryMemoryTest, HoldsNoMoreScansThanItMay) {
+TEST(ScanHistoryMemoryTest, HoldsALimitedNumberOfScans) {
   ScanHistoryOptions options;
   options.max_scans = 5;
   ScanHistory history(options);

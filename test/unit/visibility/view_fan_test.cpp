@@ -68,7 +68,7 @@ TEST(ViewFan, OneOfEachSensorWhoseViewIsKnown) {
   EXPECT_EQ(joint.fans().size(), 1U);
 }
 
-TEST(ViewFan, ReportsWhatTheScanDid) {
+TEST(ViewFan, ReportsTheScansBeams) {
   const ViewFan fan = scanner().fans().at(0);
   EXPECT_EQ(fan.sensor.x(), 3.0);
   EXPECT_EQ(fan.first_bearing, degrees(-90.0));
@@ -82,7 +82,7 @@ TEST(ViewFan, ReportsWhatTheScanDid) {
   EXPECT_EQ(fan.reach[60], 15.0) << "a wall";
 }
 
-TEST(ViewFan, OfNoneNothingIsKnown) {
+TEST(ViewFan, WithoutFansItIsUnknown) {
   const Box2 box{{20.0, 0.0, 0.0}, 4.0, 2.0};
   const std::vector<ViewFan> none;
   EXPECT_EQ(Visibility(none, kOptions).detectionProbability(box, 0.0),

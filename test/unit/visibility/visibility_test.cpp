@@ -203,14 +203,14 @@ TEST(Visibility, AnUncertainPositionIsTheMeanOverPositions) {
   EXPECT_NEAR(middle, seen(scan, at_the_edge) * 2.0 / 3.0 + full / 6.0, 0.1);
 }
 
-TEST(Visibility, AHiddenObjectThatMayStandBeforeTheWallMayBeSeen) {
+TEST(Visibility, AnObjectThatMayBeInFrontOfTheWallMayBeSeen) {
   LabeledScan scan = emptyScan();
   addWall(scan, -90, 90, 18.0);
   EXPECT_EQ(seen(scan, carAt(21.0, 0.0)), kOptions.min_probability);
   EXPECT_NEAR(seen(scan, carAt(21.0, 0.0), 1.0), kOptions.max_probability / 6.0, 0.01);
 }
 
-TEST(Visibility, AroundTheScannerNothingIsKnown) {
+TEST(Visibility, AroundTheScannerItIsUnknown) {
   EXPECT_EQ(seen(emptyScan(), carAt(0.5, 0.5)), kOptions.unknown_probability);
 }
 
@@ -231,7 +231,7 @@ TEST(Visibility, StaysWithinItsBounds) {
   }
 }
 
-TEST(Visibility, AFieldOfViewWithBoxesHidesWhatIsBehindThem) {
+TEST(Visibility, AFieldOfViewWithBoxesHidesObjectsBehindThem) {
   const FieldOfView view{Pose2(1.0, 0.0, 0.0), degrees(-40.0), degrees(40.0), 50.0, 70.0};
   const Box2 van{{15.0, 0.0, 0.0}, 5.0, 2.2};
   const Visibility visibility(view, {van}, kOptions);
