@@ -23,7 +23,7 @@ Box3 boxAhead(double forward, double down, const Eigen::Vector3d& size) {
   return box;
 }
 
-TEST(BoxProjection, CornersAreWhereTheyAreByHand) {
+TEST(BoxProjection, CornersByHand) {
   // From 9 to 11 m ahead, 1 m to each side, from 2 m below the camera to 1 m below it.
   const auto edges = projectBox(kCamera, boxAhead(10.0, 2.0, {2.0, 2.0, 1.0}), kNear);
   ASSERT_EQ(edges.size(), 12U);
@@ -46,7 +46,7 @@ TEST(BoxProjection, UprightEdgesOfAnUprightBoxAreUpright) {
   }
 }
 
-TEST(BoxProjection, ABoxBehindTheCameraIsNotThere) {
+TEST(BoxProjection, ABoxBehindTheCameraIsNotProjected) {
   EXPECT_TRUE(projectBox(kCamera, boxAhead(-10.0, 2.0, {4.0, 2.0, 1.5}), kNear).empty());
   EXPECT_TRUE(projectBox(kCamera, boxAhead(0.0, 2.0, {0.8, 2.0, 1.5}), kNear).empty())
       << "nearer than the limit";
@@ -76,7 +76,7 @@ TEST(BoxProjection, BoundsHoldTheBoxAndEndWithTheImage) {
   EXPECT_DOUBLE_EQ(cut.max().y(), 480.0);
 }
 
-TEST(BoxProjection, BoundsOfWhatIsOutOfTheImageAreEmpty) {
+TEST(BoxProjection, BoundsOutsideTheImageAreEmpty) {
   Box3 box = boxAhead(10.0, 2.0, {2.0, 2.0, 1.0});
   box.pose.translation().x() = 100.0;
   EXPECT_TRUE(boundsInImage(projectBox(kCamera, box, kNear), 640.0, 480.0).isEmpty());

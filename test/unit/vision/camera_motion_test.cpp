@@ -61,7 +61,7 @@ Eigen::Matrix<double, 6, 1> errorOf(const CameraMotion& motion) {
   return error;
 }
 
-TEST(CameraMotion, IsFoundFromStandingStillAsPriorThoughAThirdMoves) {
+TEST(CameraMotion, IsFoundFromAZeroMotionPriorThoughAThirdMoves) {
   Random random(1);
   std::vector<FeatureQuad> quads;
   add(quads, 200, Eigen::Vector3d::Zero(), random);
@@ -74,7 +74,7 @@ TEST(CameraMotion, IsFoundFromStandingStillAsPriorThoughAThirdMoves) {
   EXPECT_NEAR(motion->inliers, 200.0, 30.0);
 }
 
-TEST(CameraMotion, CovarianceIsHonest) {
+TEST(CameraMotion, CovarianceIsConsistent) {
   constexpr int kRuns = 100;
   double nees = 0.0;
   for (int run = 0; run < kRuns; ++run) {
@@ -91,7 +91,7 @@ TEST(CameraMotion, CovarianceIsHonest) {
   EXPECT_LT(nees, 9.0);
 }
 
-TEST(CameraMotion, ASurePriorHoldsWhereAnObjectFillsTheImage) {
+TEST(CameraMotion, ACertainPriorIsKeptWhenAnObjectFillsTheImage) {
   Random random(2);
   std::vector<FeatureQuad> quads;
   add(quads, 40, Eigen::Vector3d::Zero(), random);

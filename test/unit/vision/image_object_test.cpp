@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detections from the image alone, over many rectangles: bodies of all sizes and headings, seen by a
-// pitching camera, with edge errors as in ImageRangeOptions.
+// Detections from the image alone, over many rectangles: bodies of all sizes and headings, seen by
+// a pitching camera, with edge errors as in ImageRangeOptions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,7 +121,7 @@ double neesOf(const Object& object, const Body& body) {
          square(across) / (aside.dot(covariance * aside) + 0.25 * (left + right));
 }
 
-TEST(ImageObject, ItsNearSideIsAsSureAsItIsReported) {
+TEST(ImageObject, ItsNearSideIsConsistentWithItsCovariance) {
   Random random(5);
   ImageRangeOptions options;
   options.max_range = 500.0;  // so that none is dropped for its apparent range
@@ -151,7 +151,7 @@ TEST(ImageObject, ItsNearSideIsAsSureAsItIsReported) {
   }
 }
 
-TEST(ImageObject, StandsAtItsBearingAndItsCovarianceLiesAlongTheLineOfSight) {
+TEST(ImageObject, IsAtItsBearingWithItsCovarianceAlongTheLineOfSight) {
   const auto object =
       objectOf(levelCamera(), detectionOf(ObjectClass::kPedestrian, 740.0, 195.0, 760.0, 237.5),
                ImageRangeOptions());
@@ -167,7 +167,7 @@ TEST(ImageObject, StandsAtItsBearingAndItsCovarianceLiesAlongTheLineOfSight) {
   EXPECT_EQ(object->object_class, ObjectClass::kPedestrian);
 }
 
-TEST(ImageObject, IsAsWideAsItLooksHoweverItIsTurned) {
+TEST(ImageObject, HasItsApparentWidthAtAnyHeading) {
   for (const double heading : {0.0, 0.25 * kPi, 0.5 * kPi}) {
     const Body car{{Pose2(15.0, 3.0, heading), 4.2, 1.75}, 1.45};
     const Eigen::AlignedBox2d seen = boxInImage(levelCamera(), car.box, car.height);

@@ -31,7 +31,7 @@ TEST(ImageRange, SizeAndGroundAgreeOnAPersonOfMeanHeight) {
   }
 }
 
-TEST(ImageRange, FartherAwayIsLessSure) {
+TEST(ImageRange, FartherAwayIsLessCertain) {
   const ImageRangeOptions options;
   const auto near = rangeOf(levelCamera(), personAt(10.0), options);
   const auto far = rangeOf(levelCamera(), personAt(40.0), options);
@@ -39,7 +39,7 @@ TEST(ImageRange, FartherAwayIsLessSure) {
   EXPECT_GT(far->sigma, 4.0 * near->sigma) << "faster than in proportion";
 }
 
-TEST(ImageRange, AContradictionMakesItLessSure) {
+TEST(ImageRange, AContradictionMakesItLessCertain) {
   // A child, or a person on a wall: feet at 10 m, with the height of a person at 20 m.
   ImageDetection person = personAt(10.0);
   person.box.min().y() = 0.5 * (person.box.min().y() + person.box.max().y());
@@ -51,7 +51,7 @@ TEST(ImageRange, AContradictionMakesItLessSure) {
   EXPECT_GT(range->sigma, 2.0 * plain->sigma);
 }
 
-TEST(ImageRange, CutEdgesSayNothing) {
+TEST(ImageRange, CutEdgesAreUninformative) {
   const MountedCamera camera = levelCamera();
   ImageDetection feet_cut = personAt(3.0);
   feet_cut.box.max().y() = camera.height;
@@ -78,7 +78,7 @@ TEST(ImageRange, BesideTheMiddleItIsFartherThanItIsDeep) {
   EXPECT_NEAR(range->range, std::hypot(20.0, 10.0), 1e-6);
 }
 
-TEST(ImageRange, OfClassesThatAreReportedAlone) {
+TEST(ImageRange, OnlyOfReportedClasses) {
   EXPECT_THROW(sizeOf(ObjectClass::kPole), std::invalid_argument);
   EXPECT_THROW(sizeOf(ObjectClass::kUnknown), std::invalid_argument);
   EXPECT_GT(sizeOf(ObjectClass::kVehicle).height_sigma, 0.3) << "cars, vans and trucks";

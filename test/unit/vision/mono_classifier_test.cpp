@@ -37,7 +37,7 @@ MonoClassification classified(const std::vector<ImageDetection>& seen, const Obj
   return classifier.classify(grayImage(), levelCamera(), objects);
 }
 
-TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
+TEST(MonoClassifier, ClassifiesTheScannersObject) {
   ObjectList objects;
   objects.stamp = Stamp::fromSeconds(5.0);
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0), objectAt(-5.0, 0.0, 0.4, 0.4, 0.0)};
@@ -59,7 +59,7 @@ TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
       << "the scanner's position must not count twice";
 }
 
-TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
+TEST(MonoClassifier, ADetectionWithoutAScannersObjectIsAnObject) {
   const MonoClassification result = classified({kPerson, kCar}, ObjectList());
   EXPECT_EQ(result.alone, 2U);
   ASSERT_EQ(result.list.objects.size(), 2U);
@@ -68,13 +68,13 @@ TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
   EXPECT_GT(result.list.objects[1].box.center.y(), 3.0);
 }
 
-TEST(MonoClassifier, AnUnsureOneAloneIsNone) {
+TEST(MonoClassifier, AnUncertainDetectionAloneIsNoObject) {
   MonoClassifierOptions options = dnnOptions();
   options.min_alone = 0.81;
   EXPECT_TRUE(classified({kPerson}, ObjectList(), options).list.objects.empty());
 }
 
-TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheSurestDetectionWins) {
+TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   MonoClassifierOptions options = dnnOptions();
   options.method = MonoMethod::kThesis;
   ObjectList objects;
@@ -98,7 +98,7 @@ TEST(MonoClassifier, RefusesAnImageOfAnotherSize) {
                std::invalid_argument);
 }
 
-TEST(MonoClassifier, ADetectorThatIsRightByChanceAloneSaysNothing) {
+TEST(MonoClassifier, ADetectorAtChanceLevelIsUninformative) {
   MonoClassifierOptions options = dnnOptions();
   options.min_alone = 0.0;
   options.dnn_reliability.scores = {0.0, 0.5};
