@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bounds of the figures of simulated scenes, from their spread over seeds, in bounds.yaml,
-which measure_bounds.py writes.
+"""Bounds of the figures of simulated scenes, from their spread over seeds, in bounds.yaml, which
+measure_bounds.py writes.
 
-A bound lies as far beyond the worst of the measured seeds as that lies beyond their median: three
-standard deviations of a normal figure, where ten seeds were measured. Where a scene asks for more
+A bound is as far beyond the worst of the measured seeds as that is beyond their median: three
+standard deviations of a normal figure, if ten seeds were measured. If a scene requires more
 (REQUIRED in scene_figures.py), that counts, and seeds that miss it are kept as expected failures.
 """
 

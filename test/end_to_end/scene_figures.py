@@ -186,8 +186,8 @@ def _missed(score):
 
 
 def _clearly_lost(compared):
-    """Of those who are tracked in more than 5 % of their frames: whose few beams hardly show that they
-    move, may need more of them where most things stand."""
+    """Returns the lost ones of those tracked in more than 5 % of their frames: objects with few
+    beams, which hardly show their motion, may need more beams where most objects are stationary."""
     clearly = {item["id"] for item in compared["objects"]
                if item["tracked_frames"]["without"] > 0.05 * item["required_frames"]}  # fmt: skip
     return clearly & set(compared["lost"])

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor's clock that is set by 0.1 s while the others go on, in the committed drive, as scripts/campaign does it:
-the pose is as accurate as without it."""
+"""One sensor's clock is set by 0.1 s while the others keep running, in the committed drive, as in
+scripts/campaign: the pose is as accurate as without the step."""
 
 import json
 import os

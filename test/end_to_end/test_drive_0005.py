@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""KITTI's drive 0005 through the whole chain, from folder to tracks, against what is asked.
+"""KITTI's drive 0005 through the whole chain, from folder to tracks, against the requirements.
 
 The scanner is emulated from the Velodyne (see kitti_to_bag --help); the odometry is 3 % too long
-and turns 0.5 deg/s too much, and would end 8 % of the way off. What is asked of "the cyclist" and
-of "the van" is asked of every cyclist and vehicle that moves and is labeled in nearly every frame;
-the objects are picked by that, not by their ids.
+and turns 0.5 deg/s too much, and would end with an error of 8 % of the path. The requirements on
+"the cyclist" and "the van" apply to every cyclist and vehicle that moves and is labeled in nearly
+every frame; the objects are selected by that, not by their ids.
 """
 
 import subprocess

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The master is killed and started anew while the stack runs: who comes later finds all topics, parameters are
-there, and the process of the nodelets, killed then, comes back with all of them."""
+"""The master is killed and restarted while the stack runs: new subscribers find all topics, the
+parameters are there, and the process of the nodelets, if killed then, restarts with all of them."""
 
 import os
 import signal

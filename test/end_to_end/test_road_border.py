@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Borders of the road (thesis 3.5) on simulated streets: where they lie on straight roads and in
-bends, the intersection, an open place and a border on one side only. With several seeds, so that it
-is no matter of luck.
+"""Road borders (thesis 3.5) on simulated streets: their positions on straight roads and in bends,
+the intersection, an open place and a border on one side only. Several seeds are used, so that the
+result does not depend on chance.
 """
 
 import tempfile

@@ -3,9 +3,9 @@
 """KITTI's drive 0005 with low-level fusion: its image pairs, gridded and fused with the emulated
 scan, against its Velodyne and its labels.
 
-Every second pair is left out: half the time, and scans that have none of their own. What is asked
-of the stereo grid is asked where the matcher can have disparities; of the whole view, which has
-10 % more columns, it is asked less.
+Every second pair is left out: this halves the time, and gives scans without a pair of their own.
+The requirements on the stereo grid apply where the matcher can have disparities; for the whole
+view, which has 10 % more columns, they are lower.
 """
 
 import subprocess

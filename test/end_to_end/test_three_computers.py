@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stack on three computers (network namespaces) with 20 ms +- 10 ms of delay and 2 % of packets lost: the tracks
-are those of run_bag, the clocks are known, and a killed part works again. scripts/machines has the figures."""
+"""The stack on three computers (network namespaces) with 20 ms +- 10 ms of delay and 2 % packet
+loss: the tracks are those of run_bag, the clock offsets are known, and a killed part recovers.
+scripts/machines has the figures."""
 
 import os
 import re

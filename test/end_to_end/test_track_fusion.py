@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Track-level fusion (thesis 3.4) on the simulated intersection: what scanner and stereo camera both
-follow becomes one track, soon, with one id, and where the camera looks no more is false than the
-scanner alone says. With two seeds, so that it is no matter of luck.
+"""Track-level fusion (thesis 3.4) on the simulated intersection: objects tracked by both scanner
+and stereo camera soon become one track with one id, and in the camera's view there are no more
+false tracks than with the scanner alone. Two seeds are used, so that the result does not depend on
+chance.
 """
 
 import tempfile

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Warnings in encounters after the public test protocols, from the true objects and from the stack's own
-tracks: hits are warned of in time, near misses and what is merely followed are not."""
+"""Warnings in encounters after the public test protocols, from the true objects and from the
+stack's own tracks: there is a timely warning of hits, and none of near misses and of vehicles that
+are merely followed."""
 
 import os
 import tempfile

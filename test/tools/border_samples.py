@@ -2,7 +2,7 @@
 """A drive of two seconds along a street, with published borders, that tests of tools share.
 
 The vehicle drives along x from the origin of the true map at 10 m/s. The run has drifted: its map
-is laid 5 m to the side, and turned by a right angle.
+is shifted by 5 m to the side, and rotated by a right angle.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ROS master in a process of its own, which a test kills and starts anew.
+"""A ROS master in a separate process, which a test kills and restarts.
 
-As a program: master_process PORT; writes a line for each time that all parameters are asked for.
+As a program: master_process PORT; writes a line each time that all parameters are requested.
 """
 
 import socket
@@ -43,10 +43,10 @@ class MasterProcess:
         self._process = None
 
     def wait_for_read(self):
-        """Until somebody who does so periodically has asked for all that it knows now.
+        """Waits until a client that polls the master has read everything that it knows now.
 
-        Parameters are what he asks for last: the time after next is of a round that begins after now,
-        and the one after that says that he has the answer.
+        The client reads the parameters last: the read after the next one belongs to a round that
+        begins after now, and the one after that shows that the client has the answer.
         """
         end = self._reads + 3
         wait_for(lambda: self._reads >= end, "the master is read")

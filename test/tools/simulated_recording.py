@@ -41,7 +41,7 @@ class Item(NamedTuple):
 
 
 def motion_at(seconds):
-    """Returns speed (m/s) and yaw rate (rad/s): the car stands, starts, and drives in curves."""
+    """Returns speed (m/s) and yaw rate (rad/s): the car is at rest, starts, and drives in curves."""
     if seconds < STANDING:
         return 0.0, 0.0
     moving = seconds - STANDING

@@ -59,7 +59,7 @@ cp "$(dirname "$0")/score.json" "$3"
 
 
 def why_not():
-    """Empty where Snakemake serves."""
+    """Returns why Snakemake cannot be used; empty if it can."""
     try:
         find_snakemake()
     except InputError as error:
@@ -188,7 +188,7 @@ class Batch(unittest.TestCase):
         self.record(a="good")
         worst = self.batch()[2]["worst_moments"]
         self.assertEqual(worst[0]["name"], "a.bag")
-        self.assertAlmostEqual(worst[0]["at_s"], 0.5)  # the score begins so much later
+        self.assertAlmostEqual(worst[0]["at_s"], 0.5)  # the score begins this much later
         self.assertEqual(worst[0]["why"], "0.5 object-seconds missed and 0.5 object-seconds false")
         self.assertAlmostEqual(worst[0]["weight_s"], 1.0)
 

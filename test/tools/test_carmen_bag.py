@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""carmen_to_bag on made-up logs: what stands in the bag, both clocks, errors, determinism."""
+"""carmen_to_bag on made-up logs: contents of the bag, both clocks, errors, determinism."""
 
 import contextlib
 import io

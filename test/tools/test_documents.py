@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md and doc/: their links lead somewhere, their yaml names parameters that there are; the
-changelog is sound reStructuredText."""
+"""README.md and doc/: their links are valid, their yaml names existing parameters; the changelog is
+valid reStructuredText."""
 
 import io
 import re

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Encounters after public test protocols: each is what its name says, by the simulator's own contact."""
+"""Encounters after public test protocols: each is what its name says, by the simulator's own
+contact."""
 
 import os
 import tempfile

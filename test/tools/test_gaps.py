@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sweep of gaps: what it takes out of a drive, and its score by hand,
-with a run_bag that only pretends."""
+"""The sweep of gaps: what it removes from a drive, and its score, worked out by hand, with a
+stand-in for run_bag."""
 
 import contextlib
 import io

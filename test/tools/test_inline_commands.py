@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands within the sentences and tables of README.md and doc/, such as `run_bag --risk` and `mono:=true`:
-the program's --help names each of the options, a launch file of the package takes each of the arguments."""
+"""Commands within the sentences and tables of README.md and doc/, such as `run_bag --risk` and
+`mono:=true`: the program's --help names each of the options, a launch file of the package has each
+of the arguments."""
 
 import functools
 import os

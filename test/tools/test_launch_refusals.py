@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""roslaunch on the launch files with what it must not take: it ends before a node starts, with one line
-that says what and what was probably meant."""
+"""roslaunch on the launch files with invalid arguments: it ends before a node starts, with one line
+that names the error and what was probably meant."""
 
 import os
 import subprocess

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """perception.launch and replay.launch in every combination of their switches: each nodelet is there
-once, with a type that the package (or a named one) has, and takes what is published."""
+once, with a type that the package (or a named one) has, and subscribes to published topics."""
 
 import functools
 import itertools

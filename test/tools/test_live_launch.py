@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""live.launch: the chain of perception.launch with the devices that are asked for; kinds of devices that
-there are not are refused."""
+"""live.launch: the chain of perception.launch with the requested devices; unknown kinds of devices
+are refused."""
 
 import shlex
 import tempfile

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment with several machines, without any: packets that wait and are lost, and what is counted."""
+"""The experiment with several machines, without any: packets that are delayed and lost, and the
+counts."""
 
 import os
 import select

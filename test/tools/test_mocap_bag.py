@@ -167,7 +167,7 @@ class Odometry(Conversion):
     WHEELS, YAW_RATE, BIAS = 20.0, 0.4, 0.1  # rad/s
 
     def rates(self, seconds):
-        """Stands for 0.3 s, then drives in a circle."""
+        """Stationary for 0.3 s, then drives in a circle."""
         return (0.0, 0.0) if seconds < 0.295 else (self.WHEELS, self.YAW_RATE)
 
     def check_twists(self):

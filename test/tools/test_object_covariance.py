@@ -27,12 +27,13 @@ START = 1000 * 10**9
 class Tool(unittest.TestCase):
     """A vehicle that drives at 10 m/s, and oncoming cars, seen by a scanner and a camera.
 
-    The camera stands 1.5 m ahead, and looks 30 ms after the scan; the scan takes 20 ms to the cars.
+    The camera is 1.5 m ahead, and is exposed 30 ms after the scan; the scan reaches the cars after
+    20 ms.
     """
 
     CAMERA = np.array([1.5, 0.0])  # m
     SPEED, CAR_SPEED = 10.0, -8.0  # m/s
-    ROUND = 0.2  # s: two scans; then the cars stand where they stood ahead of the vehicle
+    ROUND = 0.2  # s: two scans; then the cars are where they were relative to the vehicle
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -21,7 +21,7 @@ BEGIN = START * 10**9  # ns
 
 
 def pose_at(seconds, offset, turn, sigma):
-    """At 1 m/s along x, `offset` (m) to the left and `turn` (degrees) off."""
+    """Returns a pose at 1 m/s along x, `offset` (m) to the left and `turn` (degrees) off."""
     message = PoseWithCovarianceStamped()
     message.header.stamp = rospy.Time.from_sec(START + seconds)
     pose = message.pose.pose

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""record.launch records what the chain takes: all inputs of the graph of stages that no stage makes, under the
-names of perception.launch and live.launch; with `results` what it makes; each topic once."""
+"""record.launch records the chain's inputs: all inputs of the graph of stages that no stage
+publishes, under the names of perception.launch and live.launch; with `results` also the outputs;
+each topic once."""
 
 import json
 import os

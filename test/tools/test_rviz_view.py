@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""config/perception.rviz shows what is published: each topic in it has a publisher, each namespace of
-markers is one that is drawn, and each that is drawn is named, so that none is on by accident."""
+"""config/perception.rviz shows what is published: each topic in it has a publisher, each namespace
+of markers in it is drawn, and each one that is drawn is in it, so that none is on by accident."""
 
 import contextlib
 import io

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the package ships for other people's tools: the Foxglove layout and the groups of the diagnostics
-name topics and nodes that there are."""
+"""Files that the package ships for other tools: the Foxglove layout and the groups of the
+diagnostics name existing topics and nodes."""
 
 import itertools
 import json

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
-parameters, for every combination of levels, with and without all that goes with any of them; and each in
-the part of the stack that the graph says, where parts run on machines of their own. What a new stage lacks
-(doc/development.md) is said by name."""
+"""perception.launch starts the stages of the graph that run_bag runs, with the same topics and the
+same parameters, for every combination of levels, with and without everything that depends on them;
+and each in the part of the stack given by the graph, if parts run on separate machines. What a new
+stage lacks (doc/development.md) is reported by name."""
 
 import collections
 import itertools

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""config/thesis.yaml has the value of each parameter of which doc/parameters.md says what the thesis's is."""
+"""config/thesis.yaml has the thesis's value of each parameter for which doc/parameters.md gives
+one."""
 
 import math
 import re

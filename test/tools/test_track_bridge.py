@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tracks in the messages of vision_msgs and derived_object_msgs. Neither package is needed: stand-ins
-with the fields of their published definitions refuse any other field."""
+"""Tracks in the messages of vision_msgs and derived_object_msgs. Neither package is required:
+stand-ins with the fields of their published definitions refuse any other field."""
 
 import math
 import types

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A KITTI raw drive of a few frames, made up so that everything in it can be worked out by hand.
 
-The car drives 1 m a frame (10 m/s, 10 Hz) straight east. All mounts are plain: the Velodyne is 0.8
-m ahead of the IMU and 0.8 m above it, the camera looks ahead from the Velodyne's place.
+The car drives 1 m per frame (10 m/s, 10 Hz) straight east. All mounts are simple: the Velodyne is
+0.8 m ahead of the IMU and 0.8 m above it, the camera faces ahead from the Velodyne's position.
 """
 
 import struct

@@ -91,7 +91,7 @@ class MadeCloud {
   EIGEN_MAKE_ALIGNED_OPERATOR_NEW
 
  private:
-  static constexpr std::size_t kFloats = 4;  ///< x, y, z, and one that is none of them
+  static constexpr std::size_t kFloats = 4;  ///< x, y, z, and padding
   static constexpr int kHalfWidth = 200;     ///< px
   static constexpr int kHalfHeight = 120;    ///< px
 

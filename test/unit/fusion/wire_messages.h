@@ -173,7 +173,7 @@ inline WireBits wireRichCpm(bool is_old) {
   object.add(0, 1).add(2, 2).add(0, 1).add(0b101, 3).add(9, 8).add(4, 8).add(0xA, 4).add(5 - 1, 7);
   object.add(0, 1).add(3, 2).add(1, 8).add(5 - 1, 7);                        // other
   object.add(1, 1).add(0, 7).addOpen(WireBits().add(3, 8)).add(101 - 1, 7);  // not known
-  object.add(0, 1).add(0b1111, 4);                                           // place in a map
+  object.add(0, 1).add(0b1111, 4);                                           // position in a map
   object.add(1, 1).add(1, 1).add(300, 16).add(400, 16).add(5, 8).add(6, 8).add(7, 15).add(8, 10);
   object.add(0, 7).add(1, 1).addOpen(WireBits().add(0xFF, 8));  // an addition
 

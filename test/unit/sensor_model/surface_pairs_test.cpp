@@ -12,7 +12,7 @@
 namespace datmo::surface_pairs_test {
 namespace {
 
-constexpr double kWall = 12.0;  // m, of what stands ahead
+constexpr double kWall = 12.0;  // m, of the object ahead
 
 /// The end of a wall across the road.
 MadeScene wallAhead(double from_y = -3.0, double to_y = 3.0) {

@@ -39,7 +39,7 @@ TEST(ObjectVelocity, EachObjectHasTheVelocityOfThePointsInItsBox) {
 
 TEST(ObjectVelocity, PointsOnAParkedCarAreNotTheCyclistsBesideIt) {
   std::vector<Object> objects{objectAt(15.0, -1.9), objectAt(17.0, -2.6)};
-  objects[1].box = {Pose2(17.0, -2.6, 0.0), 4.2, 0.0};  // its side, as it is seen
+  objects[1].box = {Pose2(17.0, -2.6, 0.0), 4.2, 0.0};  // its visible side
   for (Object& object : objects) {
     object.position_covariance = 0.5 * Eigen::Matrix2d::Identity();
   }
