@@ -53,7 +53,7 @@ class CloudHarness : public Listener {
   ros::Subscriber mounts_;
 };
 
-TEST(CloudToScanNodelet, ACloudComesOutAsAScanBelowTheLidar) {
+TEST(CloudToScanNodelet, ACloudBecomesAScanBelowTheLidar) {
   CloudHarness harness;
   ASSERT_TRUE(harness.waitForNodelet());
   samples::LidarCloudMaker maker;

@@ -68,7 +68,7 @@ TEST(ThesisPreset, OverridesAnySensorSet) {
   }
 }
 
-TEST(ParameterPage, ListsTheParametersAsTheyAre) {
+TEST(ParameterPage, ListsTheCurrentParameters) {
   std::ifstream file(kPackage / "doc" / "parameters.md");
   if (!file) {
     GTEST_SKIP() << "no doc/parameters.md in " << kPackage;

@@ -35,7 +35,7 @@ TEST(LocalPlane, KnownDistancesOnTheEllipsoid) {
   EXPECT_NEAR(north.x(), 0.0, 1e-6);
 }
 
-TEST(LocalPlane, ThereAndBack) {
+TEST(LocalPlane, RoundTrip) {
   const LocalPlane plane({45.19 * kDegree, 5.72 * kDegree, 212.0});
   for (const Point2& point : {Point2(0.0, 0.0), Point2(300.0, -40.0), Point2(-2000.0, 3000.0)}) {
     GeodeticPosition back = plane.toGeodetic(point);

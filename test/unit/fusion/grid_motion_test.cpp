@@ -91,7 +91,7 @@ TEST(GridMotionTest, NoOccupiedCellIsLostByRotation) {
   }
 }
 
-TEST(GridMotionTest, ThereAndBackOccupiedCellsStayWithinACell) {
+TEST(GridMotionTest, ForthAndBackOccupiedCellsStayWithinACell) {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
     const SensorGrid grid = scattered(random);

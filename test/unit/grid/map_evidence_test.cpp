@@ -45,7 +45,7 @@ TEST(MapEvidenceTest, CellsThatLeftTheWindowAreInTheEvidence) {
   EXPECT_EQ(map.extent().columns, 5);
 }
 
-TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
+TEST(MapEvidenceTest, ItIsReloadedOnlyIntoARestoredMap) {
   OccupancyMap map = mapWithSurface();
   OccupancyMap restored = OccupancyMap::restored(smallMap(), map.evidence());
   for (OccupancyMap* moved : {&map, &restored}) {

@@ -35,7 +35,7 @@ TEST(Separation, OfATurnedBoxIsMeasuredFromItsCorner) {
   EXPECT_NEAR(gap.gap, 4.0 - 2.0 - half_diagonal, 1e-12);
 }
 
-TEST(FirstContact, ComesWhenTheGapIsClosed) {
+TEST(FirstContact, IsWhenTheGapIsClosed) {
   const auto share =
       firstContact(moveFromTo({0, 0}, {0, 0}, kCar), moveFromTo({10, 0}, {0, 0}, kSquare));
   ASSERT_TRUE(share);

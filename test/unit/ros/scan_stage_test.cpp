@@ -34,7 +34,7 @@ class ScanStageTest : public testing::Test {
 using ScanStages = testing::Types<GridSlamStage, LidarGridStage>;
 TYPED_TEST_SUITE(ScanStageTest, ScanStages);
 
-TYPED_TEST(ScanStageTest, AMissingMountIsCountedUntilItComes) {
+TYPED_TEST(ScanStageTest, AMissingMountIsCountedUntilItArrives) {
   EXPECT_FALSE(this->scanAt(100.0));
   EXPECT_EQ(this->drops("missing_transform"), 1U);
   this->mountScanner();

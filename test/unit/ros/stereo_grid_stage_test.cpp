@@ -115,7 +115,7 @@ TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoArrives
   expectWall(stage.takeCloud(cloudAt(kStart)));
 }
 
-TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItComes) {
+TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItArrives) {
   EXPECT_FALSE(takeAt(kStart));
   EXPECT_EQ(drops("missing_transform"), 1U);
   mountSensors();
