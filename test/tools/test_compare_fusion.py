@@ -204,7 +204,7 @@ class Runs(unittest.TestCase):
         self.assertIn("Moving objects of drive_0005", out)
         self.assertIn("--images", self.words_of("drive_0005", "drive.bag"))
 
-    def test_missing_drive_is_reported(self):
+    def test_drive_that_is_not_there_is_reported(self):
         self.assertIn("missing: not there, so no KITTI drive", self.compare("--sets", "1")[1])
 
     def test_failed_run_is_reported_and_the_others_continue(self):

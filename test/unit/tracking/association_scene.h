@@ -16,7 +16,7 @@ namespace datmo {
 /// Makes scans for the association; view and clutter are unknown.
 class ScanSource {
  public:
-  /// Must not outlive this source.
+  /// Returns a scan, which must not outlive this source.
   AssociationScan scan(const std::vector<Object>& objects) {
     return ingest(objects, Pose2(), visibility_, clutter_, ScanIntakeOptions(), counts_);
   }

@@ -29,7 +29,7 @@ class RandomScene {
     }
   }
 
-  /// Advances by 0.1 s.
+  /// Returns the objects 0.1 s later.
   std::vector<Object> next() {
     std::vector<Object> objects;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
