@@ -29,7 +29,7 @@ TrackerInput inputAt(int step, const std::vector<Object>& objects) {
           Visibility(VisibilityOptions())};
 }
 
-/// The objects of a scan that are available at once: every other one.
+/// Returns the objects of a scan that are available at once: those at positive y.
 std::vector<Object> earlyOf(const std::vector<Object>& objects) {
   std::vector<Object> early;
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(early),
