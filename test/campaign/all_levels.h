@@ -5,7 +5,7 @@
 
 namespace datmo::campaign {
 
-/// Scanner and stereo camera fused on all levels, with all that goes with them.
+/// Fusion of scanner and stereo camera on all levels, with all stages that depend on it.
 inline GraphSwitches allLevels() {
   GraphSwitches levels;
   levels.low_level_fusion = levels.road_border = levels.static_points = true;

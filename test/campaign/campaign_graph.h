@@ -10,7 +10,7 @@
 
 namespace datmo::campaign {
 
-/// A graph of stages, and what its sensors are.
+/// A graph of stages and its sensors.
 struct CampaignGraph {
   std::string name;
   GraphSwitches switches;
@@ -18,10 +18,10 @@ struct CampaignGraph {
   bool has_echoes = false;          ///< the scanner sends several for each beam
 };
 
-/// So many that each input of each stage is one of them, and each switch is on.
+/// Returns graphs in which each input of each stage occurs, and each switch is on, at least once.
 const std::vector<CampaignGraph>& campaignGraphs();
 
-/// The sensor set's options, with the graph's source of motion. Throws OptionError.
+/// Returns the sensor set's options, with the graph's source of motion. Throws OptionError.
 SensorSet sensorsOf(const std::string& config, const CampaignGraph& graph);
 
 }  // namespace datmo::campaign

@@ -54,14 +54,14 @@ sensor_msgs::MultiEchoLaserScan withEchoes(const sensor_msgs::LaserScan& scan) {
   return message;
 }
 
-/// Of a stereo camera that is slower than the scanner.
+/// The stereo camera is slower than the scanner.
 void addImages(int step, std::vector<Publication>& sent) {
   if (step % kImageSteps != 0) {
     return;
   }
   const int index = step / kImageSteps;
   StereoPairSample pair;
-  pair.disparity += index % 4;  // else the camera is frozen, as with the same first pixel
+  pair.disparity += index % 4;  // otherwise the camera would look frozen: same first pixel
   const Stamp stamp = Stamp::fromSeconds(World::kStart + CampaignSensors::kStep * step);
   for (const auto& [side, is_right] :
        {std::pair<std::string, bool>("left", false), {"right", true}}) {
@@ -136,7 +136,7 @@ void CampaignSensors::addClouds(double seconds, std::vector<Publication>& sent) 
   add("cloud", cloud, sent);
 }
 
-/// A radar, a GNSS receiver, and a station that tracks somebody who stands ahead.
+/// A radar, a GNSS receiver, and a station that tracks someone standing ahead.
 void CampaignSensors::addOthers(double seconds, std::vector<Publication>& sent) const {
   const Stamp stamp = Stamp::fromSeconds(World::kStart + seconds);
   const Pose2 base = world_.baseInMap(seconds);

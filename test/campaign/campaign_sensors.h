@@ -17,8 +17,8 @@ class CampaignSensors {
 
   explicit CampaignSensors(const CampaignGraph& graph) : graph_(graph) {}
 
-  /// What they send at a step, on the graph's topics, /tf and /tf_static among them; also what no
-  /// stage of the graph takes.
+  /// Returns what they send at a step, on the graph's topics, including /tf, /tf_static, and
+  /// messages that no stage of the graph subscribes to.
   std::vector<Publication> at(int step) const;
 
  private:

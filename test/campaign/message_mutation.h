@@ -21,16 +21,16 @@
 
 namespace datmo::campaign {
 
-/// The elements of a long list that a mutation looks at: its first ones are as good as all.
+/// Number of elements of a long list that are mutated: the first ones are as good as any.
 constexpr std::size_t kMaxElements = 8;
 
-/// Goes through the fields of a message of any type, as ROS's serialization lists them, and spoils
-/// those whose turn it is: numbers that are none or beyond all bounds, lists of other lengths,
-/// other names, stamps far off. The message stays one that can be sent.
+/// Visits the fields of a message of any type, as ROS's serialization lists them, and corrupts the
+/// selected ones: NaN, infinite or out-of-range numbers, lists of other lengths, other names,
+/// stamps far off. The message can still be sent.
 class FieldSpoiler {
  public:
-  /// `turns`: indices of the fields to spoil, in the order in which they are visited; empty:
-  /// counts.
+  /// `turns`: indices of the fields to corrupt, in the order in which they are visited; empty: only
+  /// counts them.
   FieldSpoiler(std::mt19937& random, std::vector<std::size_t> turns)
       : random_(random), turns_(std::move(turns)) {}
 
@@ -117,7 +117,7 @@ class FieldSpoiler {
   std::size_t fields_ = 0;
 };
 
-/// A copy of a message with one to three of its fields spoiled.
+/// Returns a copy of a message with one to three of its fields corrupted.
 template <typename Message>
 Message mutated(Message message, std::mt19937& random) {
   FieldSpoiler counter(random, {});

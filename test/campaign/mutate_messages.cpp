@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mutated messages at the inputs of all stages, in one process and without a master:
 //   mutate_messages CONFIG.yaml [--seed N] [--drives N] [--seconds S] [--out FILE.json]
-// Drive after drive, with the seeds N, N + 1, ...; each is said when something is wrong with it.
-// The exit code is 1 if there was any, and 2 if nothing could be tried.
+// One drive after the other, with the seeds N, N + 1, ...; each is reported if it fails. The exit
+// code is 1 if any failed, and 2 if nothing could be run.
 #include <chrono>
 #include <iostream>
 
@@ -18,7 +18,7 @@
 
 namespace {
 
-/// MiB, the most so far.
+/// Peak memory so far, MiB.
 double peakMemory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -30,7 +30,7 @@ struct Arguments {
   unsigned seed = 1;
   unsigned drives = 8;
   double seconds = 0.0;
-  double max_seconds = 2.0;   // s of a processor, for one message: a scan has 0.06
+  double max_seconds = 2.0;   // s of CPU time, for one message: a scan takes 0.06
   double max_memory = 512.0;  // MiB
   std::string out;
 };
@@ -53,7 +53,7 @@ nlohmann::json report(const Arguments& arguments, unsigned drives,
           {"faults", faults}};
 }
 
-/// What was wrong.
+/// What failed.
 std::vector<std::string> run(const Arguments& arguments, datmo::campaign::Tally& tally,
                              unsigned& drives) {
   std::vector<std::string> faults;
@@ -95,7 +95,7 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-/// Whether nothing was wrong.
+/// Returns whether nothing failed.
 bool campaign(const Arguments& arguments) {
   datmo::campaign::Tally tally;
   unsigned drives = 0;

@@ -34,11 +34,11 @@ constexpr double kInPlace = 0.1;   // probability for each message; two or three
 constexpr double kCopies = 0.25;   // probability of a copy behind its message, a step
 constexpr const char* kClock = "clock_answer";
 
-/// Why messages are dropped before anything else of them is looked at.
+/// Reasons to drop a message before anything else in it is checked.
 constexpr std::array<const char*, 5> kStampReasons{"zero_stamp", "stamp_out_of_range",
                                                    "repeated_stamp", "old_stamp", "stray_stamp"};
 
-/// s, of this process: other load of the machine does not count.
+/// CPU time of this process, s: independent of other load on the machine.
 double processorSeconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -54,7 +54,7 @@ std::pair<std::string, std::function<AnyMessage(const AnyMessage&, std::mt19937&
           }};
 }
 
-/// Whether anything of a publication must not be published.
+/// Returns whether a publication holds anything that must not be published.
 template <typename... Messages>
 std::string faultOf(const Publication& publication) {
   std::string fault;
@@ -159,7 +159,7 @@ AnyMessage MutatedDrive::mutatedOf(const Publication& message) {
   return mutation->second(message.message, random_);
 }
 
-/// A spoiled one of what was there already.
+/// Sends a mutated copy of an earlier message.
 void MutatedDrive::sendCopy() {
   auto sample = samples_.begin();
   std::advance(sample, static_cast<std::ptrdiff_t>(random_() % samples_.size()));
@@ -170,7 +170,7 @@ void MutatedDrive::sendCopy() {
   deliver(copy);
 }
 
-/// The answer of a part of the stack, which is no stage's input.
+/// Sends the clock answer of a part of the stack, which is no stage's input.
 void MutatedDrive::askClock() {
   PartClock answer;
   answer.process = "/perception_manager";
@@ -213,7 +213,7 @@ void MutatedDrive::finish(double seconds, std::uint64_t mutated_before) {
          std::to_string(max_seconds_) + " s");
   }
   findFaults();
-  // Of one that several stages took, each may have dropped it: at the most so many got no further.
+  // Several stages may each drop the same message: no more were stopped than were mutated.
   const std::uint64_t drops = stampDrops();
   tally_.stopped_by_stamp += std::min(drops - stamp_drops_, tally_.mutated - mutated_before);
   stamp_drops_ = drops;
@@ -248,7 +248,7 @@ void MutatedDrive::take(const Publications& published) {
   }
 }
 
-/// What the code did not expect of itself, since the last call.
+/// Notes internal errors of the code since the last call.
 void MutatedDrive::findFaults() {
   for (const StageMonitor* monitor : runner_.monitors()) {
     for (const char* const reason : {"unexpected_error", "bad_output"}) {

@@ -14,32 +14,32 @@
 
 namespace datmo::campaign {
 
-/// What a campaign has done so far.
+/// Totals of a campaign so far.
 struct Tally {
-  std::uint64_t messages = 0;  ///< of sensors, as they should be or mutated
+  std::uint64_t messages = 0;  ///< of sensors, valid or mutated
   std::uint64_t mutated = 0;   ///< those between stages included
-  /// Of these, dropped for their stamp alone: nothing else of them was tried.
+  /// Of these, dropped for their stamp alone: the rest of them was not tested.
   std::uint64_t stopped_by_stamp = 0;
   std::map<std::string, std::uint64_t> mutated_on;    ///< by topic
   std::map<std::string, std::uint64_t> mutated_type;  ///< by type of message
   std::map<std::string, std::uint64_t> refused;       ///< by reason, warnings included
-  double slowest = 0.0;  ///< s of a processor, for one message and all that follows
+  double slowest = 0.0;  ///< s of CPU time, for one message and all that follows from it
   std::string slowest_on;
 };
 
 /// One drive with all sensors through one graph of stages, with mutated messages at its inputs and
 /// between its stages.
 ///
-/// Most mutations stand in place of the message that they are made of: a spoiled copy behind it has
-/// a stamp that was there, and is dropped for it.
+/// Most mutated messages replace the original: a mutated copy sent after it has the same stamp and
+/// is dropped for that.
 class MutatedDrive {
  public:
-  /// `seed`: of all that is drawn, the graph included; `max_seconds`: of a processor, for one
-  /// message and all that follows from it.
+  /// `seed`: of all random draws, including the graph; `max_seconds`: of CPU time, for one message
+  /// and all that follows from it.
   MutatedDrive(const std::string& config, unsigned seed, double max_seconds, Tally& tally);
 
-  /// Drives on with mutations, then without. Returns what must not be: "step 12, mutated scan:
-  /// ..."; empty: nothing.
+  /// Continues the drive with mutations, then without. Returns what must not happen: "step 12,
+  /// mutated scan: ..."; empty: nothing.
   std::vector<std::string> run();
 
  private:
@@ -48,14 +48,14 @@ class MutatedDrive {
   static const std::map<std::string, Mutate>& mutations();
 
   bool isTurn(double probability);
-  /// What a stage gets in place of a message.
+  /// Returns the message that a stage gets in place of the original.
   AnyMessage givenFor(const Publication& message);
   AnyMessage mutatedOf(const Publication& message);
   void step(int index, bool mutates);
   void sendCopy();
   void askClock();
   void deliver(const Publication& message);
-  /// Books how long it took, and what was dropped.
+  /// Records how long it took, and what was dropped.
   void finish(double seconds, std::uint64_t mutated_before);
   std::uint64_t stampDrops() const;
   void take(const Publications& published);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stack on a drive without end, in one process and without a master, as fast as it goes:
+// The stack on an endless drive, in one process and without a master, as fast as possible:
 //   soak_stack CONFIG.yaml [--minutes N] [--max-tiles N] [--out FILE.json]
 // Minutes: of data. Writes what each of them needed. The exit code is 1 if a message was dropped,
-// no track came for a minute, or the heap grew by more than it may once the map is full,
-// and 2 if nothing could be tried.
+// no track was published for a minute, or the heap grew by more than is allowed once the map is
+// full, and 2 if nothing could be run.
 #include <cstddef>
 #include <iostream>
 #include <string>
@@ -21,11 +21,11 @@
 
 namespace {
 
-/// The share of the minutes in which windows, histories and the map fill.
+/// Share of the minutes in which windows, histories and the map fill up.
 constexpr double kSettledShare = 0.5;
-/// MiB, by which the heap may be more or less from minute to minute, as the scene changes.
+/// Tolerance of the heap from minute to minute, as the scene changes, MiB.
 constexpr double kMaxChange = 1.0;
-/// MiB an hour.
+/// MiB per hour.
 constexpr double kMaxGrowth = 1.0;
 
 nlohmann::json toJson(const datmo::campaign::SoakSample& sample) {
@@ -58,7 +58,7 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-/// What of the heap's growth is a fault; empty: none.
+/// Returns in what way the heap's growth is a fault; empty: none.
 std::string growthFault(const std::vector<double>& heap) {
   const auto settled = static_cast<std::size_t>(kSettledShare * static_cast<double>(heap.size()));
   const std::size_t rest = heap.size() - 1 - settled;
@@ -69,7 +69,7 @@ std::string growthFault(const std::vector<double>& heap) {
              : "";
 }
 
-/// Whether nothing was wrong.
+/// Returns whether nothing failed.
 bool soak(const Arguments& arguments) {
   datmo::campaign::SoakedDrive drive(arguments.config, arguments.max_tiles);
   nlohmann::json samples = nlohmann::json::array();

@@ -23,13 +23,13 @@ constexpr double kStepsPerHour = 60.0 * kStepsPerMinute;
 constexpr double kMilliseconds = 1e3;
 constexpr double kMebibyte = 1024.0 * 1024.0;
 
-/// MiB; what the program has asked for, large blocks included.
+/// Memory that the program has allocated, large blocks included, MiB.
 double heapMebibytes() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks + info.hblkhd) / kMebibyte;
 }
 
-/// MiB, from /proc/self/statm: pages of the program, and of those that are in memory.
+/// From /proc/self/statm, MiB: pages of the program, and those resident in memory.
 double residentMebibytes() {
   std::uint64_t size = 0;
   std::uint64_t resident = 0;
@@ -64,7 +64,7 @@ SoakSample SoakedDrive::nextMinute() {
   for (std::uint64_t i = 0; i < kStepsPerMinute; ++i) {
     step(i % kStepsPerCloud == 0);
   }
-  runner_.takeTimes();  // they are kept for the whole of a drive else
+  runner_.takeTimes();  // otherwise they are kept for the whole drive
   minutes_without_tracks_ += sample_.tracks == 0 ? 1 : 0;
   sample_.hours = static_cast<double>(steps_) / kStepsPerHour;
   sample_.heap_mib = heapMebibytes();

@@ -11,10 +11,10 @@
 
 namespace datmo::campaign {
 
-/// What a minute of a drive needed, and what came of it.
+/// Resources and results of one minute of a drive.
 struct SoakSample {
   double hours = 0.0;         ///< of data, at its end
-  double heap_mib = 0.0;      ///< that is allocated; the process has more, in pieces and caches
+  double heap_mib = 0.0;      ///< allocated; the process has more, in fragments and caches
   double resident_mib = 0.0;  ///< of the process
   double median_ms = 0.0;     ///< for a scan and all that follows from it
   double percentile_99_ms = 0.0;
@@ -23,18 +23,19 @@ struct SoakSample {
   std::uint64_t dropped = 0;  ///< since the start, by all stages
 };
 
-/// A drive without end through all levels of the stack, as fast as it goes: an endless World, scans
-/// and odometry at 16 Hz and a stereo cloud with each second scan.
+/// An endless drive through all levels of the stack, as fast as possible: an endless World, scans
+/// and odometry at 16 Hz and a stereo cloud with every second scan.
 class SoakedDrive {
  public:
-  /// `max_tiles`: as map/max_tiles of the SLAM, whose map fills memory until so much has been left
-  /// behind; 0: as it is in the sensor set.
+  /// `max_tiles`: as map/max_tiles of the SLAM, whose map fills memory until the vehicle has left
+  /// that many behind; 0: as in the sensor set.
   SoakedDrive(const std::string& config, int max_tiles);
 
-  /// Drives on for a minute of data.
+  /// Continues the drive for a minute of data.
   SoakSample nextMinute();
 
-  /// What the stages dropped because of themselves, or what did not come; empty: nothing is wrong.
+  /// Returns what the stages dropped on their own account, or which output is missing; empty:
+  /// nothing is wrong.
   std::vector<std::string> faults() const;
 
  private:

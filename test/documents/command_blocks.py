@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command blocks of Markdown pages: what is run as written, and what is left out and why."""
+"""Command blocks of Markdown pages: which are run as written, which are left out, and why."""
 
 import re
 from dataclasses import dataclass, field
 
-# Why a block cannot be run on any machine within seconds, by the word of its mark.
+# Why a block cannot be run on every machine within seconds, by the word of its mark.
 MARKS = {
     "build": "builds or installs",
     "display": "needs a screen",
@@ -19,12 +19,13 @@ COMMAND = re.compile(r"\s+(\$ )?(rosrun|roslaunch|scripts/\w+|cmake|catkin|sourc
 
 
 class PageError(Exception):
-    """What is wrong in a page, with its line."""
+    """An error in a page, with its line."""
 
 
 @dataclass
 class Block:
-    """One fenced block. `needs` is a word of MARKS or empty, `files` what a download brings."""
+    """One fenced block. `needs` is a word of MARKS or empty,
+    `files` are the files of a download."""
 
     line: int
     language: str
@@ -38,7 +39,7 @@ class Block:
 
 
 def parse_mark(words, line):
-    """(needs, files) of a mark's words; PageError where it is not one of MARKS."""
+    """Returns (needs, files) of a mark's words; raises PageError if it is not one of MARKS."""
     if not words or words[0] not in MARKS:
         expected = ", ".join(MARKS)
         raise PageError(f"line {line}: needs '{' '.join(words)}': expected one of {expected}")
@@ -52,7 +53,7 @@ def _unindent(text, indent):
 
 
 class _Reader:
-    """Goes through a page line by line."""
+    """Parses a page line by line."""
 
     def __init__(self):
         self.blocks = []
@@ -89,7 +90,7 @@ class _Reader:
 
 
 def blocks_of(text):
-    """All fenced blocks of a page, in order.
+    """Returns all fenced blocks of a page, in order.
 
     Throws PageError for an unknown mark, a mark without a block of bash right behind it, a fence
     that does not end, and for commands in an indented block, which nobody would run.

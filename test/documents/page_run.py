@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a page's command blocks as they are written, in one fresh shell."""
+"""Runs a page's command blocks as written, in one fresh shell."""
 
 import os
 import re
@@ -12,7 +12,7 @@ from pathlib import Path
 TREE = ("config", "doc", "launch", "rosbag_fixtures", "scripts", "README.md")
 CLEAN_PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 KEPT_VARIABLES = ("HOME", "USER", "LANG", "TMPDIR")
-# What programs say when something went wrong that roslaunch's exit code does not tell.
+# What programs print on errors that do not show in roslaunch's exit code.
 FAILURE = re.compile(r"\[FATAL\]|Traceback \(most recent|RLException|Couldn't find executable|"
                      r"couldn't set parameters|process has died")
 LAUNCH = re.compile(r"^(\S+/env\.sh )?roslaunch ")
@@ -22,7 +22,7 @@ LINES_SHOWN = 30
 
 @dataclass
 class Outcome:
-    """What became of a page: `error` is empty where all its blocks ran."""
+    """The result of a page: `error` is empty if all its blocks ran."""
 
     error: str
     line: int  # of the block that was running at the end
@@ -30,23 +30,23 @@ class Outcome:
 
 
 def make_folder(folder, source, environment_folder, installed):
-    """Lays out in `folder` what stands at the root of the sources, by links.
+    """Links what is at the root of the sources into `folder`.
 
-    devel/setup.bash is that of `environment_folder`. Of an installed tree config, launch and the
-    bags are those that were installed. Returns nothing.
+    devel/setup.bash is that of `environment_folder`. For an installed tree, config, launch and the
+    bags are the installed ones.
     """
     share = environment_folder / "share" / "datmo_fusion"
     for name in TREE:
         position = share / name if installed and (share / name).exists() else source / name
         if position.exists():
             (folder / name).symlink_to(position)
-    # No link: rosrun leaves out what lies below PACKAGE/build, which a link would hide.
+    # No link: rosrun ignores what is below PACKAGE/build, which a link would hide.
     (folder / "devel").mkdir()
     (folder / "devel" / "setup.bash").write_text(f"source '{environment_folder}/setup.bash'\n")
 
 
 def find_files(names, data):
-    """Paths of all `names` below `data` by name, or None if one is missing."""
+    """Returns the paths of all `names` below `data` by name, or None if one is missing."""
     found = {}
     for name in names:
         paths = sorted(data.rglob(name)) if data else []
@@ -57,7 +57,7 @@ def find_files(names, data):
 
 
 def link_files(found, folder):
-    """Puts what was downloaded into `folder`; a KITTI drive in the folder of its date."""
+    """Puts downloaded files into `folder`; a KITTI drive into the folder of its date."""
     for name, path in found.items():
         date = re.match(r"(\d{4}_\d{2}_\d{2})_drive", name)
         link, target = (date.group(1), path.parent) if date else (name, path)
@@ -72,7 +72,7 @@ def free_port():
 
 
 def shell_environment(folder):
-    """Of a new login: nothing of ROS or of a workspace, no display, a master of its own."""
+    """Returns the environment of a new login: no ROS, no workspace, no display, its own master."""
     return {
         **{name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
         "PATH": CLEAN_PATH,
@@ -104,7 +104,8 @@ def launch_checks(block, page):
 
 
 def script_of(blocks, progress):
-    """One script of all blocks; it writes the line of each to the file `progress` as it begins."""
+    """Returns one script of all blocks; it writes each block's line to the
+    file `progress` as it begins."""
     return "".join(f"echo {block.line} >'{progress}'\n{block.text}" for block in blocks)
 
 
@@ -119,7 +120,7 @@ def stop(process):
 
 
 def run_script(script, folder, timeout):
-    """(exit code or None after `timeout` s, output) of `bash -e` on the script."""
+    """Returns (exit code or None after `timeout` s, output) of `bash -e` on the script."""
     log = folder / ".output"
     with open(log, "wb") as output:
         process = subprocess.Popen(
@@ -140,7 +141,7 @@ def run_script(script, folder, timeout):
 
 
 def run_blocks(blocks, folder, timeout):
-    """Runs the blocks in `folder`, one after the other in one shell; see Outcome."""
+    """Runs the blocks in `folder`, one after the other in one shell; returns an Outcome."""
     progress, script = folder / ".progress", folder / ".commands"
     script.write_text(script_of(blocks, progress))
     code, output = run_script(script, folder, timeout)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bounds of the figures of simulated scenes, from their spread over seeds, in bounds.yaml,
-which measure_bounds.py writes.
+"""Bounds of the figures of simulated scenes, from their spread over seeds, in bounds.yaml, which
+measure_bounds.py writes.
 
-A bound lies as far beyond the worst of the measured seeds as that lies beyond their median: three
-standard deviations of a normal figure, where ten seeds were measured. Where a scene asks for more
+A bound is as far beyond the worst of the measured seeds as that is beyond their median: three
+standard deviations of a normal figure, if ten seeds were measured. If a scene requires more
 (REQUIRED in scene_figures.py), that counts, and seeds that miss it are kept as expected failures.
 """
 
@@ -20,7 +20,7 @@ DIGITS = 3  # significant ones of a bound
 
 
 def bound_of(name, values):
-    """(median, worst, bound) of a figure that was measured with several seeds."""
+    """Returns (median, worst, bound) of a figure measured with several seeds."""
     sign = -1.0 if name in HIGHER else 1.0
     costs = [sign * value for value in values]
     median, worst = statistics.median(costs), max(costs)
@@ -29,19 +29,19 @@ def bound_of(name, values):
 
 
 def is_within(name, value, bound):
-    """Whether a figure is as good as its bound, or better."""
+    """Returns whether a figure is as good as its bound, or better."""
     rounding = 10.0**-DIGITS * abs(bound)
     return value >= bound - rounding if name in HIGHER else value <= bound + rounding
 
 
 def misses_required(scene, figures):
-    """Names of the figures that are worse than what is asked of the scene."""
+    """Returns the names of the figures that are worse than what is required of the scene."""
     required = REQUIRED.get(scene, {})
     return [name for name in required if not is_within(name, figures[name], required[name])]
 
 
 def seeds(scene):
-    """Those that the tests run of a scene: as many as their time allows."""
+    """Returns the seeds of a scene that the tests run: as many as their time allows."""
     return range(1, TESTED.get(scene, MOST_TESTED) + 1)
 
 

@@ -15,13 +15,13 @@ IN_VIEW = "in view"  # column of evaluate grids
 # What the scanner sees moving has to be found at any distance.
 ASKED = ("truth/visible_to=scanner", "truth/min_time_seen=1.0", "region/range=500")
 
-# Figures of which more is better; of all others less is.
+# Figures for which more is better; for all others less is.
 HIGHER = {
     "straight_found", "curve_found", "right_found", "tracked", "frames_kept", "fewer_episodes",
     "fewer_in_scan", "mota", "paint_gone", "poles_in_fused", "poles_added", "judged", "followed",
 }  # fmt: skip
 
-# Asked of every seed, however the spread is.
+# Required of every seed, whatever the spread.
 REQUIRED = {
     "bend": {"straight_rms_m": 0.3, "curve_rms_m": 0.5, "straight_found": 0.5, "curve_found": 0.5,
              "false_share": 0.3, "intersections_false": 0},
@@ -54,7 +54,7 @@ def bend(folder, seed):
 
 
 def one_side(folder, seed):
-    """A road whose left border is out of sight."""
+    """A road whose left border is not visible."""
     run = _with_borders(folder, "one_side", seed)
     scored = borders.score(run)
     right = scored["borders"]["right"][NEAR]
@@ -62,7 +62,7 @@ def one_side(folder, seed):
 
 
 def intersection_borders(folder, seed):
-    """The vehicle turns off at an intersection, and none is reported elsewhere."""
+    """The vehicle turns off at an intersection, and no other intersection is reported."""
     run = _with_borders(folder, "intersection", seed)
     thesis = evaluated(run, run)["thesis"]
     return {
@@ -72,7 +72,7 @@ def intersection_borders(folder, seed):
 
 
 def footpath(folder, seed):
-    """People along the curb and along walls, without borders and with them."""
+    """People along the curb and along walls, with and without borders."""
     recorded = simulated(folder, "footpath", seed)
     alone, bordered = computed(recorded), computed(recorded, "--road-border")
     compared = compare(alone, bordered, program=SCORE_RUN)
@@ -89,13 +89,14 @@ def footpath(folder, seed):
 
 
 def intersection_score(folder, seed):
-    """Every object that the scanner sees moving for more than a second is found: evaluate's score."""
+    """Every object that the scanner sees moving for more than a second is found:
+    evaluate's score."""
     recorded = simulated(folder, "intersection", seed)
     return evaluated(computed(recorded), recorded, ASKED, attainable=recorded)
 
 
 def of_intersection(score):
-    """Its figures."""
+    """Returns its figures."""
     return {
         "missed": _missed(score),
         "mota": score["clear_mot"]["mota"],
@@ -105,7 +106,7 @@ def of_intersection(score):
 
 
 def without_odometry(folder, seed):
-    """The pose holds all the same."""
+    """The pose is accurate even so."""
     settings = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
     settings["motion"] = {"source": "none"}
     config = folder / "without_odometry.yaml"
@@ -116,14 +117,15 @@ def without_odometry(folder, seed):
 
 
 def fused_tracks(folder, seed):
-    """What scanner and camera both follow: the score of evaluate track_fusion, and the bag."""
+    """Returns the score of evaluate track_fusion for what scanner and
+    camera both track, and the bag."""
     recorded = simulated(folder, "intersection", seed, "stereo/enabled=true")
     run = computed(recorded, "--track-fusion")
     return track_fusion.score(run), run
 
 
 def of_fused_tracks(score):
-    """Its figures."""
+    """Returns its figures."""
     ghosts = score["ghosts"]["fused"]
     return {
         "judged": score["passed"]["judged"],
@@ -134,7 +136,8 @@ def of_fused_tracks(score):
 
 
 def low_level_fusion(folder, seed):
-    """What fusion takes from the lidar's grids and adds to them, and what comes of it."""
+    """Returns what fusion removes from the lidar's grids and adds to them,
+    and the effect on objects."""
     options = ("stereo/enabled=true", "ground_truth/echoes=true")
     recorded = simulated(folder, "intersection", seed, *options)
     fused_bag = computed(recorded, "--low-level-fusion", "--write-grids")
@@ -183,8 +186,8 @@ def _missed(score):
 
 
 def _clearly_lost(compared):
-    """Of those who are tracked in more than 5 % of their frames: whose few beams hardly show that they
-    move, may need more of them where most things stand."""
+    """Returns the lost ones of those tracked in more than 5 % of their frames: objects with few
+    beams, which hardly show their motion, may need more beams where most objects are stationary."""
     clearly = {item["id"] for item in compared["objects"]
                if item["tracked_frames"]["without"] > 0.05 * item["required_frames"]}  # fmt: skip
     return clearly & set(compared["lost"])

@@ -14,7 +14,7 @@ SIMULATE = os.environ.get("SIMULATE", "simulate")
 
 
 def simulated(folder, scene, seed=1, *options):
-    """The drive's bag (Path), in the folder; options: KEY=VALUE of simulate."""
+    """Returns the drive's bag (Path), in the folder; options: KEY=VALUE of simulate."""
     recorded = Path(folder) / f"{scene}_{seed}.bag"
     settings = [word for assignment in options for word in ("--set", assignment)]
     subprocess.run(
@@ -26,7 +26,8 @@ def simulated(folder, scene, seed=1, *options):
 
 
 def computed(recorded, *options, config=CONFIG):
-    """The bag (Path) that the stack makes of a drive's with these options of run_bag."""
+    """Returns the bag (Path) that the stack makes of a drive's bag
+    with these options of run_bag."""
     result = recorded.with_name(recorded.stem + "".join(options) + ".result.bag")
     subprocess.run(
         [RUN_BAG, str(recorded), str(result), "--config", str(config), "--with-truth", "--quiet",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""False tracks where the input is bad: none of it may bring a burst of them."""
+"""False tracks with bad input: none of it may cause a burst of them."""
 
 import io
 import math
@@ -18,22 +18,24 @@ SEEDS = (1, 2, 3, 4)
 DURATION = ("duration=12",)
 ASKED = ("truth/min_time_seen=0",)
 
-FROM = 4.0  # s since the drive's begin, where what does not hold for all of the drive begins
+FROM = 4.0  # s since the drive's start, from which faults of a part of the drive are active
 SILENCE = 2.0  # s
 NAN_SHARE = 0.2  # of the beams
 MOUNT_ERROR = 2.0  # degrees
 START = 1.0  # s, in which a map has only begun
 
-# Three times what the demonstrator's scanner is shaken by (simulate).
+# Three times the shaking of the demonstrator's scanner (simulate).
 SHAKEN = ("scanner/azimuth_shake=0.6", "scanner/pitch_shake=0.9")
 
-# False tracks in a drive without a fault, seeds 1 to 8: mean 2.4, at most 6, and this standard deviation.
+# False tracks in a drive without a fault, seeds 1 to 8: mean 2.4, at most 6, and this standard
+# deviation.
 SPREAD = 1.7
 
-# More of them with the fault, mean of these drives. Shaken, beams meet the road (doc/limits.md).
+# Additional ones with the fault, mean of these drives. With a shaken scanner, beams hit the road
+# (doc/limits.md).
 MORE = {"nan": 0.0, "gap": 0.0, "mount": 0.4, "silent odometry": 0.0, "shaken": 1.9}
 
-# A burst: beyond what differs from drive to drive, in one of them and in all together.
+# A burst: more than the variation between drives, in one of them and in all together.
 MAX_IN_ONE = 10
 MAX_MORE = {
     fault: len(SEEDS) * more + 2.0 * SPREAD * math.sqrt(2.0 * len(SEEDS)) for fault, more in MORE.items()
@@ -41,7 +43,7 @@ MAX_MORE = {
 
 
 def with_nan_beams(_, message, _since):
-    """Some beams of each scan, others each time, without a number."""
+    """Some beams of each scan, different ones each time, are NaN."""
     if hasattr(message, "range_min"):
         draw = random.Random(message.header.stamp.to_nsec())
         for beam in message.ranges:
@@ -59,7 +61,7 @@ def without_odometry(_, message, since):
 
 
 def mounted_wrong(topic, message, _):
-    """The scanner is turned against what the transform says."""
+    """The scanner is rotated relative to what the transform says."""
     if topic == "/tf_static":
         half = math.radians(0.5 * MOUNT_ERROR)
         for mount in message.transforms:
@@ -78,7 +80,7 @@ def serialized(message):
 
 
 def changed(recorded, name, change):
-    """The drive with its messages as change(topic, message, seconds since the begin) has them."""
+    """Returns the drive's bag with its messages as change(topic, message, seconds) returns them."""
     result = recorded.with_name(f"{recorded.stem}_{name}.bag")
     changes = 0
     with rosbag.Bag(str(recorded)) as bag, rosbag.Bag(str(result), "w") as out:
@@ -103,7 +105,8 @@ CHANGES = {
 
 
 def drives_with_faults(folder, seed):
-    """The drive without a fault, and by name of the fault what is played and what holds the truth."""
+    """Returns the drive without a fault, and by name of the fault the bag to
+    play and the bag of its truth."""
     drive = simulated(folder, SCENE, seed, *DURATION)
     drives = {name: (changed(drive, name, change), drive) for name, change in CHANGES.items()}
     apart = Path(folder) / "shaken"
@@ -114,7 +117,8 @@ def drives_with_faults(folder, seed):
 
 class BadInput(unittest.TestCase):
     def check_start(self, score):
-        """That nothing moves is not known before the map is: then nothing may be said to."""
+        """Before there is a map, it is not known that nothing moves:
+        no track may be reported as moving."""
         series = score["series"]
         early = [n for t, n in zip(series["time_s"], series["false"]) if t < START]
         self.assertGreater(len(early), 0)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How bounds of the end-to-end tests are made of figures, and held against them."""
+"""How bounds of the end-to-end tests are computed from figures, and applied to them."""
 
 import io
 import tempfile
@@ -29,7 +29,7 @@ class Bounds(unittest.TestCase):
         self.assertEqual((median, worst), (0.8, 0.6))
         self.assertAlmostEqual(bound, 0.4)
 
-    def test_what_always_is_the_same_may_not_change(self):
+    def test_what_is_always_equal_must_not_change(self):
         self.assertEqual(bounds.bound_of("missed", [0, 0, 0]), (0.0, 0.0, 0.0))
         self.assertFalse(bounds.is_within("missed", 1, 0.0))
 
@@ -41,7 +41,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(bounds.is_within("pose_error", 0.00402, 0.004))
         self.assertTrue(bounds.is_within("mota", 0.4999, 0.5))
 
-    def test_every_scene_has_bounds_of_all_that_is_required(self):
+    def test_every_scene_has_bounds_of_all_required_figures(self):
         measured = yaml.safe_load(bounds.FILE.read_text(encoding="utf-8"))["scenes"]
         self.assertEqual(set(measured), set(SCENES))
         for scene, required in REQUIRED.items():
@@ -49,7 +49,7 @@ class Bounds(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The intersection, of which missed 0 and a pose error of 0.01 are required."""
+    """The intersection, which requires missed 0 and a pose error of 0.01."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -61,7 +61,7 @@ class Check(unittest.TestCase):
         self.addCleanup(patched.stop)
 
     def failures(self, seed, **figures):
-        """Those of a test that checks these figures."""
+        """Returns the failures of a test that checks these figures."""
         figures = {"missed": 0, "mota": 0.6, "pose_error": 0.003, **figures}
 
         class Scene(unittest.TestCase):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One sensor's clock that is set by 0.1 s while the others go on, in the committed drive, as scripts/campaign does it:
-the pose is as accurate as without it."""
+"""One sensor's clock is set by 0.1 s while the others keep running, in the committed drive, as in
+scripts/campaign: the pose is as accurate as without the step."""
 
 import json
 import os
@@ -16,7 +16,7 @@ MAX_ADDED = 0.1  # m, at the end of the drive; without the correction 1.3 m and 
 
 
 class ClockOff(unittest.TestCase):
-    def test_the_pose_is_that_of_a_clock_that_is_right(self):
+    def test_the_pose_is_as_accurate_as_with_a_correct_clock(self):
         with tempfile.TemporaryDirectory() as name:
             report = Path(name) / "report.json"
             code = main([str(ROOT / "rosbag_fixtures/intersection.bag"),

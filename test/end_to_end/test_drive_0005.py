@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""KITTI's drive 0005 through the whole chain, from folder to tracks, against what is asked.
+"""KITTI's drive 0005 through the whole chain, from folder to tracks, against the requirements.
 
 The scanner is emulated from the Velodyne (see kitti_to_bag --help); the odometry is 3 % too long
-and turns 0.5 deg/s too much, and would end 8 % of the way off. What is asked of "the cyclist" and
-of "the van" is asked of every cyclist and vehicle that moves and is labeled in nearly every frame;
-the objects are picked by that, not by their ids.
+and turns 0.5 deg/s too much, and would end with an error of 8 % of the path. The requirements on
+"the cyclist" and "the van" apply to every cyclist and vehicle that moves and is labeled in nearly
+every frame; the objects are selected by that, not by their ids.
 """
 
 import subprocess
@@ -20,7 +20,7 @@ from evaluated_run import RUN_BAG, evaluated
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "kitti.yaml"
 ODOMETRY_ERRORS = ("--odometry-scale-error", "0.03", "--odometry-yaw-bias", "0.5")
 
-# All that moves has to be found, wherever it is labeled: in the cameras' view.
+# All that moves has to be found, wherever it is labeled: in the cameras' field of view.
 ASKED = (
     "truth/visible_to=none",
     "truth/min_time_seen=0",
@@ -36,7 +36,7 @@ MAX_PARKED_MOVING_SHARE = 0.05
 
 
 def run_drive(folder, resolution):
-    """The score of the drive with beams every `resolution` degrees."""
+    """Returns the score of the drive with beams every `resolution` degrees."""
     recorded, computed = Path(folder) / "drive.bag", Path(folder) / "output.bag"
     words = [str(DRIVE), str(recorded), "--scan-resolution", str(resolution), *ODOMETRY_ERRORS]
     if kitti_to_bag(words) != 0:
@@ -49,7 +49,7 @@ def run_drive(folder, resolution):
 
 
 class Figures:
-    """The figures that are asked for; the classes below say for which scanner."""
+    """The figures that are required; the classes below say for which scanner."""
 
     resolution = None  # degrees
     min_vehicle_share = None
@@ -60,7 +60,8 @@ class Figures:
             cls.result = run_drive(folder, cls.resolution)
 
     def whole_drive(self, kind):
-        """Objects of a class that move through the whole drive; at least one, or all is void."""
+        """Returns the objects of a class that move through the whole drive; at least one,
+        or the test is void."""
         found = [
             item
             for item in self.result["objects"]
@@ -83,7 +84,7 @@ class Figures:
             self.assertLessEqual(len(item["track_ids"]), MAX_IDS)
 
     def test_parked_cars_do_not_move(self):
-        """No track that says it moves is on a vehicle that never does."""
+        """No track that is reported as moving is on a vehicle that never moves."""
         parked = [item for item in self.result["standing_objects"] if item["class"] == "vehicle"]
         self.assertTrue(parked)
         for item in parked:
@@ -100,7 +101,7 @@ class TwoDegrees(Figures, unittest.TestCase):
     min_vehicle_share = 0.75
 
     def test_cyclist_is_tracked(self):
-        """Asked of this scanner alone; of the finer one the share is printed."""
+        """Required of this scanner alone; for the finer one the share is printed."""
         for item in self.whole_drive("cyclist"):
             self.assertGreaterEqual(item["completeness"], MIN_CYCLIST_SHARE)
 

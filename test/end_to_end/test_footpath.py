@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What moves on the footpath and near the curb stays tracked when what lies on the road's borders
-and beyond is taken to be less likely to move (thesis 2.4): people who walk along the curb, away from it and along a wall, one
-who steps on to the road, a car out of a driveway, cyclists. With several seeds, so that it is no
-matter of luck.
+"""Moving objects on the footpath and near the curb stay tracked although objects on and beyond road
+borders are considered less likely to move (thesis 2.4): people who walk along the curb, away from
+it and along a wall, one who steps on to the road, a car out of a driveway, cyclists. Several seeds
+are used, so that the result does not depend on chance.
 """
 
 import tempfile

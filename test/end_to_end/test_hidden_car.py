@@ -21,7 +21,7 @@ SEEDS = (1, 2, 3, 4, 5, 6)
 # the camera sees enough of it.
 MIN_KEPT = 1
 
-# All that moves has to be found, seen or not.
+# All that moves has to be found, visible or not.
 ASKED = ("truth/visible_to=none",)
 
 MIN_TIME_HIDDEN = 1.0  # s
@@ -39,7 +39,7 @@ class Hidden(NamedTuple):
 
 
 def max_gap(flags):
-    """First and last index of the longest run of zeros."""
+    """Returns the first and last index of the longest run of zeros."""
     runs, start = [], None
     for i, flag in enumerate([*flags, 1]):
         if flag == 0 and start is None:
@@ -51,7 +51,7 @@ def max_gap(flags):
 
 
 def hidden_time(recorded):
-    """What the truth says of the car: Hidden."""
+    """Returns the truth about the car: Hidden."""
     seen = []
     with rosbag.Bag(str(recorded)) as bag:
         for _, message, _ in bag.read_messages("/ground_truth/objects"):
@@ -70,7 +70,7 @@ def hidden_time(recorded):
 
 class HiddenCar(unittest.TestCase):
     def run_stack(self, recorded, name, *options):
-        """The score of a run with these options of run_bag."""
+        """Returns the score of a run with these options of run_bag."""
         computed = recorded.with_name(name)
         subprocess.run(
             [RUN_BAG, str(recorded), str(computed), "--config", str(CONFIG), "--quiet", *options],
@@ -79,7 +79,7 @@ class HiddenCar(unittest.TestCase):
         return evaluated(computed, recorded, ASKED)
 
     def run_seed(self, folder, seed):
-        """Hidden, and the scores with object fusion and without."""
+        """Returns Hidden, and the scores with object fusion and without."""
         recorded = Path(folder) / "drive.bag"
         subprocess.run(
             [SIMULATE, str(SCENE), str(recorded), "--seed", str(seed), "--quiet"], check=True
@@ -93,7 +93,7 @@ class HiddenCar(unittest.TestCase):
 
     @staticmethod
     def ids_while_hidden(score, hidden):
-        """Of the frames in which the car is hidden, the track on it, or None."""
+        """Returns, for the frames in which the car is hidden, the track on it, or None."""
         path = next(p for p in score["series"]["true_paths"] if p["id"] == hidden.car)
         return [
             track
@@ -103,7 +103,7 @@ class HiddenCar(unittest.TestCase):
 
     @staticmethod
     def ids_from_first_track(score, hidden):
-        """The track on the car from its first one until it comes out again."""
+        """Returns the track on the car from its first one until the car comes out again."""
         path = next(p for p in score["series"]["true_paths"] if p["id"] == hidden.car)
         ids = [
             track

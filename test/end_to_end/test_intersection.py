@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulated intersection through the whole chain, against what is asked: every object that the
-scanner sees moving for more than a second is found. With the seed of the committed bag and with
-others, so that it is no matter of luck. And without odometry: the pose holds all the same.
+"""The simulated intersection through the whole chain, against the requirements: every object that
+the scanner sees moving for more than a second is found. Besides the seed of the committed bag
+others are used, so that the result does not depend on chance. Without odometry, too, the pose is
+accurate.
 """
 
 import tempfile
@@ -15,7 +16,7 @@ from scene_figures import intersection_score, of_intersection, without_odometry
 
 MIN_MOVERS = 6
 
-# The scene has one intersection, and the stack does not yet say where it sees any.
+# The scene has one intersection, and the stack does not report yet where it sees one.
 NOT_MEASURED = {"thesis.intersections_found", "thesis.intersections_false"}
 
 

@@ -4,8 +4,8 @@
 kitti_tracking_score.
 
 Published for the validation sequences, which these are not (Weng et al. 2020): 93.34, 82.73 and
-93.78 % sAMOTA for cars, pedestrians and cyclists with ego poses. AB3DMOT as its paper tells it, and
-without ego poses, scores 88.0, 67.4 and 53.6 % on these ten.
+93.78 % sAMOTA for cars, pedestrians and cyclists with ego poses. AB3DMOT as described in its paper,
+and without ego poses, scores 88.0, 67.4 and 53.6 % on these ten.
 """
 
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The simulated intersection with a stereo camera, with and without low-level fusion: what fusion
-takes from the lidar's grids and adds to them, and what comes of it in the objects.
+removes from the lidar's grids and adds to them, and the effect on the objects.
 """
 
 import tempfile

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The master is killed and started anew while the stack runs: who comes later finds all topics, parameters are
-there, and the process of the nodelets, killed then, comes back with all of them."""
+"""The master is killed and restarted while the stack runs: new subscribers find all topics, the
+parameters are there, and the process of the nodelets, if killed then, restarts with all of them."""
 
 import os
 import signal
@@ -18,7 +18,7 @@ from datmo_tools import registrations
 
 PACKAGE = Path(__file__).resolve().parents[2]
 MANAGER = "/perception"
-# Asked in a process of its own, which a new master tells where the topic is.
+# Queried from a separate process, which a new master tells where the topic is.
 LISTEN = """
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -53,7 +53,7 @@ class MasterRestart(unittest.TestCase):
         return known._replace(publishers=sorted(known.publishers), subscribers=sorted(known.subscribers))
 
     def is_complete(self):
-        """Whether the stack publishes its tracks and listens to its sensors."""
+        """Returns whether the stack publishes its tracks and subscribes to its sensors."""
         try:
             state = self.state()
         except rosgraph.MasterError:  # a node went away between two questions
@@ -62,7 +62,7 @@ class MasterRestart(unittest.TestCase):
                 {("/scan", MANAGER), ("/stereo/points2", MANAGER), ("/odometry", MANAGER)} <= set(state.subscribers))
 
     def manager(self):
-        """Process of the nodelets; None if it does not answer."""
+        """Returns the process of the nodelets; None if it does not answer."""
         try:
             return xmlrpc.client.ServerProxy(self.as_test.lookupNode(MANAGER)).getPid("/test")[2]
         except (OSError, rosgraph.MasterError):
@@ -73,7 +73,7 @@ class MasterRestart(unittest.TestCase):
         wait_for(lambda: listener.poll() is not None, "somebody who comes later hears the stack")
         self.assertEqual(listener.returncode, 0)
 
-    def test_all_is_found_again(self):
+    def test_everything_is_registered_again(self):
         wait_for(self.is_complete, "the stack is there")
         self.master.wait_for_read()
         manager, before = self.manager(), self.state()

@@ -36,7 +36,7 @@ MIN_TRACKED = 0.8  # of the frames in which the other car moves
 @unittest.skipUnless(BAGS.is_dir(), f"needs the example bags of datmo, which are not in {BAGS}")
 class ModelCars(unittest.TestCase):
     def run_bag(self, recording, folder, *options):
-        """The score of a recording, converted with these options of mocap_to_bag."""
+        """Returns the score of a recording, converted with these options of mocap_to_bag."""
         drive, computed = Path(folder) / "drive.bag", Path(folder) / "output.bag"
         self.assertEqual(mocap_to_bag([str(recording), str(drive), *options]), 0)
         subprocess.run(

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pedestrian behind parked vans is tracked earlier with the tracks of a camera on a pole, and what is
-known of them is honest."""
+"""A pedestrian behind parked vans is tracked earlier with the tracks of a camera on a pole, and the
+covariances are consistent."""
 
 import contextlib
 import io

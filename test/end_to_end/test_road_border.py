@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Borders of the road (thesis 3.5) on simulated streets: where they lie on straight roads and in
-bends, the intersection, an open place and a border on one side only. With several seeds, so that it
-is no matter of luck.
+"""Road borders (thesis 3.5) on simulated streets: their positions on straight roads and in bends,
+the intersection, an open place and a border on one side only. Several seeds are used, so that the
+result does not depend on chance.
 """
 
 import tempfile
@@ -31,14 +31,14 @@ class RoadBorder(unittest.TestCase):
         self.check_scene("bend")
 
     def test_turn_at_an_intersection(self):
-        """It is found, and none is reported elsewhere."""
+        """It is found, and no other is reported."""
         self.check_scene("intersection_borders")
 
     def test_one_side(self):
         self.check_scene("one_side")
 
     def test_no_road(self):
-        """A car park: it is no intersection."""
+        """A car park is no intersection."""
         for seed in seeds("car_park"):
             with self.subTest(seed=seed):
                 run = computed(simulated(self.folder, "car_park", seed), "--road-border")
@@ -48,7 +48,7 @@ class RoadBorder(unittest.TestCase):
                 self.assertEqual(sum(states), 0)
 
     def test_looped_bag(self):
-        """Borders start over with the bag: the second time they are found as well."""
+        """Borders start over when the bag loops: the second time they are found as well."""
         recorded = simulated(self.folder, "one_side")
         once = computed(recorded, "--road-border")
         again = computed(self.looped(recorded), "--road-border")
@@ -62,7 +62,7 @@ class RoadBorder(unittest.TestCase):
         self.assertGreaterEqual(sum(map(bool, second)), 0.8 * len(first))
 
     def looped(self, recorded):
-        """A bag with all messages twice, one time after the other, with the same stamps."""
+        """Returns a bag with all messages twice, one time after the other, with the same stamps."""
         path = self.folder / "looped.bag"
         with rosbag.Bag(str(recorded)) as bag, whole_bag(path, "test") as out:
             length = round(1e9 * (bag.get_end_time() - bag.get_start_time())) + 10**8

@@ -3,9 +3,9 @@
 """KITTI's drive 0005 with low-level fusion: its image pairs, gridded and fused with the emulated
 scan, against its Velodyne and its labels.
 
-Every second pair is left out: half the time, and scans that have none of their own. What is asked
-of the stereo grid is asked where the matcher can have disparities; of the whole view, which has
-10 % more columns, it is asked less.
+Every second pair is left out: this halves the time, and gives scans without a pair of their own.
+The requirements on the stereo grid apply where the matcher can have disparities; for the whole
+view, which has 10 % more columns, they are lower.
 """
 
 import subprocess
@@ -69,7 +69,7 @@ class StereoDrive(unittest.TestCase):
 
     @staticmethod
     def scored(computed, thinned, **settings):
-        """The band NEAR of the score, which is printed."""
+        """Returns the band NEAR of the score, which is printed."""
         result = score(computed, thinned, **settings)
         print(f"\n{settings}\n{as_text(sections(result))}", flush=True)
         return next(band for band in result["bands"] if (band["from"], band["to"]) == NEAR)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stack on three computers (network namespaces) with 20 ms +- 10 ms of delay and 2 % of packets lost: the tracks
-are those of run_bag, the clocks are known, and a killed part works again. scripts/machines has the figures."""
+"""The stack on three computers (network namespaces) with 20 ms +- 10 ms of delay and 2 % packet
+loss: the tracks are those of run_bag, the clock offsets are known, and a killed part recovers.
+scripts/machines has the figures."""
 
 import os
 import re
@@ -26,7 +27,7 @@ class ThreeComputers(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def test_they_are_as_one(self):
+    def test_the_results_are_those_of_one_computer(self):
         drive = machines.fixture_drive(PACKAGE, self.folder)
         with LossyNetwork(machines_run.COMPUTERS, QUALITY) as network:
             three = machines_run.run(drive, network, True, PACKAGE / "launch/perception.launch", self.folder, [KILL])
@@ -42,7 +43,7 @@ class ThreeComputers(unittest.TestCase):
         self.check_clocks(machines.clock_offsets(three))
 
     def check_clocks(self, offsets):
-        """All of them are this machine's."""
+        """All of them run on this machine."""
         self.assertEqual(set(offsets), {"clock of perception_" + part for part in ("sensors", "stereo", "risk")})
         for text in offsets.values():
             ahead, uncertainty = map(float, re.match(r"([\d.]+) \+- ([\d.]+) ms", text).groups())

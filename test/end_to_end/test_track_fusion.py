@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Track-level fusion (thesis 3.4) on the simulated intersection: what scanner and stereo camera both
-follow becomes one track, soon, with one id, and where the camera looks no more is false than the
-scanner alone says. With two seeds, so that it is no matter of luck.
+"""Track-level fusion (thesis 3.4) on the simulated intersection: objects tracked by both scanner
+and stereo camera soon become one track with one id, and in the camera's view there are no more
+false tracks than with the scanner alone. Two seeds are used, so that the result does not depend on
+chance.
 """
 
 import tempfile
@@ -15,7 +16,7 @@ from scene_figures import fused_tracks, of_fused_tracks
 
 
 def source_pairs(lists):
-    """Dictionary ((source, id), ...) of fused tracks of two sources -> their ids."""
+    """Returns a dictionary ((source, id), ...) of fused tracks of two sources -> their ids."""
     ids = {}
     for item in lists:
         for track in item.tracks:
@@ -25,7 +26,7 @@ def source_pairs(lists):
 
 
 class TrackFusion(unittest.TestCase):
-    def test_what_both_follow_is_one_true_track(self):
+    def test_objects_tracked_by_both_are_one_true_track(self):
         frames = {"fused": 0, "lidar": 0}
         for seed in seeds("track_fusion"):
             with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
@@ -36,13 +37,13 @@ class TrackFusion(unittest.TestCase):
                 self.assertTrue(result["false"]["views"], "without a view nothing is in it")
                 for name in frames:
                     frames[name] += result["false"][name]["in_view_frames"]
-        # Of all seeds together: the scanner alone has none to five such tracks in a seed.
+        # Over all seeds together: the scanner alone has none to five such tracks in a seed.
         self.assertLessEqual(frames["fused"], frames["lidar"])
 
     def check_passed(self, result):
         passed = result["passed"]
         self.assertEqual(passed["true_movers"], passed["judged"], passed["false"])
-        # Of what both follow for as long as that takes.
+        # Of what both track for at least that long.
         followed = result["objects"]["followed_by_all"]
         self.assertEqual(followed["for_that_long"]["in_time_share"], 1.0, followed["late_or_never"])
 

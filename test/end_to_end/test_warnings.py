@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Warnings in encounters after the public test protocols, from the true objects and from the stack's own
-tracks: hits are warned of in time, near misses and what is merely followed are not."""
+"""Warnings in encounters after the public test protocols, from the true objects and from the
+stack's own tracks: there is a timely warning of hits, and none of near misses and of vehicles that
+are merely followed."""
 
 import os
 import tempfile
@@ -26,7 +27,7 @@ MEDIAN_TTC, LARGE_TTC = 0.1, 0.3
 
 
 def drive_of(name, tracks="true"):
-    """The risks (RiskDrive) of one scene by the shipped method."""
+    """Returns the risks (RiskDrive) of one scene by the shipped method."""
     with tempfile.TemporaryDirectory() as folder:
         code = main([folder, "--programs", str(PROGRAMS), "--config", str(CONFIG), "--tracks", tracks,
                      "--methods", "futures", "--only", name])  # fmt: skip
@@ -36,7 +37,7 @@ def drive_of(name, tracks="true"):
 
 
 class FromTrueObjects(unittest.TestCase):
-    def test_hits_are_warned_of_in_time(self):
+    def test_there_is_a_timely_warning_of_hits(self):
         drives = [drive_of(name) for name in HITS]
         for drive in drives:
             self.assertTrue(is_warned_in_time(drive), f"{drive.name}: lead {lead_of(drive)}")
@@ -45,17 +46,17 @@ class FromTrueObjects(unittest.TestCase):
         self.assertLess(errors[len(errors) // 2], MEDIAN_TTC)
         self.assertLess(errors[int(0.95 * len(errors))], LARGE_TTC)
 
-    def test_near_misses_are_not(self):
+    def test_there_is_no_warning_of_near_misses(self):
         for name in NEAR_MISSES:
             self.assertEqual(warnings_of(drive_of(name)), [], name)
 
 
 class FromOwnTracks(unittest.TestCase):
-    def test_a_standing_car_is_warned_of_in_time(self):
+    def test_there_is_a_timely_warning_of_a_stationary_car(self):
         drive = drive_of("car_standing_50_hit", "own")
         self.assertTrue(is_warned_in_time(drive), f"lead {lead_of(drive)}")
 
-    def test_what_the_map_does_not_know_yet_is_no_wall(self):
+    def test_unmapped_objects_are_no_walls(self):
         """The car ahead is there from the first scan on, and the child is a beam of one scan at first."""
         followed = drive_of("car_braking_12_2_50_hit", "own")
         start = followed.frames[0].time
@@ -65,7 +66,7 @@ class FromOwnTracks(unittest.TestCase):
 
 
 class Replayed(unittest.TestCase):
-    def test_risks_of_a_run_once_more_are_the_same_and_those_of_another_method_are_not(self):
+    def test_risks_are_repeatable_and_depend_on_the_method(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             drive, run, again, other = (folder / f"{each}.bag" for each in ("drive", "run", "again", "other"))
@@ -84,13 +85,13 @@ class Replayed(unittest.TestCase):
 
 
 def risks_in(path):
-    """Times and bytes of the risks in a bag."""
+    """Returns times and bytes of the risks in a bag."""
     with rosbag.Bag(str(path)) as bag:
         return [(time, message[1]) for _, message, time in bag.read_messages("/risks", raw=True)]
 
 
 def topics_of(path):
-    """Names (set) of a bag's topics."""
+    """Returns the names (set) of a bag's topics."""
     with rosbag.Bag(str(path)) as bag:
         return set(bag.get_type_and_topic_info().topics)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A nodelet with a bad parameter does not start, and says why once; its manager and the others go
-// on.
+// A nodelet with a bad parameter does not start, and reports why once; its manager and the other
+// nodelets keep running.
 #include <string>
 #include <vector>
 
@@ -84,7 +84,7 @@ TEST_F(BadParametersTest, AWrongTypeNamesTheType) {
   expectOneMessageWith({"/wrong_type", "min_points", "'many'", "a whole number"});
 }
 
-TEST_F(BadParametersTest, OnceItIsRightTheNodeletStarts) {
+TEST_F(BadParametersTest, WithTheCorrectedValueTheNodeletStarts) {
   ros::param::set("/right/map/cell_size", 0.2);
   EXPECT_TRUE(load("/right", "grid_slam"));
   EXPECT_EQ(loaded(), std::vector<std::string>{"/right"});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running moving_objects nodelet with borders of the road, between a scripted grid_slam and a
-// scripted road_border: what it leaves out, and that all passes where the borders are none. The
-// tests go through one drive, in this order.
+// The running moving_objects nodelet with road borders, between a scripted grid_slam and a scripted
+// road_border: what it filters out, and that everything passes if the borders are invalid. The
+// tests run through one drive, in this order.
 #include <limits>
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ class BorderFilterHarness : public LabeledScanHarness {
            });
   }
 
-  /// Waits until the nodelet has it.
+  /// Waits until the nodelet has received it.
   bool sendRoad(const RoadBorders& road) {
     const double before = diagnostic("road_borders received");
     road_borders_.publish(road);
@@ -56,7 +56,7 @@ class BorderFilterTest : public testing::Test {
     return toMessage(road, frame);
   }
 
-  /// What seems to move on the left border, and what comes of it: one list of each kind.
+  /// Sends what seems to move on the left border, and returns the result: one list of each kind.
   static void scan() {
     const std::size_t before = harness_->objects.size();
     harness_->setClock(now_);
@@ -77,7 +77,7 @@ class BorderFilterTest : public testing::Test {
 BorderFilterHarness* BorderFilterTest::harness_ = nullptr;
 double BorderFilterTest::now_ = 0.0;
 
-TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
+TEST_F(BorderFilterTest, WithoutBordersAllObjectsPass) {
   ASSERT_NO_FATAL_FAILURE(scan());
   EXPECT_EQ(passed(), 1U);
   EXPECT_EQ(dropped(), 0U);
@@ -98,7 +98,7 @@ TEST_F(BorderFilterTest, ByTheThesisAnObjectOnTheBorderIsDroppedAndReported) {
   EXPECT_NEAR(one.object.pose.position.x, 10.0, 1.0);
 }
 
-TEST_F(BorderFilterTest, BordersThatAreNoneAreCountedAndTheLastOnesServe) {
+TEST_F(BorderFilterTest, InvalidBordersAreCountedAndTheLastOnesAreKept) {
   now_ += 0.06;
   RoadBorders bad = roadNow();
   bad.borders.at(0).points.at(0).x = std::numeric_limits<float>::quiet_NaN();

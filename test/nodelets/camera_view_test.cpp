@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Image, camera info, tf and tracks through the nodelet to an image with a box; and no image is
-// taken while nobody looks.
+// Image, camera info, tf and tracks pass through the nodelet to an image with a box; and no image
+// is taken while nobody subscribes.
 #include "chain.h"
 #include "ros/camera_samples.h"
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class Camera : public Listener {
     tracks_.publish(track(stamp));
   }
 
-  sensor_msgs::ImageConstPtr picture;  ///< the last one
+  sensor_msgs::ImageConstPtr picture;  ///< the latest one
 
  private:
   static TrackArray track(const ros::Time& stamp) {
@@ -57,12 +57,12 @@ class Camera : public Listener {
   ros::Subscriber view_;
 };
 
-TEST(CameraViewNodeletTest, DrawsTracksOnImagesWhileSomebodyLooks) {
+TEST(CameraViewNodeletTest, DrawsTracksOnImagesWhileThereIsASubscriber) {
   Camera camera;
   camera.look();
   ASSERT_TRUE(camera.waitFor([&] { return camera.isLookedAt(); }));
-  // Pictures without the track come first where its topic is connected after the images'. The lower
-  // edge of its rear, 10 m away and 1.5 m below the camera, is at 120 px + 30 px.
+  // Images without the track come first if its topic is connected after the images'. The lower edge
+  // of the car's rear, 10 m away and 1.5 m below the camera, is at 120 px + 30 px.
   const auto has_box = [&] {
     return camera.picture && camera.picture->data.at(std::size_t{150} * camera.picture->step +
                                                      3 * std::size_t{160}) != kGray;

@@ -19,7 +19,7 @@ namespace datmo {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;  // whatever comes while the test looks elsewhere
+constexpr std::uint32_t kQueue = 1000;  // messages that arrive while the test does something else
 constexpr double kStep = 1.0 / 16.0;    // s
 constexpr double kClockJump = 0.9;      // s, just below what StampGate wants confirmed
 

@@ -20,24 +20,24 @@
 
 namespace datmo {
 
-/// The running nodelets, seen from outside: keeps what comes back. Waits for conditions, each for a
+/// The running nodelets, seen from outside: keeps their output. Waits for conditions, each for a
 /// bounded time; nothing sleeps.
 class Listener {
  public:
   Listener();
 
-  /// Until the condition holds; false if it does not within `max_seconds` of the computer's clock:
-  /// by far more than a machine needs that has other things to do.
+  /// Waits until the condition holds; returns false if it does not within `max_seconds` of wall
+  /// time: far more than a busy machine needs.
   bool waitFor(const std::function<bool()>& condition, double max_seconds = 120.0);
 
-  /// ROS time of all. Where it jumps, waits until the nodelets have it (by their diagnostics): a
-  /// message that overtakes the clock is a stray one, and is dropped.
+  /// Sets the ROS time of all. If it jumps, waits until the nodelets have it (by their
+  /// diagnostics): a message that overtakes the clock counts as stray and is dropped.
   void setClock(const ros::Time& now);
 
-  /// Until the three nodelets are connected with this test, and have reported.
+  /// Waits until the three nodelets are connected with this test, and have reported.
   bool waitForNodelets();
 
-  /// Value of a key in the diagnostics of a nodelet; 0 before it is there.
+  /// Returns the value of a key in the diagnostics of a nodelet; 0 before it is there.
   double diagnostic(const std::string& nodelet, const std::string& key) const;
   /// The same as text; empty before it is there.
   std::string diagnosticText(const std::string& nodelet, const std::string& key) const;
@@ -64,14 +64,15 @@ class Listener {
   ros::Time now_;
 };
 
-/// Process of a node; 0 if it does not answer.
+/// Returns the process of a node; 0 if it does not answer.
 pid_t processOf(const std::string& node);
 
-/// What a nodelet keeps after `value` was asked for of one of its live options that are text.
+/// Returns the value that a nodelet keeps after `value` was requested for one of its dynamic text
+/// options.
 std::string askForChoice(const std::string& nodelet, const std::string& choice,
                          const std::string& value);
 
-/// The same of one that is a number; NaN if there is none of that name.
+/// The same for a numeric option; NaN if there is none of that name.
 double askForNumber(const std::string& nodelet, const std::string& option, double value);
 
 /// Sends the nodelets a drive through a World, with the clock.
@@ -79,29 +80,30 @@ class Chain : public Listener {
  public:
   Chain();
 
-  /// Until the nodelets listen to this test, too.
+  /// Waits until the nodelets are subscribed to this test, too.
   bool waitForNodelets();
 
   void mountSensors();
 
-  /// Motion just before a time of the drive, until grid_slam knows it: a scan may overtake its
-  /// odometry, and the first one has no older to go by.
+  /// Sends motion just before a time of the drive, until grid_slam has received it: a scan may
+  /// overtake its odometry, and before the first scan there is no older odometry.
   bool prepareMotion(double seconds);
 
   void setClock(double seconds) { Listener::setClock(ros::Time(World::kStart + seconds)); }
 
-  /// Clock, tf and odometry at a time of the drive.
+  /// Sends clock, tf and odometry of a time of the drive.
   void sendMotion(double seconds);
 
   void sendScan(const sensor_msgs::LaserScan& scan) { scan_.publish(scan); }
 
-  /// A step of the drive: motion and scan; waits until the tracks of that scan are there.
+  /// Sends motion and scan of one step of the drive; waits for the tracks of that scan.
   bool step(double seconds);
 
-  /// The other car in a list of tracks; null if it is not there.
+  /// Returns the other car in a list of tracks; null if it is not there.
   const TrackMessage* otherCarIn(const TrackArray& list) const;
 
-  /// Steps at 16 Hz from one time of the drive to another. False if one did not come through.
+  /// Runs steps at 16 Hz from one time of the drive to another. Returns false if one did not come
+  /// through.
   bool drive(double from, double to);
 
  private:
@@ -118,7 +120,7 @@ class StereoChain : public Chain {
  public:
   StereoChain();
 
-  /// Until the nodelets listen, and those named here report.
+  /// Waits until the nodelets are subscribed, and those named here report.
   bool waitForNodelets(const std::vector<std::string>& names);
 
   void sendCameraInfo() { camera_info_.publish(World::rightCameraInfo()); }

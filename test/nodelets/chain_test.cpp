@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lidar chain on a made drive: every scan leads to all outputs, and they are right.
+// The lidar chain on a simulated drive: every scan leads to all outputs, and they are correct.
 #include "chain.h"
 
 #include <algorithm>

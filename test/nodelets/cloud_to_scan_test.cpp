@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running cloud_to_scan nodelet: the scan and the mount that come of a cloud, and what happens
-// with one that is none.
+// The running cloud_to_scan nodelet: the scan and the mount that it makes of a cloud, and what it
+// does with an invalid one.
 #include <cmath>
 #include <vector>
 
@@ -53,14 +53,14 @@ class CloudHarness : public Listener {
   ros::Subscriber mounts_;
 };
 
-TEST(CloudToScanNodelet, ACloudComesOutAsAScanBelowTheLidar) {
+TEST(CloudToScanNodelet, ACloudBecomesAScanBelowTheLidar) {
   CloudHarness harness;
   ASSERT_TRUE(harness.waitForNodelet());
   samples::LidarCloudMaker maker;
   maker.addGround();
   maker.addWall(10.5);
   auto cloud = samples::lidarMessage(maker.cloud);
-  // The mount may be on its way still: clouds go on until one comes out.
+  // The mount may not have arrived yet: sends clouds until one comes out.
   ASSERT_TRUE(harness.waitFor([&] {
     cloud.header.stamp += ros::Duration(0.1);
     harness.send(cloud);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running device nodelet with a log of a vehicle's CAN bus, and the odometry that comes of it.
+// The running device nodelet with a log of a vehicle's CAN bus, and the odometry that it makes of
+// it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +16,7 @@
 namespace datmo::device_can_test {
 namespace {
 
-/// The odometry that comes of a vehicle's bus.
+/// The odometry from a vehicle's bus.
 class OdometryRecorder : public Listener {
  public:
   OdometryRecorder() {
@@ -35,7 +36,7 @@ class OdometryRecorder : public Listener {
   ros::Subscriber odometry_;
 };
 
-TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsReported) {
+TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndFaultsAreReported) {
   const std::string recording = ros::param::param<std::string>("recording", "");
   OdometryRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -52,7 +53,7 @@ TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsReported) {
   log += samples::canLogText(kPeriod * kFrames, samples::canFrame(samples::kSpeedId, {4}));
   std::ofstream(recording + ".part") << log;
   ASSERT_EQ(std::rename((recording + ".part").c_str(), recording.c_str()), 0);
-  // The first counter moves nothing yet; and what a busy machine discards is counted.
+  // The first counter gives no motion yet; measurements that a busy machine discards are counted.
   const auto came = [&recorder] {
     return static_cast<double>(recorder.odometry.size()) +
            std::max(recorder.diagnostic("device", "measurements discarded"), 0.0);
@@ -62,7 +63,7 @@ TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndWhatIsWrongIsReported) {
   const nav_msgs::Odometry& last = *recorder.odometry.back();
   EXPECT_NEAR(last.twist.twist.linear.x, 5.0, 1e-9);
   EXPECT_NEAR(last.twist.twist.angular.z, 0.15708, 1e-4);
-  // A chord of the circle, by the times at which the frames came.
+  // A chord of the circle, by the times at which the frames arrived.
   const double seconds = (last.header.stamp - recorder.odometry.front()->header.stamp).toSec();
   const double radius = 5.0 / 0.157080;
   EXPECT_NEAR(std::hypot(last.pose.pose.position.x, last.pose.pose.position.y),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running device nodelet with a fake scanner of each make: its scans, and what it says when the
-// scanner is gone and comes back.
+// The running device nodelet with a fake scanner of each make: its scans, and what it reports when
+// the scanner disappears and returns.
 #include <cmath>
 #include <vector>
 
@@ -46,7 +46,7 @@ class ScanRecorder : public Listener {
   ros::Subscriber scan_;
 };
 
-TEST(DeviceTest, AScannersScansComeAndItsFailureIsReported) {
+TEST(DeviceTest, ScansArePublishedAndAFailureIsReported) {
   samples::FakeHokuyo scanner(kPort);
   ScanRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -89,7 +89,7 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsReported) {
       [&recorder] { return recorder.diagnostic("device", "connections") >= 2.0; }));
 }
 
-TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsReported) {
+TEST(SickDeviceTest, ScansArePublishedAndAFailureIsReported) {
   samples::FakeSick scanner(kSickPort);
   ScanRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -157,7 +157,7 @@ class TurningLidar {
     stream_.setTime(0.0);
   }
 
-  /// What it has measured since the last call.
+  /// Sends what the lidar has measured since the last call.
   void sendDue() {
     const double now = 1e6 * (ros::Time::now() - start_).toSec();
     while (stream_.time() < now) {
@@ -173,14 +173,15 @@ class TurningLidar {
   ros::Time start_ = ros::Time::now();
 };
 
-/// Whether nothing is missing of a turn's time, nor the wall ahead: a busy machine loses packets.
+/// Returns whether nothing of a turn's time is missing, nor the wall ahead: a busy machine loses
+/// packets.
 bool isWhole(const sensor_msgs::LaserScan& scan) {
   const float seconds = scan.time_increment * static_cast<float>(scan.ranges.size());
   return std::abs(std::abs(seconds) - 0.0995F) < 5e-3F &&
          std::abs(scan.ranges[scan.ranges.size() / 2] - 10.0F) < 0.3F;
 }
 
-TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
+TEST(VelodyneDeviceTest, TurnsBecomeCloudsAndDeskewedScans) {
   LidarRecorder recorder;
   TurningLidar lidar{samples::VelodyneSample()};
   ASSERT_TRUE(recorder.waitFor([&] {
@@ -207,7 +208,7 @@ TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
     lidar.sendDue();
     return recorder.diagnostic("device", "packets missed") >= 3.0;
   }));
-  // It is gone, and back.
+  // It disappears, and returns.
   EXPECT_TRUE(recorder.waitFor(
       [&recorder] { return recorder.diagnostic("device", "dropped: silent_device") >= 1.0; }));
   const auto before = recorder.scans.size();
@@ -239,7 +240,7 @@ class FixRecorder : public Listener {
   ros::Subscriber twist_;
 };
 
-TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsReported) {
+TEST(NmeaDeviceTest, PositionsAndVelocitiesArePublishedAndAFailureIsReported) {
   samples::FakeServer receiver(kReceiverPort);
   FixRecorder recorder;
   ASSERT_TRUE(recorder.waitFor([&recorder] { return recorder.isConnected(); }));
@@ -251,7 +252,7 @@ TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsReported
   EXPECT_NEAR(recorder.fix->latitude, 45.0 + 10.0 / 60.0, 1e-9);
   EXPECT_EQ(recorder.fix->status.status, sensor_msgs::NavSatStatus::STATUS_FIX);
   EXPECT_NEAR(recorder.fix->position_covariance[4], 16.0, 1e-9);
-  // The earth_frame stage takes it.
+  // The earth_frame stage accepts it.
   EXPECT_NEAR(positionOf(*recorder.fix).altitude, 250.0, 1e-9);
   EXPECT_NEAR(covarianceOf(*recorder.fix, 1.0)(0, 0), 16.0, 1e-9);
   EXPECT_NEAR(recorder.twist->twist.linear.x, 5.14444, 1e-4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong on the road: each fault is counted and named in the diagnostics, nothing crashes,
-// and the chain is right again afterward. The tests go through one drive, in this order.
+// Faults on the road: each one is counted and named in the diagnostics, nothing crashes, and the
+// chain works again afterward. The tests run through one drive, in this order.
 #include <functional>
 #include <limits>
 
@@ -25,7 +25,7 @@ class FaultsTest : public testing::Test {
 
   static void TearDownTestSuite() { delete chain_; }
 
-  /// The next part of the drive.
+  /// Runs the next part of the drive.
   void driveOn(double seconds) {
     ASSERT_TRUE(chain_->drive(now_, now_ + seconds))
         << chain_->diagnosticMessage("grid_slam") << chain_->diagnosticMessage("tracker");
@@ -39,7 +39,7 @@ class FaultsTest : public testing::Test {
     EXPECT_NEAR((pose.position() - truth).norm(), 0.0, 0.5);
   }
 
-  /// Sends the world's scan of now after `spoil`; expects that grid_slam counts it under `key`.
+  /// Sends the world's current scan after `spoil`; expects that grid_slam counts it under `key`.
   void expectCounted(const std::string& key,
                      const std::function<void(sensor_msgs::LaserScan&)>& spoil) {
     const double before = chain_->diagnostic("grid_slam", key);
@@ -62,7 +62,7 @@ Chain* FaultsTest::chain_ = nullptr;
 double FaultsTest::now_ = 0.0;
 double FaultsTest::start_ = 0.0;
 
-TEST_F(FaultsTest, AMissingTransformThatComesLater) {
+TEST_F(FaultsTest, AMissingTransformThatArrivesLater) {
   expectCounted("dropped: missing_transform", [](auto&) {});
   EXPECT_NE(chain_->diagnosticMessage("grid_slam").find("base_link -> scanner"), std::string::npos);
   EXPECT_TRUE(chain_->poses.empty());
@@ -73,7 +73,7 @@ TEST_F(FaultsTest, AMissingTransformThatComesLater) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, ScansThatAreNone) {
+TEST_F(FaultsTest, InvalidScans) {
   expectCounted("dropped: empty_scan", [](auto& scan) { scan.ranges.clear(); });
   expectCounted("dropped: wrong_size", [](auto& scan) { scan.ranges.resize(7); });
   expectCounted("dropped: bad_geometry", [](auto& scan) { scan.angle_increment = 0.0F; });
@@ -101,7 +101,7 @@ TEST_F(FaultsTest, AScanIntoTheOpenIsNoFault) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
+TEST_F(FaultsTest, RepeatedAndLateScans) {
   const double last = now_ - kStep;
   const auto scan_of = [&](double then) {
     return [this, then](sensor_msgs::LaserScan& scan) { scan = world_.scan(then); };
@@ -112,7 +112,7 @@ TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
   expectRightPose();
 }
 
-TEST_F(FaultsTest, AStampFarOffIsOneMessage) {
+TEST_F(FaultsTest, AStampFarOffCostsOneMessage) {
   const double restarts = chain_->diagnostic("grid_slam", "warned: clock_restart");
   for (const double off : {1.1, -1.5, 1e6}) {
     expectCounted("dropped: stray_stamp",

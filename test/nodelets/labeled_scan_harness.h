@@ -13,15 +13,15 @@
 
 namespace datmo {
 
-/// A nodelet that takes labeled scans, and a scripted grid_slam before it. Times count from the
-/// start of the drive, samples::kStart.
+/// A nodelet that subscribes to labeled scans, and a scripted grid_slam before it. Times count from
+/// the start of the drive, samples::kStart.
 class LabeledScanHarness : public Listener {
  public:
   static constexpr double kStep = 1.0 / 16.0;  // s
 
   explicit LabeledScanHarness(std::string nodelet) : nodelet_(std::move(nodelet)) {}
 
-  /// Until the nodelet listens and reports.
+  /// Waits until the nodelet is subscribed and reports.
   bool waitForNodelet() {
     setClock(-kStep);
     return waitFor(
@@ -36,12 +36,12 @@ class LabeledScanHarness : public Listener {
   double diagnostic(const std::string& key) const { return Listener::diagnostic(nodelet_, key); }
   std::string diagnosticMessage() const { return Listener::diagnosticMessage(nodelet_); }
 
-  /// Whether the key's value comes up to it.
+  /// Waits until the key's value reaches this one; returns whether it did.
   bool waitForCount(const std::string& key, double count) {
     return waitFor([&] { return diagnostic(key) == count; });
   }
 
-  /// Whether the diagnostics come to say so.
+  /// Waits until the diagnostics report this; returns whether they did.
   bool waitForMessage(const std::string& part) {
     return waitFor([&] { return diagnosticMessage().find(part) != std::string::npos; });
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Much for the nodelets, at the computer's pace: three times the sensors' rates, clouds of all
-// pixels and lists of 500 objects; then their process stands still for as long as fills each queue.
-// Whatever is not served is counted, memory is bounded, and all is as before when the load has
-// ended. How fast this computer is decides how much is dropped, and nothing here depends on it.
+// Overload of the nodelets, in real time: three times the sensors' rates, clouds of all pixels and
+// lists of 500 objects; then their process is stopped for long enough to fill each queue.
+// Everything that is not processed is counted, memory is bounded, and all is as before when the
+// load has ended. The speed of this computer decides how much is dropped; no check depends on it.
 //
 // Parameters: ~seconds of load, ~nominal_seconds before it, ~objects in a list, ~out: a JSON file
-// for what was measured.
+// for the measurements.
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
@@ -31,7 +31,7 @@ constexpr double kMaxStandstill = 120.0;    // s, for more than the deepest queu
 constexpr double kAfter = 6.0;               // s, with the load gone
 constexpr double kMaxMemoryGrowth = 1000.0;  // MiB: full queues of clouds and lists, several times
 
-/// A stage and the topics that it takes of those that are sent, as its diagnostics call them.
+/// A stage and the sent topics that it subscribes to, as its diagnostics call them.
 struct LoadedStage {
   std::string name;
   std::vector<std::string> topics;
@@ -71,7 +71,7 @@ class LoadTest : public testing::Test {
     return sum;
   }
 
-  /// Sends until no queue can have room for all, however slow this machine is.
+  /// Sends until no queue can have room for all messages, however slow this machine is.
   bool standStill(const PacedRates& load) {
     drive_.run(kStandstill, load);
     return drive_.run(kMaxStandstill, load, [this, before = sentByTopic()] {
@@ -91,7 +91,7 @@ class LoadTest : public testing::Test {
     return result;
   }
 
-  /// Latencies (s) of what came between two times.
+  /// Returns the latencies (s) of the tracks that arrived between two times.
   std::vector<double> latencies(double from, double to) const {
     std::vector<double> found;
     for (const PacedDrive::Received& list : drive_.received()) {
@@ -116,7 +116,8 @@ class LoadTest : public testing::Test {
             {"worst_s", quantileOf(sorted, 1.0)}};
   }
 
-  /// s from the end of the load until tracks are as new as before it, to stay so.
+  /// Returns the time (s) from the end of the load until the tracks' latency is permanently as
+  /// before.
   double recovery(double end, double nominal) const {
     double last = end;
     for (const PacedDrive::Received& list : drive_.received()) {
@@ -151,7 +152,7 @@ class LoadTest : public testing::Test {
     return list;
   }
 
-  /// The whole drive, so that a soak can be made of it.
+  /// Returns the whole drive, for use as a soak test.
   nlohmann::json samples() const {
     nlohmann::json lists = nlohmann::json::array();
     for (const PacedDrive::Received& list : drive_.received()) {
@@ -164,7 +165,7 @@ class LoadTest : public testing::Test {
     return {{"tracks", lists}, {"memory_mib", memory}};
   }
 
-  /// To the console, and with the whole drive to the file that the parameter `out` names.
+  /// Prints to the console and, with the whole drive, to the file that the parameter `out` names.
   void write(nlohmann::json figures) const {
     std::cout << figures.dump(1) << "\n";
     const auto out = parameter<std::string>("~out", "");
@@ -174,7 +175,7 @@ class LoadTest : public testing::Test {
     }
   }
 
-  /// Of this test, or the default.
+  /// Returns this test's parameter, or the default.
   template <typename Value>
   static Value parameter(const std::string& name, Value value) {
     ros::param::get(name, value);
@@ -184,7 +185,7 @@ class LoadTest : public testing::Test {
   PacedDrive drive_;
 };
 
-TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
+TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   PacedRates load = kLoad;
   load.objects = parameter("~objects", load.objects);
   ASSERT_TRUE(drive_.start({"stereo_grid", "grid_fusion", "tracker", "stereo_tracker",
@@ -209,7 +210,7 @@ TEST_F(LoadTest, NothingIsLostSilentlyAndAllIsAsBeforeAfterIt) {
   EXPECT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at > end; }))
       << "no tracks any more";
 
-  // Nothing more is sent, so that the diagnostics catch up.
+  // Sends nothing more, so that the diagnostics catch up.
   EXPECT_TRUE(drive_.run(120.0, {}, [this] {
     return std::all_of(
         kLoadedStages.begin(), kLoadedStages.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running loop_closing nodelet behind a scripted grid_slam, whose pose drifts on two laps.
+// The running loop_closing nodelet after a scripted grid_slam, whose pose drifts over two laps.
 #include <string>
 #include <vector>
 
@@ -31,7 +31,7 @@ class LoopClosingHarness : public LabeledScanHarness {
       [this](const nav_msgs::OccupancyGridConstPtr& map) { optimized_maps.push_back(map); });
 };
 
-TEST(LoopClosingTest, TwoLapsWithADriftingPoseComeOutWithoutDrift) {
+TEST(LoopClosingTest, TheDriftOfTwoLapsIsRemoved) {
   LoopClosingHarness harness;
   ASSERT_TRUE(harness.waitForNodelet());
   const std::vector<Pose2> truth = roundTheYard(2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scanner and stereo camera, fused at the low level, on a made drive: what comes out, and what
-// happens when one of them is silent or sends what is none. The tests go through one drive, in this
-// order.
+// Scanner and stereo camera, fused at the low level, on a simulated drive: the output, and what
+// happens if one of them is silent or sends invalid messages. The tests run through one drive, in
+// this order.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::uint32_t kQueue = 1000;
 
-/// What a painted line on the road makes: echoes where nothing stands (m ahead of the scanner).
+/// Echoes from a painted line on the road, where no object is (m ahead of the scanner).
 constexpr float kPaintAhead = 6.1F;
 
-/// What the low level makes of both sensors.
+/// The low level's output from both sensors.
 class LowLevel : public StereoChain {
  public:
   static constexpr char kFusion[] = "grid_fusion";
@@ -36,7 +36,7 @@ class LowLevel : public StereoChain {
     }
   }
 
-  /// Until all nodelets listen and report.
+  /// Waits until all nodelets are subscribed and report.
   bool waitForNodelets() {
     return StereoChain::waitForNodelets({"lidar_grid", "stereo_grid", "grid_fusion", "tracker"}) &&
            waitFor([this] {
@@ -48,7 +48,7 @@ class LowLevel : public StereoChain {
 
   void sendStereoGrid(const nav_msgs::OccupancyGrid& grid) { stereo_grid_.publish(grid); }
 
-  /// Whether the newest grid of a name is of this stamp.
+  /// Returns whether the newest grid of a name has this stamp.
   bool isAt(const std::string& name, const ros::Time& stamp) {
     return !grids[name].empty() && grids[name].back()->header.stamp == stamp;
   }
@@ -76,7 +76,8 @@ Percent percentAt(const nav_msgs::OccupancyGrid& message, const Point2& position
   return grid.atOrUnknown(grid.window().cellAt(position));
 }
 
-/// Whether a cell is occupied whose center is in the box, in the vehicle's frame, or 0.3 m from it.
+/// Returns whether a cell with its center in the box (vehicle's frame), or 0.3 m from it, is
+/// occupied.
 bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, const Box2& box) {
   constexpr double kNear = 0.3;  // m, a cell
   const SensorGrid grid = fromMessage(message);
@@ -89,10 +90,10 @@ bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, const Box2& box) {
 
 class LowLevelTest : public StereoDriveTest<LowLevel> {
  protected:
-  /// One step of the drive with both sensors, while there is paint on the road.
+  /// Runs one step of the drive with both sensors, while there is paint on the road.
   void stepOnPaint() { step(painted(world_.scan(now_))); }
 
-  /// A step with the scanner alone; waits for its grid.
+  /// Runs a step with the scanner alone; waits for its grid.
   void stepToLidarsGrid() {
     chain_->sendMotion(now_);
     const auto scan = world_.scan(now_);
@@ -101,7 +102,7 @@ class LowLevelTest : public StereoDriveTest<LowLevel> {
     now_ += kStep;
   }
 
-  /// Sends the world's cloud of now after `spoil`; expects that stereo_grid counts it under `key`.
+  /// Sends the world's current cloud after `spoil`; expects that stereo_grid counts it under `key`.
   void expectCounted(const std::string& key,
                      const std::function<void(sensor_msgs::PointCloud2&)>& spoil) {
     const double before = chain_->diagnostic("stereo_grid", key);
@@ -114,7 +115,7 @@ class LowLevelTest : public StereoDriveTest<LowLevel> {
     now_ += kStep;
   }
 
-  /// PositionsTest in the vehicle's frame, m.
+  /// Positions in the vehicle's frame, m.
   static Point2 paint() { return {3.6 + kPaintAhead, 0.1}; }
   static Point2 behindTheVehicle() { return {-10.0, -11.0}; }
 
@@ -172,7 +173,7 @@ TEST_F(LowLevelTest, TheRuleChangesWhileItRuns) {
   EXPECT_EQ(askForRule("by luck"), "priority") << "it stays";
 }
 
-TEST_F(LowLevelTest, TheServersParametersAreThoseOfTheNodelet) {
+TEST_F(LowLevelTest, TheParameterServerHasTheNodeletsParameters) {
   EXPECT_NO_THROW(
       readOptions<GridFusionStageOptions>(readParameters(ros::NodeHandle("/grid_fusion"))));
   EXPECT_EQ(ros::param::param<std::string>("/grid_fusion/rule", ""), "priority");
@@ -189,7 +190,7 @@ TEST_F(LowLevelTest, ConflictIsWhereTheSensorsContradictEachOther) {
   EXPECT_EQ(percentAt(conflict, behindTheVehicle()), kUnknownPercent) << "one alone says nothing";
 }
 
-TEST_F(LowLevelTest, WithoutStereoTheFusedGridsGoOnWithTheScanner) {
+TEST_F(LowLevelTest, WithoutStereoTheFusedGridsContinueWithTheScanner) {
   for (int i = 0; i < 20; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepToLidarsGrid());
   }
@@ -226,7 +227,7 @@ TEST_F(LowLevelTest, BadCloudsAreCounted) {
 }
 
 TEST_F(LowLevelTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
-  // After the last cloud, whose grid may not have come to this test yet.
+  // After the last cloud, whose grid may not have arrived at this test yet.
   SensorGrid other(Stamp::fromSeconds(World::kStart + now_ - 0.5 * kStep),
                    {0.5, 100, 100, {-50, -50}});
   chain_->sendStereoGrid(toMessage(other, "base_link"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tests of all running nodelets: each .test starts those of one suite by its --gtest_filter.
+// The tests of all running nodelets: each .test runs one suite by its --gtest_filter.
 #include <cstdlib>
 #include <iostream>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A filter that matches no test would pass.
+/// Otherwise a filter that matches no test would pass.
 class EmptyRunRefusal : public testing::EmptyTestEventListener {
   void OnTestIterationStart(const testing::UnitTest& all, int /*iteration*/) override {
     if (all.test_to_run_count() == 0) {

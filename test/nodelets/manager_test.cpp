@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The process of all nodelets is killed: it comes back with all of them, which go on with the drive
-// from a new map.
+// The process of all nodelets is killed: it is restarted with all of them, and they continue the
+// drive with a new map.
 #include <csignal>
 #include <iostream>
 #include <string>
@@ -11,7 +11,7 @@
 namespace datmo::manager_test {
 namespace {
 
-TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
+TEST(ManagerTest, AfterAKillItRestartsWithAllNodelets) {
   const World world;
   Chain chain;
   ASSERT_TRUE(chain.waitForNodelets());
@@ -27,9 +27,9 @@ TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
     const pid_t now = processOf("/perception");
     return now > 0 && now != killed;
   }));
-  const std::size_t tracks = chain.tracks.size();  // all of the killed one have come
+  const std::size_t tracks = chain.tracks.size();  // all from the killed process have arrived
   double now = 2.0;
-  // The clock goes on as the computer's: nobody waits for the drive.
+  // The clock follows wall time: nobody waits for the drive.
   EXPECT_TRUE(chain.waitFor([&] {
     now += 0.01;
     chain.sendMotion(now);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scanner and stereo camera, each with a map of its own, on a made drive: what comes out, and what
-// is left while the camera is silent. The tests go through one drive, in this order.
+// Scanner and stereo camera, each with its own map, on a simulated drive: the output, and what
+// remains while the camera is silent. The tests run through one drive, in this order.
 #include <algorithm>
 
 #include "stereo_drive.h"
@@ -34,7 +34,7 @@ class MapLevel : public StereoChain {
            });
   }
 
-  /// Maps come once a second: each step waits for the pose.
+  /// Maps are published once a second: each step waits for the pose.
   bool isFusedAt(const ros::Time& stamp) {
     return !labeled_scans.empty() && labeled_scans.back()->header.stamp == stamp;
   }
@@ -48,7 +48,7 @@ class MapLevel : public StereoChain {
 
 class MapLevelTest : public StereoDriveTest<MapLevel> {
  protected:
-  /// Until so many maps have come.
+  /// Waits until this many maps have arrived.
   static bool waitForMaps(std::size_t maps) {
     return chain_->waitFor([&] {
       return chain_->levels["fused"].size() >= maps && chain_->levels["conflicts"].size() >= maps;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images, camera info, mount and objects through the nodelet with OpenCV's people detector, in a
-// thread of its own, to lists at the exposures' stamps; an image that was not exposed is counted.
+// Images, camera info, mount and objects pass through the nodelet with OpenCV's people detector, in
+// its own thread, to lists at the exposures' stamps; an image that was not exposed is counted.
 #include "chain.h"
 #include "ros/camera_samples.h"
 #include <gtest/gtest.h>

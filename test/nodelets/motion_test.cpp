@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running motion and grid_slam nodelets on an Imu and a twist in place of odometry, with frames
+// The running motion and grid_slam nodelets on an Imu and a twist instead of odometry, with frames
 // and mounts from parameters, and frame ids as old drivers write them.
 #include <vector>
 
@@ -67,7 +67,7 @@ class MotionHarness : public Listener {
 TEST(Motion, AnImuAndATwistLeadToOdometryAndPoses) {
   MotionHarness harness;
   ASSERT_TRUE(harness.waitForNodelets());
-  // The Imu's messages are of use from when the twist is there: two topics, in either order.
+  // The Imu's messages are used as soon as the twist is there: two topics, in either order.
   double now = 100.0;
   ASSERT_TRUE(harness.waitFor([&] {
     now += 0.01;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running object_fusion nodelet between the lists of a scripted scanner and stereo camera: what
-// comes out, and what happens when one of them is silent or sends what is none. The tests go
+// The running object_fusion nodelet, fed by the lists of a scripted scanner and stereo camera: the
+// output, and what happens if one of them is silent or sends invalid messages. The tests run
 // through one drive, in this order.
 #include <algorithm>
 #include <limits>
@@ -32,7 +32,7 @@ Object seen(const std::string& sensor, const Box2& box) {
   return object;
 }
 
-/// The sensors' lists and the odometry for the nodelet, and what it makes of them.
+/// The sensors' lists and the odometry for the nodelet, and its output.
 class Lists : public SourceLists<ObjectArray> {
  public:
   Lists() : SourceLists("objects", "object_fusion") {}
@@ -56,7 +56,7 @@ class Lists : public SourceLists<ObjectArray> {
     return waitFor([this] { return diagnostic("odometry received") >= 1.0; });
   }
 
-  /// Clock and odometry.
+  /// Sends clock and odometry.
   void startStep(double seconds) {
     setClock(seconds);
     nav_msgs::Odometry odometry;
@@ -75,8 +75,8 @@ class Lists : public SourceLists<ObjectArray> {
 
 class ObjectFusionTest : public SourceListsTest<Lists> {
  protected:
-  /// The sensors that saw the object nearest to a point (m) in the last list; none if there is none
-  /// within a meter.
+  /// Returns the sensors that saw the object nearest to a point (m) in the last list; none if there
+  /// is no object within a meter.
   static Sensors sensorsAt(double ahead, double left) {
     for (const ObjectMessage& object : last().objects) {
       const Point2 position(object.pose.position.x, object.pose.position.y);
@@ -93,7 +93,7 @@ class ObjectFusionTest : public SourceListsTest<Lists> {
   }
 };
 
-TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
+TEST_F(ObjectFusionTest, AnObjectSeenByBothIsOneObject) {
   ASSERT_NO_FATAL_FAILURE(driveOn(16));
   EXPECT_EQ(lists_->fused.size(), 16U);
   EXPECT_EQ(last().header.frame_id, "base_link");
@@ -101,7 +101,7 @@ TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
   EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
 }
 
-TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
+TEST_F(ObjectFusionTest, ObjectsOfStereoAloneAreMovedToTheScannersTime) {
   ASSERT_NO_FATAL_FAILURE(step());
   const double then = toStamp(last().header.stamp).seconds() - kStart;
   const auto pole =
@@ -115,7 +115,7 @@ TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
   EXPECT_EQ(diagnostic("dropped"), 0.0);
 }
 
-TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
+TEST_F(ObjectFusionTest, WithoutStereoTheScannersObjectsContinue) {
   const std::size_t before = lists_->fused.size();
   for (int i = 0; i < 20; ++i) {
     sendLidarStep();
@@ -125,7 +125,7 @@ TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
       << "at once, since stereo is silent";
   EXPECT_EQ(lists_->fused.size(), before + 20U) << "none is left out";
   EXPECT_EQ(sensorsAt(kCarAhead, 0.0), Sensors{"lidar"});
-  // One more where the first list of the scanner was fused before stereo was known.
+  // One more if the first list of the scanner was fused before stereo was known.
   EXPECT_TRUE(lists_->waitFor([] { return diagnostic("fused without stereo") >= 20.0; }));
   EXPECT_TRUE(waitForCount("warned: silent_source", 1.0));
   EXPECT_TRUE(lists_->waitFor([] {

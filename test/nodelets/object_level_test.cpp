@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scanner and stereo camera, fused at the object level, on a made drive: what comes out, and what
-// happens when one of them is silent or sends what is none. The tests go through one drive, in this
-// order. They run without low-level fusion and with it.
+// Scanner and stereo camera, fused at the object level, on a simulated drive: the output, and what
+// happens if one of them is silent or sends invalid messages. The tests run through one drive, in
+// this order, without low-level fusion and with it.
 #include <algorithm>
 #include <limits>
 
@@ -18,12 +18,12 @@ constexpr std::uint32_t kQueue = 1000;
 
 const std::vector<std::string> kBothSensors = {"lidar", "stereo"};
 
-/// What the object level makes of both sensors.
+/// The object level's output from both sensors.
 class ObjectLevel : public StereoChain {
  public:
   static constexpr char kFusion[] = "object_fusion";
 
-  /// Until all nodelets listen and report.
+  /// Waits until all nodelets are subscribed and report.
   bool waitForNodelets() {
     return StereoChain::waitForNodelets({"stereo_objects", "object_fusion", "tracker"}) &&
            waitFor([this] {
@@ -32,10 +32,11 @@ class ObjectLevel : public StereoChain {
            });
   }
 
-  /// In place of stereo_objects.
+  /// Publishes in place of stereo_objects.
   void sendStereoObjects(const ObjectArray& list) { external_.publish(list); }
 
-  /// Whether there are as many fused lists as the scanner has made: either may arrive first.
+  /// Returns whether there are as many fused lists as lists of the scanner: either may arrive
+  /// first.
   bool waitForAllFused() {
     return waitFor([this] { return fused.size() == objects.size(); });
   }
@@ -59,7 +60,7 @@ class ObjectLevel : public StereoChain {
 
 class ObjectLevelTest : public StereoDriveTest<ObjectLevel> {
  protected:
-  /// The other car in a list of objects; null if it is not there.
+  /// Returns the other car in a list of objects; null if it is not there.
   const ObjectMessage* otherCarIn(const ObjectArray& list) const {
     const double then = list.header.stamp.toSec() - World::kStart;
     Box2 car = world_.otherCar(then);
@@ -85,7 +86,7 @@ TEST_F(ObjectLevelTest, BothSensorsLeadToFusedObjectsForEachScan) {
   EXPECT_EQ(chain_->diagnostic("stereo_objects", "dropped"), 0.0);
 }
 
-TEST_F(ObjectLevelTest, WhatBothSeeIsOneObject) {
+TEST_F(ObjectLevelTest, AnObjectSeenByBothIsOneObject) {
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
   ASSERT_TRUE(otherCarIn(*chain_->stereo.back()));
   const ObjectMessage* car = otherCarIn(*chain_->fused.back());
@@ -105,7 +106,7 @@ TEST_F(ObjectLevelTest, FusedObjectsLeadToTracks) {
   EXPECT_EQ(car->sensors, kBothSensors);
 }
 
-TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsGoOnWithTheScanner) {
+TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsContinueWithTheScanner) {
   for (int i = 0; i < 20; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each nodelet is unloaded from the running process while a drive goes on, and then the process is
-// killed: all of them come back, and tracks with them. How long that takes is measured, not judged.
+// Each nodelet is unloaded from the running process during a drive, and then the process is killed:
+// all nodelets return, and tracks with them. How long that takes is measured, not checked.
 //
-// Parameter: ~out: a JSON file for what was measured.
+// Parameter: ~out: a JSON file for the measurements.
 #include <algorithm>
 #include <csignal>
 #include <fstream>
@@ -22,9 +22,8 @@ namespace datmo::outage_test {
 namespace {
 
 const PacedRates kRates{50.0, 12.5, 5.0, World::kPixelStep, 0.0, 0};
-constexpr double kPatience =
-    120.0;                       // s, of what it takes on a machine that is busy many times over
-constexpr double kSettle = 3.0;  // s, until the next one
+constexpr double kPatience = 120.0;  // s, for the recovery on a heavily loaded machine
+constexpr double kSettle = 3.0;      // s, until the next one
 
 const std::vector<std::string> kNodelets{
     "grid_slam",      "moving_objects", "tracker",      "road_border",
@@ -50,7 +49,7 @@ class OutageTest : public testing::Test {
     return ros::service::call("/perception/unload_nodelet", call) && call.response.success;
   }
 
-  /// Tracks of a scan that was measured after a time (s).
+  /// Returns whether there are tracks of a scan that was measured after a time (s).
   bool hasTracksOf(double time) const {
     const auto& lists = drive_.received();
     return std::any_of(lists.rbegin(), lists.rend(), [&](const PacedDrive::Received& list) {
@@ -65,8 +64,8 @@ class OutageTest : public testing::Test {
     return found == lists.rend() ? 0 : found->car;
   }
 
-  /// How long after `time` (s) the nodelets are loaded and tracks come, and whether the other car
-  /// is the same one in them.
+  /// Returns how long after `time` (s) the nodelets are loaded and tracks arrive, and whether the
+  /// other car has kept its id.
   nlohmann::json measured(const std::string& what, const std::vector<std::string>& nodelets,
                           double time, std::uint32_t id) {
     std::optional<double> loaded;
@@ -93,7 +92,7 @@ class OutageTest : public testing::Test {
   PacedDrive drive_;
 };
 
-TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
+TEST_F(OutageTest, UnloadedOrKilledNodeletsRecover) {
   std::string out;
   ros::param::get("~out", out);
   ASSERT_TRUE(drive_.start({"tracker", "stereo_tracker", "track_fusion"}));
@@ -114,7 +113,7 @@ TEST_F(OutageTest, WhatIsUnloadedOrKilledComesBack) {
   const double time = drive_.now();
   ASSERT_EQ(kill(process, SIGKILL), 0);
   outages.push_back(measured("the process killed", kNodelets, time, id));
-  outages.back()["id_kept"] = nullptr;  // ids begin anew
+  outages.back()["id_kept"] = nullptr;  // ids start over
   if (!out.empty()) {
     std::ofstream(out) << outages.dump(1) << "\n";
   }

@@ -19,7 +19,7 @@ constexpr double kMemoryPeriod = 1.0;  // s
 constexpr double kCatchUp = 0.5;  // s: what is due for longer was not sent, as of a real sensor
 constexpr char kManager[] = "/perception";
 
-/// MiB in memory of a process; 0 if it is gone.
+/// Returns the resident memory of a process, MiB; 0 if it has ended.
 double residentOf(pid_t process) {
   std::uint64_t size = 0;
   std::uint64_t resident = 0;
@@ -28,7 +28,7 @@ double residentOf(pid_t process) {
          (1024.0 * 1024.0);
 }
 
-/// Cars in rows, as fast as the vehicle, so that they stay where they are to it.
+/// Cars in rows, as fast as the vehicle, so that they keep their positions relative to it.
 ObjectArray rowsOfObjects(int count, Stamp stamp) {
   constexpr int kRow = 25;
   constexpr double kSpacing = 6.0;  // m
@@ -113,13 +113,13 @@ void PacedDrive::sendDue(const PacedRates& rates) {
 
 void PacedDrive::sampleMemory() {
   if (process_ == 0) {
-    process_ = processOf(kManager);  // asked once: it may stand still later
+    process_ = processOf(kManager);  // looked up once: it may be stopped later
   }
   memory_.push_back({now(), residentOf(process_)});
 }
 
-/// A new map, as of a process that was killed, begins where the vehicle is: the car is looked for
-/// from the pose of that map.
+/// Looks for the car from the pose in the current map: the map of a restarted process begins where
+/// the vehicle is.
 std::uint32_t PacedDrive::carIn(const TrackArray& list) const {
   constexpr double kNear = 1.5;  // m
   const double seconds = list.header.stamp.toSec() - World::kStart;
@@ -140,7 +140,7 @@ std::uint32_t PacedDrive::carIn(const TrackArray& list) const {
   return 0;
 }
 
-/// What a Listener keeps, which is too much for hours.
+/// Clears what a Listener keeps, which is too much for hours.
 void PacedDrive::forget() {
   poses.clear();
   maps.clear();

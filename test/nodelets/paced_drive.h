@@ -12,7 +12,7 @@
 
 namespace datmo {
 
-/// How much a PacedDrive sends, Hz; 0: none.
+/// Rates that a PacedDrive sends at, Hz; 0: none.
 struct PacedRates {
   double motion = 0.0;
   double scans = 0.0;
@@ -22,11 +22,11 @@ struct PacedRates {
   int objects = 0;                     ///< in each list
 };
 
-/// A drive through an endless World whose clock goes as fast as the computer's, whether the
-/// nodelets keep up or not; what comes back when, and what their process needs meanwhile.
+/// A drive through an endless World in real time, whether the nodelets keep up or not; records when
+/// which output arrives, and the resources of their process.
 class PacedDrive : public StereoChain {
  public:
-  /// A list of tracks: how old it was when it came here.
+  /// A list of tracks: its latency on arrival.
   struct Received {
     double at = 0.0;       ///< s, since the start
     double latency = 0.0;  ///< s
@@ -38,25 +38,25 @@ class PacedDrive : public StereoChain {
     double resident = 0.0;  ///< MiB
   };
 
-  /// Until the nodelets listen, and those named here report; then the clock starts.
+  /// Waits until the nodelets are subscribed, and those named here report; then starts the clock.
   bool start(const std::vector<std::string>& names);
 
-  /// s, since the start.
+  /// Returns the time since the start, s.
   double now() const { return (ros::SteadyTime::now() - start_).toSec(); }
 
-  /// Drives on for so long, or until the condition holds; returns whether it did.
+  /// Continues the drive for this long, or until the condition holds; returns whether it did.
   bool run(
       double seconds, const PacedRates& rates,
       const std::function<bool()>& until = [] { return false; });
 
-  /// What was sent on a topic.
+  /// Returns the number of messages sent on a topic.
   std::size_t sent(const std::string& topic) const;
 
   const std::vector<Received>& received() const { return received_; }
   const std::vector<Memory>& memory() const { return memory_; }
 
  private:
-  /// Whether a message that comes at this rate is due; counts it.
+  /// Returns whether a message with this rate is due; counts it.
   bool isDue(const std::string& topic, double rate);
   void sendDue(const PacedRates& rates);
   void sampleMemory();

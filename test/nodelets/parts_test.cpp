@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stack in four processes, as on four machines: each has the nodelets of its part, the clocks
-// of all are known, and each comes back when it is killed. The tests go through one drive, in this
-// order.
+// of all are known, and each is restarted when it is killed. The tests run through one drive, in
+// this order.
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -30,7 +30,7 @@ class PartsChain : public StereoChain {
                [this] { return stereo_.getNumPublishers() >= 1 && risk_.getNumPublishers() >= 1; });
   }
 
-  /// All sensors at the next point of time. Nobody waits for what comes of it.
+  /// Sends all sensors of the next step, without waiting for results.
   void sendNext() {
     now_ += kStep;
     sendMotion(now_);
@@ -38,7 +38,7 @@ class PartsChain : public StereoChain {
     sendScan(world_.scan(now_));
   }
 
-  /// The drive goes on until the condition holds.
+  /// Continues the drive until the condition holds.
   bool driveUntil(const std::function<bool()>& condition) {
     const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(kMaxWait);
     while (!condition()) {
@@ -87,7 +87,7 @@ class PartsTest : public testing::Test {
 
   static void TearDownTestSuite() { delete chain_; }
 
-  /// Kills the process of a part; all that it makes, which `made` counts, comes again.
+  /// Kills the process of a part; waits until its output, which `made` counts, is published again.
   static void killAndWait(const std::string& manager, const std::size_t& made) {
     const pid_t killed = processOf(manager);
     ASSERT_GT(killed, 0);
@@ -97,7 +97,7 @@ class PartsTest : public testing::Test {
       const pid_t now = processOf(manager);
       return now > 0 && now != killed;
     }));
-    const std::size_t before = made;  // all of the killed one has come
+    const std::size_t before = made;  // all from the killed process has arrived
     EXPECT_TRUE(chain_->driveUntil([&] { return made > before; }))
         << chain_->diagnosticMessage("stack");
     std::cout << manager << " worked again " << (ros::SteadyTime::now() - start).toSec()
@@ -109,7 +109,7 @@ class PartsTest : public testing::Test {
 
 PartsChain* PartsTest::chain_ = nullptr;
 
-TEST_F(PartsTest, EachProcessHasItsNodeletsAndAllTogetherMakeRisks) {
+TEST_F(PartsTest, EachProcessHasItsNodeletsAndTogetherTheyPublishRisks) {
   EXPECT_TRUE(hasNodelet("/perception_sensors", "/motion"));
   EXPECT_TRUE(hasNodelet("/perception_stereo", "/stereo_objects"));
   EXPECT_TRUE(hasNodelet("/perception", "/tracker"));
@@ -128,12 +128,12 @@ TEST_F(PartsTest, TheClockOfEachIsKnown) {
   }
 }
 
-TEST_F(PartsTest, EachKilledComesBack) {
+TEST_F(PartsTest, EachOneIsRestartedWhenKilled) {
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception_stereo", chain_->stereo_objects));
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception_risk", chain_->risks));
   const int before = chain_->timings["tracker"];
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception", chain_->risks));
-  // Of another topic than the risks, and so perhaps later than they.
+  // On another topic than the risks, so it may arrive later.
   EXPECT_TRUE(chain_->driveUntil([&] { return chain_->timings["tracker"] > before; }));
   ASSERT_NO_FATAL_FAILURE(killAndWait("/perception_sensors", chain_->risks));
   EXPECT_TRUE(chain_->driveUntil([] { return hasNodelet("/perception_sensors", "/motion"); }));
@@ -147,7 +147,7 @@ TEST_F(PartsTest, AClockThatIsOffIsNamed) {
         PartClock answer;
         answer.process = "/camera";
         answer.asked = question->data;
-        answer.answered = question->data + ros::Duration(100.0);  // far above any load's delay
+        answer.answered = question->data + ros::Duration(100.0);  // far above any load's latency
         answers.publish(answer);
       });
   EXPECT_TRUE(chain_->driveUntil([] {

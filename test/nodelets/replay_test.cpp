@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The small bag through replay.launch, faster than it was recorded: no scan is lost on the way, and
-// moving objects are tracked. The player waits where this machine is too slow for that.
+// The small bag through replay.launch, faster than it was recorded: no scan is lost, and moving
+// objects are tracked. The player waits if this machine is too slow for that.
 #include <set>
 
 #include "chain.h"
@@ -31,7 +31,7 @@ class Replay : public Listener {
            ros::service::waitForService(kPause, ros::Duration(120.0));
   }
 
-  /// Until so many scans have led to tracks; false if no further one does.
+  /// Waits until this many scans have led to tracks; returns false if no further one does.
   bool play(int scans) {
     for (int done = 0; done < scans; done = timings["tracker"]) {
       const auto goes_on = [&] {
@@ -49,9 +49,9 @@ class Replay : public Listener {
  private:
   static constexpr char kPause[] = "/player/pause_playback";
   static constexpr std::uint32_t kQueue = 1000;
-  static constexpr int kAhead = 5;  ///< scans, by far less than a queue has room for
+  static constexpr int kAhead = 5;  ///< scans, far fewer than a queue has room for
 
-  /// It is held until it is told to play. Ends with the bag, and does not answer then.
+  /// Paused until it is told to play. Ends with the bag, and does not answer then.
   void hold(bool pause) {
     if (pause != is_held_) {
       is_held_ = pause;

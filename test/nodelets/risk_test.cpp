@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running risk nodelet behind a scripted grid_slam and tracker: a car that stands ahead,
-// between two walls, and what happens with input that is none. The tests go through one drive, in
-// this order.
+// The running risk nodelet after a scripted grid_slam and tracker: a stationary car ahead, between
+// two walls, and what happens with invalid input. The tests run through one drive, in this order.
 #include <limits>
 #include <string>
 #include <vector>
@@ -57,7 +56,7 @@ class RiskTest : public testing::Test {
 
   static void TearDownTestSuite() { delete harness_; }
 
-  /// Odometry and scan of now; waits until the nodelet has them.
+  /// Sends the current odometry and scan; waits until the nodelet has them.
   static void sendHost() {
     harness_->setClock(now_);
     harness_->sendOdometry(now_);
@@ -67,7 +66,7 @@ class RiskTest : public testing::Test {
     ASSERT_TRUE(harness_->waitForCount("labeled_scan received", steps_));
   }
 
-  /// One step of the drive; waits for its risks.
+  /// Runs one step of the drive; waits for its risks.
   static void step() {
     ASSERT_NO_FATAL_FAILURE(sendHost());
     const TrackArray tracks = carAhead(now_);
@@ -107,7 +106,7 @@ TEST_F(RiskTest, DiagnosticsReportTheLevel) {
   EXPECT_EQ(harness_->diagnostic("dropped"), 0.0);
 }
 
-TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
+TEST_F(RiskTest, InvalidTracksAreCounted) {
   ASSERT_NO_FATAL_FAILURE(sendHost());
   TrackArray tracks = carAhead(now_);
   tracks.tracks.front().covariance[0] = std::numeric_limits<double>::quiet_NaN();
@@ -116,7 +115,7 @@ TEST_F(RiskTest, TracksThatAreNoneAreCounted) {
   now_ += kLongStep;
 }
 
-TEST_F(RiskTest, ALoopedBagBeginsAnew) {
+TEST_F(RiskTest, ALoopedBagStartsOver) {
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(step());
   EXPECT_EQ(harness_->risks.back()->level, RiskArray::LEVEL_NONE);

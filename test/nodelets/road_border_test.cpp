@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running road_border nodelet behind a scripted grid_slam: what comes out of scans between two
-// walls, and what happens with scans that are none. The tests go through one drive, in this order.
+// The running road_border nodelet after a scripted grid_slam: the output from scans between two
+// walls, and what happens with invalid scans. The tests run through one drive, in this order.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -41,7 +41,7 @@ class RoadBorderTest : public testing::Test {
 
   static void TearDownTestSuite() { delete harness_; }
 
-  /// One step of the drive; waits for its road.
+  /// Runs one step of the drive; waits for its road.
   static void step() {
     const LabeledScan scan = samples::scanBetweenWalls(now_);
     harness_->setClock(now_);
@@ -59,8 +59,8 @@ class RoadBorderTest : public testing::Test {
     }
   }
 
-  /// Sends the scan of now after `spoil`; expects that it is counted under `key`, said, and leads
-  /// to nothing.
+  /// Sends the current scan after `spoil`; expects that it is counted under `key`, reported, and
+  /// leads to no output.
   static void expectDropped(const std::string& reason,
                             const std::function<void(LabeledScanMessage&)>& spoil) {
     const std::size_t before = harness_->roads.size();
@@ -73,7 +73,7 @@ class RoadBorderTest : public testing::Test {
 
   static const RoadBorders& last() { return *harness_->roads.back(); }
 
-  /// m, from the walls on its side to each point of the last borders.
+  /// Returns the distance of each point of the last borders from the walls on its side, m.
   static double farthestFromWalls() {
     double farthest = 0.0;
     for (const RoadBorderMessage& border : last().borders) {
@@ -86,7 +86,7 @@ class RoadBorderTest : public testing::Test {
     return farthest;
   }
 
-  /// m, from the vehicle to the farthest point of the last borders.
+  /// Returns the distance of the farthest point of the last borders from the vehicle, m.
   static double farthestAhead() {
     const double vehicle = samples::scanBetweenWalls(now_ - kStep).base_in_map.pose.position().x();
     double farthest = 0.0;
@@ -114,7 +114,7 @@ TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
   EXPECT_EQ(last().at_intersection, 0);
 }
 
-TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
+TEST_F(RoadBorderTest, DiagnosticsReportTheBorders) {
   EXPECT_TRUE(harness_->waitForCount("processed", 32.0));
   EXPECT_TRUE(harness_->waitFor(
       [] { return harness_->diagnostic("stretches of border on the left") >= 1.0; }));
@@ -124,7 +124,7 @@ TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
   EXPECT_TRUE(harness_->waitFor([] { return harness_->timings["road_border"] == 32; }));
 }
 
-TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
+TEST_F(RoadBorderTest, InvalidScansAreCounted) {
   expectDropped("bad_pose", [](auto& scan) {
     scan.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
   });
@@ -137,7 +137,7 @@ TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
   EXPECT_LT(farthestFromWalls(), 0.5);
 }
 
-TEST_F(RoadBorderTest, WhatIsPublishedChangesWhileItRunsAndNothingIsForgotten) {
+TEST_F(RoadBorderTest, ADynamicOptionChangesTheOutputAndKeepsTheState) {
   constexpr double kAhead = 8.0;  // m
   const double before = farthestAhead();
   ASSERT_GT(before, kAhead + 5.0);
@@ -160,7 +160,7 @@ TEST_F(RoadBorderTest, SilenceIsReported) {
   EXPECT_TRUE(harness_->waitForMessage("runs")) << harness_->diagnosticMessage();
 }
 
-TEST_F(RoadBorderTest, ALoopedBagBeginsAnew) {
+TEST_F(RoadBorderTest, ALoopedBagStartsOver) {
   const RoadBorders& first = *harness_->roads.at(31);
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));

@@ -12,8 +12,8 @@
 
 namespace datmo {
 
-/// The lists of a scripted scanner and stereo camera for a nodelet that fuses them, and what it
-/// makes of them. In: `topics`/lidar, `topics`/stereo. Out: `topics`/fused.
+/// The lists of a scripted scanner and stereo camera for a nodelet that fuses them, and its output.
+/// In: `topics`/lidar, `topics`/stereo. Out: `topics`/fused.
 template <typename Message>
 class SourceLists : public Listener {
  public:
@@ -38,13 +38,13 @@ class SourceLists : public Listener {
     });
   }
 
-  /// To a time of the drive (s).
+  /// Sets the clock to a time of the drive (s).
   void setClock(double seconds) { Listener::setClock(ros::Time(kStart + seconds)); }
 
   void sendLidar(const Message& list) { lidar_.publish(list); }
   void sendStereo(const Message& list) { stereo_.publish(list); }
 
-  /// Whether the newest fused list is of this time of the drive.
+  /// Returns whether the newest fused list is of this time of the drive.
   bool isAt(double seconds) const {
     return !fused.empty() &&
            toStamp(fused.back()->header.stamp) == Stamp::fromSeconds(kStart + seconds);
@@ -70,9 +70,8 @@ class SourceLists : public Listener {
   ros::Publisher stereo_;
 };
 
-/// Tests that go through one drive in their order. `Lists`: a SourceLists with listOf(sensor,
-/// seconds), what a sensor says at a time of the drive, and startStep(seconds), what a step begins
-/// with.
+/// Tests that run through one drive in their order. `Lists`: a SourceLists with listOf(sensor,
+/// seconds), a sensor's list at a time of the drive, and startStep(seconds), which starts a step.
 template <typename Lists>
 class SourceListsTest : public testing::Test {
  protected:
@@ -90,7 +89,7 @@ class SourceListsTest : public testing::Test {
 
   static void TearDownTestSuite() { delete lists_; }
 
-  /// One step of the drive with both sensors; waits for its fused list.
+  /// Runs one step of the drive with both sensors; waits for its fused list.
   static void step() { step(Lists::listOf("stereo", now_ + kStereoLater)); }
   static void step(const Message& stereo) {
     sendLidarStep();
@@ -100,7 +99,7 @@ class SourceListsTest : public testing::Test {
     now_ += kStep;
   }
 
-  /// The step without stereo.
+  /// Runs the step without stereo.
   static void sendLidarStep() {
     lists_->startStep(now_);
     lists_->sendLidar(Lists::listOf("lidar", now_));

@@ -6,9 +6,9 @@
 
 namespace datmo {
 
-/// Tests that go through one drive with both sensors, in their order. `Level`: a StereoChain that
-/// tells with isFusedAt(stamp) whether what the level makes of the scan of that stamp has come, and
-/// with kFusion which nodelet makes it.
+/// Tests that run through one drive with both sensors, in their order. `Level`: a StereoChain whose
+/// isFusedAt(stamp) returns whether the level's output for the scan of that stamp has arrived, and
+/// whose kFusion is the nodelet that publishes it.
 template <typename Level>
 class StereoDriveTest : public testing::Test {
  protected:
@@ -21,10 +21,10 @@ class StereoDriveTest : public testing::Test {
 
   static void TearDownTestSuite() { delete chain_; }
 
-  /// Before the first step, and after a jump of the clock.
+  /// Prepares the first step, and the one after a jump of the clock.
   void start() { ASSERT_TRUE(chain_->prepareMotion(now_)); }
 
-  /// One step of the drive with both sensors; waits for what is fused of it.
+  /// Runs one step of the drive with both sensors; waits for its fused output.
   void step() { step(world_.scan(now_)); }
   void step(const sensor_msgs::LaserScan& scan) {
     chain_->sendMotion(now_);
@@ -41,7 +41,7 @@ class StereoDriveTest : public testing::Test {
     }
   }
 
-  /// A step with the scanner alone; waits for the lidar's objects of some steps before, since
+  /// Runs a step with the scanner alone; waits for the lidar's objects of some earlier steps, since
   /// fusion waits for a camera that is not known to be silent.
   void stepWithoutStereo() {
     const ros::Duration wait(3.0 * kStep);

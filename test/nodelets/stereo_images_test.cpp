@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Raw images of a stereo camera through the nodelets of image_proc and stereo_image_proc, in the
-// same manager, to the grid of stereo_grid and the objects of stereo_objects.
+// Raw images of a stereo camera pass through the nodelets of image_proc and stereo_image_proc, in
+// the same manager, to the grid of stereo_grid and the objects of stereo_objects.
 #include <random>
 
 #include "chain.h"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kDisparity = 9;  // px
 constexpr double kDepth = kFocalLength * kBaseline / kDisparity;
 constexpr double kPeriod = 0.1;  // s
 
-/// Of one of a pair; `baseline`: m, 0 for the left one.
+/// Camera info of one of a pair; `baseline`: m, 0 for the left one.
 sensor_msgs::CameraInfo cameraInfo(double baseline) {
   constexpr double kMiddleColumn = 0.5 * (kColumns - 1);
   constexpr double kMiddleRow = 0.5 * (kRows - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running track_fusion nodelet between the tracks of a scripted scanner and stereo camera: what
-// comes out, which scheme of output may be asked for, and what happens when one of them is silent
-// or sends what is none. The tests go through one drive, in this order.
+// The running track_fusion nodelet, fed by the tracks of a scripted scanner and stereo camera: the
+// output, which track scheme can be requested, and what happens if one of them is silent or sends
+// invalid messages. The tests run through one drive, in this order.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -41,7 +41,7 @@ class Lists : public SourceLists<TrackArray> {
 
 class TrackFusionTest : public SourceListsTest<Lists> {
  protected:
-  /// Waits for the fused tracks of some steps before, since fusion waits for a camera that is not
+  /// Waits for the fused tracks of some earlier steps, since fusion waits for a camera that is not
   /// known to be silent.
   static void stepWithoutStereo() {
     sendLidarStep();
@@ -50,7 +50,7 @@ class TrackFusionTest : public SourceListsTest<Lists> {
     now_ += kStep;
   }
 
-  /// The track at this side of the road in the last list; null if there is none.
+  /// Returns the track on this side of the road in the last list; null if there is none.
   static const TrackMessage* trackAt(double left) {
     for (const TrackMessage& track : last().tracks) {
       if (std::abs(track.pose.position.y - left) < 1.0) {
@@ -76,7 +76,7 @@ class TrackFusionTest : public SourceListsTest<Lists> {
   }
 };
 
-TEST_F(TrackFusionTest, WhatBothFollowIsOneTrack) {
+TEST_F(TrackFusionTest, AnObjectTrackedByBothIsOneTrack) {
   ASSERT_NO_FATAL_FAILURE(driveOn(24));
   EXPECT_EQ(lists_->fused.size(), 24U);
   EXPECT_EQ(last().header.frame_id, "map");
@@ -102,14 +102,14 @@ TEST_F(TrackFusionTest, TheSchemeChangesWhileItRuns) {
   EXPECT_EQ(askForScheme("by luck"), "confirmed_by_all") << "it stays";
 }
 
-TEST_F(TrackFusionTest, TheServersParametersAreThoseOfTheNodelet) {
+TEST_F(TrackFusionTest, TheParameterServerHasTheNodeletsParameters) {
   EXPECT_NO_THROW(
       readOptions<TrackFusionStageOptions>(readParameters(ros::NodeHandle("/track_fusion"))));
   EXPECT_EQ(ros::param::param<std::string>("/track_fusion/scheme", ""), "confirmed_by_all");
   EXPECT_EQ(askForScheme("union"), "union");
 }
 
-TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackGoesOnUnderItsId) {
+TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackKeepsItsId) {
   const std::uint32_t id = idAt(0.0);
   ASSERT_GT(id, 0U);
   const std::size_t before = lists_->fused.size();
@@ -130,7 +130,7 @@ TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackGoesOnUnderItsId) {
   EXPECT_EQ(idAt(0.0), id);
 }
 
-TEST_F(TrackFusionTest, BadInputIsCountedAndTheRestGoesOn) {
+TEST_F(TrackFusionTest, BadInputIsCountedAndTheRestIsProcessed) {
   TrackArray bad = Lists::listOf("stereo", now_);
   bad.header.frame_id = "base_link";
   lists_->sendStereo(bad);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scanner and stereo camera, each with a tracker, and their tracks fused, on a made drive: what
-// comes out, and what happens when one of them is silent. The tests go through one drive, in this
-// order. They run with track fusion alone, and with fusion on all levels.
+// Scanner and stereo camera, each with a tracker, and their tracks fused, on a simulated drive: the
+// output, and what happens if one of them is silent. The tests run through one drive, in this
+// order, with track fusion alone and with fusion on all levels.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,12 +17,12 @@ constexpr std::uint32_t kQueue = 1000;
 
 const std::vector<std::string> kBothSensors = {"lidar", "stereo"};
 
-/// What the track level makes of both sensors.
+/// The track level's output from both sensors.
 class TrackLevel : public StereoChain {
  public:
   static constexpr char kFusion[] = "track_fusion";
 
-  /// Until all nodelets listen and report.
+  /// Waits until all nodelets are subscribed and report.
   bool waitForNodelets() {
     return StereoChain::waitForNodelets(
                {"stereo_objects", "tracker", "stereo_tracker", "track_fusion"}) &&
@@ -48,7 +48,7 @@ class TrackLevel : public StereoChain {
 
 class TrackLevelTest : public StereoDriveTest<TrackLevel> {
  protected:
-  /// The other car in the newest fused tracks; null if it is not there.
+  /// Returns the other car in the newest fused tracks; null if it is not there.
   static const TrackMessage* otherCar() { return chain_->otherCarIn(*chain_->tracks.back()); }
 
   static std::uint32_t id_;  // of the other car's fused track
@@ -74,7 +74,7 @@ TEST_F(TrackLevelTest, BothSensorsLeadToFusedTracksForEachScan) {
   }
 }
 
-TEST_F(TrackLevelTest, WhatBothFollowIsOneTrack) {
+TEST_F(TrackLevelTest, AnObjectTrackedByBothIsOneTrack) {
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
   const TrackMessage* by_lidar = chain_->otherCarIn(*chain_->lidar.back());
   const TrackMessage* by_stereo = chain_->otherCarIn(*chain_->stereo.back());
@@ -92,7 +92,7 @@ TEST_F(TrackLevelTest, WhatBothFollowIsOneTrack) {
   id_ = car->id;
 }
 
-TEST_F(TrackLevelTest, WithoutStereoTheTrackGoesOnUnderItsId) {
+TEST_F(TrackLevelTest, WithoutStereoTheTrackKeepsItsId) {
   for (int i = 0; i < 18; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two stacks on one master, each in a namespace and with a prefix of its own: one vehicle drives,
-// the other one stands, and neither hears of the other.
+// Two stacks on one master, each with its own namespace and frame prefix: one vehicle drives, the
+// other one is stationary, and neither receives messages of the other.
 #include <string>
 #include <vector>
 
@@ -76,7 +76,7 @@ class Vehicle {
   ros::Subscriber tracks_;
 };
 
-/// All of them are the vehicle's.
+/// All of them belong to the vehicle.
 void expectFrames(const Vehicle& vehicle, const std::string& map) {
   for (const auto& pose : vehicle.poses) {
     EXPECT_EQ(pose.header.frame_id, map);

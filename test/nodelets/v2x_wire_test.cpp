@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another station's CAM and CPM over the loopback to tracks/v2x, and ours to CAM and CPM.
+// Another station's CAM and CPM over loopback to tracks/v2x, and our own tracks to CAM and CPM.
 #include <cmath>
 #include <memory>
 #include <string>
@@ -48,7 +48,7 @@ class Stations : public Listener {
            own_.getNumSubscribers() > 0 && poses_.getNumSubscribers() > 0;
   }
 
-  /// Where the map and the vehicle are at a time. `x`: m, in the map.
+  /// Publishes where the map and the vehicle are at a time. `x`: m, in the map.
   void publishPoses(const ros::Time& time, double x) {
     const Stamp now = toStamp(time);
     EarthFrame frame{now, kPlane, {kMap, 1e-4 * Eigen::Matrix3d::Identity()}};
@@ -61,7 +61,7 @@ class Stations : public Listener {
     poses_.publish(pose);
   }
 
-  /// Our sensors' tracks: none but ourselves goes out.
+  /// Our sensors' tracks: none, so that only the vehicle itself is sent.
   void publishOwn() {
     TrackArray none;
     none.header.stamp = ros::Time::now();
@@ -69,7 +69,7 @@ class Stations : public Listener {
     own_.publish(none);
   }
 
-  /// A car that stands, and a pedestrian beside it, in the map.
+  /// A stationary car, and a pedestrian beside it, in the map.
   void sendOther() const {
     StationTrackList list;
     list.stamp = toStamp(ros::Time::now());
@@ -173,7 +173,7 @@ std::string mapOfLane() {
   return encode(message);
 }
 
-/// Green for a minute from now on.
+/// Green for one minute from now.
 std::string greenLight() {
   SpatTiming timing;
   timing.min_end =
@@ -187,7 +187,7 @@ std::string greenLight() {
   return encode(message);
 }
 
-TEST(V2xWireTest, TheLightsAheadAreAdvisedOn) {
+TEST(V2xWireTest, ThereIsAdviceOnTheLightsAhead) {
   constexpr double kSpeed = 5.0;  // m/s
   Stations stations;
   ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));

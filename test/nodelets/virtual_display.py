@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A display for tests of what needs a window."""
+"""A display for tests that need a window."""
 
 import contextlib
 import os
@@ -10,8 +10,8 @@ from pathlib import Path
 
 @contextlib.contextmanager
 def virtual_display(size):
-    """Starts one of so many pixels (width, height), which this process and its children use; gives the file
-    with its pixels, in the form of xwd."""
+    """Starts a display of this many pixels (width, height), which this process and its children
+    use; yields the file with its pixels, in xwd format."""
     read, write = os.pipe()
     with tempfile.TemporaryDirectory() as runtime, \
             subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "%dx%dx24" % size, "-fbdir",

@@ -33,7 +33,7 @@ constexpr int kRows = 384;
 
 Stamp stampAt(double seconds) { return Stamp::fromSeconds(World::kStart + seconds); }
 
-/// How far along the ray the side from `a` to `b` is; infinite if it is not hit.
+/// Returns the distance along the ray to the segment from `a` to `b`; infinite if it is not hit.
 double rangeTo(const Point2& a, const Point2& b, const Pose2& ray) {
   const Point2 from = ray.inverse() * a;
   const Point2 to = ray.inverse() * b;
@@ -53,7 +53,7 @@ sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
   return field;
 }
 
-/// Three numbers a point.
+/// Three numbers per point.
 sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double seconds) {
   sensor_msgs::PointCloud2 message;
   message.header.stamp = toTime(stampAt(seconds));
@@ -68,7 +68,7 @@ sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double secon
   return message;
 }
 
-/// A wall on each side about `middle` (m, along x), and pillars from one x to another.
+/// A wall on each side around `middle` (m, along x), and pillars from one x to another.
 std::vector<Box2> standingThings(double middle, double from, double to) {
   std::vector<Box2> boxes;
   for (const double side : {-1.0, 1.0}) {
@@ -95,7 +95,7 @@ Box2 World::otherCar(double seconds) const {
 
 std::vector<Box2> World::thingsAt(double seconds) const {
   const double x = kPillarSpacing * std::floor(kSpeed * seconds / kPillarSpacing);
-  constexpr double kAround = 11.0 * kPillarSpacing;  // more than is seen
+  constexpr double kAround = 11.0 * kPillarSpacing;  // more than is visible
   std::vector<Box2> boxes = length_ == Length::kEndless
                                 ? standingThings(x, x - kAround, x + kAround + kPillarSpacing)
                                 : standingThings(50.0, -60.0, 160.0);

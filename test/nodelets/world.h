@@ -14,16 +14,16 @@
 
 namespace datmo {
 
-/// A street with a wall on each side and pillars along them. The car drives along the x axis with
-/// 5 m/s; 15 m ahead of it another one drives as fast, and drifts from left to right with 4 m/s.
-/// Times count from the start of the drive.
+/// A street with a wall on each side and pillars along them. The car drives along the x axis at 5
+/// m/s; 15 m ahead of it another car drives at the same speed, and drifts from left to right at 4
+/// m/s. Times count from the start of the drive.
 class World {
  public:
   /// Stamp of the start, s.
   static constexpr double kStart = 1000.0;
 
-  /// Short: the street ends after 160 m, the other car leaves it to the right. Endless: the street
-  /// goes on, and the other car swings from side to side.
+  /// Short: the street ends after 160 m, and the other car leaves it to the right. Endless: the
+  /// street continues, and the other car swings from side to side.
   enum class Length { kShort, kEndless };
 
   explicit World(Length length = Length::kShort) : length_(length) {}
@@ -36,10 +36,10 @@ class World {
   geometry_msgs::TransformStamped baseInOdom(double seconds) const;
   geometry_msgs::TransformStamped scannerInBase() const;
 
-  /// That only every few pixels of the camera have a point.
+  /// Only every few pixels of the camera have a point.
   static constexpr int kPixelStep = 3;
 
-  /// What a stereo camera sees of it: the road, and all that stands on it, 2 m high.
+  /// What a stereo camera sees of it: the road, and all objects on it, 2 m high.
   sensor_msgs::PointCloud2 cloud(double seconds, int pixel_step = kPixelStep) const;
   static sensor_msgs::CameraInfo rightCameraInfo();
   geometry_msgs::TransformStamped cameraInBase() const;

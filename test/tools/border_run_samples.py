@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags of borders that tests of draw_borders share: a vehicle drives along the map's y axis."""
+"""Bags of borders that the tests of draw_borders share: a vehicle drives along the map's y axis."""
 
 import math
 
@@ -31,9 +31,9 @@ START = 1000 * 10**9
 STEP = 10**8  # ns from a scan to the next one
 SPEED = 10.0  # m/s
 HEADING = math.pi / 2
-DRIFT = 3.0  # m, of the map along its x axis against the true one
+DRIFT = 3.0  # m, of the map along its x axis relative to the true one
 
-# Optical axes (x right, y down, z ahead) of a camera 1.5 m above base_link that looks ahead.
+# Optical axes (x right, y down, z ahead) of a forward-looking camera 1.5 m above base_link.
 AXES = np.array([(0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
 MOUNT = transforms.rigid(AXES, [0.0, 0.0, 1.5])
 CAMERA = Camera(
@@ -55,8 +55,8 @@ RIGHT = border(RoadBorder.RIGHT, [(3.0, 0.0), (3.0, 20.0)], sigma=0.2, probabili
 
 
 def write_run(path, count=11, borders=(LEFT, RIGHT), truth=True):
-    """A run of so many scans: in each a point 10 m ahead, a moving object there, another
-    object, and one that was dropped."""
+    """A run of this many scans: in each a point 10 m ahead, a moving object there, another object,
+    and one that was dropped."""
     with whole_bag(path, "test") as bag:
         for i in range(count):
             stamp = START + i * STEP
@@ -92,7 +92,8 @@ def _write_truth(bag, stamp, position):
 
 
 def write_images(path, count=11, delay=STEP // 4, encoding="mono8"):
-    """Images of the drive, each so late (ns) after a scan; number i is all of the gray value i."""
+    """Images of the drive, each with an offset (ns) from a scan;
+    all pixels of number i have the gray value i."""
     with whole_bag(path, "test") as bag:
         mount = bag_messages.transform(
             START, "base_link", LEFT_CAMERA, MOUNT, transforms.quaternion_of(AXES))  # fmt: skip

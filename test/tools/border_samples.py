@@ -2,7 +2,7 @@
 """A drive of two seconds along a street, with published borders, that tests of tools share.
 
 The vehicle drives along x from the origin of the true map at 10 m/s. The run has drifted: its map
-is laid 5 m to the side, and turned by a right angle.
+is shifted by 5 m to the side, and rotated by a right angle.
 """
 
 import numpy as np
@@ -28,7 +28,8 @@ SIGMA = 0.2  # m, of published points
 
 
 def along(*positions):
-    """Function of the frame: true poses (x, y, yaw) on a straight way, or those that are given."""
+    """Returns a function of the frame: true poses (x, y, yaw) on a straight path,
+    or the given ones."""
 
     def at(frame):
         return positions[frame] if positions else (STEP * frame, 0.0, 0.0)
@@ -37,7 +38,7 @@ def along(*positions):
 
 
 def parked(number, x, y):
-    """A car of 4 m x 2 m that stands there throughout."""
+    """Returns a car of 4 m x 2 m that is parked there throughout."""
     return car(number, x, y)
 
 
@@ -49,7 +50,7 @@ def border(side, *points, sigma=SIGMA, side_street=False, frames=range(FRAMES)):
         if frame not in frames:
             return None
         local = [transforms.relative(base, [x, y, 0.0]) for x, y in points]
-        # The run takes the vehicle to be where DRIFT moves its true place to.
+        # The run's estimate of the vehicle's pose is the true one moved by DRIFT.
         run_base = transforms.compose(DRIFT, base)
         positions = [transforms.compose(run_base, point) for point in local]
         return RoadBorder(
@@ -61,12 +62,12 @@ def border(side, *points, sigma=SIGMA, side_street=False, frames=range(FRAMES)):
 
 
 def left(y, first=-60.0, last=120.0, **others):
-    """A left border along x at y."""
+    """Returns a left border along x at y."""
     return border(RoadBorder.LEFT, (first, y), (last, y), **others)
 
 
 def right(y, first=-60.0, last=120.0, **others):
-    """A right border along x at y."""
+    """Returns a right border along x at y."""
     return border(RoadBorder.RIGHT, (first, y), (last, y), **others)
 
 

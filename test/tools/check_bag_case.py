@@ -27,7 +27,8 @@ def without(items, *topics):
 
 
 def shifted(items, topic, seconds):
-    """With the headers of a topic later by so much; recorded when they were."""
+    """Returns the recording with the headers of a topic delayed by this;
+    record times are unchanged."""
     for item in of_topic(items, topic):
         stamp = item.message.header.stamp.to_nsec() + round(seconds * 1e9)
         item.message.header.stamp = simulated.to_ros_time(stamp)
@@ -35,21 +36,21 @@ def shifted(items, topic, seconds):
 
 
 def ranges(items, change):
-    """With change(ranges as array) for each scan."""
+    """Returns the recording with change(ranges as array) for each scan."""
     for item in of_topic(items, "/scan"):
         item.message.ranges = change(np.array(item.message.ranges)).tolist()
     return items
 
 
 def each(items, topic, change):
-    """With change(message) made to each message of a topic."""
+    """Returns the recording with change(message) applied to each message of a topic."""
     for item in of_topic(items, topic):
         change(item.message)
     return items
 
 
 def odometry_of(items, pose_at=simulated.pose_at, speed_scale=1.0, yaw_scale=1.0, delay=0.0):
-    """With odometry that a scale or a delay makes wrong, in poses and twists."""
+    """Returns the recording with odometry made wrong by a scale or a delay, in poses and twists."""
     pose = np.array([0.0, 0.0, 0.0])
     before = None
     for item in of_topic(items, "/odometry"):
@@ -75,7 +76,8 @@ _match, _matches = Outline.match, {}
 
 
 def match_once(outline, later, guesses):
-    """Outline.match; most faults leave the scans as they are, and matching them takes half of the time."""
+    """Replaces Outline.match; most faults do not affect scans,
+    and matching them takes half of the time."""
     key = outline.points.tobytes(), later.points.tobytes(), tuple(map(tuple, guesses))
     if key not in _matches:
         _matches[key] = _match(outline, later, guesses)
@@ -93,7 +95,7 @@ class Tool(unittest.TestCase):
         self.bag, self.yaml = self.folder / "drive.bag", self.folder / "robot.yaml"
 
     def run_tool(self, items, code=None):
-        """Findings (kind -> severity), the output, and the yaml's content."""
+        """Returns findings (kind -> severity), the output, and the yaml's content."""
         simulated.write(self.bag, items)
         out, errors, file = io.StringIO(), io.StringIO(), self.folder / "findings.json"
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):

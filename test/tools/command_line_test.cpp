@@ -65,7 +65,7 @@ TEST(CommandLineTest, WordsInAnyOrder) {
   EXPECT_TRUE(all.quiet);
 }
 
-TEST(CommandLineTest, OfAnOptionGivenTwiceTheLastOneHolds) {
+TEST(CommandLineTest, TheLastValueOfARepeatedOptionCounts) {
   EXPECT_EQ(given({"in.bag", "--report", "a", "--report", "b"}).report, "b");
 }
 
@@ -87,7 +87,7 @@ TEST(CommandLineTest, AnswersNeedNothingElse) {
   EXPECT_NE(help.find("--report FILE.json"), std::string::npos) << help;
 }
 
-TEST(CommandLineTest, RemappingsAreTakenOut) {
+TEST(CommandLineTest, RemappingsAreRemoved) {
   std::vector<std::string> words{"in.bag", "scan:=front", "/cloud:=/top", "out.bag"};
   const std::vector<Remapping> remappings = takeRemappings(words, {"scan", "cloud"});
   ASSERT_EQ(remappings.size(), 2U);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the recorded drive that the tests are measured on lies, outside of the repository."""
+"""Where the recorded drive for the tests is, outside of the repository."""
 
 import unittest
 from pathlib import Path

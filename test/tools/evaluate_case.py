@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that call evaluate in a folder of their own."""
+"""Tests that call evaluate in their own folder."""
 
 import contextlib
 import io
@@ -18,7 +18,7 @@ class EvaluateCase(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def evaluate(self, subcommand, *words, code=0):
-        """What it says on standard output and error, and what it writes as JSON (None: it fails)."""
+        """Returns standard output, standard error, and the JSON that it writes (None: it fails)."""
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             found = main([subcommand, *map(str, words), "--out", str(self.folder)])

@@ -7,7 +7,7 @@ PERIOD = 0.06  # s
 
 
 def whole(key):
-    """Consistency of a state with `key` as its mean NEES."""
+    """Returns the consistency of a state with `key` as its mean NEES."""
     return {
         "mean_nees": key,
         "dof": 2,
@@ -20,7 +20,7 @@ def whole(key):
 
 
 def sample_object(number, found=True, label="Car"):
-    """One true object of 10 frames that was tracked in 8 of them, by two ids, or never."""
+    """Returns one true object of 10 frames that was tracked in 8 of them, by two ids, or never."""
     return {
         "id": number, "label": label, "class": "vehicle",
         "first_s": 0.0, "last_s": 9 * PERIOD, "required_frames": 10,
@@ -36,7 +36,7 @@ def sample_object(number, found=True, label="Car"):
 
 
 def sample_delays():
-    """Of delays beside the attainable ones."""
+    """Returns figures of delays beside the attainable ones."""
     return {
         "objects": 1, "detectable": 1, "detectable_but_missed": 0,
         "attainable_s": {"median": PERIOD, "p90": PERIOD},
@@ -46,7 +46,7 @@ def sample_delays():
 
 
 def sample_path(item, frames):
-    """True path along y = its id; each of its tracks takes two fifths of the frames."""
+    """Returns a true path along y = its id; each of its tracks takes two fifths of the frames."""
     parts = [None, *(item["track_ids"] or [None, None])]
     followed = [parts[(10 * i // frames + 2) // 4] for i in range(frames)]
     return {
@@ -58,7 +58,7 @@ def sample_path(item, frames):
 
 
 def sample_series(objects, frames):
-    """Series of all frames; no object is matched in the first fifth of them."""
+    """Returns series over all frames; no object is matched in the first fifth of them."""
     times = [i * PERIOD for i in range(frames)]
     error = [None if 10 * i < 2 * frames else 0.2 + 0.01 * (i % 7) for i in range(frames)]
     found = sum(item["found"] for item in objects)
@@ -81,7 +81,7 @@ def sample_series(objects, frames):
 
 
 def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
-    """A run in which the last object is missed. changes: by section, what is otherwise."""
+    """Returns a run in which the last object is missed. changes: by section, what differs."""
     items = [sample_object(number, number < objects, label) for number in range(1, objects + 1)]
     run = {
         "format": 1, "run": name, "truth": "truth.bag",

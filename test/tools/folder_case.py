@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A test in a folder of its own."""
+"""A test in its own folder."""
 
 import tempfile
 import unittest

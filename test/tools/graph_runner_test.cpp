@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stages get in place of a message.
+// What stages receive in place of a message.
 #include "run_bag/graph_runner.h"
 
 #include "run_bag_drive.h"
@@ -11,10 +11,10 @@ namespace {
 
 class GraphRunnerTest : public RunBag {};
 
-TEST_F(GraphRunnerTest, AChangeIsAskedOnceForAMessageAndNullIsALostOne) {
+TEST_F(GraphRunnerTest, AChangeIsCalledOncePerMessageAndNullDropsIt) {
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   GraphSwitches switches;
-  switches.object_fusion = true;  // several stages take the odometry
+  switches.object_fusion = true;  // several stages subscribe to the odometry
   GraphRunner graph(SensorSet(arguments_.config), switches);
   int asked = 0;
   AnyMessage given;

@@ -36,7 +36,7 @@ std::string messageOf(const std::function<void()>& act) {
   return "";
 }
 
-/// A bag in a folder of its own, in many small chunks.
+/// A bag in its own folder, in many small chunks.
 class InputBag : public testing::Test {
  protected:
   InputBag() {
@@ -63,7 +63,7 @@ class InputBag : public testing::Test {
 
   void writeBytes(const std::string& bytes) const { std::ofstream(file_) << bytes; }
 
-  /// What is said of the file, without its name.
+  /// Returns the message about the file, without its name.
   std::string refusal(const std::string& file) const {
     const std::string message = messageOf([&] {
       rosbag::Bag bag;
@@ -93,7 +93,7 @@ TEST_F(InputBag, EveryCompressionIsRead) {
   }
 }
 
-TEST_F(InputBag, WhatIsNoFile) {
+TEST_F(InputBag, MissingAndSpecialFiles) {
   EXPECT_EQ(refusal(), "no such file");
   EXPECT_EQ(refusal(folder_), "is a folder, expected a bag");
   mkfifo(file_.c_str(), 0600);
@@ -109,7 +109,7 @@ TEST_F(InputBag, BagsInAFolderAreNamed) {
             "'rosrun datmo_fusion merge_bags' merges a recording's parts into one bag");
 }
 
-TEST_F(InputBag, WhatIsNoBag) {
+TEST_F(InputBag, FilesThatAreNoBags) {
   writeBytes("");
   expectRefused("is empty (0 bytes)");
   writeBytes("not a bag");
@@ -129,7 +129,7 @@ TEST_F(InputBag, RecordingsOfRos2) {
   EXPECT_NE(refusal(folder_).find("is a recording of ROS 2"), std::string::npos);
 }
 
-TEST_F(InputBag, BagsThatAreCut) {
+TEST_F(InputBag, TruncatedBags) {
   for (const double share : {0.01, 0.3, 0.9, 0.999}) {
     writeBag();
     fs::resize_file(file_,
@@ -168,7 +168,7 @@ TEST_F(InputBag, APipeIsNotReplacedByAnOutput) {
   EXPECT_TRUE(fs::is_fifo(file_));
 }
 
-TEST_F(InputBag, ABagThatIsCutAnywhereAtItsEndIsSavedByReindex) {
+TEST_F(InputBag, AnyBagTruncatedAtItsEndIsRepairedByReindex) {
   for (const std::uintmax_t cut : {1U, 10U, 100U, 300U, 1000U, 3000U}) {
     writeBag();
     fs::resize_file(file_, fs::file_size(file_) - cut);
@@ -224,7 +224,7 @@ TEST_F(InputBag, AMessageIsReadAsItWasWritten) {
   EXPECT_EQ(readingOf(file_, toRaw(map)), "9");
 }
 
-TEST_F(InputBag, AMessageThatIsCutShortIsNamedByTopicAndTime) {
+TEST_F(InputBag, ATruncatedMessageIsNamedByTopicAndTime) {
   nav_msgs::OccupancyGrid map;
   map.data.assign(9, 100);
   auto raw = toRaw(map);
@@ -237,7 +237,7 @@ TEST_F(InputBag, AMessageThatIsCutShortIsNamedByTopicAndTime) {
       << reading;
 }
 
-TEST_F(InputBag, ABrokenLengthIsFoundBeforeMemoryIsTaken) {
+TEST_F(InputBag, ACorruptLengthIsDetectedBeforeAllocation) {
   nav_msgs::OccupancyGrid map;
   map.data.assign(9, 100);
   auto raw = toRaw(map);

@@ -23,7 +23,7 @@ class Conversion(unittest.TestCase):
         self.bag = self.root / "out.bag"
 
     def run_tool(self, *options, expected_code=0):
-        """Runs the tool without a subprocess; returns what it said on standard error."""
+        """Runs the tool without a subprocess; returns its standard error."""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
             code = main([str(self.drive), str(self.bag), *options])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The launch files as roslaunch loads them, for the tests that do so dozens of times."""
+"""The launch files as roslaunch loads them, for tests that load them dozens of times."""
 
 import functools
 import os
@@ -18,7 +18,7 @@ def _answer(command, name):
 
 
 class _Loader(XmlLoader):
-    """Runs a command of a parameter once, whoever asks: starting it takes longer than all the rest."""
+    """Runs a command of a parameter only once: starting it takes longer than all the rest."""
 
     def param_value(self, verbose, name, ptype, value, textfile, binfile, command):
         if command is None or ptype != "auto":
@@ -27,7 +27,8 @@ class _Loader(XmlLoader):
 
 
 def load(file, words):
-    """roslaunch's configuration of a file of launch/ with arguments such as "risk:=true"."""
+    """Returns roslaunch's configuration of a file of launch/ with arguments such as
+    "risk:=true"."""
     path = f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}"
     with mock.patch.dict(os.environ, ROS_PACKAGE_PATH=path):
         return roslaunch.config.load_config_default(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ROS master in a process of its own, which a test kills and starts anew.
+"""A ROS master in a separate process, which a test kills and restarts.
 
-As a program: master_process PORT; writes a line for each time that all parameters are asked for.
+As a program: master_process PORT; writes a line each time that all parameters are requested.
 """
 
 import socket
@@ -18,7 +18,7 @@ PATIENCE = 120.0  # s, of what it takes on a machine that is busy many times ove
 
 
 class MasterProcess:
-    """The master of one port: start() and kill(), again and again."""
+    """The master of one port, with start() and kill(), which can be called repeatedly."""
 
     def __init__(self):
         with socket.socket() as probe:
@@ -29,24 +29,24 @@ class MasterProcess:
         self._reads = 0
 
     def start(self):
-        """When it answers."""
+        """Starts it and waits until it answers."""
         self._process = subprocess.Popen([sys.executable, __file__, str(self.port)], stdout=subprocess.PIPE)
         threading.Thread(target=self._count, args=[self._process.stdout], daemon=True).start()
         master = rosgraph.Master("/test", self.uri)
         wait_for(master.is_online, "the master answers")
 
     def kill(self):
-        """As by the kernel: it says nothing any more."""
+        """Kills it without warning, as the kernel would."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
         self._process = None
 
     def wait_for_read(self):
-        """Until somebody who does so periodically has asked for all that it knows now.
+        """Waits until a client that polls the master has read everything that it knows now.
 
-        Parameters are what he asks for last: the time after next is of a round that begins after now,
-        and the one after that says that he has the answer.
+        The client reads the parameters last: the read after the next one belongs to a round that
+        begins after now, and the one after that shows that the client has the answer.
         """
         end = self._reads + 3
         wait_for(lambda: self._reads >= end, "the master is read")
@@ -58,7 +58,7 @@ class MasterProcess:
 
 
 def wait_for(condition, what):
-    """Raises AssertionError if it does not come true."""
+    """Waits for the condition; raises AssertionError if it does not become true."""
     end = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < end, f"not within {PATIENCE:g} s: {what}"

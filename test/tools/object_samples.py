@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Messages of objects that tests of tools on lists of objects share."""
+"""Messages of objects shared by the tests of tools that read lists of objects."""
 
 from datmo_tools import transforms
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graph of stages as JSON, for the test that holds perception.launch against it:
+// Prints the graph of stages as JSON, for the test that compares perception.launch with it:
 // print_stage_graph [SWITCH...], e.g. low_level_fusion; print_stage_graph --switches: their names.
-// Exit code 1 with a message where the graph and nodelets.xml do not fit.
+// Exit code 1 with a message if the graph and nodelets.xml do not match.
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -32,7 +32,7 @@ std::string nameOf(datmo::StackPart part) {
   return "perception";
 }
 
-/// What a stage takes and makes: the graph's topics with their types.
+/// Inputs and outputs of a stage: the graph's topics with their types.
 class TopicList : public datmo::StagePorts {
  public:
   explicit TopicList(const datmo::GraphStage& stage) : stage_(stage) {}

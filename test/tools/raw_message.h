@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// Bytes that go into a bag as a `Message`, whether they are one or not.
+/// Bytes that are written to a bag as a `Message`, whether they are a valid one or not.
 template <typename Message>
 struct RawMessage {
   std::vector<std::uint8_t> bytes;

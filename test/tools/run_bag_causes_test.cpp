@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why are there no tracks? Causes that are brought about, and the sentence that names them.
+// Why are there no tracks? Causes are provoked, and the sentence that names them is checked.
 #include <functional>
 #include <limits>
 #include <optional>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// What is sent at one time; what is taken out is not.
+/// Messages sent at one time; those that are removed are not sent.
 struct Sent {
   std::optional<nav_msgs::Odometry> odometry;
   std::optional<tf2_msgs::TFMessage> transform;
@@ -26,7 +26,7 @@ struct Sent {
 struct Cause {
   std::string name;
   std::function<void(Sent& sent)> spoil;
-  std::string sentence;  ///< holds this
+  std::string sentence;  ///< must contain this
   bool has_mount = true;
   std::string config = "";
   GraphSwitches switches = {};
@@ -122,8 +122,8 @@ std::vector<Cause> causes() {
   };
 }
 
-/// Of a scanner that is not as it should be, of a vehicle that says what it cannot have done, and
-/// of sensors and stages that are switched on and not there.
+/// Causes: a misconfigured scanner, a vehicle that reports impossible motion, and sensors and
+/// stages that are switched on but missing.
 std::vector<Cause> furtherCauses() {
   const auto scan = [](const std::function<void(sensor_msgs::LaserScan&)>& spoil) {
     return [spoil](Sent& sent) { spoil(*sent.scan); };
@@ -182,7 +182,7 @@ TEST_F(RunBagCauses, TheFirstCauseInTheChainIsNamed) {
   }
 }
 
-TEST_F(RunBagCauses, AndOfWhatIsRarer) {
+TEST_F(RunBagCauses, RarerCausesAreNamed) {
   for (const Cause& cause : furtherCauses()) {
     expectSentence(cause);
   }

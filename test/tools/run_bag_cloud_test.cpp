@@ -10,7 +10,7 @@
 namespace datmo::run_bag_cloud_test {
 namespace {
 
-/// A road about the scanner and, 0.6 m above it, what its planar scan has.
+/// A road around the scanner and, 0.6 m above it, what its planar scan measures.
 std::vector<float> pointsOf(const sensor_msgs::LaserScan& scan) {
   std::vector<float> numbers;
   const auto add = [&numbers](double bearing, double range, float z) {
@@ -51,7 +51,7 @@ sensor_msgs::PointCloud2 cloudAt(Stamp stamp) {
 
 class RunBagOnClouds : public RunBag {
  protected:
-  /// The drive with clouds in place of scans.
+  /// The drive with clouds instead of scans.
   void writeClouds(const std::string& topic) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
     for (int i = 0; i < kScans; ++i) {
@@ -84,7 +84,7 @@ TEST_F(RunBagOnClouds, PosesFollowTheDrive) {
   EXPECT_NEAR(x, kSpeed * kPeriod * (kScans - 1), 0.2);
 }
 
-TEST_F(RunBagOnClouds, ANamedCloudServesInPlaceOfScans) {
+TEST_F(RunBagOnClouds, ANamedCloudReplacesScans) {
   writeClouds("/velodyne_points");
   EXPECT_NE(failure().find("cloud:=TOPIC"), std::string::npos) << "how to name it";
   arguments_.remappings["/cloud"] = "/velodyne_points";
@@ -92,7 +92,7 @@ TEST_F(RunBagOnClouds, ANamedCloudServesInPlaceOfScans) {
   EXPECT_EQ(count(arguments_.output, "/pose"), std::size_t{kScans});
 }
 
-TEST_F(RunBagOnClouds, ObjectsOfTheCloudsAreFusedByTheirSwitchAlone) {
+TEST_F(RunBagOnClouds, ObjectsOfCloudsAreFusedOnlyWithTheirSwitch) {
   writeClouds("/cloud");
   arguments_.cloud_objects = true;
   run();
@@ -106,7 +106,7 @@ TEST_F(RunBagOnClouds, ObjectsOfTheCloudsAreFusedByTheirSwitchAlone) {
   EXPECT_GT(of_clouds, 0U);
 }
 
-TEST_F(RunBagOnClouds, ACloudThatIsNotThereIsNamed) {
+TEST_F(RunBagOnClouds, AMissingCloudIsNamed) {
   arguments_.remappings["/cloud"] = "/velodyne_points";
   EXPECT_NE(failure().find("no PointCloud2 on /velodyne_points"), std::string::npos);
 }

@@ -23,7 +23,7 @@
 
 namespace datmo {
 
-// A small drive that is written here: a car between two walls, at 5 m/s toward a third.
+// A small drive that is generated here: a car between two walls, at 5 m/s toward a third.
 inline constexpr double kSpeed = 5.0;    // m/s
 inline constexpr double kPeriod = 0.06;  // s
 inline constexpr int kScans = 30;
@@ -67,7 +67,7 @@ inline tf2_msgs::TFMessage transform(const Pose2& pose, Stamp stamp, const std::
   return message;
 }
 
-/// A folder of its own for each test, with a drive and a sensor set in it.
+/// A folder for each test, with a drive and a sensor set in it.
 class RunBag : public testing::Test {
  protected:
   RunBag()
@@ -112,7 +112,7 @@ class RunBag : public testing::Test {
     return out.str();
   }
 
-  /// The message of the exception that runBag throws; none of the output is left then.
+  /// Returns the message of the exception that runBag throws; expects that no output is left.
   std::string failure() const {
     std::string message = "no exception";
     try {
@@ -137,7 +137,7 @@ class RunBag : public testing::Test {
     return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
   }
 
-  /// All messages of a topic of the output.
+  /// Returns all messages of a topic of the output.
   template <typename Message>
   std::vector<Message> listsOf(const std::string& topic) const {
     rosbag::Bag bag(arguments_.output);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One message that cannot be right costs itself: stamps far off, velocities that no vehicle has.
+// A message that cannot be valid is dropped without further effects: stamps far off, impossible
+// velocities.
 #include <functional>
 #include <limits>
 #include <set>
@@ -30,7 +31,7 @@ class RunBagFaults : public RunBag {
             scanAt(stamp)};
   }
 
-  /// The drive with `spoil` applied to each step, recorded when it was made.
+  /// The drive with `spoil` applied to each step; record times are unchanged.
   std::string runSpoiled(const Spoil& spoil) {
     writeConfig("mounts: {scanner: {x: 2.0}}\n");
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
@@ -63,7 +64,7 @@ class RunBagFaults : public RunBag {
   std::size_t poseCount() const { return poses().size(); }
 };
 
-TEST_F(RunBagFaults, OneScanWithAStampFarOffIsOneScan) {
+TEST_F(RunBagFaults, AScanWithAStampFarOffCostsOneScan) {
   for (const double off : {1.0, -1.0, 3600.0, 1e6, -900.0}) {
     const std::string table = runSpoiled([off](int i, Step& step) {
       step.scan.header.stamp += ros::Duration(i == kBad ? off : 0.0);
@@ -74,7 +75,7 @@ TEST_F(RunBagFaults, OneScanWithAStampFarOffIsOneScan) {
   }
 }
 
-TEST_F(RunBagFaults, OneOdometryWithAStampFarOffIsOneMessage) {
+TEST_F(RunBagFaults, OdometryWithAStampFarOffCostsOneMessage) {
   for (const double off : {1.0, -1.0, 3600.0, 1e6, -900.0}) {
     const std::string table = runSpoiled([off](int i, Step& step) {
       step.odometry.header.stamp += ros::Duration(i == kBad ? off : 0.0);
@@ -85,7 +86,7 @@ TEST_F(RunBagFaults, OneOdometryWithAStampFarOffIsOneMessage) {
   }
 }
 
-TEST_F(RunBagFaults, OneTransformWithAStampFarOffIsOneMessage) {
+TEST_F(RunBagFaults, ATransformWithAStampFarOffCostsOneMessage) {
   for (const double off : {1.0, -1.0, 3600.0, 1e6, -900.0}) {
     runSpoiled([off](int i, Step& step) {
       step.transform.transforms[0].header.stamp += ros::Duration(i == kBad ? off : 0.0);
@@ -95,7 +96,7 @@ TEST_F(RunBagFaults, OneTransformWithAStampFarOffIsOneMessage) {
   }
 }
 
-TEST_F(RunBagFaults, OneImpossibleTwistIsOneMessage) {
+TEST_F(RunBagFaults, AnImpossibleTwistCostsOneMessage) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Twist2& twist :
        {Twist2{kSpeed, 3.0}, Twist2{kSpeed, -15.0}, Twist2{300.0, 0.0}, Twist2{100.0, 0.0},
@@ -122,7 +123,7 @@ TEST_F(RunBagFaults, AScannersClockThatIsSetCostsOneScan) {
     EXPECT_TRUE(holds(table, "clock_off")) << off;
     const std::vector<double> x = poses();
     ASSERT_EQ(x.size(), static_cast<std::size_t>(kScans - 1)) << off;
-    // The first one of a clock that is set back, which may be an old one.
+    // The first one of a clock that is set back, which may be an old message.
     const int dropped = off > 0.0 ? kEnd : kBegin;
     for (int i = 20; i < kScans; ++i) {
       if (i != dropped) {
@@ -133,7 +134,7 @@ TEST_F(RunBagFaults, AScannersClockThatIsSetCostsOneScan) {
   }
 }
 
-TEST_F(RunBagFaults, AScannersClockThatIsOffStaysKnownOverAStampFarOff) {
+TEST_F(RunBagFaults, AClockOffsetOfTheScannerSurvivesAStampFarOff) {
   runSpoiled([](int i, Step& step) {
     const double off = i < 24 ? 0.0 : 0.1;
     step.scan.header.stamp += ros::Duration(i == 26 ? 1.5 : off);
@@ -143,7 +144,7 @@ TEST_F(RunBagFaults, AScannersClockThatIsOffStaysKnownOverAStampFarOff) {
   EXPECT_NEAR(x.back(), kDriven, 0.1);
 }
 
-TEST_F(RunBagFaults, ALoopedBagBeginsANewMapAtItsSecondMessage) {
+TEST_F(RunBagFaults, ALoopedBagStartsANewMapAtItsSecondMessage) {
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
   for (int i = 0; i < 2 * kScans; ++i) {
@@ -157,7 +158,7 @@ TEST_F(RunBagFaults, ALoopedBagBeginsANewMapAtItsSecondMessage) {
   EXPECT_NEAR(x.back(), kDriven - kPeriod * kSpeed, 0.3) << "from where the new map begins";
 }
 
-TEST_F(RunBagFaults, AClockThatJumpsAheadBeginsANewMapAtItsSecondMessage) {
+TEST_F(RunBagFaults, AClockJumpAheadStartsANewMapAtTheSecondMessage) {
   for (const double off : {2.0, 50.0, 100.0}) {
     const std::string table = runSpoiled([off](int i, Step& step) {
       const ros::Duration ahead(i < kBad ? 0.0 : off);

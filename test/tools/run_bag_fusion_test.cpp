@@ -36,7 +36,7 @@ TEST_F(FusedRun, EveryScanIsFusedWithClouds) {
   EXPECT_FALSE(holds(table, "stereo_image_proc")) << table;
 }
 
-TEST_F(FusedRun, CloudsAreMadeOfImagesWhereThereAreNone) {
+TEST_F(FusedRun, WithoutCloudsTheyAreMadeFromImages) {
   appendImages();
   EXPECT_TRUE(holds(run(), "stereo_image_proc"));
   expectGrids();
@@ -48,7 +48,7 @@ TEST_F(FusedRun, RawImagesAreFoundByTheirName) {
   expectGrids();
 }
 
-TEST_F(FusedRun, ImagesServeInPlaceOfCloudsOnDemand) {
+TEST_F(FusedRun, OnRequestImagesReplaceClouds) {
   appendClouds();
   arguments_.stereo_from_images = true;
   EXPECT_TRUE(holds(failure(), "/stereo/left/image_raw"));
@@ -85,7 +85,7 @@ TEST_F(FusedRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(FusedRun, GridsAreWrittenOnDemandAlone) {
+TEST_F(FusedRun, GridsAreWrittenOnlyOnRequest) {
   appendClouds();
   arguments_.write_grids = false;
   run();
@@ -127,7 +127,7 @@ TEST_F(FusedRun, OneSourceIsEnough) {
   EXPECT_EQ(count(arguments_.output, "/pose"), kScanCount);
 }
 
-TEST_F(FusedRun, StereoThatEndsIsWaitedForNoMore) {
+TEST_F(FusedRun, FusionStopsWaitingForStereoThatEnds) {
   appendClouds();
   {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
@@ -184,7 +184,7 @@ class MapRun : public StereoRunBag {
   }
 };
 
-TEST_F(MapRun, EachSensorHasAMapAndTheyComeOnceAPeriod) {
+TEST_F(MapRun, EachSensorHasAMapOncePerPeriod) {
   EXPECT_FALSE(holds(run(), "dropped"));
   const std::size_t maps = count(arguments_.output, "/map/fused");
   EXPECT_GE(maps, 2U);
@@ -197,7 +197,7 @@ TEST_F(MapRun, EachSensorHasAMapAndTheyComeOnceAPeriod) {
   EXPECT_EQ(bytes(arguments_.output), first) << "bit for bit";
 }
 
-TEST_F(MapRun, TheOtherOutputsAreAsWithoutIt) {
+TEST_F(MapRun, TheOtherOutputsAreUnchanged) {
   const auto others = [this] {
     run();
     std::string bytes;
@@ -217,7 +217,7 @@ TEST_F(MapRun, TheOtherOutputsAreAsWithoutIt) {
   EXPECT_EQ(others(), with);
 }
 
-TEST(MapFusionArguments, TheStageMustBeAmongThose) {
+TEST(MapFusionArguments, TheStageMustBeEnabled) {
   const std::vector<std::string> words = {"a.bag", "b.bag", "--config", "c.yaml", "--map-fusion"};
   EXPECT_TRUE(parseArguments(words).map_fusion);
   for (const char* last : {"grid_fusion", "grid_slam"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings as people have them: slashes in frames, no tf, no odometry, and input that is refused.
+// Recordings as found in practice: slashes in frame ids, no tf, no odometry, and rejected input.
 #include "raw_message.h"
 #include "run_bag/input_refusals.h"
 #include "run_bag_drive.h"
@@ -61,7 +61,7 @@ TEST_F(RunBagInput, LeadingSlashesAreStrippedAndCounted) {
   EXPECT_FALSE(holds(table, "refused")) << table;
 }
 
-TEST_F(RunBagInput, OneUndecodableMessageIsOneMessage) {
+TEST_F(RunBagInput, AnUndecodableMessageCostsOneMessage) {
   int written = 0;
   rewrite([&written](rosbag::Bag& bag, Stamp stamp) {
     const ros::Time time = toTime(stamp);
@@ -78,7 +78,7 @@ TEST_F(RunBagInput, OneUndecodableMessageIsOneMessage) {
   EXPECT_TRUE(holds(table, "undecodable_message")) << table;
 }
 
-TEST_F(RunBagInput, OneStampAtTheEndOfTimeIsOneMessage) {
+TEST_F(RunBagInput, AStampAtTheEndOfTimeCostsOneMessage) {
   rewrite([](rosbag::Bag& bag, Stamp stamp) {
     const ros::Time time = toTime(stamp);
     nav_msgs::Odometry odometry = odometryAt(stamp);
@@ -96,14 +96,14 @@ TEST_F(RunBagInput, OneStampAtTheEndOfTimeIsOneMessage) {
   EXPECT_TRUE(holds(table, "stamp_out_of_range")) << table;
 }
 
-TEST_F(RunBagInput, AMountOfTheYamlFileServesWithoutTf) {
+TEST_F(RunBagInput, AMountInTheYamlFileReplacesTf) {
   writeDrive(false);
   writeConfig("mounts: {scanner: {x: 2.0}}\n");
   run();
   expectWholeDrive();
 }
 
-TEST_F(RunBagInput, FramesAreNamedOnceForAll) {
+TEST_F(RunBagInput, FramesAreSetOnceForAllStages) {
   rewrite([](rosbag::Bag& bag, Stamp stamp) {
     nav_msgs::Odometry odometry = odometryAt(stamp);
     odometry.header.frame_id = "wheels";
@@ -189,13 +189,13 @@ class RunBagMotion : public RunBagInput {
   }
 };
 
-TEST_F(RunBagMotion, ATwistServesInPlaceOfOdometry) {
+TEST_F(RunBagMotion, ATwistReplacesOdometry) {
   writeMotion(false, true);
   runWith("twist");
   expectWholeDrive();
 }
 
-TEST_F(RunBagMotion, AnImuAndATwistDo) {
+TEST_F(RunBagMotion, AnImuAndATwistReplaceOdometry) {
   writeMotion(true, true);
   runWith("imu_and_twist");
   expectWholeDrive();
@@ -207,7 +207,7 @@ TEST_F(RunBagMotion, AnImuAloneLeavesTheSpeedToTheScans) {
   EXPECT_NEAR(endX(), (kScans - 1) * kPeriod * kSpeed, 0.5);
 }
 
-TEST_F(RunBagMotion, WhatIsMissingIsNamed) {
+TEST_F(RunBagMotion, MissingInputsAreNamed) {
   writeMotion(true, false);
   writeConfig("motion: {source: imu_and_twist}\n");
   const std::string message = failure();

@@ -24,7 +24,7 @@ class RunBagLoopClosing : public RunBag {
   }
 };
 
-TEST_F(RunBagLoopClosing, TheWholeDriveComesOutAtItsEnd) {
+TEST_F(RunBagLoopClosing, TheWholeDriveIsPublishedAtItsEnd) {
   run();
   rosbag::Bag bag(arguments_.output);
   nav_msgs::PathConstPtr path;
@@ -52,7 +52,7 @@ TEST_F(RunBagLoopClosing, SameBagGivesTheSameBytes) {
   EXPECT_EQ(bytes(arguments_.output), first);
 }
 
-TEST_F(RunBagLoopClosing, TheLivePoseAndMapStayAsTheyAre) {
+TEST_F(RunBagLoopClosing, TheLivePoseAndMapAreUnchanged) {
   const auto live = [this] {
     run();
     std::ostringstream all;
@@ -79,7 +79,7 @@ TEST_F(RunBagLoopClosing, TheOptimizedMapIsSaved) {
   EXPECT_GT(std::filesystem::file_size(path("street.map")), 100U);
 }
 
-TEST_F(RunBagLoopClosing, ItEndsNoEarlierThanItsStage) {
+TEST_F(RunBagLoopClosing, TheLastStageMustNotPrecedeIt) {
   EXPECT_TRUE(parsed({"--loop-closing", "--until", "loop_closing"}).loop_closing);
   EXPECT_THROW(parsed({"--until", "loop_closing"}), UsageError);
   EXPECT_THROW(parsed({"--loop-closing", "--until", "grid_slam"}), UsageError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps that run_bag saves, and starts in.
+// Maps that run_bag saves, and those that it starts in.
 #include "run_bag_drive.h"
 
 #include "datmo_fusion/common/options.h"
@@ -38,7 +38,7 @@ TEST_F(RunBagMap, TheMapIsSavedWithTheFilesOfMapServer) {
   EXPECT_EQ(bytes(savedMap()), first);
 }
 
-TEST_F(RunBagMap, UntilItIsFoundItIsAboutTheStart) {
+TEST_F(RunBagMap, BeforeLocalizationPosesAreRelativeToTheStart) {
   arguments_.map = savedMap();
   arguments_.start = {0.5, 0.2, 2.0};
   run();
@@ -51,7 +51,7 @@ TEST_F(RunBagMap, UntilItIsFoundItIsAboutTheStart) {
   EXPECT_GT(pose.covariance[0], 1.0) << "the map that is made meanwhile drifts";
 }
 
-TEST_F(RunBagMap, AnywhereTakesLongerThanThisDrive) {
+TEST_F(RunBagMap, GlobalSearchTakesLongerThanThisDrive) {
   arguments_.map = savedMap();
   run();
   EXPECT_GT(lastPose().covariance[0], 25.0) << "lost, and says so";
@@ -67,7 +67,7 @@ TEST_F(RunBagMap, ABadMapEndsItWithOneSentence) {
   EXPECT_TRUE(holds(failure(), "cells of 0.3 m, expected 0.2 m"));
 }
 
-TEST_F(RunBagMap, WhatIsWrittenBesideTheMapMustNotBeAnInput) {
+TEST_F(RunBagMap, FilesWrittenBesideTheMapMustNotBeInputs) {
   writeConfig("scanner: {range_sigma: 0.1}\n");
   const std::string map =
       std::filesystem::path(arguments_.config).replace_extension(".map").string();

@@ -45,7 +45,7 @@ TEST_F(RunBagOnTwoScanners, TheirScansBecomeOneAndPosesFollowTheDrive) {
   EXPECT_NEAR(x, kSpeed * kPeriod * (kScans - 1), 0.3);
 }
 
-TEST_F(RunBagOnTwoScanners, AScannerThatIsMissingIsNamed) {
+TEST_F(RunBagOnTwoScanners, AMissingScannerIsNamed) {
   writeHalves("/scans/front", "/left");
   arguments_.merge_scans = true;
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bag runner with a camera that names objects: the small drive with images of a wall.
+// The bag runner with a camera that classifies objects: the small drive with images of a wall.
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ class MonoRun : public StereoRunBag {
  protected:
   MonoRun() { arguments_.mono = true; }
 
-  /// Of the left camera alone; each differs from the last in a pixel, for it is not frozen.
+  /// Images of the left camera alone; each differs from the last in a pixel, as it is not frozen.
   void appendLeftImages() const {
     std::uint8_t number = 0;
     append([&](rosbag::Bag& bag, Stamp stamp) {
@@ -43,7 +43,7 @@ TEST_F(MonoRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(MonoRun, BesideTheStereoCameraTheImagesServeBoth) {
+TEST_F(MonoRun, WithAStereoCameraTheImagesAreUsedByBoth) {
   appendImages();
   arguments_.object_fusion = true;
   const std::string table = run();

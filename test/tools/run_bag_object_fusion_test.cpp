@@ -11,7 +11,7 @@ class ObjectFusedRun : public StereoRunBag {
  protected:
   ObjectFusedRun() { arguments_.object_fusion = true; }
 
-  /// How many lists of fused objects have a pedestrian that `sensor` alone saw.
+  /// Returns how many lists of fused objects have a pedestrian that `sensor` alone saw.
   std::size_t listsWithPedestrianOf(const std::string& sensor) const {
     const auto isOne = [&](const ObjectMessage& object) {
       return object.classification == ObjectMessage::CLASS_PEDESTRIAN &&
@@ -24,7 +24,7 @@ class ObjectFusedRun : public StereoRunBag {
         }));
   }
 
-  /// s, from a scan's stamp until its tracks come out.
+  /// Returns the time from a scan's stamp until its tracks are published, s.
   double longestWait() const {
     rosbag::Bag bag(arguments_.output);
     double longest = 0.0;
@@ -55,7 +55,7 @@ TEST_F(ObjectFusedRun, EveryScansObjectsAreFusedWithThoseOfTheClouds) {
   }
 }
 
-TEST_F(ObjectFusedRun, CloudsMadeOfImagesServeBothLevels) {
+TEST_F(ObjectFusedRun, CloudsMadeFromImagesAreUsedByBothLevels) {
   appendImages();
   arguments_.low_level_fusion = true;
   arguments_.write_grids = true;
@@ -102,7 +102,7 @@ TEST_F(ObjectFusedRun, TracksWaitForTheCameraUnlessItCountsRetroactively) {
   EXPECT_LT(longestWait() + 0.01, waiting);
 }
 
-TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {
+TEST_F(ObjectFusedRun, WithoutCloudsStereoObjectsOfAnotherSystemAreUsed) {
   appendEachScan("/objects/stereo", pedestrianAt);
   const std::string table = run();
   expectObjects(0);
@@ -110,7 +110,7 @@ TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {
   EXPECT_FALSE(holds(table, "stereo_objects")) << table;
 }
 
-TEST_F(ObjectFusedRun, CloudsComeBeforeRecordedObjects) {
+TEST_F(ObjectFusedRun, CloudsHavePriorityOverRecordedObjects) {
   appendEachScan("/objects/stereo", pedestrianAt);
   appendClouds();
   run();
@@ -163,7 +163,7 @@ TEST_F(ObjectFusedRun, OneSourceIsEnough) {
   expectObjects(0);
 }
 
-TEST_F(ObjectFusedRun, OneLevelMayDoWithoutTheCameraThatTheOtherUses) {
+TEST_F(ObjectFusedRun, OneLevelMayIgnoreTheCameraThatTheOtherUses) {
   appendClouds();
   writeConfig("{object_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   arguments_.low_level_fusion = true;
@@ -182,7 +182,7 @@ TEST(ObjectFusionArguments, AreRead) {
   EXPECT_EQ(arguments.last_stage, LastStage::kObjectFusion);
 }
 
-TEST(FusionArguments, OneWordSwitchesOnWhatALevelNeeds) {
+TEST(FusionArguments, OneOptionEnablesAllThatALevelNeeds) {
   const auto read = [](const std::string& level) {
     return parseArguments({"a.bag", "b.bag", "--config", "c.yaml", "--fusion", level});
   };
@@ -200,7 +200,7 @@ TEST(FusionArguments, OneWordSwitchesOnWhatALevelNeeds) {
       << "what is on by itself stays on";
 }
 
-TEST(ObjectFusionArguments, ThatGoNotTogetherAreRefused) {
+TEST(ObjectFusionArguments, IncompatibleOnesAreRefused) {
   const std::vector<std::string> files = {"a.bag", "b.bag", "--config", "c.yaml"};
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--until", "object_fusion"},

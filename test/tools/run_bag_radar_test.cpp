@@ -10,12 +10,11 @@
 namespace datmo::run_bag_radar_test {
 namespace {
 
-constexpr float kRelativeSpeed =
-    3.0F;  // m/s, by which what drives ahead is faster than the vehicle
+constexpr float kRelativeSpeed = 3.0F;  // m/s, speed of the vehicle ahead relative to the host
 
 class RunBagWithRadar : public RunBag {
  protected:
-  /// Something that drives ahead, and the wall at the end, in each cycle.
+  /// A vehicle ahead, and the wall at the end, in each cycle.
   void writeRadar(const std::string& topic) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
     for (int i = 0; i < kScans; ++i) {
@@ -55,7 +54,7 @@ TEST_F(RunBagWithRadar, ItsObjectsAreFused) {
   EXPECT_GE(fused, kScans - 3);
 }
 
-TEST_F(RunBagWithRadar, WhatItAloneSeesIsTracked) {
+TEST_F(RunBagWithRadar, ObjectsSeenByItAloneAreTracked) {
   writeRadar("/radar");
   arguments_.radar = true;
   run();
@@ -76,7 +75,7 @@ TEST_F(RunBagWithRadar, WhatItAloneSeesIsTracked) {
   EXPECT_NEAR(track->velocity.x, kSpeed + static_cast<double>(kRelativeSpeed), 1.0);
 }
 
-TEST_F(RunBagWithRadar, ATopicThatIsNotThereIsNamed) {
+TEST_F(RunBagWithRadar, AMissingTopicIsNamed) {
   arguments_.radar = true;
   EXPECT_NE(failure().find("no RadarScan on /radar for --radar"), std::string::npos);
   arguments_.remappings["/radar"] = "/radar_front";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What run_bag --report says of a drive whose scanner was silent for a while, and repeated a scan.
+// The output of run_bag --report on a drive whose scanner was silent for a while, and repeated a
+// scan.
 #include "run_bag_drive.h"
 #include <nlohmann/json.hpp>
 
@@ -40,7 +41,7 @@ class RunBagReport : public RunBag {
   }
 };
 
-TEST_F(RunBagReport, GoodDriveHasNothingToSay) {
+TEST_F(RunBagReport, GoodDriveHasAnEmptyReport) {
   const json said = report();
   EXPECT_EQ(said.at("scans"), kScans);
   EXPECT_NEAR(said.at("duration_s"), (kScans - 1) * kPeriod, 1e-6);
@@ -66,7 +67,7 @@ TEST_F(RunBagReport, SilenceAndDropsHaveTheirTimes) {
   EXPECT_NEAR(said.at("pose").at("longest_gap_s"), (kFirstAfter - kLastBefore) * kPeriod, 1e-6);
 }
 
-TEST_F(RunBagReport, TruthThatIsCopiedIsNamed) {
+TEST_F(RunBagReport, CopiedTruthIsNamed) {
   arguments_.with_truth = true;
   EXPECT_TRUE(report().at("has_truth"));
 }

@@ -39,7 +39,7 @@ TEST_F(RiskRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(RiskRun, TheSensorSetHasASectionOfIt) {
+TEST_F(RiskRun, TheSensorSetConfiguresIt) {
   writeConfig("{risk: {method: thesis}}");
   run();
   EXPECT_EQ(count(arguments_.output, "/risks"), kAllScans);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bag runner with borders of the road, on the small drive between two walls.
+// The bag runner with road borders, on the small drive between two walls.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ class RoadBorderRun : public RunBag {
  protected:
   RoadBorderRun() { arguments_.road_border = true; }
 
-  /// Objects in all messages of a topic.
+  /// Returns the number of objects in all messages of a topic.
   template <typename Message>
   std::size_t objectsOn(const std::string& topic) const {
     rosbag::Bag bag(arguments_.output);
@@ -64,7 +64,7 @@ TEST_F(RoadBorderRun, NoObjectIsDropped) {
   EXPECT_EQ(count(arguments_.output, "/objects/dropped"), 0U);
 }
 
-TEST_F(RoadBorderRun, WhatTheThesisDropsIsMissedAmongTheObjectsAndNothingElse) {
+TEST_F(RoadBorderRun, OnlyObjectsDroppedByTheThesisAreMissing) {
   writeConfig("{moving_objects: {border_filter: {method: thesis}}}");
   run();
   const std::size_t kept = objectsOn<ObjectArray>("/objects");
@@ -96,7 +96,7 @@ TEST_F(RoadBorderRun, ABadOptionOfItsSectionIsNamed) {
   EXPECT_TRUE(holds(message, "road_border: wide")) << message;
 }
 
-TEST(RunBagArguments, BordersGoWithTheStagesThatTheyFeed) {
+TEST(RunBagArguments, BordersRequireTheStagesThatUseThem) {
   const auto parsed = [](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"a", "b", "--config", "c"};
     words.insert(words.end(), more.begin(), more.end());

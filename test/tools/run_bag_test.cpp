@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bag runner on a small drive that is written here.
+// The bag runner on a small drive that is generated here.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -77,7 +77,7 @@ TEST_F(RunBag, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
-TEST_F(RunBag, GroundTruthIsCopiedOnDemand) {
+TEST_F(RunBag, GroundTruthIsCopiedOnRequest) {
   arguments_.with_truth = true;
   run();
   EXPECT_EQ(count(arguments_.output, "/ground_truth/pose"), static_cast<std::size_t>(kScans));
@@ -100,7 +100,7 @@ TEST_F(RunBag, StagesAfterTheLastOneAreLeftOut) {
   EXPECT_EQ(count(arguments_.output, "/tracks"), 0U);
 }
 
-TEST_F(RunBag, TimesOfTheStagesAreWrittenOnDemand) {
+TEST_F(RunBag, TimesOfTheStagesAreWrittenOnRequest) {
   arguments_.times = path("times.json");
   run();
   const auto times = nlohmann::json::parse(bytes(arguments_.times));
@@ -113,7 +113,7 @@ TEST_F(RunBag, MissingBagIsNamed) {
   EXPECT_EQ(failure(), path("nowhere.bag") + ": no such file");
 }
 
-TEST_F(RunBag, BagThatIsCutShortIsNamed) {
+TEST_F(RunBag, TruncatedBagIsNamed) {
   std::filesystem::resize_file(arguments_.input, std::filesystem::file_size(arguments_.input) / 2);
   EXPECT_TRUE(holds(failure(), arguments_.input));
 }
@@ -123,14 +123,14 @@ TEST_F(RunBag, FileThatIsNoBagIsNamed) {
   EXPECT_TRUE(holds(failure(), arguments_.input + ": is not a bag"));
 }
 
-TEST_F(RunBag, MissingScanIsNamedBesideWhatThereIs) {
+TEST_F(RunBag, MissingScanIsNamedWithTheAvailableTopics) {
   arguments_.remappings["/scan"] = "/front";
   const std::string message = failure();
   EXPECT_TRUE(holds(message, "/front")) << message;
   EXPECT_TRUE(holds(message, "/scan (sensor_msgs/LaserScan)")) << message;
 }
 
-TEST_F(RunBag, MissingOdometryIsAnErrorUnlessTheOptionsSaySo) {
+TEST_F(RunBag, MissingOdometryIsAnErrorUnlessTheOptionsAllowIt) {
   arguments_.remappings["/odometry"] = "/wheels";
   EXPECT_TRUE(holds(failure(), "no Odometry on /wheels"));
   writeConfig("motion: {source: none}\n");
@@ -186,7 +186,7 @@ TEST_F(RunBag, InterruptionLeavesNoBag) {
   EXPECT_FALSE(run().empty());
 }
 
-TEST_F(RunBag, FolderIsNoBagToWrite) {
+TEST_F(RunBag, FolderIsNoOutputBag) {
   writeDrive();
   std::filesystem::create_directory(arguments_.output);
   EXPECT_THROW(run(), std::runtime_error);
@@ -194,7 +194,7 @@ TEST_F(RunBag, FolderIsNoBagToWrite) {
   EXPECT_FALSE(std::filesystem::exists(arguments_.output + ".part"));
 }
 
-TEST_F(RunBag, InputIsNotOverwrittenUnderWhateverName) {
+TEST_F(RunBag, InputIsNotOverwrittenUnderAnyName) {
   writeDrive();
   const std::string other_name = (folder_ / "." / "in.bag").string();
   EXPECT_THROW(parseArguments({arguments_.input, other_name, "--config", arguments_.config}),
@@ -216,7 +216,7 @@ TEST(RunBagArguments, AreReadInAnyOrder) {
   EXPECT_EQ(arguments.inputTopic("odometry"), "/odometry");
 }
 
-TEST(RunBagArguments, WhatIsNotUnderstoodIsRefused) {
+TEST(RunBagArguments, UnknownWordsAreRefused) {
   EXPECT_THROW(parseArguments({}), UsageError);
   EXPECT_THROW(parseArguments({"a.bag", "b.bag"}), UsageError);
   EXPECT_THROW(parseArguments({"a.bag", "b.bag", "--config"}), UsageError);

@@ -13,7 +13,7 @@ using Sensors = std::vector<std::string>;
 
 constexpr std::uint32_t kRadarId = 7;
 
-/// What another system says: one object, 12 m ahead of where the drive begins.
+/// Another system's report: one object, 12 m ahead of where the drive begins.
 TrackArray radarTracksAt(Stamp stamp) {
   Track track;
   track.id = kRadarId;
@@ -29,7 +29,7 @@ class TrackFusedRun : public StereoRunBag {
  protected:
   TrackFusedRun() { arguments_.track_fusion = true; }
 
-  /// Whether a source of one of the fused tracks has this name.
+  /// Returns whether a source of one of the fused tracks has this name.
   bool isFusedOf(const std::string& source) const {
     return anyTrack("/tracks", [&](const TrackMessage& track) {
       return std::any_of(track.sources.begin(), track.sources.end(),
@@ -69,7 +69,7 @@ TEST_F(TrackFusedRun, EveryScansTracksAreFusedWithThoseOfTheClouds) {
   }
 }
 
-TEST_F(TrackFusedRun, FusedTracksBearTheStampsOfTheScans) {
+TEST_F(TrackFusedRun, FusedTracksHaveTheStampsOfTheScans) {
   appendClouds();
   run();
   const auto fused = listsOf<TrackArray>("/tracks");
@@ -91,7 +91,7 @@ TEST_F(TrackFusedRun, StereoCameraHasATrackerOfItsOwn) {
   EXPECT_FALSE(holds(table, "stereo_objects")) << table;
 }
 
-TEST_F(TrackFusedRun, ScannersFieldIsNoneOfTheStereoTracker) {
+TEST_F(TrackFusedRun, StereoTrackerDoesNotUseTheScannersField) {
   appendEachScan("/objects/stereo", pedestrianAt);
   run();
   for (const TrackArray& list : listsOf<TrackArray>("/tracks/stereo")) {
@@ -120,7 +120,7 @@ TEST_F(TrackFusedRun, BadOptionsAreNamedWithTheirSection) {
   }
 }
 
-TEST_F(TrackFusedRun, AnotherSystemsTracksServeWhereThereIsNothingToFollow) {
+TEST_F(TrackFusedRun, WithoutObjectsTracksOfAnotherSystemAreUsed) {
   writeConfig("{track_fusion: {scheme: union}, stereo_camera: {align: false}}");
   appendEachScan("/tracks/stereo", radarTracksAt);
   run();
@@ -128,7 +128,7 @@ TEST_F(TrackFusedRun, AnotherSystemsTracksServeWhereThereIsNothingToFollow) {
   EXPECT_TRUE(isFusedOf("stereo"));
 }
 
-TEST_F(TrackFusedRun, ObjectsComeBeforeRecordedTracks) {
+TEST_F(TrackFusedRun, ObjectsHavePriorityOverRecordedTracks) {
   appendEachScan("/tracks/stereo", radarTracksAt);
   appendEachScan("/objects/stereo", pedestrianAt);
   run();
@@ -136,7 +136,7 @@ TEST_F(TrackFusedRun, ObjectsComeBeforeRecordedTracks) {
   EXPECT_EQ(count(arguments_.output, "/objects/stereo"), 0U);
 }
 
-TEST_F(TrackFusedRun, CloudsComeBeforeBoth) {
+TEST_F(TrackFusedRun, CloudsHavePriorityOverBoth) {
   appendEachScan("/tracks/stereo", radarTracksAt);
   appendEachScan("/objects/stereo", pedestrianAt);
   appendClouds();
@@ -159,7 +159,7 @@ TEST_F(TrackFusedRun, TracksOfOtherSourcesComeFromTheBag) {
   EXPECT_EQ(count(arguments_.output, "/tracks/radar"), 0U);
 }
 
-TEST_F(TrackFusedRun, TracksThatWaitAtTheEndAreServed) {
+TEST_F(TrackFusedRun, PendingTracksAreFusedAtTheEnd) {
   writeConfig(
       "{track_fusion: {sources: {radar: {use: true}}, max_wait: 0.5, silent_after: 10}, "
       "stereo_camera: {align: false}}");
@@ -198,7 +198,7 @@ TEST_F(TrackFusedRun, EachCombinationOfLevelsGivesTheSameBytesTwice) {
   }
 }
 
-TEST_F(TrackFusedRun, CloudsMadeOfImagesServe) {
+TEST_F(TrackFusedRun, CloudsMadeFromImagesAreUsed) {
   appendImages();
   run();
   expectTracks(kCloudCount);
@@ -226,7 +226,7 @@ TEST_F(TrackFusedRun, OneSourceIsEnough) {
   expectTracks(0);
 }
 
-TEST_F(TrackFusedRun, OneLevelMayDoWithoutTheCameraThatTheOtherUses) {
+TEST_F(TrackFusedRun, OneLevelMayIgnoreTheCameraThatTheOtherUses) {
   appendClouds();
   writeConfig("{track_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   arguments_.object_fusion = true;
@@ -247,7 +247,7 @@ TEST(TrackFusionArguments, AreRead) {
   EXPECT_EQ(arguments.last_stage, LastStage::kTrackFusion);
 }
 
-TEST(TrackFusionArguments, ThatGoNotTogetherAreRefused) {
+TEST(TrackFusionArguments, IncompatibleOnesAreRefused) {
   const std::vector<std::string> files = {"a.bag", "b.bag", "--config", "c.yaml"};
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--until", "track_fusion"},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small bags of a run and its truth, and what tests of score_run as a program share."""
+"""Small bags of a run and its truth, shared by the tests of score_run as a program."""
 
 import json
 import os
@@ -62,7 +62,7 @@ def car_at(number, x, y=0.0):
 
 
 def run_messages():
-    """Topic -> messages of a run that follows the car half a meter beside it, by id 7."""
+    """Returns topic -> messages of a run that tracks the car half a meter beside it, with id 7."""
     messages = {"/tracks": [], "/pose": []}
     for i in range(FRAMES):
         distance = SPEED * PERIOD * i
@@ -76,7 +76,7 @@ def run_messages():
 
 
 def truth_messages():
-    """Topic -> messages of a car ahead of a vehicle that follows it, along x of the map."""
+    """Returns topic -> messages of a car ahead of a vehicle that follows it, along x of the map."""
     messages = {"/ground_truth/objects": [], "/ground_truth/pose": []}
     for i in range(FRAMES):
         distance = SPEED * PERIOD * i
@@ -91,14 +91,14 @@ def truth_messages():
 
 
 def mount():
-    """A scanner in the middle of the vehicle."""
+    """Returns a scanner in the middle of the vehicle."""
     transform = TransformStamped(header=header("base_link", 0), child_frame_id="scanner")
     transform.transform.rotation.w = 1.0
     return TFMessage(transforms=[transform])
 
 
 def scan_at(i):
-    """Three beams, the middle one ends on the rear of the car ahead."""
+    """Returns three beams, the middle one of which ends on the rear of the car ahead."""
     return LaserScan(
         header=header("scanner", i), angle_min=-0.2, angle_max=0.2, angle_increment=0.2,
         range_min=0.1, range_max=80.0, ranges=[float("inf"), CAR_AHEAD - 2.0, float("inf")],
@@ -113,7 +113,7 @@ def write(path, messages):
 
 
 class ScoreRunCase(unittest.TestCase):
-    """Two bags, as they are made here until a test changes them, and the program on them."""
+    """Two bags, written as here unless a test changes them, and the program on them."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -134,14 +134,14 @@ class ScoreRunCase(unittest.TestCase):
                               stdout=subprocess.PIPE, universal_newlines=True)
 
     def score(self, *options):
-        """The report of the two bags."""
+        """Returns the report of the two bags."""
         self.write_bags()
         done = self.run_tool(self.run_bag, self.truth_bag, "--out", self.report, *options)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         return json.loads(self.report.read_text())
 
     def assert_no_report(self, *expected, arguments=None):
-        """There is no report, and the message holds all of `expected`."""
+        """Expects that there is no report, and that the message contains all of `expected`."""
         if arguments is None:
             arguments = (self.run_bag, self.truth_bag, "--out", self.report)
         before = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
@@ -155,6 +155,6 @@ class ScoreRunCase(unittest.TestCase):
         self.assertTrue(before == after, "a file was changed")
 
     def assert_refused(self, *expected):
-        """The bags as they are now lead to no report."""
+        """Expects that the bags as they are now lead to no report."""
         self.write_bags()
         self.assert_no_report(*expected)

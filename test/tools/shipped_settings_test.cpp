@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the package ships says the same as the code: the sensor sets, nodelets.xml and
-// doc/parameters.md.
+// What the package ships agrees with the code: the sensor sets, nodelets.xml and doc/parameters.md.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -50,14 +49,14 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
   }
 }
 
-TEST(SensorSets, WhatIsSetOfASharedSectionHoldsForAllStages) {
+TEST(SensorSets, SharedSectionsApplyToAllStages) {
   SensorSet sensors((kPackage / "config/demonstrator.yaml").string());
   EXPECT_FALSE(sensors.shared().motion.usesImu());
   sensors.set("motion", "source", std::string("imu_and_wheels"));
   EXPECT_TRUE(sensors.shared().motion.usesImu());
 }
 
-TEST(ThesisPreset, IsLaidOverAnySensorSet) {
+TEST(ThesisPreset, OverridesAnySensorSet) {
   const std::string thesis = kPackage / "config" / "thesis.yaml";
   for (const std::string& file : sensorSets()) {
     const SensorSet sensors(file, {thesis});
@@ -69,7 +68,7 @@ TEST(ThesisPreset, IsLaidOverAnySensorSet) {
   }
 }
 
-TEST(ParameterPage, ListsTheParametersAsTheyAre) {
+TEST(ParameterPage, ListsTheCurrentParameters) {
   std::ifstream file(kPackage / "doc" / "parameters.md");
   if (!file) {
     GTEST_SKIP() << "no doc/parameters.md in " << kPackage;
@@ -103,7 +102,7 @@ TEST(StageTypes, EachRowOfTheGraphHasAnEntryAndEachEntryARow) {
   EXPECT_NO_THROW(checkStageTypes(stageGraph(allSwitches())));
 }
 
-TEST(StageTypes, WhatLacksAnEntryOrARowIsNamed) {
+TEST(StageTypes, MissingEntriesAndRowsAreNamed) {
   std::vector<GraphStage> graph = stageGraph(allSwitches());
   std::replace_if(
       graph.begin(), graph.end(), [](const GraphStage& stage) { return stage.type == "risk"; },

@@ -41,7 +41,7 @@ class Item(NamedTuple):
 
 
 def motion_at(seconds):
-    """Speed (m/s) and yaw rate (rad/s): it stands, starts, and winds its way."""
+    """Returns speed (m/s) and yaw rate (rad/s): the car is at rest, starts, and drives in curves."""
     if seconds < STANDING:
         return 0.0, 0.0
     moving = seconds - STANDING
@@ -58,7 +58,7 @@ def _path():
 
 
 def pose_at(seconds):
-    """x, y, yaw of base_link at a time."""
+    """Returns x, y, yaw of base_link at a time."""
     return _path()[min(max(round(seconds / TIME_STEP), 0), len(_path()) - 1)]
 
 
@@ -69,7 +69,8 @@ def _box(x, y, length, width):
 
 @lru_cache(maxsize=None)
 def _walls():
-    """n x 2 x 2: houses with gaps on both sides, and parked cars; closed behind, open ahead."""
+    """Returns n x 2 x 2: houses with gaps on both sides, and parked cars;
+    closed behind, open ahead."""
     boxes = [_box(-30.0, -20.0, 1.0, 40.0), _box(120.0, -20.0, 1.0, 40.0)]
     for index in range(14):
         x = -28.0 + 11.0 * index
@@ -80,7 +81,8 @@ def _walls():
 
 
 def _ranges(pose, bearings):
-    """Distances (m) from the scanner at `pose` to the nearest wall along bearings; inf: none."""
+    """Returns distances (m) from the scanner at `pose` to the nearest
+    wall along bearings; inf: none."""
     angles = pose[2] + bearings
     directions = np.column_stack([np.cos(angles), np.sin(angles)])[:, None, :]
     begin, end = _walls()[None, :, 0], _walls()[None, :, 1]
@@ -94,7 +96,7 @@ def _ranges(pose, bearings):
 
 
 def ros_time(seconds):
-    """genpy.Time of so many seconds after START."""
+    """Returns the genpy.Time of this many seconds after START."""
     return to_ros_time(START + round(seconds * 1e9))
 
 
@@ -122,7 +124,7 @@ def _scan(seconds, random):
 
 
 def odometry(seconds, pose, speed, yaw_rate):
-    """Odometry of base_link in odom."""
+    """Returns the odometry of base_link in odom."""
     message = Odometry(header=_header(seconds, "odom"), child_frame_id="base_link")
     message.pose.pose.position = Point(pose[0], pose[1], 0.0)
     message.pose.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(pose[2]))
@@ -139,7 +141,7 @@ def _imu(seconds):
 
 
 def transform(seconds, parent, child, translation, quaternion=(0.0, 0.0, 0.0, 1.0)):
-    """TFMessage of one transform."""
+    """Returns a TFMessage of one transform."""
     item = TransformStamped(header=_header(seconds, parent), child_frame_id=child)
     item.transform.translation = Vector3(*translation)
     item.transform.rotation = Quaternion(*quaternion)
@@ -195,7 +197,7 @@ def _pickled_items():
 
 
 def recording():
-    """List of Item: a recording without fault, as a copy that may be changed."""
+    """Returns a list of Item: a recording without faults, as a copy that may be changed."""
     return pickle.loads(_pickled_items())  # a tenth of deepcopy's time
 
 

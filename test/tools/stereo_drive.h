@@ -41,7 +41,7 @@ class StereoRunBag : public RunBag {
         "stereo_camera: {align: false}}");
   }
 
-  /// `write(bag, stamp)` for each of the stereo camera's stamps.
+  /// Calls `write(bag, stamp)` for each of the stereo camera's stamps.
   template <typename Write>
   void append(const Write& write) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
@@ -63,7 +63,7 @@ class StereoRunBag : public RunBag {
     });
   }
 
-  /// What stereo_image_proc makes of the images.
+  /// Appends the clouds that stereo_image_proc makes of the images.
   void appendClouds() const {
     StageMonitor monitor("stereo_image_proc");
     StereoImagesOptions options;
@@ -80,7 +80,7 @@ class StereoRunBag : public RunBag {
     });
   }
 
-  /// What another system says of each scan's time: `message(stamp)`.
+  /// Writes another system's message of each scan's time: `message(stamp)`.
   template <typename Message>
   void appendEachScan(const std::string& topic, const Message& message) const {
     rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds of image pairs: a wall whose distance is known by hand, and what is no pair of images.
+// Clouds of image pairs: a wall whose distance is known, and invalid image pairs.
 #include "run_bag/stereo_images.h"
 
 #include <cmath>
@@ -51,7 +51,7 @@ class StereoImagesTest : public testing::Test {
  protected:
   using Change = std::function<void(sensor_msgs::Image&, sensor_msgs::CameraInfo&)>;
 
-  /// Takes a pair in, the right camera first; `change`: of the right camera's messages.
+  /// Takes a pair, the right camera first; `change`: of the right camera's messages.
   PointCloud2Ptr take(StereoImages& stage, Stamp stamp, const std::string& encoding = "mono8",
                       const Change& change = nullptr) const {
     const auto image = sample_.image(stamp, true, encoding);
@@ -65,7 +65,7 @@ class StereoImagesTest : public testing::Test {
     return stage.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));
   }
 
-  /// That the pair is dropped for this reason, and the next one served.
+  /// Expects that the pair is dropped for this reason, and the next one is processed.
   void expectDrop(const std::string& reason, const Change& change) const {
     StageMonitor monitor("stereo_images");
     StereoImages stage(semiGlobal(), monitor);
@@ -77,7 +77,7 @@ class StereoImagesTest : public testing::Test {
   StereoPairSample sample_;
 };
 
-TEST_F(StereoImagesTest, WallStandsWhereItIs) {
+TEST_F(StereoImagesTest, WallIsAtItsDistance) {
   for (const int algorithm : {0, 1}) {
     StereoImagesOptions options = semiGlobal();
     options.stereo_algorithm = algorithm;
@@ -90,7 +90,7 @@ TEST_F(StereoImagesTest, WallStandsWhereItIs) {
     EXPECT_EQ(cloud->width * cloud->height, 160U * 120U);
     const WallSeen seen = look(*cloud, sample_.depth());
     EXPECT_GT(seen.points, 160U * 120U / 2U) << "algorithm " << algorithm;
-    // The textures match exactly: off by the interpolation between pixels alone.
+    // The textures match exactly: only the interpolation between pixels adds an error.
     EXPECT_LT(seen.worst, 0.05 * sample_.depth()) << "algorithm " << algorithm;
     EXPECT_EQ(monitor.processedCount(), 1U);
   }
@@ -119,7 +119,7 @@ TEST_F(StereoImagesTest, RawImagesAreRectified) {
   const double shift = 4.0;  // px: the raw right image lies that much further to the right
   const auto cloud = take(stage, kStart, "mono8", [&](const auto& /*image*/, auto& info) {
     info.K[2] -= shift;
-    info.D[0] = 1e-9;  // or the library takes the image as it stands
+    info.D[0] = 1e-9;  // otherwise the library takes the image as it is
   });
   ASSERT_TRUE(cloud);
   StereoPairSample nearer = sample_;
@@ -135,7 +135,7 @@ TEST_F(StereoImagesTest, SameImagesGiveTheSameBytes) {
   EXPECT_EQ(take(one, kStart + 0.1)->data, take(other, kStart)->data);
 }
 
-TEST_F(StereoImagesTest, WhatIsNoImageIsDropped) {
+TEST_F(StereoImagesTest, InvalidImagesAreDropped) {
   expectDrop("bad_encoding", [](auto& image, auto&) { image.encoding = "16UC1"; });
   expectDrop("wrong_size", [](auto& image, auto&) { image.data.pop_back(); });
   expectDrop("wrong_size", [](auto& image, auto&) { image.width = 0; });
@@ -143,7 +143,7 @@ TEST_F(StereoImagesTest, WhatIsNoImageIsDropped) {
   expectDrop("zero_stamp", [](auto& image, auto&) { image.header.stamp = ros::Time(); });
 }
 
-TEST_F(StereoImagesTest, WhatIsNoCalibrationOfTheImageIsDropped) {
+TEST_F(StereoImagesTest, InvalidCalibrationsAreDropped) {
   expectDrop("wrong_size", [](auto&, auto& info) { info.width += 1; });
   expectDrop("wrong_size", [](auto& image, auto& info) {
     image.height = info.height /= 2;
@@ -172,7 +172,7 @@ TEST_F(StereoImagesTest, ImagesSmallerThanTheSearchGiveNoPointsOrAreDropped) {
   }
 }
 
-TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnDemand) {
+TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnRequest) {
   const auto late = [](auto& image, auto& info) {
     image.header.stamp = info.header.stamp = toTime(kStart + 0.003);
   };
@@ -185,7 +185,7 @@ TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnDemand) {
   EXPECT_TRUE(take(approximate, kStart, "mono8", late));
 }
 
-TEST_F(StereoImagesTest, LoopedBagBeginsAnew) {
+TEST_F(StereoImagesTest, LoopedBagStartsOver) {
   StageMonitor monitor("stereo_images");
   StereoImages stage(semiGlobal(), monitor);
   EXPECT_TRUE(take(stage, kStart + 60.0));

@@ -66,7 +66,7 @@ struct StereoPairSample {
   }
 
  private:
-  /// The same for the same place of the wall.
+  /// The same value for the same point of the wall.
   static std::uint8_t texture(int row, int column) {
     constexpr int kRowSeed = 10007;  // prime, more than any column
     std::minstd_rand random(static_cast<std::uint_fast32_t>(1 + row * kRowSeed + column));

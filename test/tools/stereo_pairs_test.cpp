@@ -52,7 +52,7 @@ TEST(StereoPairs, StampsMayDifferByTheTolerance) {
   EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart + 0.011));
 }
 
-TEST(StereoPairs, FrameWithoutPartnerIsGivenUpWithTheNextPair) {
+TEST(StereoPairs, FrameWithoutPartnerIsDroppedWithTheNextPair) {
   StereoPairs pairs(kTolerance);
   takeFrame(pairs, StereoSide::kLeft, kStart);
   takeFrame(pairs, StereoSide::kLeft, kStart + kPeriod);
@@ -71,7 +71,7 @@ TEST(StereoPairs, OneCameraAloneFillsNoMemory) {
   EXPECT_TRUE(takeFrame(pairs, StereoSide::kRight, kStart + 99 * kPeriod));
 }
 
-TEST(StereoPairs, LateFrameOfAFullQueueIsItselfGivenUp) {
+TEST(StereoPairs, LateFrameOfAFullQueueIsDroppedItself) {
   StereoPairs pairs(kTolerance);
   for (int i = 1; i <= 5; ++i) {
     takeFrame(pairs, StereoSide::kLeft, kStart + i * kPeriod);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags that cannot be read: each kind is named, with what to do about it."""
+"""Unreadable bags: each kind is named, with what to do about it."""
 
 import bz2
 import os
@@ -97,7 +97,7 @@ class Unreadable(BagInput):
             self.assert_refused("has no index", f"'rosbag reindex {self.bag}'")
 
     def test_not_closed(self):
-        """As a recorder leaves it that was killed: the position of the index is 0."""
+        """As left by a recorder that was killed: the position of the index is 0."""
         self.write()
         content = self.bag.read_bytes()
         position = content.index(b"index_pos=") + len(b"index_pos=")

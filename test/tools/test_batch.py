@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A batch of recordings: its plan, and its runs by Snakemake with programs that only pretend."""
+"""A batch of recordings: its plan, and its runs by Snakemake with stand-in programs."""
 
 import contextlib
 import io
@@ -27,7 +27,7 @@ SCORE = {
     "series": {"time_s": [0.0, 0.5, 1.0, 1.5], "missed": [0, 1, 0, 0], "false": [0, 0, 0, 1]},
 }  # fmt: skip
 
-# Notes each start, and does to itself or to what started it what the recording says.
+# Notes each start, and does to itself or its parent process what the recording says.
 RUN_BAG = """\
 #!/bin/sh
 here=$(dirname "$0")
@@ -59,7 +59,7 @@ cp "$(dirname "$0")/score.json" "$3"
 
 
 def why_not():
-    """Empty where Snakemake serves."""
+    """Returns why Snakemake cannot be used; empty if it can."""
     try:
         find_snakemake()
     except InputError as error:
@@ -86,12 +86,13 @@ class Batch(unittest.TestCase):
         (self.folder / "sensors.yaml").touch()
 
     def record(self, **drives):
-        """Recordings of these names; what each of them does to the program."""
+        """Writes recordings with these names; the content is what each
+        of them does to the program."""
         for name, content in drives.items():
             (self.drives / f"{name}.bag").write_text(content)
 
     def batch(self, *words):
-        """Exit code, what it printed, and its report; the starts of run_bag are new ones."""
+        """Returns exit code, output, and report; the starts of run_bag are counted anew."""
         (self.programs / "starts").write_text("")
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
@@ -140,7 +141,7 @@ class Batch(unittest.TestCase):
         self.assertFalse(report["failed"][0]["finished"])
         self.assertEqual(list((self.drives / "batch" / "recordings").glob("a-*")), [])
 
-    def test_killed_batch_goes_on_where_it_was(self):
+    def test_killed_batch_resumes_where_it_was(self):
         self.record(a="good", b="kills_snakemake", c="good")
         first = self.batch()[2]
         done = [one["name"] for one in first["recordings"]]
@@ -151,7 +152,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(report["totals"]["recordings"], 3)
         self.assertFalse((self.drives / "batch" / "work").exists())
 
-    def test_full_disk_is_reported_and_is_not_the_recordings_fault(self):
+    def test_full_disk_is_reported_and_not_blamed_on_the_recording(self):
         self.record(a="full")
         code, said, report = self.batch()
         self.assertEqual(code, 1)
@@ -165,7 +166,7 @@ class Batch(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertTrue((self.programs / "words").read_text().endswith(" --fusion track\n"))
 
-    def test_another_library_makes_results_anew(self):
+    def test_another_library_invalidates_results(self):
         self.record(one="")
         library = self.programs.parent / "libdatmo_fusion_core.so"
         library.write_text("1")
@@ -187,7 +188,7 @@ class Batch(unittest.TestCase):
         self.record(a="good")
         worst = self.batch()[2]["worst_moments"]
         self.assertEqual(worst[0]["name"], "a.bag")
-        self.assertAlmostEqual(worst[0]["at_s"], 0.5)  # the score begins so much later
+        self.assertAlmostEqual(worst[0]["at_s"], 0.5)  # the score begins this much later
         self.assertEqual(worst[0]["why"], "0.5 object-seconds missed and 0.5 object-seconds false")
         self.assertAlmostEqual(worst[0]["weight_s"], 1.0)
 

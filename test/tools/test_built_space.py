@@ -44,7 +44,7 @@ print(datmo_fusion.msg.__file__, datmo_tools.evaluate.__file__)
 def run(*words):
     """What the command prints in a shell that has sourced the space; its exit code."""
     environment = {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": os.environ.get("HOME", "/")}
-    # In a function, for setup.bash takes the words of its caller for its own.
+    # In a function, as setup.bash takes the arguments of its caller as its own.
     source = 'load() { . "$0/setup.bash"; }; load && exec "$@"'
     shell = ["bash", "-c", source, SPACE, *words]
     done = subprocess.run(
@@ -55,7 +55,7 @@ def run(*words):
 
 
 def installed_programs():
-    """Names of all programs that CMake's install rules put where rosrun looks."""
+    """Returns the names of all programs that CMake's install rules put where rosrun looks."""
     rules = "\n".join(path.read_text() for path in BUILD.rglob("cmake_install.cmake"))
     files = (file for rule in INSTALL_RULE.findall(rules) for file in re.findall('"(.+?)"', rule))
     return sorted({Path(file).name for file in files})
@@ -80,12 +80,12 @@ class BuiltSpace(unittest.TestCase):
                 self.assertRegex(output.lower(), "usage|--benchmark_filter")
 
     def test_a_python_tool_finds_the_program_that_it_calls(self):
-        """With a bag that is not there: it is score_run that says so."""
+        """With a bag that does not exist: it is score_run that reports it."""
         code, output = run("rosrun", "datmo_fusion", "evaluate", "tracks", "none.bag", "--out", "none")
         self.assertNotEqual(code, 0)
         self.assertRegex(output, "score_run: .*none.bag")
 
-    def test_launch_files_find_all_that_they_start(self):
+    def test_launch_files_find_all_their_nodes(self):
         for file in sorted((SOURCE / "launch").glob("*.launch")):
             words = ["datmo_fusion", file.name, *LAUNCH_ARGUMENTS.get(file.name, [])]
             with self.subTest(file=file.name):

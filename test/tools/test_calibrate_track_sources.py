@@ -35,7 +35,7 @@ class Tool(unittest.TestCase):
         write_run(self.bag, lists, [DRIVING], [view()] if views is None else views)
 
     def run_tool(self, *words, code=0):
-        """What it says, what is wrong, and the sections that it writes (None: it fails)."""
+        """Returns output, errors, and the sections that it writes (None: it fails)."""
         out, errors = io.StringIO(), io.StringIO()
         words = [self.bag, "--sources", "stereo", "--out", self.table, *words]
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
@@ -46,7 +46,8 @@ class Tool(unittest.TestCase):
         return out.getvalue(), "", yaml.safe_load(self.table.read_text())["track_fusion"]["sources"]
 
     def test_shares_by_hand(self):
-        """It has the car in the later frames, which count more: it could be seen for longer."""
+        """It tracks the car in the later frames, which count more:
+        the car could be seen for longer."""
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, HALF)])
         out, _, sections = self.run_tool("--min-frames", "1", "--min-tracks", "1")
         seen = [1.0 - math.exp(-0.1 * frame) for frame in range(FRAMES)]
@@ -58,12 +59,12 @@ class Tool(unittest.TestCase):
         law = DetectionLaw(**sections["stereo"]["detection"]["vehicle"])
         self.assertAlmostEqual(float(law.at(26.0)), (share * (sum(seen) + 2) - 1) / sum(seen), 1)
 
-    def test_what_is_hidden_is_not_asked_for(self):
+    def test_hidden_objects_are_not_required(self):
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, HALF)], [view(10.0)])
         _, _, sections = self.run_tool("--min-frames", "1")
         self.assertNotIn("detection", sections["stereo"])
 
-    def test_agreement_with_what_another_one_invents(self):
+    def test_agreement_with_false_tracks_of_another_source(self):
         """Of the scanner's 11 frames of a ghost the camera has a track there in 6."""
         self.write([track(7, 15.0, 8.0)], [track(4, 15.5, 8.0, 0.0, HALF)])
         lists = read_track_lists(self.bag, ["/tracks/lidar", "/tracks/stereo"])

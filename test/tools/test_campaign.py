@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The campaign: what each fault does to the messages of a drive, by hand, and what is said of the poses."""
+"""The campaign: what each fault does to the messages of a drive,
+and what is reported of the poses."""
 
 import contextlib
 import io
@@ -45,7 +46,7 @@ def drive():
 
 
 def with_fault(name):
-    """The drive with the fault of this name."""
+    """Returns the drive with the fault of this name."""
     fault = next(each for each in faults() if each.name == name)
     return faulty(drive(), fault, BEGIN)
 
@@ -55,7 +56,7 @@ def of(messages, topic):
 
 
 def offsets(messages, topic):
-    """s, stamps before when they were recorded."""
+    """Returns stamps minus record times (s)."""
     return np.array([message.content.header.stamp.to_sec() - message.recorded
                      for message in of(messages, topic)])  # fmt: skip
 
@@ -79,7 +80,7 @@ class LineFaults(unittest.TestCase):
         recorded = [message.recorded for message in messages]
         self.assertEqual(recorded, sorted(recorded))
 
-    def test_a_frozen_input_goes_on_under_new_stamps(self):
+    def test_a_frozen_input_continues_with_new_stamps(self):
         scans = of(with_fault("scan frozen for 3 s"), "/scan")
         self.assertEqual(len({scan.content.header.stamp for scan in scans}), 200)
         self.assertIn(len({scan.content.ranges[0] for scan in scans}), (170, 171))
@@ -91,7 +92,7 @@ class LineFaults(unittest.TestCase):
         drift = offsets(with_fault("scan clock 100 ppm fast for 8 s"), "/scan")
         self.assertAlmostEqual(drift.max(), 8e-4, delta=2e-5)
 
-    def test_what_happens_once_happens_once(self):
+    def test_single_faults_occur_once(self):
         for name, off in (("scan stamp 1 s ahead once", 1.0), ("scan stamp 1.5 s behind once", -1.5)):
             wrong = [value for value in offsets(with_fault(name), "/scan") if abs(value) > 0.1]
             self.assertEqual(len(wrong), 1)
@@ -122,7 +123,7 @@ class LineFaults(unittest.TestCase):
 
 
 class Gap(unittest.TestCase):
-    def test_what_it_added_after_it_and_half_a_second_later(self):
+    def test_added_error_after_the_fault_and_half_a_second_later(self):
         stamps = np.array([7.9, 11.0, 11.4, 11.6, 12.0])
         clean = (np.arange(20.0), np.full(20, 0.1))
         result = gap_effect(stamps, np.array([0.1, 0.9, 0.5, 0.2, 0.3]), clean, (8.0, 11.0), 20.0)
@@ -132,7 +133,7 @@ class Gap(unittest.TestCase):
 
 
 class Soak(unittest.TestCase):
-    def test_growth_is_that_of_the_line_after_what_fills_at_first(self):
+    def test_growth_is_the_slope_after_the_initial_filling(self):
         hours = np.arange(0.0, 4.0, 0.05)
         memory = np.where(hours < 0.5, 200.0 * hours, 100.0 + 2.0 * (hours - 0.5))
         drift = soak.drift(hours, memory)
@@ -147,7 +148,7 @@ class Soak(unittest.TestCase):
 
 
 class Effect(unittest.TestCase):
-    """A drive of 20 s with a fault from 8 s to 11 s; without it the pose is 0.1 m off."""
+    """A drive of 20 s with a fault from 8 s to 11 s; without it the pose error is 0.1 m."""
 
     def setUp(self):
         self.stamps = np.arange(0.0, 20.0, 0.1)
@@ -156,19 +157,19 @@ class Effect(unittest.TestCase):
     def effect(self, errors):
         return effect(self.stamps, errors, self.clean, 8.0, 11.0)
 
-    def test_one_that_is_as_good_has_nothing_to_recover_from(self):
+    def test_an_equally_good_pose_needs_no_recovery(self):
         result = self.effect(np.full(200, 0.3))
         self.assertEqual((result["recovered_s"], result["recovered"]), (0.0, True))
         self.assertAlmostEqual(result["largest_error_m"], 0.3)
 
-    def test_the_time_until_it_is_right_again(self):
+    def test_time_to_recovery(self):
         errors = np.full(200, 0.1)
         errors[90:131] = 2.0
         result = self.effect(errors)
         self.assertAlmostEqual(result["recovered_s"], 2.0)
         self.assertTrue(result["recovered"])
 
-    def test_one_that_stays_wrong_says_so(self):
+    def test_a_pose_that_stays_wrong_is_reported(self):
         result = self.effect(np.where(self.stamps < 9.0, 0.1, 3.0))
         self.assertFalse(result["recovered"])
         run = {"fault": "scan silent", "error": None, "pose": result,
@@ -186,7 +187,7 @@ class Effect(unittest.TestCase):
 
 class Chosen(unittest.TestCase):
     def said(self, *options):
-        """What the command line says with an empty bag, which is no bag."""
+        """Returns the output of the command line with an empty bag, which is not valid."""
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             for file in ("drive.bag", "config.yaml", *PROGRAMS):
@@ -245,12 +246,12 @@ class Bounds(unittest.TestCase):
         self.assertEqual(self.beyond({"largest_error_m": 2.0}, {"largest_error_m": 1.1}), [])
         self.assertEqual(self.beyond({"recovered_s": None}, {"recovered": False}), [])
 
-    def test_what_must_be_refused(self):
+    def test_invalid_bounds_are_refused(self):
         self.assertEqual(self.beyond("refused", error="all refused"), [])
         self.assertEqual(len(self.beyond("refused")), 1)
         self.assertEqual(self.beyond({}, error="ended"), ["a.bag, scan silent: ended"])
 
-    def test_what_is_no_number_is_beyond(self):
+    def test_nan_is_beyond_every_bound(self):
         self.assertEqual(len(self.beyond({}, {"largest_error_m": float("nan")})), 1)
         self.assertEqual(len(self.beyond({}, mota=float("nan"))), 1)
 

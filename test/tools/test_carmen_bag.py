@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""carmen_to_bag on made-up logs: what stands in the bag, both clocks, errors, determinism."""
+"""carmen_to_bag on made-up logs: contents of the bag, both clocks, errors, determinism."""
 
 import contextlib
 import io
@@ -28,7 +28,7 @@ class Conversion(unittest.TestCase):
         self.bag = self.root / "out.bag"
 
     def convert(self, *lines, options=(), expected_code=0):
-        """Runs the tool without a subprocess; returns what it said on standard error."""
+        """Runs the tool without a subprocess; returns its standard error."""
         write_log(self.log, *lines)
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
@@ -41,7 +41,7 @@ class Conversion(unittest.TestCase):
             return [message for _, message, _ in bag.read_messages([topic])]
 
     def times(self, topic):
-        """Stamps in s after START."""
+        """Returns stamps in s after START."""
         return [round(m.header.stamp.to_sec() - START, 6) for m in self.messages(topic)]
 
 
@@ -173,7 +173,7 @@ class Clocks(Conversion):
         self.assertEqual(logged, [0.0, 0.9, 0.4, 0.6])
         self.assertIn("their stamps were moved", said)
 
-    def test_stamps_that_rise_are_the_same_with_both(self):
+    def test_increasing_stamps_are_the_same_with_both(self):
         lines = [flaser(0.2 * i, (0.1 * i, 0, 0)) for i in range(30)]
         self.convert(*lines)
         stamps = self.times("/scan")
@@ -181,7 +181,7 @@ class Clocks(Conversion):
         self.convert(*lines, options=["--clock", "order"])
         self.assertEqual(self.times("/scan"), stamps)
 
-    def test_stamp_that_is_there_twice(self):
+    def test_repeated_stamp(self):
         lines = flaser(0.0, ORIGIN), flaser(0.5, ORIGIN), flaser(0.5, (1, 0, 0)), flaser(1, ORIGIN)
         said = self.convert(*lines, options=["--clock", "log"])
         self.assertIn("1 with a repeated stamp skipped", said)
@@ -200,7 +200,7 @@ class Clocks(Conversion):
         # No feasible neighbor is nearer: the residuals of each run of moved stamps cancel.
         self.assertAlmostEqual(float(np.mean(np.subtract(moved, stamps))), 0.0, delta=1.0)
 
-    def test_typical_steps_stand_bursts_and_pauses(self):
+    def test_typical_steps_tolerate_bursts_and_pauses(self):
         even = [200 * i for i in range(100)]
         self.assertEqual(set(typical_steps(even)), {200})
         self.assertEqual(set(typical_steps(even + [10**6 + s for s in even])), {200})
@@ -213,8 +213,8 @@ class Clocks(Conversion):
         steps = typical_steps(slow + [slow[-1] + 100 * i for i in range(1, 501)])
         self.assertEqual((steps[0], steps[-1], len(steps)), (200, 100, 999))
 
-    def test_rates_stand_stamps_that_nearly_fall_together(self):
-        """0.2 m/s all along, though two stamps are 1 ms apart: 20 m/s between them."""
+    def test_rates_tolerate_nearly_equal_stamps(self):
+        """0.2 m/s throughout, though two stamps are 1 ms apart: 20 m/s between them."""
         stamps = [0, 200_000_000, 201_000_000, 400_000_000]
         poses = [np.array([x, 0.0, 0.0]) for x in (0.0, 0.04, 0.06, 0.08)]
         speeds = [sample.speed for sample in carmen_odometry.samples(stamps, poses)]
@@ -223,7 +223,7 @@ class Clocks(Conversion):
 
 class Errors(Conversion):
     def assert_refused(self, *lines, text, options=()):
-        """Exit code 1, the text in the message, and no bag left behind."""
+        """Expects exit code 1, the text in the message, and no bag left behind."""
         self.assertIn(text, self.convert(*lines, options=options, expected_code=1))
         self.assertEqual([path.name for path in self.root.iterdir()], ["drive.clf"])
 

@@ -40,7 +40,7 @@ class Lines(unittest.TestCase):
         self.assertEqual(self.parse(line).stamp, 976052905_167303000)
 
     def test_robot_laser_without_remissions(self):
-        """As CARMEN's first releases logged it, after the head of their files."""
+        """As CARMEN's first releases logged it, after the header of their files."""
         head, readings = "ROBOTLASER1 0 -0.5 0.03 0.01 50 0.01 0", "3 7 8 9"
         poses, speeds, tail = "1 2 0.1 4 5 0.2", "0.1 0.2 1 2", "1001.5 host 1.5"
         line = self.parse(" ".join((head, readings, poses, speeds, tail)))
@@ -120,7 +120,7 @@ class Logs(unittest.TestCase):
         self.assertEqual([record.number for record in scans_of(log)], [4])
         self.assertEqual((log.skipped, log.malformed), ({}, []))
 
-    def test_what_is_not_used_is_counted(self):
+    def test_unused_records_are_counted(self):
         log = self.read(
             flaser(0, ORIGIN),
             flaser(0, ORIGIN, kind="RLASER"),
@@ -151,12 +151,12 @@ class Logs(unittest.TestCase):
     def test_broken_archive(self):
         path = self.path.with_suffix(".gz")
         packed = bytearray(gzip.compress(flaser(0, ORIGIN).encode()))
-        packed[10] = 0b111  # behind the head: a last block, of the type that there is not
+        packed[10] = 0b111  # behind the header: a last block, of the reserved type
         path.write_bytes(packed)
         with self.assertRaisesRegex(InputError, "drive.gz: expected a CARMEN log .*block type"):
             read_log(path)
 
-    def test_file_that_is_no_log(self):
+    def test_not_a_log(self):
         self.path.write_bytes(bytes(range(1, 256)) * 100)
         with self.assertRaises(InputError) as caught:
             read_log(self.path)
@@ -219,7 +219,7 @@ class Mounts(unittest.TestCase):
         pose, _ = self.mount("PARAM robot_frontlaser_offset 0.9", *lines)
         np.testing.assert_allclose(pose, [0.2, 0.0, 0.1], atol=1e-12)
 
-    def test_setting_where_the_lines_have_none(self):
+    def test_setting_of_lines_without_one(self):
         lines = (
             "PARAM robot_frontlaser_offset 0.3",
             "PARAM robot_frontlaser_side_offset -0.1",
@@ -237,13 +237,13 @@ class Mounts(unittest.TestCase):
         with self.assertRaisesRegex(InputError, r"on the robot varies by 0.50 m.*expected --mount"):
             self.mount(*lines)
 
-    def test_setting_that_is_no_number(self):
+    def test_non_numeric_setting(self):
         with self.assertRaisesRegex(InputError, "could not convert"):
             self.mount("PARAM robot_frontlaser_offset off", flaser(0, ORIGIN))
         with self.assertRaisesRegex(InputError, "expected finite numbers"):
             self.mount("PARAM robot_frontlaser_offset nan", flaser(0, ORIGIN))
 
-    def test_setting_of_the_front_laser_is_none_of_the_rear_one(self):
+    def test_setting_of_the_front_laser_does_not_apply_to_the_rear_one(self):
         rear = flaser(0, ORIGIN, (-0.3, 0, np.pi), kind="RLASER")
         pose, _ = self.mount("PARAM robot_frontlaser_offset 0.5", rear)
         np.testing.assert_allclose(np.abs(pose), [0.3, 0.0, np.pi], atol=1e-12)

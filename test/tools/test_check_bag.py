@@ -30,7 +30,7 @@ class CleanRecording(Tool):
         self.assertNotIn("mounts", content)
         self.assertNotIn("frames", content)
 
-    def test_noise_is_measured_while_it_stands(self):
+    def test_noise_is_measured_at_rest(self):
         _, _, content = self.run_tool(simulated.recording())
         self.assertAlmostEqual(content["scanner"]["range_sigma"], simulated.RANGE_NOISE,
                                delta=0.005)  # fmt: skip
@@ -111,7 +111,7 @@ class Motion(Tool):
         self.assertEqual(kinds["no_odometry"], "warning")
         self.assertEqual(content["motion"]["source"], "imu")
 
-    def test_imu_on_its_side_in_place_of_odometry(self):
+    def test_imu_on_its_side_instead_of_odometry(self):
         """Its y axis points up: it is rolled by 90 degrees."""
         def turn(message):
             rate, pull = message.angular_velocity, message.linear_acceleration
@@ -127,7 +127,7 @@ class Motion(Tool):
         _, _, content = self.run_tool(without(simulated.recording(), "/odometry", "/tf", "/imu"))
         self.assertEqual(content["motion"]["source"], "none")
 
-    def test_twist_and_imu_in_place_of_odometry(self):
+    def test_twist_and_imu_instead_of_odometry(self):
         items = simulated.recording()
         for item in of_topic(items, "/odometry"):
             twist = TwistStamped(header=item.message.header, twist=item.message.twist.twist)
@@ -243,7 +243,7 @@ class Frames(Tool):
 
 
 class WrittenYaml(Tool):
-    """run_bag takes the yaml, whatever sections it has."""
+    """run_bag accepts the yaml, whatever sections it has."""
 
     def assert_runs(self, items, *topics):
         self.run_tool(items)
@@ -273,7 +273,7 @@ class Unreadable(Tool):
             self.assertIn(str(self.bag), errors.getvalue())
             self.assertEqual(len(errors.getvalue().splitlines()), 1)
 
-    def test_topic_that_is_not_there(self):
+    def test_missing_topic(self):
         simulated.write(self.bag, simulated.recording())
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):

@@ -95,7 +95,7 @@ class Cameras(Tool):
         self.assertRegex(out, r"mono \(classes, with a network\) +ready")
         self.assertRegex(out, r"object +missing: .*use level mono")
 
-    def test_one_camera_of_which_something_is_missing(self):
+    def test_one_camera_with_missing_messages(self):
         alone = without(simulated.recording(), self.RIGHT, "/stereo/right/image_rect")
         _, out, _ = self.run_tool(without(alone, "/stereo/left/camera_info"))
         self.assertRegex(out, r"mono \(classes, with a network\) +missing: camera_info of /stereo")

@@ -25,7 +25,8 @@ GOOD = {
 
 class CheckLayers(unittest.TestCase):
     def run_on(self, extra):
-        """Exit code and output for the good tree with `extra` files {path: text} laid over it."""
+        """Returns exit code and output for the valid tree with `extra` files {path:
+        text} added to it."""
         with tempfile.TemporaryDirectory() as folder:
             for path, text in {**GOOD, **extra}.items():
                 file = Path(folder, path)

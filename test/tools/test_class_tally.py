@@ -38,7 +38,7 @@ def reports(right, wrong, score, said="vehicle", instead=NOTHING):
 
 
 class Tally(unittest.TestCase):
-    def test_reports_are_counted_by_what_is_there(self):
+    def test_reports_are_counted_by_true_class(self):
         objects = [seen(10.0, Object.CLASS_VEHICLE), seen(20.0, Object.CLASS_PEDESTRIAN),
                    seen(30.0, Object.CLASS_VEHICLE), seen(40.0, Object.CLASS_UNKNOWN),
                    seen(90.0, Object.CLASS_VEHICLE)]  # fmt: skip
@@ -68,7 +68,7 @@ class Tally(unittest.TestCase):
 
 
 class Calibrate(unittest.TestCase):
-    def test_what_falls_is_pooled(self):
+    def test_decreasing_shares_are_pooled(self):
         np.testing.assert_allclose(rising([0.1, 0.5, 0.3, 0.9], [1, 1, 1, 1]), [0.1, 0.4, 0.4, 0.9])
         np.testing.assert_allclose(rising([0.6, 0.0], [1, 2]), [0.2, 0.2])
 
@@ -77,7 +77,7 @@ class Calibrate(unittest.TestCase):
         np.testing.assert_allclose(scores, [0.3, 0.9])
         np.testing.assert_allclose(shares, [2 / 6, 4 / 6])
 
-    def test_scores_rise_where_many_are_equal(self):
+    def test_scores_increase_despite_ties(self):
         scores, shares = curve(reports(40, 0, 0.5), 10)
         self.assertEqual(scores, [0.5])
         self.assertEqual(len(shares), 1)
@@ -86,7 +86,7 @@ class Calibrate(unittest.TestCase):
         with self.assertRaises(InputError):
             curve([], 10)
 
-    def test_mistakes_are_counted_by_what_is_there(self):
+    def test_mistakes_are_counted_by_true_class(self):
         table = np.reshape(mistaken(reports(5, 3, 0.5) + reports(0, 1, 0.5, instead="cyclist")), (3, 5))
         np.testing.assert_allclose(table[2], [0.5, 0.125, 0.25, 0.0, 0.125])
         self.assertEqual(table[0][1], 0.0)

@@ -65,7 +65,7 @@ class CloudsToScans(unittest.TestCase):
                 time = rospy.Time(0, 0) + rospy.Duration(stamp // 10**9, stamp % 10**9)
                 bag.write("/odometry", Odometry(), time)
                 bag.write(topic, kitti_messages.point_cloud(stamp, points), time)
-            if mount:  # after the clouds: where it stands in a bag does not matter
+            if mount:  # after the clouds: its position in a bag does not matter
                 velodyne = np.eye(4)
                 velodyne[:3, 3] = (0.8, 0.0, HEIGHT)
                 message = transform(START, "base_link", "velodyne", velodyne, (0, 0, 0, 1))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading of command blocks: marks, fences in lists, and what nobody would run."""
+"""Reading of command blocks: marks, fences in lists, and blocks that nobody would run."""
 
 import sys
 import unittest
@@ -51,7 +51,7 @@ class BadPages(unittest.TestCase):
     def test_mark_without_a_word(self):
         self.expect("<!-- needs: -->\n```bash\nls\n```\n", "line 1: needs ''")
 
-    def test_files_of_what_is_no_download(self):
+    def test_files_without_a_download(self):
         text = "<!-- needs: hours a.bag -->\n```bash\nls\n```\n"
         self.expect(text, "only a download names files")
 

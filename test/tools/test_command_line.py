@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all tools share: outputs that cannot be written and modules that are missing are said at once."""
+"""Common to all tools: unwritable outputs and missing modules are reported at once."""
 
 import argparse
 import contextlib
@@ -39,7 +39,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(output_file("report.json"), Path("report.json"))
         self.assertFalse(new.exists())
 
-    def test_what_cannot_be_written(self):
+    def test_unwritable_outputs(self):
         self.assert_refused(output_file, self.root, "is a folder, expected the name of a file")
         self.assert_refused(output_file, self.root / "file" / "report.json", "file is no folder")
         self.assert_refused(output_folder, self.root / "file", "file is no folder")
@@ -50,7 +50,7 @@ class Outputs(unittest.TestCase):
         self.assert_refused(output_file, self.root / "report.json", "no permission to write in")
         self.root.chmod(0o700)
 
-    def test_tools_say_it_before_they_read(self):
+    def test_tools_report_it_before_they_read(self):
         said = io.StringIO()
         with contextlib.redirect_stderr(said), self.assertRaises(SystemExit):
             options = ["/nowhere.bag", "/nowhere.bag", "--json", str(self.root)]
@@ -76,12 +76,12 @@ class Modules(unittest.TestCase):
         self.assertEqual(said.getvalue(), "check_bag: Python module rosbag not found, expected "
                                           "Debian's package python3-rosbag\n")  # fmt: skip
 
-    def test_tool_that_is_no_program(self):
+    def test_tool_without_a_program(self):
         words = [sys.executable, "-m", "datmo_tools", "experiments.robustness", "--help"]
         done = subprocess.run(words, check=True, capture_output=True, text=True)
         self.assertIn("usage: robustness", done.stdout)
 
-    def test_every_tool_is_started_so(self):
+    def test_every_tool_is_started_this_way(self):
         for path in TOOLS.glob("*/*"):
             if path.is_file() and not path.suffix and "datmo_tools" in path.read_text():
                 self.assertIn(f'run_tool("{path.name}"', path.read_text())

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs without and with borders of the road beside each other, with pretended scores."""
+"""Comparison of runs without and with road borders, with made-up scores."""
 
 import contextlib
 import io
@@ -16,7 +16,7 @@ from datmo_tools.evaluate.compare_borders import main
 
 
 def report(false_moving, in_a_scan, tracked, **counts):
-    """Of score_run; tracked: dictionary id -> frames in which the object is tracked."""
+    """A report of score_run; tracked: dictionary id -> frames in which the object is tracked."""
     thesis = {
         "false_moving_objects_episodes": false_moving, "false_moving_objects_frames": in_a_scan,
         "tracks": 12, "false_tracks": 4, "moving_objects": len(tracked), "missed_objects": 0,
@@ -64,7 +64,7 @@ class Comparison(unittest.TestCase):
 
 
 class DataSets(unittest.TestCase):
-    def test_both_runs_stand_below_each_other(self):
+    def test_both_runs_are_listed_one_below_the_other(self):
         stage = {"grid_slam": {"runs": 10, "mean_s": 0.001}}
         item = {"found_share": 0.9, "rms_m": 0.25, "in_gate_95": 0.96}
         nothing = dict.fromkeys(item)
@@ -85,7 +85,7 @@ class DataSets(unittest.TestCase):
 
 
 class Tool(unittest.TestCase):
-    """With a pretended score_run that gives what is in the bag as the score."""
+    """With a stand-in for score_run that returns the bag's content as the score."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -107,7 +107,7 @@ class Tool(unittest.TestCase):
         self.assertEqual(json.loads(file.read_text())["lost"], [2])
         self.assertIn("lost: Pedestrian 2", out.getvalue())
 
-    def test_score_run_that_fails_has_said_why(self):
+    def test_failure_of_score_run_is_explained(self):
         with self.assertRaises(SystemExit) as ended:
             main([str(self.folder / "without"), "/nowhere/with"], str(self.program))
         self.assertNotEqual(ended.exception.code, 0)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""compare_fusion: its table by hand, and its runs with pretended programs."""
+"""compare_fusion: its table, worked out by hand, and its runs with stand-in programs."""
 
 import contextlib
 import io
@@ -28,7 +28,7 @@ def tracked(number, frames, ids):
 
 
 def report(moving, missed, false=15):
-    """Of score_run, what is looked at."""
+    """The parts of a score_run report that are read."""
     return {
         "thesis": {"moving_objects": moving, "missed_objects": missed, "tracks": 42,
                    "false_tracks": false},
@@ -42,12 +42,12 @@ def report(moving, missed, false=15):
 
 
 def rows(text):
-    """The words of the table's lines below its headings."""
+    """Returns the words of the table's lines below its headings."""
     lines = [line.split() for line in text.splitlines()]
     return lines[next(i for i, line in enumerate(lines) if line[:2] == ["drive", "level"]) + 1:]
 
 
-# What list_parameters prints, in short.
+# What list_parameters prints, abridged.
 PARAMETERS = """\
 ## `lidar_grid`
 
@@ -82,7 +82,7 @@ class Table(unittest.TestCase):
         ])  # fmt: skip
         self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
 
-    def test_what_there_is_not(self):
+    def test_missing_values(self):
         run = figures(dict(report(5, 3), delay={"mean_s": None}), None, report(5, 3), TIMES)
         text = comparison_table([("drive", None, "none", [run]), ("drive", None, "object", [])])
         first, second = rows(text)
@@ -130,7 +130,7 @@ class Runs(unittest.TestCase):
         self.config("stereo_camera: {field_of_view: 1.2}")
 
     def run_bag(self, first="true"):
-        """run_bag that does `first`, a command of the shell."""
+        """Writes a run_bag that runs `first`, a shell command."""
         self.program("run_bag", f'{first}\necho "$@" > "$2"\n'
                                 'while [ "$1" != --times ]; do shift; done\n'
                                 f"echo '{json.dumps(TIMES)}' > \"$2\"")  # fmt: skip
@@ -144,7 +144,7 @@ class Runs(unittest.TestCase):
         file.chmod(0o755)
 
     def compare(self, *words, kitti="missing"):
-        """Exit code, standard output and error."""
+        """Returns exit code, standard output and error."""
         out, err = io.StringIO(), io.StringIO()
         config = str(self.folder / "config.yaml")
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
@@ -207,7 +207,7 @@ class Runs(unittest.TestCase):
     def test_drive_that_is_not_there_is_reported(self):
         self.assertIn("missing: not found, so there is no KITTI", self.compare("--sets", "1")[1])
 
-    def test_failed_run_is_reported_and_the_others_go_on(self):
+    def test_failed_run_is_reported_and_the_others_continue(self):
         self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')
         code, out, _ = self.compare(
             "--sets", "1", "--seeds", "3", "--levels", "none", "low", "object")  # fmt: skip
@@ -251,7 +251,7 @@ class Runs(unittest.TestCase):
 
 class CameraViews(unittest.TestCase):
     def test_defaults_as_list_parameters_prints_them(self):
-        """doc/parameters.md is what it prints: another test holds that."""
+        """doc/parameters.md is what it prints: another test checks that."""
         page = (Path(__file__).parents[2] / "doc" / "parameters.md").read_text(encoding="utf-8")
         view = self.view("", page)
         self.assertEqual(view.range, 36.0)

@@ -19,7 +19,8 @@ def random():
 
 
 def pairs(count=4000, lidar=(0.0, 0.0), bias=0.0, nearest=2.0, reach=30.0):
-    """Pairs with the laws above; lidar: standard deviations of its range (m) and bearing (rad)."""
+    """Returns pairs with the laws above; lidar:
+    standard deviations of its range (m) and bearing (rad)."""
     generator = random()
     ranges = generator.uniform(nearest, reach, count)
     range_sigmas = np.sqrt(RANGE_LAW[0] + RANGE_LAW[1] * ranges**4 + lidar[0] ** 2)
@@ -31,7 +32,8 @@ def pairs(count=4000, lidar=(0.0, 0.0), bias=0.0, nearest=2.0, reach=30.0):
 
 class Table(unittest.TestCase):
     def assert_recovers(self, table, sigmas=4.0):
-        """Each measured variance is that of the law, as sure as its number of pairs makes it."""
+        """Each measured variance agrees with the law,
+        within the uncertainty of its number of pairs."""
         for column, law in ((table.range, (*RANGE_LAW, 4)), (table.bearing, (*BEARING_LAW, -2))):
             # Within a bin ranges differ: the mean of the law over the bin is what is measured.
             edges = np.linspace(-1.0, 1.0, 21)
@@ -64,11 +66,11 @@ class Table(unittest.TestCase):
             ratios = column.variance[known] / other.variance[known]
             self.assertLess(np.abs(np.log(ratios)).max(), math.log(1.5))
 
-    def test_lidar_covariance_is_taken_out(self):
+    def test_lidar_covariance_is_subtracted(self):
         self.assert_recovers(covariance_table(pairs(lidar=(0.2, 0.01)), 2.0, 30.0, 30))
 
     def test_variance_stays_above_zero(self):
-        """A lidar that says that it is worse than all differences."""
+        """A lidar that claims to be worse than all differences."""
         doubtful = [pair._replace(known_range_variance=100.0) for pair in pairs()]
         column = covariance_table(doubtful, 2.0, 30.0, 30).range
         self.assertFalse(np.any(column.measured))
@@ -77,7 +79,7 @@ class Table(unittest.TestCase):
         self.assertTrue(np.all(column.variance[known] < column.difference_variance[known]))
 
     def test_lidar_that_hides_all_but_one_bin(self):
-        """The others' variance is that of the law, and not nothing."""
+        """The others' variance agrees with the law, and is not zero."""
         sure = [
             pair._replace(known_range_variance=1.5 * (RANGE_LAW[0] + RANGE_LAW[1] * pair.range**4))
             for pair in pairs() if not 14.0 <= pair.range < 16.0
@@ -87,7 +89,7 @@ class Table(unittest.TestCase):
         self.assertTrue(np.all(column.variance >= 0.09 * column.variance[7]))
 
     def test_bin_that_the_lidar_hides_is_of_the_law(self):
-        """A lidar that is worse than the camera up to 12 m, and tells so."""
+        """A lidar that is worse than the camera up to 12 m, and reports it."""
         noise = random().standard_normal(20000)
         hidden = [
             pair._replace(range_difference=pair.range_difference + float(offset),
@@ -142,13 +144,13 @@ class Table(unittest.TestCase):
         self.assertAlmostEqual(spread.bias, 1.0, delta=0.05)
 
     def test_law_is_never_below_zero(self):
-        """Variances that fall with range: no r^4 in them."""
+        """Variances that decrease with range: no r^4 term."""
         ranges = np.array([5.0, 10.0, 20.0])
         nothing = np.zeros(3)
         law = fitted_law(ranges, [0.3, 0.2, 0.1], nothing, [50, 50, 50], 4)
         self.assertEqual(law.factor, 0.0)
         self.assertTrue(0.1 < law.constant < 0.3)
-        # That grow faster: no constant.
+        # Those that grow faster: no constant term.
         law = fitted_law(ranges, 1e-6 * ranges**5, nothing, [50, 50, 50], 4)
         self.assertEqual(law.constant, 0.0)
 

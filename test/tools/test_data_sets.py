@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The thesis's tables beside ours: against the thesis's text, and runs with pretended programs."""
+"""The thesis's tables beside ours: against the thesis's text, and runs with stand-in programs."""
 
 import contextlib
 import io
@@ -26,13 +26,13 @@ COUNTS = {
 
 
 def rows(text, title):
-    """The rows of the table with this title, without its headings, as lists of words."""
+    """Returns the rows of the table with this title, without its headings, as lists of words."""
     lines = text[text.index(title):].splitlines()
     return [line.split() for line in lines[3:6]]
 
 
 class Tables(unittest.TestCase):
-    def test_ours_stand_beside_the_thesis(self):
+    def test_ours_are_listed_beside_the_thesis(self):
         text = thesis_tables([{"thesis": COUNTS}, None, {"thesis": COUNTS}])
         self.assertEqual(rows(text, "Table 3.1")[0], ["1", "64", "30", "30"])
         self.assertEqual(rows(text, "Table 3.2")[0], ["1", "10", "7", "6"])
@@ -65,7 +65,7 @@ class Tables(unittest.TestCase):
         text = THESIS.read_text(encoding="utf-8")
 
         def published(number):
-            """The three rows of data of a table, without the data set's number."""
+            """Returns the three data rows of a table, without the data set's number."""
             lines = text[text.index(f"Table {number}: "):].splitlines()[1:12]
             data = [re.fullmatch(r"([123])\t([\d\t]+)", line) for line in lines]
             return [tuple(map(int, row[2].split("\t"))) for row in data if row][:3]
@@ -97,7 +97,7 @@ class Fusion(unittest.TestCase):
                           {"stereo_grid": half, "grid_slam": stage}, grids)
         self.text = fusion_table([runs, None]).splitlines()
 
-    def test_both_runs_stand_below_each_other(self):
+    def test_both_runs_are_listed_one_below_the_other(self):
         words = [line.split() for line in self.text]
         self.assertIn(["1", "scanner", "423", "1.26", "6", "42", "15", "50.0", "1.23", "1.0"], words)
         self.assertIn(["1", "fused", "423", "0.40", "6", "42", "15", "50.0", "1.23", "6.0"], words)
@@ -139,7 +139,7 @@ class Runs(unittest.TestCase):
                          "--programs", str(self.folder), "--out", str(self.folder / "out"), *words])
         return code, out.getvalue(), err.getvalue()
 
-    def test_failed_run_is_reported_and_the_others_go_on(self):
+    def test_failed_run_is_reported_and_the_others_continue(self):
         code, out, _ = self.run_tool()
         self.assertEqual(code, 1)
         self.assertIn("data_set_2: no map", out)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md and doc/: their links lead somewhere, their yaml names parameters that there are; the
-changelog is sound reStructuredText."""
+"""README.md and doc/: their links are valid, their yaml names existing parameters; the changelog is
+valid reStructuredText."""
 
 import io
 import re
@@ -23,14 +23,14 @@ CHANGELOG = SOURCE / "CHANGELOG.rst"
 MAX_README_LINES = 200  # lines
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
-# Groups of files that one nodelet alone reads: can_signals of live.launch.
+# Groups of files that are read by one nodelet alone: can_signals of live.launch.
 OWN_FILES = {"can": "device"}
-# Names that the examples choose, and what stands for any name in doc/parameters.md.
+# Names chosen by the examples, and placeholders in doc/parameters.md.
 CHOSEN = {"/radar/": "/stereo/", "/laser/": "/<frame>/"}
 
 
 def documented_parameters():
-    """All `section/key` of doc/parameters.md; a heading may name several sections."""
+    """Returns all `section/key` of doc/parameters.md; a heading may name several sections."""
     names, sections = set(), []
     for line in (SOURCE / "doc" / "parameters.md").read_text().splitlines():
         if line.startswith("## "):
@@ -41,7 +41,7 @@ def documented_parameters():
 
 
 def anchors_of(text):
-    """Of the headings of a page, as they are linked to: letters, digits, hyphens for spaces."""
+    """Returns the link targets of a page's headings: letters, digits, hyphens for spaces."""
     return {re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-")
             for heading in HEADING.findall(text)}  # fmt: skip
 
@@ -54,7 +54,7 @@ def documented_name(key):
 
 
 def keys_of(tree, prefix=""):
-    """Paths of all values in nested mappings."""
+    """Yields the paths of all values in nested mappings."""
     if not isinstance(tree, dict):
         return [prefix]
     start = f"{prefix}/" if prefix else ""
@@ -91,7 +91,7 @@ class Documents(unittest.TestCase):
                         self.assertTrue(known, f"{page}:{block.line}: {key}")
 
     def test_images_give_classes_with_a_network_alone(self):
-        """The default detector of mono_classifier has no weight."""
+        """The default detector of mono_classifier has no weights."""
         said = [*LINKED_PAGES, CHANGELOG, SOURCE / "launch" / "perception.launch"]
         items = [item for file in said for item in re.split(r"\n(?=\s*(?:[-*|<]|\d+\.)\s?)|\n\n", file.read_text())]
         claims = [item for item in items if re.search(r"mono:=true|``mono_classifier``|arg name=.mono.", item)
@@ -108,7 +108,7 @@ class Documents(unittest.TestCase):
 
 class Changelog(unittest.TestCase):
     def test_it_is_sound(self):
-        """rosdep's and ROS's tools read it; a warning of docutils is an error here."""
+        """rosdep and ROS's tools read it; a warning of docutils is an error here."""
         try:
             from docutils.core import publish_doctree
             from docutils.utils import Reporter

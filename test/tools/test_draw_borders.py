@@ -55,7 +55,7 @@ class Recordings(Folder):
         return run.moments(run.nearest_stamps([time]), history)[0]
 
     def test_moment(self):
-        """After 0.5 s the vehicle is 5 m up the map's y axis, which is ahead of it."""
+        """After 0.5 s the vehicle is 5 m up the map's y axis, straight ahead of where it was."""
         write_run(self.bag)
         moment = self.moment(0.52)
         self.assertEqual((moment.stamp, moment.time), (START + 5 * STEP, 0.5))
@@ -69,8 +69,9 @@ class Recordings(Folder):
         self.assert_points(moment.dropped[0].mean(axis=0), (5.0, -3.0))
         self.assertEqual(len(moment.earlier), 0)
 
-    def test_earlier_scans_lie_where_they_were_seen(self):
-        """10 m ahead of the vehicle of then, which was 1 m behind for each scan that is past."""
+    def test_earlier_scans_are_drawn_where_they_were_seen(self):
+        """10 m ahead of the vehicle's pose at that time,
+        which was 1 m back for each scan that has passed."""
         write_run(self.bag)
         self.assert_points(self.moment(0.5, history=0.2).earlier, [(8.0, 0.0), (9.0, 0.0)])
         self.assertEqual(len(self.moment(0.1, history=0.2).earlier), 1)
@@ -106,7 +107,7 @@ class Recordings(Folder):
 
 
 class Lines(unittest.TestCase):
-    def test_edges_of_a_border_lie_across_it(self):
+    def test_edges_of_a_border_are_perpendicular_to_it(self):
         item = SeenBorder("left", np.array([(0.0, 0.0), (0.0, 4.0), (0.0, 8.0)]),
                           np.array([0.1, 0.2, 0.3]), 0.9, 0.0)  # fmt: skip
         expected = [(-0.2, 0.0), (-0.4, 4.0), (-0.6, 8.0)]
@@ -142,7 +143,7 @@ class Images(Folder):
         self.assertEqual({stamp: image.pixels[0, 0] for stamp, image in found.items()},
                          {stamps[0]: 2, stamps[1]: 7})  # fmt: skip
 
-    def test_border_is_drawn_where_it_lies(self):
+    def test_border_is_drawn_at_its_position(self):
         """4 m to the left and 20 m ahead is 20 pixels to the left of the middle and 7.5 below."""
         write_run(self.bag)
         write_images(self.drive)
@@ -168,7 +169,7 @@ class Images(Folder):
 
 class Tool(Folder):
     def draw(self, *words, code=0):
-        """What the tool says on standard error; its sheets are named out*.png."""
+        """Returns the tool's standard error; its sheets are named out*.png."""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
             arguments = [str(self.bag), "--out", str(self.folder / "out.png"), *words]
@@ -179,7 +180,8 @@ class Tool(Folder):
         return sorted(path.name for path in self.folder.glob("*.png"))
 
     def test_sheets(self):
-        """Two views a row from above; with images one. The same input, the same bytes."""
+        """Two views per row, seen from above; one with images. The same
+        input gives the same bytes."""
         write_run(self.bag)
         self.draw("--at", "0.2,0.5")
         self.assertEqual(self.sheets(), ["out.png"])

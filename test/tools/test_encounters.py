@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Encounters after public test protocols: each is what its name says, by the simulator's own contact."""
+"""Encounters after public test protocols: each is what its name says, by the simulator's own
+contact."""
 
 import os
 import tempfile
@@ -17,7 +18,7 @@ from datmo_tools.experiments.encounters import main
 from datmo_tools.experiments.random_encounters import random_scenes
 
 PROGRAM = os.environ.get("DATMO_FUSION_TRUE_RISKS", "")
-# Of each kind one; few beams and a small ground truth: only the contact counts.
+# One of each kind; few beams and a small ground truth: only the contact counts.
 KINDS = ("pedestrian_far", "child_behind_cars", "cyclist_across", "cyclist_along", "car_standing",
          "car_braking_12_2", "turn_across_45")  # fmt: skip
 COARSE = ("--set", "scanner/beam_spacing=5", "--set", "ground_truth/radius=1", "--risk", "method=rss")
@@ -70,7 +71,7 @@ class Scenes(unittest.TestCase):
 @unittest.skipUnless(PROGRAM, "DATMO_FUSION_TRUE_RISKS is not set")
 class Contacts(unittest.TestCase):
     def contact_of(self, encounter):
-        """s after the start; None: there is none."""
+        """Returns the time of contact, s after the start; None: there is none."""
         with tempfile.TemporaryDirectory() as name:
             file, bag = Path(name) / "scene.yaml", Path(name) / "risks.bag"
             file.write_text(yaml.safe_dump(scene(encounter)), encoding="utf-8")

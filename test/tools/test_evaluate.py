@@ -17,7 +17,7 @@ from datmo_tools.evaluate.score_run import find_score_run
 from datmo_tools.whole_files import write_whole
 from evaluation_sample import sample_run
 
-# Notes its words; a run's file holds what scoring it gives, or a complaint and an exit code.
+# Notes its arguments; a run's file holds its score, or an error message and an exit code.
 STAND_IN = """#!/usr/bin/python3
 import json, sys
 from pathlib import Path
@@ -118,7 +118,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(self.evaluate("--compare", self.bag("a.bag"), bad)[:2], (code, ""))
             self.assertFalse(self.out.exists())
 
-    def test_failure_leaves_the_report_of_before(self):
+    def test_failure_leaves_the_previous_report(self):
         self.evaluate(self.bag("a.bag"))
         before = (self.out / "tracks.html").read_bytes()
         bad = self.folder / "bad.bag"
@@ -139,7 +139,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual((code, out), (2, ""))
             self.assertIn("usage: evaluate", err)
 
-    def test_format_of_another_time(self):
+    def test_format_of_another_version(self):
         code, _, err = self.evaluate(self.bag("a.bag", format=9))
         self.assertEqual(code, 1)
         self.assertIn("format 9, expected 1", err)
@@ -170,7 +170,7 @@ class FindScoreRun(unittest.TestCase):
         program.touch(mode=0o755)
         return str(program)
 
-    def test_nowhere(self):
+    def test_not_found_anywhere(self):
         with self.assertRaisesRegex(InputError, "score_run is not beside .*source setup.bash"):
             find_score_run(self.tool)
 

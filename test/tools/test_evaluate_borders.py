@@ -48,7 +48,8 @@ class Tool(EvaluateCase):
         bands = self.score(right(-5.0, last=45.2))["borders"]["right"]
         self.assertEqual([item["found_share"] for item in bands[:3]], [1.0, 1.0, 1.0])
         self.assertEqual({item["stations"] for item in bands[1:5]}, {21 * 20})
-        # Of 20 places each: all in 16 frames, then 19, 17, ..., 11; all in 6, then 19, 17, ..., 1.
+        # Of 20 stations each: all in 16 frames, then 19, 17, ..., 11; all in 6, then 19, 17, ...,
+        # 1.
         self.assertAlmostEqual(bands[3]["found_share"], (16 * 20 + 75) / 420)
         self.assertAlmostEqual(bands[4]["found_share"], (6 * 20 + 100) / 420)
 
@@ -59,7 +60,7 @@ class Tool(EvaluateCase):
         self.assertEqual((both["rms_m"], both["mean_nees"]), (None, None))
         self.assertEqual(score["false"]["false_share"], None)
 
-    def test_side_without_curb_is_not_asked(self):
+    def test_side_without_curb_is_not_evaluated(self):
         score = self.score(right(-5.0), curbs=CURBS[1:])
         self.assertEqual(score["borders"]["left"][WHOLE]["stations"], 0)
         self.assertEqual(score["borders"]["all"][WHOLE]["found_share"], 1.0)
@@ -101,15 +102,15 @@ class Tool(EvaluateCase):
         score = self.score(curbs=curbs, trajectory=trajectory, options=["--curve-radius", "80"])
         self.assertEqual(score["borders"]["curve"][WHOLE]["stations"], 0)
 
-    def test_junction_is_not_asked(self):
+    def test_junction_is_not_evaluated(self):
         """The vehicle is in it from x = 5 m to x = 10 m; 1 m before and after belong to it."""
         score = self.score(left(5.0), right(-5.0), at_intersection=range(5, 11))
-        # 15 places of a side, of which the last frames have 13, 11, ..., 3 in their range.
+        # 15 stations of a side, of which the last frames have 13, 11, ..., 3 in their range.
         left_out = 15 * 15 + 48
         self.assertEqual(score["borders"]["all"][WHOLE]["stations"], 2 * (STATIONS - left_out))
 
     def test_border_of_a_side_street(self):
-        """It lies across the way, and is no border along it."""
+        """It lies across the path, and is no border along it."""
         street = border(RoadBorder.RIGHT, (10.0, -5.0), (10.0, -20.0), side_street=True)
         on_right = self.score(street)["borders"]["right"][WHOLE]
         self.assertEqual(on_right["published"], 0)
@@ -128,7 +129,7 @@ class Tool(EvaluateCase):
         self.assertGreater(score["false_m"], 0.0)
 
     def test_false_border_in_a_junction(self):
-        """Curbs are open from x = 0 to x = 20 m, and a border goes on over the opening."""
+        """Curbs are open from x = 0 to x = 20 m, and a border continues over the opening."""
         curbs = [((-100.0, y), (0.0, y)) for y in (5.0, -5.0)]
         curbs += [((20.0, y), (200.0, y)) for y in (5.0, -5.0)]
         score = self.score(left(5.0), curbs=curbs, at_intersection=range(21))["false"]

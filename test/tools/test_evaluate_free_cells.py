@@ -32,7 +32,7 @@ ORIGIN = np.array([0.0, -10.0])
 
 
 def grid(*free, others=-1):
-    """Cells free where the points (x, y) are, the rest with the percentage `others`."""
+    """Returns cells free where the points (x, y) are, the rest with the percentage `others`."""
     cells = np.full((ROWS, COLUMNS), others, dtype=np.int8)
     for x, y in free:
         cells[math.floor((y + 10.0) / CELL), math.floor(x / CELL)] = 20
@@ -40,7 +40,7 @@ def grid(*free, others=-1):
 
 
 def totals(seen, road=(), obstacles=()):
-    """Of all bands: free of which is known, right, road, found."""
+    """Returns for all bands: free of which is known, right, road, found."""
     points = [np.array(each, dtype=float).reshape(-1, 2) for each in (obstacles, road)]
     return tuple(int(column.sum()) for column in count(seen, *points, IMAGE))
 
@@ -52,14 +52,14 @@ class Counting(unittest.TestCase):
     def test_free_obstacle_is_wrong_also_with_road_in_its_cell(self):
         self.assertEqual(totals(grid((6.1, 0.1)), [(6.2, 0.2)], [(6.3, 0.3)]), (1, 0, 0, 0))
 
-    def test_of_what_the_velodyne_does_not_know_nothing_is_counted(self):
+    def test_cells_unknown_to_the_velodyne_are_not_counted(self):
         self.assertEqual(totals(grid((6.1, 0.1))), (0, 0, 0, 0))
 
     def test_unknown_undecided_and_occupied_road_is_not_found(self):
         for others in (-1, 50, 80):
             self.assertEqual(totals(grid(others=others), road=[(6.2, 0.2)]), (0, 0, 1, 0))
 
-    def test_what_is_not_in_the_image_is_left_out(self):
+    def test_cells_outside_the_image_are_left_out(self):
         for point in ((3.1, 0.1), (6.1, 6.6), (26.0, 0.1)):
             self.assertEqual(totals(grid(point), road=[point]), (0, 0, 0, 0), point)
 
@@ -104,7 +104,7 @@ class Tool(EvaluateCase):
         self.assertIsNone(bands[(10.0, 15.0)]["precision"])
         self.assertIn("1 grids, 0 more without a cloud", out)
 
-    def test_what_is_missing_is_named(self):
+    def test_missing_topics_are_named(self):
         self.assertIn("of 0 grids on /grids/lidar", self.run_tool("--topic", "/grids/lidar", code=1)[1])
 
 

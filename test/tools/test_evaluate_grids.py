@@ -33,7 +33,7 @@ ORIGIN = np.array([0.0, -20.0])
 
 
 def cells_with(*points):
-    """Free cells, but occupied where the points (x, y) are."""
+    """Returns free cells, but occupied where the points (x, y) are."""
     cells = np.full((ROWS, COLUMNS), 20, dtype=np.int8)
     for x, y in points:
         cells[math.floor(y + 20.0), math.floor(x)] = 80
@@ -45,13 +45,13 @@ def grid(*points):
 
 
 def echoes(*items):
-    """Echoes of (x, y, surface)."""
+    """Returns echoes of (x, y, surface)."""
     items = np.array(items).reshape(-1, 3)
     return Echoes(items[:, :2], items[:, 2].astype(int))
 
 
 def bodies(*items):
-    """Bodies of (x, y, yaw, length, width, height)."""
+    """Returns bodies of (x, y, yaw, length, width, height)."""
     items = np.array(items, dtype=float).reshape(-1, 6)
     return Bodies(items[:, :3], items[:, 3:5], items[:, 5])
 
@@ -70,7 +70,7 @@ class View(unittest.TestCase):
         self.assert_hidden((20.0, 0.0), True, (10.0, 30.0, 0.0, 4.0, 2.0, 1.5), car)
         self.assert_hidden((20.0, 0.0), False)
 
-    def test_behind_a_low_thing(self):
+    def test_behind_a_low_obstacle(self):
         """The line of sight to 20 m is 0.65 m high above x = 10 m."""
         self.assert_hidden((20.0, 0.0), False, (10.0, 0.0, 0.0, 0.1, 2.0, 0.6))
         self.assert_hidden((20.0, 0.0), True, (10.0, 0.0, 0.0, 0.1, 2.0, 0.7))
@@ -109,8 +109,9 @@ class Scores(unittest.TestCase):
         scores = self.scores(grid(*positions), grid((8.5, 0.5)), found)
         self.assert_tally(scores.bodies_lost, [2, 1, 0, 1, 0], [3, 2, 1, 1, 0])
 
-    def test_what_does_not_count(self):
-        """Curbs; paint in the cell of a body; cells that the lidar's grid has not; twice one."""
+    def test_cells_that_do_not_count(self):
+        """Curbs; paint in the cell of a body; cells that the lidar's grid does not have;
+        one cell twice."""
         found = [(8.5, 0.5, PAINT), (8.7, 0.3, BODY), (9.5, 0.5, CURB), (10.5, 0.5, PAINT),
                  (12.1, 0.5, PAINT), (12.2, 0.5, PAINT), (55.0, 0.5, PAINT)]
         scores = self.scores(grid((8.5, 0.5), (9.5, 0.5), (12.5, 0.5)), grid(), found)
@@ -158,7 +159,7 @@ class Scores(unittest.TestCase):
 
 
 def stamped(message_type, time, frame, **fields):
-    """Message with a header at `time` (s after START)."""
+    """Returns a message with a header at `time` (s after START)."""
     stamp = START + round(time * SECOND)
     return message_type(header=bag_messages.header(stamp, frame), **fields)
 
@@ -200,7 +201,7 @@ class Tool(EvaluateCase):
                 bag.write(topic, message, header.stamp)
 
     def drive_messages(self, surfaces=SURFACES, echoes_as=LaserScan):
-        """The vehicle stands at (100, 50) in the map and looks along its y axis."""
+        """The vehicle is at (100, 50) in the map and faces along its y axis."""
         sides = {"angle_min": -0.1, "angle_increment": 0.1}
         ranges = self.RANGES
         if echoes_as is MultiEchoLaserScan:
@@ -250,7 +251,7 @@ class Tool(EvaluateCase):
             self.assertIn("100.0% of 1", out)
 
     def test_scan_that_takes_time(self):
-        """The middle beam comes 0.05 s later, when the vehicle is 1 m further ahead."""
+        """The middle beam is measured 0.05 s later, when the vehicle is 1 m further ahead."""
         messages = self.drive_messages()
         messages[3][1].time_increment = 0.05
         messages[4][1].twist.twist.linear.x = 20.0

@@ -26,7 +26,7 @@ def scan(frame):
 
 
 def label(number, x, y, stamp=None):
-    """In the scanner's frame, which is 1 m ahead of base_link and looks to the left."""
+    """In the scanner's frame, which is 1 m ahead of base_link and faces left."""
     message = Marker(id=number)
     message.pose.position = Point(x, y, 0.0)
     if stamp is not None:
@@ -44,7 +44,7 @@ def pose(frame):
 
 
 def tracks(frame, *positions):
-    """TrackArray of (id, x, y)."""
+    """Returns a TrackArray of (id, x, y)."""
     message = TrackArray()
     message.header = Header(stamp=simulated.ros_time(0.1 * frame), frame_id="map")
     for number, x, y in positions:
@@ -57,7 +57,7 @@ def tracks(frame, *positions):
 
 class Tool(EvaluateCase):
     def score(self, labels, lists, *words, code=0):
-        """labels: (frame, message); lists: frame -> places of tracks."""
+        """labels: (frame, message); lists: frame -> positions of tracks."""
         recording, result = self.folder / "in.bag", self.folder / "out.bag"
         mount = simulated.transform(0.0, "base_link", "laser", (1.0, 0.0, 0.0),
                                     quaternion_of_yaw(math.pi / 2))  # fmt: skip

@@ -45,7 +45,7 @@ def moment(standing=(), resting=(), seen=None, thin=None):
 
 
 def add_map(run, topic, frame, occupied, free, percents=(90, 10)):
-    """Of a run that write_drive has written; points in the true map."""
+    """Evaluates a run that write_drive has written; points in the true map."""
     in_map = [
         [transforms.compose(DRIFT, (x, y, 0.0))[:2] for x, y in points] for points in (occupied, free)
     ]
@@ -60,29 +60,29 @@ def add_map(run, topic, frame, occupied, free, percents=(90, 10)):
 
 
 class Counting(unittest.TestCase):
-    def test_what_is_on_a_thing_or_a_cell_beside_it_is_right(self):
+    def test_cells_on_or_next_to_an_obstacle_are_right(self):
         seen = count(grid([(8.2, 2.2), (7.7, 2.2), (7.2, 2.2), (15.2, 0.2)]), moment([CAR]))
         self.assertEqual((seen.occupied, seen.occupied_right), (4, 2))
         self.assertEqual((seen.things, seen.things_found), (1, 1))
 
-    def test_beyond_the_road_nothing_is_asked(self):
+    def test_beyond_the_road_nothing_is_evaluated(self):
         seen = count(grid([(8.2, 6.2)], [(8.2, -6.2)]), moment())
         self.assertEqual((seen.occupied, seen.free), (0, 0))
 
-    def test_free_inside_of_a_thing_is_wrong_but_not_on_its_side(self):
+    def test_free_inside_an_obstacle_is_wrong_but_not_on_its_side(self):
         seen = count(grid(free=[(10.2, 3.2), (8.2, 3.2), (5.2, 3.2)]), moment([CAR]))
         self.assertEqual((seen.free, seen.free_right), (3, 2))
         self.assertEqual((seen.things, seen.things_found), (1, 0))
 
-    def test_what_stands_now_and_moves_later_is_left_out(self):
+    def test_objects_that_move_later_are_left_out(self):
         self.assertEqual(count(grid([(8.2, 2.2)]), moment(resting=[CAR])).occupied, 0)
 
-    def test_what_nobody_has_seen_or_is_far_need_not_be_there(self):
+    def test_unseen_and_distant_obstacles_are_not_required(self):
         pole = (30.5, 0.0, 0.0, 0.2, 0.2)
         seen = count(grid(), moment([CAR, pole], seen=[False, True]))
         self.assertEqual((seen.things, seen.things_found), (0, 0))
 
-    def test_poles_are_things_of_their_own(self):
+    def test_poles_are_separate_obstacles(self):
         poles = [(5.0, 0.0, 0.0, 0.2, 0.2), (5.0, 4.0, 0.0, 0.2, 0.2)]
         seen = count(grid([(5.2, 0.2)]), moment([*poles, CAR], thin=[True, True, False]))
         self.assertEqual((seen.poles, seen.poles_found, seen.things), (2, 1, 3))
@@ -97,7 +97,7 @@ class Counting(unittest.TestCase):
 
 class Seen(unittest.TestCase):
     def test_a_map_from_a_pose_in_it(self):
-        """The vehicle at (4, 2), looking along y: (4, 8) is 6 m ahead."""
+        """The vehicle at (4, 2), facing along y: (4, 8) is 6 m ahead."""
         seen = seen_from(grid([(4.2, 8.2)]), (4.0, 2.0, math.pi / 2))
         rows, columns = np.nonzero(seen.cells > 50)
         self.assertEqual(len(rows), 1)
@@ -123,14 +123,14 @@ class CommandLine(EvaluateCase):
         self.assertIsNone(result["conflicts"])
         self.assertIn("1 maps", text)
 
-    def test_what_cannot_be_scored_is_reported(self):
+    def test_unscorable_maps_are_reported(self):
         run = self.write_run([], [])
         _, errors, _ = self.evaluate("maps", run, run, "--topic", "/map/other", code=1)
         self.assertIn("no grid on /map/other", errors)
 
 
 class Changes(EvaluateCase):
-    """Car 1 is gone, cars 3 and 4 are new; the vehicle passes all but the last."""
+    """Car 1 is gone, cars 3 and 4 are new; the vehicle passes all but the last one."""
 
     def write_drives(self):
         run, before = self.folder / "run.bag", self.folder / "before.bag"
@@ -139,9 +139,9 @@ class Changes(EvaluateCase):
         write_drive(run, None, objects=objects)
         return run, before
 
-    def test_cells_and_things_are_counted(self):
+    def test_cells_and_obstacles_are_counted(self):
         run, before = self.write_drives()
-        vanished = [(10.2, 2.2), (11.2, 2.2), (10.2, -2.2)]  # one of what still stands there
+        vanished = [(10.2, 2.2), (11.2, 2.2), (10.2, -2.2)]  # one of a car that is still there
         add_map(run, "/map/changes", 20, [(15.2, 0.2)], vanished, (100, 0))
         text, _, result = self.evaluate("changes", run, run, before)
         self.assertEqual(result["vanished"], {"cells": 3, "cells_right": 2, "things": 1,
@@ -150,7 +150,7 @@ class Changes(EvaluateCase):
                                          "things_reported": 0, "wrong_cells": 1.0})
         self.assertIn("vanished", text)
 
-    def test_what_is_reported_before_it_is_passed_is_not_asked_for(self):
+    def test_changes_before_passing_are_not_required(self):
         run, before = self.write_drives()
         add_map(run, "/map/changes", 10, [], [(10.2, 2.2)], (100, 0))
         _, _, result = self.evaluate("changes", run, run, before)

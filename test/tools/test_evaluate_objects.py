@@ -42,7 +42,7 @@ class Lists(unittest.TestCase):
         return score_lists([ListWithTruth([item], [truth])])[0].matches[0][2]
 
     def test_near_is_longer_along_the_line_of_sight(self):
-        """Near sides at 18 m: 2.2 m along it for an object that seems at 16 m, 1 m across."""
+        """Near sides at 18 m: 2.2 m along it for an object that appears at 16 m, 1 m across."""
         self.assertEqual(self.assert_near([True], seen(18.0, 0.0)), [(0, 0)])
         self.assert_near([False], seen(17.5, 0.0))
         self.assert_near([True], seen(20.0, 1.7))
@@ -54,14 +54,14 @@ class Lists(unittest.TestCase):
         self.assert_near([True], seen(23.0, 0.0))
 
     def test_one_object_finds_one_true_one(self):
-        """The nearer pair first; the other object is a double."""
+        """The nearer pair first; the other object is a duplicate."""
         objects = seen(19.0, 0.5), seen(20.0, 0.0)
         self.assertEqual(self.assert_near([True, True], *objects), [(1, 0)])
         cars = true(20.0, 0.0), true(22.0, 0.0)
         self.assertEqual(self.assert_near([True], seen(20.0, 0.0), truths=cars), [(0, 0)])
 
-    def test_what_moves_is_where_it_was_then(self):
-        """50 ms late, a car at 20 m/s is a meter ahead."""
+    def test_moving_objects_are_compared_at_the_stamp(self):
+        """50 ms late, a car at 20 m/s is 1 m farther ahead."""
         errors = self.errors(seen(21.0, 0.0, delay=0.05), true(20.0, 0.0, velocity=(20.0, 0.0)))
         self.assertAlmostEqual(errors.along, 0.0)
 
@@ -71,7 +71,7 @@ class Lists(unittest.TestCase):
         self.assertAlmostEqual(errors.across, -0.1, delta=0.01)
         self.assertAlmostEqual(errors.nees, 0.1**2 / 0.04 + 0.4**2 / 0.01, delta=0.1)
 
-    def test_what_was_not_seen_has_no_error(self):
+    def test_unseen_sides_have_no_error(self):
         sides = (math.inf, 0.0, math.inf, math.inf)
         errors = self.errors(seen(30.4, 0.0, sides=sides), true(30.0, 0.0))
         self.assertAlmostEqual(errors.along, 0.4)
@@ -91,7 +91,7 @@ def true_object(number, x, y, classification=VEHICLE, speed=0.0, visible_to=("st
 
 
 class Tool(EvaluateCase):
-    """A vehicle at (100, 50) in the map that looks along its y axis."""
+    """A vehicle at (100, 50) in the map that faces along its y axis."""
 
     TRUE = (
         true_object(1, 100.0, 58.0, speed=10.0),  # 8 m ahead
@@ -120,13 +120,13 @@ class Tool(EvaluateCase):
             bag.write(topic, stamp, ObjectArray(header=header, objects=objects))
 
     def score(self, *words, code=0):
-        """What it says on standard output and error, and the scores of the topics."""
+        """Returns standard output and error, and the scores of the topics."""
         words = ("objects", self.bag, "--truth", self.drive, *words)
         out, errors, score = self.evaluate(*words, code=code)
         return out, errors, score and score["topics"]
 
     def test_counts(self):
-        """The car found 0.2 m too far, 0.1 s after the truth; a wall, and a double."""
+        """The car found 0.2 m too far, 0.1 s after the truth; a wall, and a duplicate."""
         self.write("/objects/stereo", object_at(9.2, 0.0, variance=0.04), object_at(25.0, 0.0),
                    object_at(10.5, 0.0), seconds=0.1)  # fmt: skip
         out, _, figures = self.score()
@@ -156,7 +156,7 @@ class Tool(EvaluateCase):
         self.assertEqual(figures["said"]["pedestrian"]["vehicle"], 1)
 
     def test_sensor_that_must_see(self):
-        """That of the topic, or the one that is named; what another one sees is not false."""
+        """The topic's sensor, or the named one; what another sensor sees is not false."""
         for topic, words, asked in (("/objects", (), 1), ("/objects/fused", (), 3),
                                     ("/objects/stereo", ("--visible-to", "none"), 3),
                                     ("/mine", ("--topic", "/mine"), 3)):  # fmt: skip
@@ -166,7 +166,7 @@ class Tool(EvaluateCase):
             self.assertEqual(figures["recall"]["all"]["count"][-1], 1)
             self.assertEqual(figures["false_per_list"], 0.0)
 
-    def test_what_stands_need_not_be_found(self):
+    def test_stationary_objects_are_not_required(self):
         self.write("/objects/stereo", object_at(8.0, 0.0), object_at(15.0, 3.0, size=(0.6, 0.6)))
         figures = self.score("--moving-only")[2]["/objects/stereo"]
         self.assertEqual(figures["recall"]["all"]["of"][-1], 1)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""evaluate risk: scores of drives that are worked out by hand, and its way through bags."""
+"""evaluate risk: scores of drives that are worked out by hand, and its reading of bags."""
 
 import unittest
 
@@ -58,12 +58,12 @@ class Scores(unittest.TestCase):
         self.assertIsNone(lead_of(silent))
         self.assertFalse(is_warned_in_time(silent))
 
-    def test_what_was_in_view_for_less_may_be_warned_of_later(self):
+    def test_late_warnings_of_briefly_visible_objects_are_allowed(self):
         frames = [frame(2.9), frame(3.0, WARNING)]
         self.assertFalse(is_warned_in_time(drive(frames, 4.0, contact=4.0, seen=0.0)))
         self.assertTrue(is_warned_in_time(drive(frames, 4.0, contact=4.0, seen=2.8)))
 
-    def test_leads_are_held_against_the_attainable(self):
+    def test_leads_are_compared_with_the_attainable_ones(self):
         half = drive([frame(2.0), frame(3.2, WARNING)], 4.0, contact=4.0, seen=2.4)
         silent = drive([frame(0.0)], 4.0, contact=4.0, seen=0.0)
         early = drive([frame(0.5, WARNING)], 4.0, contact=4.0, seen=0.0)
@@ -100,7 +100,7 @@ class Scores(unittest.TestCase):
 
 class Tool(EvaluateCase):
     def write(self, name, contact=None):
-        """A drive of 3 s in which something ahead is warned of in the last two."""
+        """A drive of 3 s in which a warning of something ahead is given in the last two."""
         folder = self.folder / "runs"
         folder.mkdir(exist_ok=True)
         with rosbag.Bag(str(folder / f"{name}.bag"), "w") as bag:

@@ -26,12 +26,12 @@ FAR = 10 * SECOND
 
 
 def ns(time):
-    """Stamp (ns) of `time` (s after START)."""
+    """Returns the stamp (ns) of `time` (s after START)."""
     return round((START + time) * SECOND)
 
 
 def relation(begin, end, x, y, yaw):
-    """Relation between two times (s after START)."""
+    """Returns a relation between two times (s after START)."""
     return Relation(ns(begin), ns(end), np.array([x, y, yaw]))
 
 
@@ -64,7 +64,7 @@ class Metric(unittest.TestCase):
         errors = self.errors([(0, 0, 0), (4, 0, 0)], relation(0.25, 0.75, 2, 0, 0))
         self.assertAlmostEqual(errors.translation[0], 0.0)
 
-    def test_what_is_not_covered(self):
+    def test_uncovered_relations(self):
         poses = [(0, 0, 0), (1, 0, 0), (2, 0, 0)]
         wanted = relation(0, 1, 1, 0, 0), relation(1, 2.4, 1, 0, 0), relation(-1, 0, 1, 0, 0)
         errors = self.errors(poses, *wanted, tolerance=SECOND // 2)
@@ -97,12 +97,12 @@ class Files(EvaluateCase):
                 bag.write(topic, message, message.header.stamp)
 
     def run_tool(self, *options, expected_code=0):
-        """What the tool says on standard output and error."""
+        """Returns the tool's standard output and error."""
         return self.evaluate("slam", self.bag, self.relations, *options, code=expected_code)[:2]
 
 
 def pose(time, x, yaw=0.0):
-    """PoseWithCovarianceStamped at `time` (s after START)."""
+    """Returns a PoseWithCovarianceStamped at `time` (s after START)."""
     message = PoseWithCovarianceStamped(header=bag_messages.header(ns(time), "map"))
     message.pose.pose.position = Point(x, 0.0, 0.0)
     message.pose.pose.orientation = Quaternion(0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
@@ -111,7 +111,7 @@ def pose(time, x, yaw=0.0):
 
 class Reading(Files):
     def test_comments(self):
-        """The published files have none; those who edit them add some."""
+        """The published files have no comments; people who edit them add some."""
         self.write_relations("# places", "1 2 1 0 0 0 0 0 # the corner", "  # and", "", "2 3 1 0 0 0 0 0")
         self.assertEqual([found.begin for found in read_relations(self.relations)],
                          [1_000_000_000, 2_000_000_000])  # fmt: skip
@@ -182,7 +182,7 @@ class Tool(Files):
         self.bag.unlink()
         self.assertIn("no such file", self.run_tool(expected_code=1)[1])
 
-    def test_pose_that_is_no_number(self):
+    def test_nan_pose(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))
         self.write_relations("1000 1002 1 0 0 0 0 0")
         report = self.folder / "slam.json"

@@ -37,7 +37,7 @@ ROAD = [(x + 0.5, y + 0.5, -1.73) for x in range(3, 40) for y in range(-8, 8)]
 
 
 def grid(*points, others=20):
-    """Cells occupied where the points (x, y) are, the rest with the percentage `others`."""
+    """Returns cells occupied where the points (x, y) are, the rest with the percentage `others`."""
     cells = np.full((ROWS, COLUMNS), others, dtype=np.int8)
     for x, y in points:
         cells[math.floor((y + 10.0) / CELL), math.floor(x / CELL)] = 80
@@ -45,7 +45,7 @@ def grid(*points, others=20):
 
 
 def totals(seen, *obstacles):
-    """Of all bands: occupied, right, true, found, called free."""
+    """Returns for all bands: occupied, right, true, found, reported free."""
     counts = count(seen, np.array(obstacles, dtype=float).reshape(-1, 2), VIEW)
     return tuple(int(column.sum()) for column in counts)
 
@@ -68,7 +68,7 @@ class Matching(unittest.TestCase):
     def test_points_of_one_cell_count_once(self):
         self.assertEqual(totals(grid(), (5.1, 0.1), (5.2, 0.2))[2], 1)
 
-    def test_unknown_is_missed_but_not_called_free(self):
+    def test_unknown_is_missed_but_not_reported_free(self):
         self.assertEqual(totals(grid(others=-1), (5.1, 0.1)), (0, 0, 1, 0, 0))
         self.assertEqual(totals(grid(others=50), (5.1, 0.1)), (0, 0, 1, 0, 0))
         self.assertEqual(totals(grid(others=20), (5.1, 0.1)), (0, 0, 1, 0, 1))
@@ -82,7 +82,7 @@ class InView(unittest.TestCase):
         counts = count(grid((3.1, 0.1), (12.1, 0.1), (14.6, 0.1)), np.zeros((0, 2)), VIEW)
         self.assertEqual(counts.occupied.tolist(), [1, 0, 2, 0, 0])
 
-    def test_what_one_camera_does_not_see_is_left_out(self):
+    def test_cells_seen_by_one_camera_only_are_left_out(self):
         # 5 m ahead the left camera sees 5 m to the left, the right one 4 m; both 5 m to the right.
         seen = [totals(grid((5.1, y)))[0] for y in (4.6, 3.9, -4.6, -5.9)]
         self.assertEqual(seen, [0, 1, 1, 0])
@@ -93,17 +93,17 @@ class InView(unittest.TestCase):
 
 
 class Clouds(unittest.TestCase):
-    def test_obstacles_are_what_stands_on_the_road(self):
+    def test_obstacles_are_objects_on_the_road(self):
         heights = (0.0, 0.2, 0.4, 1.9, 2.1)
         cloud = np.array(ROAD + [(10.0, 5.0 + i, h - 1.73) for i, h in enumerate(heights)])
         base = transforms.rigid(np.eye(3), [1.0, 0.0, 1.73])
         np.testing.assert_allclose(obstacle_points(cloud, base), [(11.0, 7.0), (11.0, 8.0)])
 
-    def test_recording_car_is_none(self):
+    def test_recording_car_is_no_obstacle(self):
         cloud = np.array(ROAD + [(2.0, 0.0, -0.9), (2.9, 0.0, -0.9)])
         self.assertEqual(len(obstacle_points(cloud, np.eye(4))), 1)
 
-    def test_standing_obstacle_comes_nearer_while_the_vehicle_drives(self):
+    def test_stationary_obstacle_approaches_while_the_vehicle_drives(self):
         then, now = np.array([0.0, 0.0, 0.0]), np.array([2.0, 1.0, math.pi / 2])
         np.testing.assert_allclose(moved(np.array([[5.0, 1.0]]), then, now), [(0.0, -3.0)],
                                    atol=1e-9)  # fmt: skip
@@ -140,7 +140,7 @@ class Tool(EvaluateCase):
                     bag.write("/points", stamp, kitti_messages.point_cloud(stamp, cloud))
 
     def write_run(self, *grids):
-        """grids: stamp and the place (x, y) of the one occupied cell."""
+        """grids: stamp and position (x, y) of the one occupied cell."""
         with whole_bag(self.folder / "run.bag", "test") as bag:
             for stamp, position in grids:
                 message = OccupancyGrid(header=bag_messages.header(stamp, "base_link"))
@@ -175,7 +175,7 @@ class Tool(EvaluateCase):
         self.write_run((START, (9.9, 0.1)), (START + 300 * MILLISECOND, (9.9, 0.1)))
         self.assertIn("1 grids, 1 more without a cloud", self.run_tool()[0])
 
-    def test_what_is_missing_is_named(self):
+    def test_missing_topics_are_named(self):
         self.write_run((START + 10**10, (9.9, 0.1)))
         self.assertIn("of 1 grids on /grids/stereo none is within 0.1 s", self.run_tool(code=1)[1])
         self.write_drive(clouds=False)

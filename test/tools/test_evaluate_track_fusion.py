@@ -33,8 +33,8 @@ class Tool(EvaluateCase):
     def score(self, *words):
         return self.run_tool(*words)[2]
 
-    def test_car_that_both_follow(self):
-        """Both follow it from 0.2 s on, and it passes at 0.4 s."""
+    def test_car_that_both_track(self):
+        """Both track it from 0.2 s on, and it passes at 0.4 s."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.5, SPEED)], [track(4, 21.0, 0.0, SPEED, range(2, 11))],
                    [track(1, 20.0, 0.3, SPEED, sources=members, sources_from=4)])  # fmt: skip
@@ -69,7 +69,7 @@ class Tool(EvaluateCase):
         self.assertIn("0.20 s late, lidar 7 and stereo 4 1.5 m apart", out)
 
     def test_time_without_one_of_the_tracks_does_not_count(self):
-        """The stereo camera has it in the first two frames, and again after 0.6 s."""
+        """The stereo camera tracks it in the first two frames, and again after 0.6 s."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, (0, 1, 7, 8, 9, 10))],
                    [track(1, 20.0, 0.0, SPEED, sources=members, sources_from=9)])  # fmt: skip
@@ -93,8 +93,8 @@ class Tool(EvaluateCase):
         self.assertEqual([(item["id"], item["frames"]) for item in both["late_or_never"]],
                          [(1, 10), (4, 21)])  # fmt: skip
 
-    def test_two_tracks_that_do_not_pass(self):
-        """They stay two: a ghost in each frame, and nothing has passed."""
+    def test_two_tracks_of_one_source_each(self):
+        """They remain two tracks: a ghost in each frame, and nothing has passed."""
         tracks = [track(1, 20.0, 0.0, SPEED, sources=(("lidar", 7),)),
                   track(2, 21.0, 0.0, SPEED, sources=(("stereo", 4),))]  # fmt: skip
         self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 21.0, 0.0, SPEED)], tracks)
@@ -109,8 +109,8 @@ class Tool(EvaluateCase):
         self.assertEqual((score["ghosts"]["fused"]["ghosts"], score["ghosts"]["lidar"]["ghosts"]),
                          (11, 0))  # fmt: skip
 
-    def test_parked_car_that_is_taken_as_moving(self):
-        """False where what moves counts; something real all the same."""
+    def test_parked_car_reported_as_moving(self):
+        """False if only moving objects count, but on a real road user."""
         members = ("lidar", 8), ("stereo", 5)
         at = 15.0, 8.5
         self.write([track(8, *at)], [track(5, *at)], [track(2, *at, sources=members)])
@@ -136,7 +136,7 @@ class Tool(EvaluateCase):
             self.write(fused=[at])
             self.assertEqual(self.score()["passed"]["true_movers"], true)
 
-    def test_what_stands_is_not_judged(self):
+    def test_stationary_tracks_are_not_judged(self):
         members = ("lidar", 8), ("stereo", 5)
         self.write(fused=[track(2, 15.0, 8.5, sources=members, moving=False)])
         score = self.score()
@@ -155,8 +155,8 @@ class Tool(EvaluateCase):
         self.assertEqual((wrong["objects"], wrong["frames"]), ([1, 4], 11))
 
     def test_false_tracks_within_the_view(self):
-        """One on the parked car, one on a pole, one on nothing, one behind the camera, and one that
-        is right."""
+        """One on the parked car, one on a pole, one on nothing, one behind the camera,
+        and one that is right."""
         lidar = [track(1, 15.0, 8.5), track(2, 10.0, -8.0), track(3, 25.0, -20.0),
                  track(4, -10.0, 0.0), track(5, 20.0, 0.0, SPEED)]  # fmt: skip
         fused = [track(9, 15.0, 8.5, sources=(("lidar", 1),)), track(5, 20.0, 0.0, SPEED)]
@@ -194,7 +194,7 @@ class Tool(EvaluateCase):
                          [{"id": 1, "label": "Car", "ghost_frames": 2, "id_switches": 1}])
 
     def test_labels_that_do_not_know_who_sees(self):
-        """As KITTI's: what is beside the camera's view counts neither way."""
+        """As in KITTI: objects outside the camera's view are neither counted for nor against."""
         members = ("lidar", 7), ("stereo", 4)
         self.write([track(7, 20.0, 0.0, SPEED), track(8, 0.0, 20.0)], [track(4, 20.0, 0.0, SPEED)],
                    [track(1, 20.0, 0.0, SPEED, sources=members)],

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What evaluate says of runs that are known: figures, table, page and plots."""
+"""Output of evaluate for known runs: figures, table, page and plots."""
 
 import math
 import re
@@ -35,7 +35,7 @@ def page(runs):
 
 
 def find_line(text, begin):
-    """Words of the first line of `text` that begins so."""
+    """Returns the words of the first line of `text` that begins like this."""
     return next(line.split() for line in text.splitlines() if line.strip().startswith(begin))
 
 
@@ -46,7 +46,7 @@ class Metrics(unittest.TestCase):
         third = Metric("", "a.1.b", "m", 1.0, 2)
         self.assertEqual(third.value({"a": [{"b": 5.0}, {"b": 7.0}]}), 7.0)
 
-    def test_what_is_not_there(self):
+    def test_missing_values(self):
         metric = Metric("", "a.1.b")
         for run in ({}, {"a": None}, {"a": []}, {"a": [{}, {}]}, {"a": [{}, {"b": None}]}):
             self.assertIsNone(metric.value(run))
@@ -73,7 +73,8 @@ class Metrics(unittest.TestCase):
         self.assertEqual(cost(0.0), math.inf)
 
     def test_all_figures_are_in_the_sample(self):
-        """A misspelled path shows "-" for ever: what the sample leaves open is open on purpose."""
+        """A misspelled path would always show "-": what the sample leaves open is open on
+        purpose."""
         run = sample_run()
         empty = [
             m.path
@@ -143,7 +144,7 @@ class Table(unittest.TestCase):
 
 
 class Structure(HTMLParser):
-    """Elements that are open at the end, and addresses that a browser would fetch."""
+    """Finds elements that are not closed, and addresses that a browser would fetch."""
 
     VOID = {"meta", "br", "use"}
 
@@ -205,7 +206,7 @@ class Page(unittest.TestCase):
         runs = [sample_run("a.bag"), sample_run("b.bag", clear_mot={"mota": 0.6})]
         self.assertIn('<td>40.0</td><td class="best">60.0*</td>', page(runs))
 
-    def test_a_run_of_which_little_is_known(self):
+    def test_a_run_with_few_figures(self):
         run = sample_run(objects=0, frames=1, pose=None, timing=None)
         for section in ("hota", "gospa", "errors", "clear_mot", "identity"):
             run[section] = {key: None for key in run[section]}
@@ -219,7 +220,7 @@ class Page(unittest.TestCase):
 
 class Plots(unittest.TestCase):
     def texts(self, svg):
-        """Texts of an SVG element; it is well-formed."""
+        """Returns the texts of an SVG element; it is well-formed."""
         svg = svg.replace("xlink:href", "href")
         return [
             element.text

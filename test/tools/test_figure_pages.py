@@ -23,7 +23,7 @@ PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distanc
 
 
 HORIZONS = ("1", "2", "3", "4")
-# Of one method, as steps.risk has it; of the first one also the reliability.
+# Of one method, as in steps.risk; for the first one also the reliability.
 RISKS = {
     "drives": 129, "contacts": 43, "ttc_median_s": 0.04, "ttc_95_s": 0.2, "lead_share": 0.75,
     "near_misses": 86, "near_misses_warned": 4, "long_seen": {"contacts": 29, "in_time": 19},
@@ -33,7 +33,7 @@ RISKS = {
 
 
 def results(**figures):
-    """A file of figures with these steps."""
+    """Returns a file of figures with these steps."""
     done = {name: {"shows": name, "command": "x", "seeds": None, "date": "2026-01-02",
                    "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
     return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",
@@ -48,14 +48,14 @@ class Pages(InFolder):
     def pages(self, **figures):
         return render.rendered(self.folder, results(**figures))
 
-    def test_table_stands_between_the_marks(self):
+    def test_table_is_between_the_marks(self):
         text = self.pages(people=PEOPLE)["README.md"]
         self.assertIn("132 of 153 (86 %), 4 id switches", text)
         self.assertTrue(text.startswith(f"# A\n\n{render.BEGIN}\n| what |"))
         self.assertTrue(text.endswith(f"{render.END}\nrest\n"))
         self.assertNotIn("old", text)
 
-    def test_what_was_not_measured_is_not_there(self):
+    def test_unmeasured_figures_are_left_out(self):
         pages = self.pages(people=PEOPLE)
         self.assertIn("## People around a robot", pages["doc/results.md"])
         self.assertNotIn("Indoors", pages["doc/results.md"])

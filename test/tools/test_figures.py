@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/figures: what a pass of steps does, and how figures are summarized."""
+"""scripts/figures: a pass of the steps, and how figures are summarized."""
 
 import contextlib
 import io
@@ -23,7 +23,7 @@ class Spread(unittest.TestCase):
         self.assertEqual(spread([3, 1, 2]), [2, 1, 3])
         self.assertEqual(spread([4.0, 1.0]), [2.5, 1.0, 4.0])
 
-    def test_what_one_run_has_not_has_no_spread(self):
+    def test_figures_missing_in_a_run_have_no_spread(self):
         self.assertIsNone(spread([1, None, 2]))
         self.assertIsNone(spread([]))
 
@@ -37,7 +37,7 @@ class Spread(unittest.TestCase):
 
 
 class Pooled(unittest.TestCase):
-    """Two data sets of one seed, as one."""
+    """Two data sets of one seed, pooled."""
 
     def result(self, misses, required, delays):
         counts = dict.fromkeys(data_sets.COUNTS, 1)
@@ -53,7 +53,7 @@ class Pooled(unittest.TestCase):
         self.assertAlmostEqual(pooled["runs"]["with"]["mota"], 1.0 - 42.0 / 200.0)
         self.assertEqual(pooled["runs"]["with"]["missed_objects"], 2)
 
-    def test_delays_are_those_of_what_was_found(self):
+    def test_delays_are_of_found_objects(self):
         delays = data_sets.pooled([self.result(0, 1, [0.2]), self.result(0, 1, [0.6, None])])
         vehicles = delays["delays"]["vehicle"]
         self.assertEqual((vehicles["objects"], vehicles["found"]), (3, 2))
@@ -62,7 +62,7 @@ class Pooled(unittest.TestCase):
 
 
 class FusionFigures(unittest.TestCase):
-    """Two drives with two seeds, and one that was driven once."""
+    """Two drives with two seeds, and one that was driven only once."""
 
     def run_of(self, drive, seed, misses, mota):
         counts = {"moving_objects": 10, "missed_objects": 1, "tracks": 12, "false_tracks": 2,
@@ -115,7 +115,7 @@ class Pass(InFolder):
         return Step(name, "a value", "x", lambda _: [Job("a", counted)], by_name, **rest)
 
     def run_all(self, *chosen):
-        """(failures, what was said)."""
+        """Returns (failures, output)."""
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
             failures = run_steps(chosen, self.bench, self.store, 2)
@@ -129,7 +129,7 @@ class Pass(InFolder):
         self.assertEqual(done["steps"]["one"]["seeds"], [1, 2])
         self.assertEqual(done["steps"]["one"]["figures"], {"one": {"value": 1.235}})
 
-    def test_what_is_done_does_not_run_again(self):
+    def test_finished_steps_do_not_run_again(self):
         step = self.step("one")
         self.run_all(step)
         self.assertIn("one: done at 0123abcd", self.run_all(step)[1])
@@ -141,7 +141,7 @@ class Pass(InFolder):
         self.bench = self.bench._replace(seeds=(1, 2, 3))
         self.assertNotIn("done at", self.run_all(step)[1])
 
-    def test_a_step_goes_on_with_the_job_that_failed(self):
+    def test_a_step_resumes_with_the_failed_job(self):
         broken = [True]
 
         def second(_):
@@ -160,7 +160,7 @@ class Pass(InFolder):
         self.assertEqual(self.runs, ["a"])
         self.assertEqual(self.store.results([step])["steps"]["two"]["figures"], {"a": 1, "b": 2})
 
-    def test_of_changed_sources_nothing_counts_as_done(self):
+    def test_with_changed_sources_nothing_counts_as_done(self):
         self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
         for _ in range(2):
             self.run_all(self.step("one"))
@@ -171,7 +171,7 @@ class Pass(InFolder):
         self.assertEqual((failures, self.runs), ([], []))
         self.assertRegex(said, "one: left out, .*data/drive is not there")
 
-    def test_a_failed_step_is_reported_and_the_others_go_on(self):
+    def test_a_failed_step_is_reported_and_the_others_continue(self):
         def fail(_):
             raise InputError("no bag")
 

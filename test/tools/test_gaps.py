@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sweep of gaps: what it takes out of a drive, and its score by hand, with a run_bag that only
-pretends."""
+"""The sweep of gaps: what it removes from a drive, and its score, worked out by hand, with a
+stand-in for run_bag."""
 
 import contextlib
 import io
@@ -26,7 +26,8 @@ SPEED = 5.0  # m/s, along x
 
 
 def pose_at(seconds, message, error=0.0, turn=0.0):
-    """`message` filled with the pose at a time, `error` (m) to the left and `turn` (rad) off."""
+    """Returns `message` filled with the pose at a time,
+    `error` (m) to the left and `turn` (rad) off."""
     message.header.stamp = rospy.Time.from_sec(START + seconds)
     pose = message.pose.pose if hasattr(message.pose, "pose") else message.pose
     pose.position.x, pose.position.y = SPEED * seconds, error
@@ -41,7 +42,7 @@ def estimate_at(seconds, error, turn, sigma):
 
 
 class Gaps(unittest.TestCase):
-    """A drive of 40 s straight on, ten messages a second."""
+    """A straight drive of 40 s, with ten messages a second."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -63,8 +64,9 @@ class Gaps(unittest.TestCase):
             topics = bag.get_type_and_topic_info().topics
             return {topic: info.message_count for topic, info in topics.items()}
 
-    def test_what_a_gap_takes_out(self):
-        # 12 s before, 2 s, 6 s after: 201 messages, of which the 20 after the gap's begin are gone.
+    def test_messages_removed_by_a_gap(self):
+        # 12 s before, 2 s, 6 s after: 201 messages, of which the 20 after the start of the gap are
+        # removed.
         whole, holed = 201, 181
         self.assertEqual(self.counts("scan"), {"/tf_static": 1, "/ground_truth/pose": whole,
                                                "/scan": holed, "/odometry": whole, "/tf": whole})
@@ -97,7 +99,7 @@ class Gaps(unittest.TestCase):
                 else:
                     pose = message.pose.pose if topic == "/odometry" else message.pose
                     positions[topic].append(pose.position.x)
-        # From 8 to 20 s, and from 22.1 to 28 s, which follow at once.
+        # From 8 to 20 s, and from 22.1 to 28 s, immediately after.
         self.assertEqual((len(stamps), stamps[0], stamps[-1]), (543, START + 8.0, START + 26.0))
         for topic in ("/odometry", "/tf"):
             steps = [b - a for a, b in zip(positions[topic], positions[topic][1:])]
@@ -122,18 +124,18 @@ class Gaps(unittest.TestCase):
         self.assertAlmostEqual(result["end"]["distance_m"], 40.0, places=6)
         self.assertAlmostEqual(result["speed_mps"], SPEED, places=6)
 
-    def test_a_wrong_pose_that_is_sure_of_itself(self):
+    def test_a_wrong_pose_that_is_overconfident(self):
         result = self.scored(2.0, 0.0, 0.5)
         self.assertEqual(result["confident_wrong"], 60)
         self.assertFalse(passed(result))
 
-    def test_a_wrong_pose_that_says_so_is_off_but_not_confident(self):
+    def test_a_wrong_pose_with_large_covariance_is_off_but_not_confident(self):
         result = self.scored(2.0, 0.0, 1.0)
         self.assertEqual(result["confident_wrong"], 0)
         self.assertTrue(result["end"]["beyond"] and result["end"]["admitted"])
         self.assertFalse(passed(result))
 
-    def test_carried_elsewhere_it_may_be_anywhere_if_it_says_so(self):
+    def test_carried_elsewhere_it_may_be_anywhere_if_uncertain(self):
         self.assertTrue(passed(self.scored(2.0, 0.0, 1.0, "carried")))
         self.assertFalse(passed(self.scored(2.0, 0.0, 0.5, "carried")))
 
@@ -175,7 +177,7 @@ class Gaps(unittest.TestCase):
             code, out = self.sweep("--kinds", "scan", "both")
             self.assertEqual(code, expected)
             runs = json.loads((self.folder / "out.json").read_text())["runs"]
-            # From 15 and 25 s on, and not so late that nothing comes after.
+            # From 15 and 25 s on, and not so late that nothing follows.
             self.assertEqual([(run["kind"], run["begin_s"]) for run in runs],
                              [("scan", 1015.0), ("scan", 1025.0),
                               ("both", 1015.0), ("both", 1025.0)])  # fmt: skip

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images and calibrations of files, and the messages that play_images makes of them."""
+"""Images and calibrations from files, and the messages that play_images makes of them."""
 
 import tempfile
 import unittest
@@ -48,7 +48,7 @@ class ImageFiles(unittest.TestCase):
         self.assertEqual([int(image[0, 0]) for image in images], [1, 2, 3])
         self.assertEqual([int(image[0, 0]) for image in images], [1, 2, 3], "and again")
 
-    def test_a_broken_file_is_passed_over_and_counted(self):
+    def test_a_broken_file_is_skipped_and_counted(self):
         self.write_image("a.png", 1)
         (self.folder / "b.png").write_bytes(b"half an image")
         images = Images(self.folder)
@@ -66,7 +66,7 @@ class ImageFiles(unittest.TestCase):
         for value, expected in zip(values, (10, 100, 200)):
             self.assertAlmostEqual(value, expected, delta=5.0)
 
-    def test_what_is_no_source_is_reported(self):
+    def test_an_invalid_source_is_reported(self):
         with self.assertRaisesRegex(InputError, "no image in it"):
             Images(self.folder)
         with self.assertRaisesRegex(InputError, "expected a folder of images or a video file"):
@@ -83,7 +83,7 @@ class ImageFiles(unittest.TestCase):
         self.assertEqual(info.D[0], 0.1)
         self.assertEqual((info.header.stamp, info.header.frame_id), (rospy.Time(3), "left"))
 
-    def test_a_calibration_that_lacks_something_is_reported(self):
+    def test_an_incomplete_calibration_is_reported(self):
         with self.assertRaisesRegex(InputError, "projection_matrix: expected data with 12 numbers"):
             read_calibration(self.calibration(projection_matrix={"data": [1.0]}))
         with self.assertRaisesRegex(InputError, "image_width"):

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands within the sentences and tables of README.md and doc/, such as `run_bag --risk` and `mono:=true`:
-the program's --help names each of the options, a launch file of the package takes each of the arguments."""
+"""Commands within the sentences and tables of README.md and doc/, such as `run_bag --risk` and
+`mono:=true`: the program's --help names each of the options, a launch file of the package has each
+of the arguments."""
 
 import functools
 import os
@@ -20,7 +21,7 @@ FENCED = re.compile(r"^ *```.*?^ *```$", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`(?:rosrun datmo_fusion )?([a-z_0-9]+)( [^`]*)?`")
 ASSIGNMENTS = re.compile(r"`(?!roslaunch (?!datmo_fusion))([^`\n]*:=[^`]*)`")  # not of other packages
 ASSIGNED = re.compile(r"(?<!\w)([a-z]\w*):=")
-# Of run_bag alone: images, which launch files find by the camera's namespace.
+# run_bag only: images, which launch files find by the camera's namespace.
 IMAGES = {"left_image", "right_image", "left_camera_info", "right_camera_info"}
 LAUNCH_FILE = re.compile(r"\b\w+\.launch\b")
 OTHERS = {"cmake", "rosbag"}  # programs of other packages
@@ -28,7 +29,8 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 
 
 def inline_commands(text):
-    """(program of ours, its words, options) of the commands outside of fenced blocks that have options."""
+    """Returns (our program, its arguments, options) of the commands with
+    options outside of fenced blocks."""
     for name, words in SPAN.findall(FENCED.sub("", text)):
         options = OPTION.findall(words)
         if options and name not in OTHERS:
@@ -37,7 +39,7 @@ def inline_commands(text):
 
 @functools.lru_cache(maxsize=None)
 def arguments_taken(file):
-    """Names of the arguments of a file of launch/, those that it passes on included."""
+    """Returns the argument names of a file of launch/, including those that it passes on."""
     return arguments_of(SOURCE / "launch" / file, lambda name: name.replace("$(find datmo_fusion)", str(SOURCE)))
 
 

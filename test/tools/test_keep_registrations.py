@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a ROS master knew is told to the one that is started in its place, by made-up nodes."""
+"""What a ROS master knew is passed on to the master that replaces it; with made-up nodes."""
 
 import threading
 import unittest
@@ -17,7 +17,7 @@ OWN = "/car1/keep_registrations"
 
 
 class Node:
-    """A node's XML-RPC server: what the master tells it."""
+    """A node's XML-RPC server: records what the master reports to it."""
 
     def __init__(self, name, master):
         self.name = name
@@ -72,7 +72,7 @@ class KeepRegistrations(unittest.TestCase):
         known = registrations.read(rosgraph.Master("/test", self.master.uri))
         return known._replace(publishers=sorted(known.publishers), subscribers=sorted(known.subscribers))
 
-    def test_all_is_as_before(self):
+    def test_everything_is_restored(self):
         tracker, risk = self.node("/tracker"), self.node("/risk")
         tracker.publish("/tracks", "datmo_fusion/TrackArray")
         risk.subscribe("/tracks", "*")
@@ -90,7 +90,7 @@ class KeepRegistrations(unittest.TestCase):
         self.keeper.step()
         self.assertEqual(len(self.said), 1, "once")
 
-    def test_what_came_meanwhile_stays_and_is_found(self):
+    def test_new_registrations_are_kept_and_announced(self):
         first, listener, gone = self.node("/first"), self.node("/listener"), self.node("/gone")
         first.publish("/tracks")
         gone.publish("/tracks")
@@ -126,7 +126,7 @@ class KeepRegistrations(unittest.TestCase):
         everybody = sorted(publisher.uri for publisher in publishers)
         self.assertEqual({tuple(sorted(each)) for each in listener.updates}, {tuple(everybody)})
 
-    def test_a_service_of_a_node_that_came_back_is_where_it_is_now(self):
+    def test_a_service_of_a_restarted_node_has_its_new_address(self):
         node = self.node("/perception")
         node.master.registerService("/perception/list", "rosrpc://localhost:5", node.uri)
         self.keeper.step()
@@ -138,7 +138,7 @@ class KeepRegistrations(unittest.TestCase):
         self.keeper.step()
         self.assertEqual(again.master.lookupService("/perception/list"), "rosrpc://localhost:6")
 
-    def test_a_master_that_is_away_is_reported_once_and_nothing_is_forgotten(self):
+    def test_a_missing_master_is_reported_once_and_nothing_is_forgotten(self):
         self.node("/tracker").publish("/tracks")
         self.keeper.step()
         self.master.kill()

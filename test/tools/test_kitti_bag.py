@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""kitti_to_bag on a made-up drive: what stands in the bag, determinism."""
+"""kitti_to_bag on a made-up drive: contents of the bag, determinism."""
 
 import math
 import unittest
@@ -29,7 +29,7 @@ class Contents(Conversion):
         self.assertTrue(math.isnan(scan.ranges[0]), "the cloud has no point there at all")
 
     def test_beams_have_their_own_times(self):
-        """A turn takes 0.1 s, 160 of 360 degrees of it 44.4 ms, and the middle is at the stamp."""
+        """A turn takes 0.1 s, 160 of 360 degrees take 44.4 ms, and the middle is at the stamp."""
         self.run_tool()
         with rosbag.Bag(str(self.bag)) as bag:
             _, scan, recorded = list(bag.read_messages(["/scan"]))[1]
@@ -131,7 +131,7 @@ class Contents(Conversion):
             [rotation.x, rotation.y, rotation.z, rotation.w], [-0.5, 0.5, -0.5, 0.5]
         )
 
-    def test_points_and_images_on_demand(self):
+    def test_points_and_images_on_request(self):
         self.run_tool()
         self.assertEqual(self.messages("/points") + self.messages("/stereo/left/image_rect"), [])
         self.run_tool("--points", "--images")
@@ -197,7 +197,7 @@ class Contents(Conversion):
         self.assertEqual(self.messages("/ground_truth/objects"), [])
         self.assertEqual(len(self.messages("/scan")), 4)
 
-    def test_missing_scans_on_demand(self):
+    def test_missing_scans_on_request(self):
         (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
         self.run_tool("--allow-missing-scans")
         self.assertEqual(

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""kitti_to_bag refuses what it cannot convert, and leaves no half of a bag."""
+"""kitti_to_bag refuses what it cannot convert, and leaves no partial bag behind."""
 
 import contextlib
 import io
@@ -14,7 +14,7 @@ from datmo_tools.convert.kitti_to_bag import main
 
 class Errors(Conversion):
     def assert_refused(self, *texts, options=()):
-        """Exit code 1, all texts in the message, and no file left behind."""
+        """Expects exit code 1, all texts in the message, and no file left behind."""
         said = self.run_tool(*options, expected_code=1)
         for text in texts:
             self.assertIn(text, said)
@@ -53,7 +53,7 @@ class Errors(Conversion):
         self.bag = self.root / "no" / "out.bag"
         self.assert_refused(str(self.bag), "cannot be written")
 
-    def test_folder_is_no_bag_to_write(self):
+    def test_folder_is_no_output_bag(self):
         self.bag = self.drive
         self.assert_refused(f"{self.drive}: is a folder")
 
@@ -66,7 +66,7 @@ class Errors(Conversion):
         with mock.patch("datmo_tools.convert.kitti_raw.Drive.cloud", side_effect=KeyboardInterrupt):
             self.assert_refused("interrupted, no bag written")
 
-    def test_number_that_is_none(self):
+    def test_nan_option(self):
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
             main([str(self.drive), str(self.bag), "--scan-resolution", "fine"])
         self.assertIn("--scan-resolution: 'fine', expected a finite number", said.getvalue())

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""kitti_to_bag on the recorded drive: beams lie on the labeled objects, the truth is sane."""
+"""kitti_to_bag on the recorded drive: beams lie on the labeled objects, the truth is plausible."""
 
 import contextlib
 import io
@@ -47,7 +47,7 @@ class Drive0005(unittest.TestCase):
         self.assertGreater(ranges[:, 38:43].min(), 2.7)
 
     def test_distance(self):
-        """The speed makes 71.3 m; the GPS says 69.4 m, and the Velodyne against walls 71.5 m."""
+        """The speed gives 71.3 m; the GPS 69.4 m, and matching the Velodyne to walls 71.5 m."""
         positions = np.array(
             [
                 [m.pose.pose.position.x, m.pose.pose.position.y]
@@ -57,14 +57,14 @@ class Drive0005(unittest.TestCase):
         self.assertAlmostEqual(np.hypot(*np.diff(positions, axis=0).T).sum(), 71.3, delta=0.1)
 
     def test_clean_odometry_follows_the_true_pose(self):
-        """They share the speed, not the course: the gyroscope's against the GPS/IMU's."""
+        """They share the speed, not the heading: one uses the gyroscope, the other the GPS/IMU."""
         end, true_end = (
             self.by_topic[topic][-1].pose.pose.position
             for topic in ("/odometry", "/ground_truth/pose")
         )
         self.assertLess(math.hypot(end.x - true_end.x, end.y - true_end.y), 1.5)
 
-    def test_who_moves(self):
+    def test_moving_objects(self):
         tracklets = {number: list(seen.values()) for number, seen in self.tracklets.items()}
         moving = {number for number, seen in tracklets.items() if any(item.moving for item in seen)}
         labels = sorted(tracklets[number][0].label for number in moving)
@@ -76,7 +76,7 @@ class Drive0005(unittest.TestCase):
         )
 
     def test_beams_on_the_moving_van_and_on_the_cyclist(self):
-        """With two degrees the van, 44 m ahead in the end, slips through now and then."""
+        """At two degrees the van, 44 m ahead in the end, is missed now and then."""
         van, cyclist = (self.through_the_whole_drive(label) for label in ("Van", "Cyclist"))
         without = np.mean([item.lidar_beams == 0 for item in van])
         self.assertTrue(0.1 < without < 0.3, without)
@@ -101,7 +101,7 @@ class Drive0005(unittest.TestCase):
                 )
 
     def through_the_whole_drive(self, label):
-        """The object of that label which moves and is labeled in every frame."""
+        """Returns the object of that label which moves and is labeled in every frame."""
         found = [
             seen
             for seen in (list(seen.values()) for seen in self.tracklets.values())
@@ -112,7 +112,7 @@ class Drive0005(unittest.TestCase):
 
 
 def by_object(messages):
-    """Dictionary id -> dictionary stamp -> TrueObject, in the bag's order."""
+    """Returns a dictionary id -> dictionary stamp -> TrueObject, in the bag's order."""
     seen = {}
     for topic, message in messages:
         if topic == "/ground_truth/objects":

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""KITTI raw drives in every form in which they are published, made after the devkit's readme."""
+"""KITTI raw drives in every published form, made after the devkit's readme."""
 
 import contextlib
 import io
@@ -52,12 +52,12 @@ class Conversion(unittest.TestCase):
             return [message for _, message, _ in bag.read_messages([topic])]
 
     def stamps(self, topic):
-        """Of its messages, in ms after the first frame."""
+        """Returns the stamps of its messages, in ms after the first frame."""
         begin = 1317042272_000_000_000
         return [round((m.header.stamp.to_nsec() - begin) * 1e-6) for m in self.messages(topic)]
 
     def edit_lines(self, kind, **lines):
-        """Puts other text in lines (`line_2="..."`) of a sensor's timestamps.txt."""
+        """Replaces lines (`line_2="..."`) of a sensor's timestamps.txt by other text."""
         path = self.drive / kind / "timestamps.txt"
         text = path.read_text().splitlines()
         for name, line in lines.items():
@@ -220,7 +220,7 @@ class Unsynchronized(Conversion):
         self.assertEqual(self.stamps("/odometry"), [t for t in range(0, 301, 10) if t != 70])
 
     def test_images_are_rectified(self):
-        """The raw image's dark corner is left out: it lies a pixel outside the rectified one."""
+        """The raw image's dark corner is removed: it lies one pixel outside the rectified image."""
         self.convert("--images")
         image = self.messages("/stereo/right/image_rect")[0]
         self.assertEqual((image.width, image.height), (tiny_drive.WIDTH, tiny_drive.HEIGHT))

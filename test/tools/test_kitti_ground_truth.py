@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Labeled boxes in the map: place, velocity, moving or not, beams on them."""
+"""Labeled boxes in the map: position, velocity, moving or not, beams on them."""
 
 import unittest
 
@@ -14,7 +14,7 @@ TENTH = 10**8  # ns
 
 
 def in_map(positions, ego_positions):
-    """Objects by frame for a car at `positions` (x in the Velodyne's frame) at 10 Hz."""
+    """Returns objects by frame for a car at `positions` (x in the Velodyne's frame) at 10 Hz."""
     boxes = {
         frame: TrueBox(x, 2.0, -0.73, 0.1, 0.0)
         for frame, x in enumerate(positions)

@@ -18,7 +18,8 @@ RIGHT_ANGLE = math.pi / 2
 
 
 def driving(count, speed=10.0, yaw_rate=0.0, yaw=0.0, step=SECOND, leftward=0.0):
-    """Stamps (ns) and records of constant speed and yaw rate; longitude as if it drove east."""
+    """Returns stamps (ns) and records of constant speed and yaw rate;
+    longitude as if it drove east."""
     seconds = [i * step / SECOND for i in range(count)]
     records = [
         Oxts(
@@ -93,7 +94,7 @@ class EgoPose(unittest.TestCase):
         np.testing.assert_allclose(poses[500, :2], [0.0, 1000.0 / math.pi], atol=0.01)
 
     def test_gps_unit_that_is_mounted_askew(self):
-        """10 m/s ahead and 1 m/s to the left: it looks to the right of where the car goes."""
+        """10 m/s ahead and 1 m/s to the left: it faces to the right of its course."""
         for speed, leftward in ((10.0, 1.0), (-10.0, -1.0)):
             stamps, records = driving(2, speed=speed, leftward=leftward)
             self.assertAlmostEqual(course_offset(records), math.atan(0.1))

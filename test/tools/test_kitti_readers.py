@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every file of a KITTI raw drive: what is read from it, and how a broken one is named."""
+"""Every file of a KITTI raw drive: what is read from it, and the error for a broken one."""
 
 import math
 import tempfile
@@ -23,7 +23,7 @@ class TinyDrive(unittest.TestCase):
         self.folder = tiny_drive.make_drive(temporary.name)
 
     def assert_named(self, path, expected, function, *arguments):
-        """`function` must raise InputError with the path and with what was expected."""
+        """Expects that `function` raises InputError with the path and with what was expected."""
         with self.assertRaises(InputError) as context:
             function(*arguments)
         self.assertIn(str(path), str(context.exception))

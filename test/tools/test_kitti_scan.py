@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options of the emulated scanner, and the road that stereo grids are judged by."""
+"""Options of the emulated scanner, and the road plane used to evaluate stereo grids."""
 
 import unittest
 
@@ -32,7 +32,7 @@ class Scanner(unittest.TestCase):
 
 
 def road(plane, step=0.5):
-    """Points of a plane, 40 m ahead and 16 m wide."""
+    """Returns points of a plane, 40 m ahead and 16 m wide."""
     x, y = (
         axis.ravel() for axis in np.meshgrid(np.arange(3.0, 40.0, step), np.arange(-8.0, 8.0, step))
     )

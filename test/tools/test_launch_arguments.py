@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line of roslaunch: names that no launch file takes are refused, with the nearest one."""
+"""The command line of roslaunch: argument names that no launch file has are refused,
+with the nearest one."""
 
 import tempfile
 import unittest
@@ -35,7 +36,7 @@ class LaunchArguments(unittest.TestCase):
         self.assertLess(perception, replay)
         self.assertIn("bag", replay)
 
-    def test_a_plain_include_hands_nothing_on(self):
+    def test_a_plain_include_passes_nothing_on(self):
         with tempfile.TemporaryDirectory() as folder:
             inner = Path(folder, "inner.launch")
             inner.write_text('<launch><arg name="scan" default="s"/></launch>')
@@ -78,7 +79,7 @@ class LaunchArguments(unittest.TestCase):
         self.assertIn("no argument image: did you mean images?",
                       launch_arguments.check_words([file, "image:=raw", "-v"]))
 
-    def test_a_level_of_fusion_that_is_none_is_refused(self):
+    def test_an_unknown_level_of_fusion_is_refused(self):
         file = str(PACKAGE / "launch/perception.launch")
         self.assertIsNone(launch_arguments.check_words([file, "fusion:=recommended"]))
         self.assertEqual(launch_arguments.check_words([file, "fusion:=all"]),

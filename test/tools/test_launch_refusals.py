@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""roslaunch on the launch files with what it must not take: it ends before a node starts, with one line
-that says what and what was probably meant."""
+"""roslaunch on the launch files with invalid arguments: it ends before a node starts, with one line
+that names the error and what was probably meant."""
 
 import os
 import subprocess
@@ -22,7 +22,7 @@ class LaunchRefusals(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def refusal(self, file, *words, master="http://localhost:1"):
-        """What roslaunch says; it ends by itself, without a master."""
+        """Returns the output of roslaunch; it ends by itself, without a master."""
         environment = dict(os.environ, ROS_LOG_DIR=str(self.folder), ROS_HOME=str(self.folder),
                            ROS_PACKAGE_PATH=f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}",
                            ROS_MASTER_URI=master, DISPLAY="")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """perception.launch and replay.launch in every combination of their switches: each nodelet is there
-once, with a type that the package (or a named one) has, and takes what is published."""
+once, with a type that the package (or a named one) has, and subscribes to published topics."""
 
 import functools
 import itertools
@@ -24,13 +24,13 @@ IMAGES = {"none": set(),
 
 
 def combinations():
-    """(low_level_fusion, road_border, object_fusion, track_fusion, stereo_images)"""
+    """Returns (low_level_fusion, road_border, object_fusion, track_fusion, stereo_images)."""
     return itertools.product(*[[False, True]] * 4, IMAGES)
 
 
 @functools.lru_cache(maxsize=None)
 def loaded(file, **arguments):
-    """The nodes of a launch file, by name, and its parameters, by key."""
+    """Returns the nodes of a launch file, by name, and its parameters, by key."""
     words = [f"{key}:={str(value).lower() if isinstance(value, bool) else value}"
              for key, value in arguments.items()]
     config = load(file, words)
@@ -39,7 +39,7 @@ def loaded(file, **arguments):
 
 
 def nodelets(nodes):
-    """Their types, by name."""
+    """Returns their types, by name."""
     return {name: node.args.split()[1] for name, node in nodes.items()
             if node.args.startswith("load ")}
 
@@ -51,14 +51,14 @@ def remapped(node, topic):
 class LaunchSwitches(unittest.TestCase):
     @staticmethod
     def each(file, **more):
-        """(switches, nodes, parameters) of each combination"""
+        """Yields (switches, nodes, parameters) of each combination."""
         for low_level, borders, objects, tracks, images in combinations():
             switches = {"low_level_fusion": low_level, "road_border": borders,
                         "object_fusion": objects, "track_fusion": tracks,
                         "stereo_images": images}
             yield (switches, *loaded(file, **switches, **more))
 
-    def test_there_are_the_nodelets_of_the_switches(self):
+    def test_the_switches_select_the_nodelets(self):
         for switches, nodes, _ in self.each("perception.launch"):
             with self.subTest(**switches):
                 expected = ALWAYS | IMAGES[switches["stereo_images"]]
@@ -97,7 +97,8 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertLessEqual(ours, known)
 
     def test_no_test_has_the_name_of_a_node_that_it_starts(self):
-        """A test is a node of that name, too: of two with one name the master ends the first."""
+        """A test is also a node of that name: of two nodes with one name
+        the master ends the first."""
         for file in sorted((PACKAGE / "test/nodelets").glob("*.test")):
             root = ElementTree.parse(file)
             nodes = {node.get("name") for node in root.iter("node")}
@@ -108,7 +109,7 @@ class LaunchSwitches(unittest.TestCase):
             self.assertTrue(names, file)
             self.assertFalse(names & nodes, file)
 
-    def test_the_demos_build_what_is_started(self):
+    def test_the_demos_build_all_their_nodes(self):
         started = {node.get("type") for file in (PACKAGE / "launch").glob("*.launch")
                    for node in ElementTree.parse(file).getroot().iter("node")
                    if node.get("pkg") == "datmo_fusion"}
@@ -120,12 +121,12 @@ class LaunchSwitches(unittest.TestCase):
         for demo in ("demo", "risk_demo"):
             self.assertRegex((PACKAGE / "scripts" / demo).read_text(), r'scripts/build" .*\blive\b')
 
-    def test_moving_objects_takes_borders_where_they_are_looked_for(self):
+    def test_moving_objects_subscribes_to_borders_if_enabled(self):
         for switches, _, parameters in self.each("perception.launch"):
             with self.subTest(**switches):
                 self.assertIs(parameters["/moving_objects/road_borders"], switches["road_border"])
 
-    def test_tracker_and_markers_take_what_is_published(self):
+    def test_tracker_and_markers_subscribe_to_published_topics(self):
         for switches, nodes, _ in self.each("perception.launch"):
             with self.subTest(**switches):
                 source = "objects/fused" if switches["object_fusion"] else "objects"
@@ -146,7 +147,7 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(published[-1], "tracks")
                 self.assertEqual(remapped(nodes["markers"], "tracks"), "tracks")
 
-    def test_the_stereo_tracker_follows_what_the_camera_sees(self):
+    def test_the_stereo_tracker_tracks_the_cameras_objects(self):
         for switches, nodes, parameters in self.each("perception.launch"):
             if switches["track_fusion"]:
                 with self.subTest(**switches):
@@ -169,7 +170,7 @@ class LaunchSwitches(unittest.TestCase):
                         self.assertEqual(remapped(nodes[name], "objects"),
                                          remapped(nodes[of], "objects"))
 
-    def test_both_levels_take_the_same_points(self):
+    def test_both_levels_use_the_same_points(self):
         nodes, _ = loaded("perception.launch", low_level_fusion=True, object_fusion=True,
                           points2="cloud", right_camera_info="info")
         for name in ("stereo_alignment", "stereo_grid", "stereo_objects"):
@@ -191,7 +192,7 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(set(nodelets(nodes)),
                                  ALWAYS | members - {"stereo_objects"})
 
-    def test_risk_is_one_more(self):
+    def test_risk_adds_one_nodelet(self):
         for borders in (False, True):
             nodes, parameters = loaded("perception.launch", risk=True, road_border=borders,
                                        odometry="/odom")

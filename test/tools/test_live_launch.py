@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""live.launch: the chain of perception.launch with the devices that are asked for; kinds of devices that
-there are not are refused."""
+"""live.launch: the chain of perception.launch with the requested devices; unknown kinds of devices
+are refused."""
 
 import shlex
 import tempfile
@@ -16,7 +16,7 @@ MACHINES = f"machines:={PACKAGE}/test/nodelets/parts_machines.launch"
 
 
 def loaded(*words):
-    """The nodes by name, and the parameters."""
+    """Returns the nodes by name, and the parameters."""
     config = load("live.launch", list(words))
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})
@@ -32,7 +32,7 @@ class LiveLaunch(unittest.TestCase):
         self.assertEqual(remaps["odometry"], "/wheels")
         self.assertNotEqual(parameters.get("/motion/source"), "none")
 
-    def test_tracks_do_not_wait_for_the_camera_unless_told_to(self):
+    def test_tracks_do_not_wait_for_the_camera_by_default(self):
         _, early = loaded("object_fusion:=true", "track_fusion:=true")
         self.assertIs(early["/object_fusion/retroactive"], True)
         self.assertEqual(early["/track_fusion/max_wait"], 0.0)
@@ -40,7 +40,7 @@ class LiveLaunch(unittest.TestCase):
         self.assertNotIn("/object_fusion/retroactive", waiting)
         self.assertNotEqual(waiting.get("/track_fusion/max_wait"), 0.0)
 
-    def test_what_the_sensor_set_says_of_early_tracks_counts(self):
+    def test_the_sensor_set_decides_about_early_tracks(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
             settings.write("track_fusion: {max_wait: 0.1}\nobject_fusion: {retroactive: false}\n")
             settings.flush()
@@ -141,7 +141,7 @@ class LiveLaunch(unittest.TestCase):
                     self.assert_place(device, "perception_sensors", "sensors")
                     self.assertEqual(nodes["perception_sensors"].machine_name, "sensors")
 
-    def test_other_stations_are_heard_where_it_is_said(self):
+    def test_other_stations_are_received_at_the_given_port(self):
         words = ("v2x_wire:=true", "track_fusion:=true", MACHINES, "perception_machine:=perception")
         nodes, _ = loaded(*words, "sensors_machine:=sensors")
         self.assert_place(nodes["v2x_wire"], "perception", "perception")
@@ -199,7 +199,7 @@ class LiveLaunch(unittest.TestCase):
         self.assertNotIn("v2x_wire", nodes)
         self.assertNotIn("v2x", nodes)
 
-    def test_devices_that_there_are_not_end_it(self):
+    def test_unknown_devices_end_it(self):
         for word in ("lidar:=ouster", "camera:=webcam", "odometry:=magic", "rear_lidar:=velodyne"):
             with self.subTest(word):
                 with self.assertRaises(roslaunch.RLException):
@@ -209,7 +209,7 @@ class LiveLaunch(unittest.TestCase):
 
 
 class MissingDevice(unittest.TestCase):
-    def test_what_there_is_is_fine(self):
+    def test_known_devices_are_accepted(self):
         self.assertIsNone(missing_device(["lidar:=hokuyo", "camera:=external", "odometry:=none"]))
 
     def test_a_rear_scanner_needs_an_address_and_another_planar_one(self):
@@ -226,7 +226,7 @@ class MissingDevice(unittest.TestCase):
         for words in (["odometry:=can", "can_signals:="], ["odometry:=external", "can_signals:=/none.yaml"]):
             self.assertIsNone(missing_device(words))
 
-    def test_the_sentence_says_what_there_is_and_what_to_do(self):
+    def test_the_message_says_what_there_is_and_what_to_do(self):
         said = missing_device(["lidar:=ouster"])
         self.assertIn("lidar:=ouster: no driver in this package, expected one of external, hokuyo, sick_lms, "
                       "velodyne; ",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""loop_closing without the stack: errors of a path, the table, what is refused."""
+"""loop_closing without the stack: errors of a path, the table, rejected input."""
 
 import contextlib
 import io
@@ -23,7 +23,7 @@ class LoopClosing(unittest.TestCase):
         self.assertAlmostEqual(found["end_deg"], math.degrees(math.pi / 2 - 1.5))
         self.assertAlmostEqual(found["max_m"], 3.0)
 
-    def test_both_paths_stand_in_the_table(self):
+    def test_both_paths_are_in_the_table(self):
         scored = {"end_m": 3.0, "end_deg": 2.0, "end_share": 0.0125, "max_m": 4.0}
         time = {stage: {"mean_s": 0.0015} for stage in ("grid_slam", "loop_closing")}
         loops = {"closed": 12, "false": 1, "max_m": 0.625, "max_deg": None}
@@ -44,7 +44,7 @@ class LoopClosing(unittest.TestCase):
         self.assertAlmostEqual(found["max_deg"], math.degrees(0.1))
         self.assertIsNone(loop_figures({"closed": []}, 0, truth)["max_m"])
 
-    def test_a_scene_that_is_not_there_is_refused(self):
+    def test_a_missing_scene_is_refused(self):
         said = io.StringIO()
         with tempfile.TemporaryDirectory() as name, contextlib.redirect_stderr(said):
             scene = Path(name) / "none.yaml"

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment with several machines, without any: packets that wait and are lost, and what is counted."""
+"""The experiment with several machines, without any: packets that are delayed and lost, and the
+counts."""
 
 import os
 import select
@@ -13,11 +14,11 @@ from datmo_tools.experiments import lossy_network, machines
 from datmo_tools.experiments.lossy_network import Quality
 from datmo_tools.experiments.machines_run import Result, by_time, latencies, recovery
 
-ENOUGH = 30.0  # s, for what is done at once
+ENOUGH = 30.0  # s, for what is done immediately
 
 
 def packet(to, payload=b"payload"):
-    """As an IPv4 packet, as far as the relay looks at it."""
+    """Returns an IPv4 packet, with as much content as the relay reads."""
     return struct.pack("!16s4s", b"\x45", socket.inet_aton(to)) + payload
 
 
@@ -44,7 +45,7 @@ class Relay(unittest.TestCase):
     def comes(self, address, seconds):
         return bool(select.select([self.ends[address]], [], [], seconds)[0])
 
-    def test_a_packet_comes_where_it_is_to_go_and_not_before_its_time(self):
+    def test_a_packet_arrives_at_its_destination_after_its_delay(self):
         self.relay(Quality(delay=0.2, jitter=0.05))
         sent = time.monotonic()
         self.ends["10.77.0.1"].send(packet("10.77.0.2"))
@@ -53,11 +54,11 @@ class Relay(unittest.TestCase):
         self.assertEqual(self.ends["10.77.0.2"].recv(100), packet("10.77.0.2"))
         self.assertFalse(self.comes("10.77.0.1", 0.0))
 
-    def test_some_are_lost(self):
+    def test_some_packets_are_lost(self):
         self.relay(Quality(loss=0.5, seed=3))
         for i in range(100):
             self.ends["10.77.0.1"].send(packet("10.77.0.2", bytes([i])))
-        self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # nobody's
+        self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # no machine has this address
         came = []
         while self.comes("10.77.0.2", ENOUGH if len(came) < 30 else 1.0):
             came.append(self.ends["10.77.0.2"].recv(100)[-1])
@@ -81,7 +82,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(set(by_time(one, "tracks")), {0, 60})
         self.assertAlmostEqual(latencies(one, "tracks")[1], 0.04)
 
-    def test_what_was_measured_before_the_kill_is_no_recovery(self):
+    def test_measurements_before_the_kill_are_no_recovery(self):
         result = Result(0.0, {"risks": [[9.9, 10.1, []], [10.5, 12.0, []], [10.6, 12.1, []]]}, [], [])
         self.assertAlmostEqual(recovery(result, ("risk", 10.0)), 2.0)
         self.assertIsNone(recovery(result, ("risk", 11.0)))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""mocap_to_bag on made-up recordings: what stands in the bag, options, errors, determinism."""
+"""mocap_to_bag on made-up recordings: contents of the bag, options, errors, determinism."""
 
 import contextlib
 import io
@@ -25,7 +25,7 @@ def ego(seconds):
 
 
 def red(seconds):
-    """2 m ahead of where the ego car starts, in its direction, and slower."""
+    """2 m ahead of the ego car's start, in its direction, and slower."""
     return (2.0, 3.0 + RED_SPEED * seconds, 0.5 * math.pi)
 
 
@@ -37,7 +37,7 @@ class Conversion(unittest.TestCase):
         self.recording, self.bag = self.root / "drive.bag", self.root / "out.bag"
 
     def convert(self, *options, expected_code=0, **recorded):
-        """Runs the tool without a subprocess; returns what it said on standard error."""
+        """Runs the tool without a subprocess; returns its standard error."""
         content = {"ego": ego, "red": red, "ranges": [1.0, 2.0, 4.0, math.inf], **recorded}
         write_recording(self.recording, **content)
         said = io.StringIO()
@@ -56,7 +56,7 @@ def seconds_of(message):
 
 
 class Scans(Conversion):
-    def test_clockwise_beams_stand_in_the_order_of_time(self):
+    def test_clockwise_beams_are_in_order_of_time(self):
         self.convert(*EXACT)
         scan = self.messages("/scan")[0]
         self.assertEqual(scan.header.frame_id, "scanner")
@@ -85,7 +85,7 @@ class Scans(Conversion):
             self.assertAlmostEqual(stamp, 0.08 * index - 0.03, places=6)
             self.assertAlmostEqual(recorded * 1e-9, 0.08 * index + 0.05, places=6)
 
-    def test_ranges_are_made_longer_by_what_they_are_short(self):
+    def test_short_ranges_are_corrected(self):
         self.convert("--range-errors", "1:0.1", "3:0.3", ranges=[0.5, 2.0, 6.0, 0.1, 9.0, math.nan])
         scan = self.messages("/scan")[0]
         expected = [0.6, 2.2, 6.3, math.inf, math.inf, math.inf]
@@ -124,14 +124,14 @@ class Truth(Conversion):
             np.testing.assert_allclose([car.velocity.x, car.velocity.y], [0.5, 0.0], atol=1e-6)
             self.assertTrue(car.moving)
 
-    def test_what_is_slow_stands(self):
+    def test_slow_objects_are_stationary(self):
         self.convert("--moving-speed", "0.6")
         (car,) = self.messages("/ground_truth/objects")[0].objects
         self.assertFalse(car.moving)
         self.assertEqual(car.velocity.x, 0.0)
 
     def test_beams_on_the_other_car(self):
-        """Straight ahead 1.9 m from the scanner is its rear side, 0.1 m from its middle."""
+        """Its rear side is straight ahead, 1.9 m from the scanner, and 0.1 m from its middle."""
         size = ("--object-size", "0.2", "0.1", "0.1", "--object-center", "0", "0", "0")
         centered = (*EXACT, *size, "--mount", "0", "0", "0")
         self.convert(*centered, ranges=[5.0, 1.9, 5.0, 5.0])
@@ -153,8 +153,8 @@ class Truth(Conversion):
         self.assertEqual(len(stamps), 6)
         self.assertIn(f"5 of {SCANS} scans without truth", said)
 
-    def test_repeated_poses_are_none(self):
-        """Motion capture that lost the car goes on to tell where it was."""
+    def test_repeated_poses_are_ignored(self):
+        """Motion capture that has lost the car keeps reporting its last pose."""
         self.convert(*EXACT, ego=lambda seconds: ego(min(seconds, 0.4)))
         stamps = [seconds_of(message) for message in self.messages("/ground_truth/pose")]
         self.assertAlmostEqual(stamps[-1], 0.4, places=6)
@@ -167,7 +167,7 @@ class Odometry(Conversion):
     WHEELS, YAW_RATE, BIAS = 20.0, 0.4, 0.1  # rad/s
 
     def rates(self, seconds):
-        """Stands for 0.3 s, then goes on a circle."""
+        """Stationary for 0.3 s, then drives in a circle."""
         return (0.0, 0.0) if seconds < 0.295 else (self.WHEELS, self.YAW_RATE)
 
     def check_twists(self):
@@ -186,7 +186,7 @@ class Odometry(Conversion):
             self.convert("--wheel-radius", "0.05", drive_sensors=sensors)
             samples = self.check_twists()
         x, y, yaw = planar(samples[-1].pose.pose)
-        # Rates between two samples are the mean: half a step of the start counts.
+        # Rates between two samples are the mean: half a step at the start counts.
         turned = self.YAW_RATE * (seconds_of(samples[-1]) - 0.295)
         radius = 0.05 * self.WHEELS / self.YAW_RATE
         expected = [radius * math.sin(turned), radius * (1.0 - math.cos(turned)), turned]

@@ -27,12 +27,13 @@ START = 1000 * 10**9
 class Tool(unittest.TestCase):
     """A vehicle that drives at 10 m/s, and oncoming cars, seen by a scanner and a camera.
 
-    The camera stands 1.5 m ahead, and looks 30 ms after the scan; the scan takes 20 ms to the cars.
+    The camera is 1.5 m ahead, and is exposed 30 ms after the scan; the scan reaches the cars after
+    20 ms.
     """
 
     CAMERA = np.array([1.5, 0.0])  # m
     SPEED, CAR_SPEED = 10.0, -8.0  # m/s
-    ROUND = 0.2  # s: two scans; then the cars stand where they stood ahead of the vehicle
+    ROUND = 0.2  # s: two scans; then the cars are where they were relative to the vehicle
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -41,7 +42,8 @@ class Tool(unittest.TestCase):
         self.bag, self.out = self.root / "run.bag", self.root / "table.yaml"
 
     def write(self, *topics, rounds=50, range_sigma=0.3, across_sigma=0.05):
-        """A bag with lists on the topics: each round two scans, and an image between them."""
+        """Writes a bag with lists on the topics: two scans each round,
+        and an image between them."""
         noise = np.random.Generator(np.random.PCG64(1)).standard_normal((rounds, 10, 2)) * [range_sigma, across_sigma]
         with whole_bag(self.bag, "test") as bag:
             for i in range(2 * rounds):
@@ -73,7 +75,7 @@ class Tool(unittest.TestCase):
         return ObjectArray(header=bag_messages.header(stamp, "base_link"), objects=items)
 
     def tracks(self, stamp, distance):
-        """Of all cars, half a meter off; way: of the vehicle, m."""
+        """Returns all cars, half a meter off; way: of the vehicle, m."""
         tracks = []
         for i in range(10):
             middle = Point(distance + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)
@@ -83,7 +85,8 @@ class Tool(unittest.TestCase):
         return TrackArray(header=bag_messages.header(stamp, "map"), tracks=tracks)
 
     def ahead(self, stamp, number, delay=0.0):
-        """How far a car's near side is ahead of the vehicle at a stamp, as it is `delay` later."""
+        """Returns the range of a car's near side from the vehicle at a stamp,
+        measured `delay` later."""
         since = (stamp - START) * 1e-9 % self.ROUND
         return 6.5 + 2.0 * number + self.CAR_SPEED * (since + delay) - self.SPEED * since
 
@@ -99,8 +102,9 @@ class Tool(unittest.TestCase):
         read = yaml.safe_load(self.out.read_text())
         return read["object_fusion"]["sources"][source]["covariance"]
 
-    def test_motion_of_vehicle_and_cars_is_taken_out(self):
-        """Without the vehicle's the camera would be 0.3 m off, without the cars' 0.1 m."""
+    def test_motion_of_vehicle_and_cars_is_compensated(self):
+        """Without the vehicle's motion the camera would be 0.3 m off,
+        without the cars' motion 0.1 m."""
         self.write("/objects", "/objects/stereo", rounds=100)
         score = self.root / "score.json"
         self.calibrate("--json", str(score))
@@ -117,7 +121,7 @@ class Tool(unittest.TestCase):
             across = math.sqrt(table["bearing_variance"][i]) * (2.0 * i + 1.0)
             self.assertTrue(0.03 < across < 0.08, across)
 
-    def test_two_bags_are_one(self):
+    def test_two_bags_are_pooled(self):
         self.write("/objects", "/objects/stereo", rounds=20)
         paired = []
         for runs in ([str(self.bag)], [str(self.bag)] * 2):

@@ -43,7 +43,7 @@ Path(sys.argv[-1]).write_text(json.dumps({
 
 
 class Settings(unittest.TestCase):
-    def test_the_preset_keeps_what_else_it_says(self):
+    def test_the_preset_keeps_its_other_values(self):
         preset = {"tracker": {"target": {"a": 1}}, "b": 2}
         changed = with_probability(preset, 0.9)
         self.assertEqual(
@@ -108,7 +108,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(calls), 6)
         self.assertTrue(all("--road-border" in json.loads(call) for call in calls))
 
-    def test_what_cannot_be_drawn(self):
+    def test_invalid_requests(self):
         code, _, err = self.evaluate("a.bag", "--probabilities", "1.2")
         self.assertEqual(code, 1)
         self.assertIn("1.2", err)

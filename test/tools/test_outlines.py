@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a sensor sees of boxes, and how far two are apart, by hand."""
+"""What a sensor sees of boxes, and how far two are apart, worked out by hand."""
 
 import math
 import unittest
@@ -13,8 +13,8 @@ HIDDEN = math.inf
 
 
 def seen(x, y, yaw=0.0, size=(4.0, 2.0), sides=(0.0, 0.0, 0.0, 0.0)):
-    """With a variance of 0.04 m^2 along x and of 0.01 m^2 along y; sides: front, rear, left,
-    right."""
+    """With a variance of 0.04 m^2 along x and of 0.01 m^2 along y; sides: front,
+    rear, left, right."""
     return Seen(np.array([x, y, yaw]), np.asarray(size), np.diag([0.04, 0.01]), np.array(sides),
                 0, 0.0)  # fmt: skip
 
@@ -58,7 +58,8 @@ class Outlines(unittest.TestCase):
         np.testing.assert_allclose(value, (0.0, 0.1), atol=0.02)
 
     def test_corners_that_were_seen(self):
-        """Front and left face the sensor at the right behind them; of both the ends are known."""
+        """Front and left face the sensor, which is behind on the right;
+        the ends of both are known."""
         corners = outline(10.0, 5.0, math.pi).corners()
         self.assertEqual([corner is not None for corner in corners], [True, True, False, True])
         corners = outline(10.0, 5.0, math.pi, sides=(0.0, HIDDEN, 0.0, 0.0)).corners()
@@ -74,7 +75,7 @@ class Offsets(unittest.TestCase):
         apart = offset(outline(10.5, 0.0), outline(10.0, 0.0))
         np.testing.assert_allclose(apart.value[0], 0.5)
         self.assertAlmostEqual(apart.range, 8.0)
-        # The corners of the nearer one are farther apart on both sides alike.
+        # The corners of the nearer one are equally farther apart on both sides.
         self.assertAlmostEqual(apart.value[1], 0.0)
         apart = offset(outline(10.0, 0.2), outline(10.0, 0.0))
         np.testing.assert_allclose(apart.value, (0.0, 0.2), atol=0.01)
@@ -85,7 +86,7 @@ class Offsets(unittest.TestCase):
             apart = offset(outline(10.3, 0.1, yaw, size=size), outline(10.0, 0.0))
             np.testing.assert_allclose(apart.value, (0.3, 0.1), atol=0.02)
 
-    def test_only_what_both_saw(self):
+    def test_only_common_parts(self):
         for sides, known in (((0.0, HIDDEN, 0.0, 0.0), (False, False)),
                              ((HIDDEN, 0.0, HIDDEN, HIDDEN), (True, False)),
                              ((HIDDEN, 0.0, HIDDEN, 0.0), (True, True))):  # fmt: skip
@@ -94,7 +95,7 @@ class Offsets(unittest.TestCase):
                 self.assertEqual(tuple(np.isfinite(offset(*pair).value)), known)
 
     def test_longer_box_is_not_beside(self):
-        """Its left end is not seen: what it reaches farther to the left says nothing."""
+        """Its left end is not visible: how far it extends beyond that is no evidence."""
         longer = seen(10.0, 0.5, size=(4.0, 3.0), sides=(0.0, 0.0, HIDDEN, 0.0))
         apart = offset(Outline(longer, (0.0, 0.0)), outline(10.0, 0.0))
         self.assertAlmostEqual(apart.value[1], 0.0)

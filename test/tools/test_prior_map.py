@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts in a prior map: what is cut out of a drive, and the score of poses by hand."""
+"""Starts in a prior map: what is cut out of a drive, and the score of poses, worked out by hand."""
 
 import math
 import tempfile
@@ -21,7 +21,7 @@ BEGIN = START * 10**9  # ns
 
 
 def pose_at(seconds, offset, turn, sigma):
-    """At 1 m/s along x, `offset` (m) to the left and `turn` (degrees) off."""
+    """Returns a pose at 1 m/s along x, `offset` (m) to the left and `turn` (degrees) off."""
     message = PoseWithCovarianceStamped()
     message.header.stamp = rospy.Time.from_sec(START + seconds)
     pose = message.pose.pose
@@ -39,7 +39,7 @@ class PriorMap(unittest.TestCase):
         self.reference = PosePath([BEGIN, BEGIN + 20 * 10**9], [[0, 0, 0], [20, 0, 0]])
 
     def scored(self, offset, turn=0.0, found_at=6):
-        """Poses once a second that claim a place from `found_at` (s) on."""
+        """Returns poses once a second that claim to be located from `found_at` (s) on."""
         computed = self.folder / "computed.bag"
         with rosbag.Bag(str(computed), "w") as bag:
             for second in range(15):
@@ -55,7 +55,7 @@ class PriorMap(unittest.TestCase):
         self.assertAlmostEqual(result["heading_deg"], 1.0)
         self.assertFalse(result["wrong"])
 
-    def test_a_place_is_wrong_by_position_or_heading(self):
+    def test_a_pose_is_wrong_by_position_or_heading(self):
         self.assertTrue(self.scored(0.6)["wrong"])
         self.assertTrue(self.scored(0.1, 6.0)["wrong"])
 
@@ -75,13 +75,13 @@ class PriorMap(unittest.TestCase):
         counts = [" ".join(row[10:14]) for row in rows[2:]]
         self.assertEqual(counts, ["2 1 2 0", "1 0 0 1", "0 0 0 0", "1 0 0 0"])
 
-    def test_what_of_a_view_a_map_knows(self):
+    def test_known_share_of_a_view(self):
         (self.folder / "hall.pgm").write_bytes(b"P5\n10 5\n255\n" + bytes(10) + bytes([254] * 40))
         described = self.folder / "hall.yaml"
         described.write_text("image: hall.pgm\nresolution: 1.0\norigin: [-2.0, 3.0, 0.0]\n"
                              "occupied_thresh: 0.65\n")  # fmt: skip
         surfaces = MapSurfaces(described)
-        # The image's first row, which is at the top: y from 7 to 8 m.
+        # The image's first row is at the top: y from 7 to 8 m.
         known = surfaces.known([(0.5, 7.5), (0.5, 6.5), (-1.5, 7.1), (7.5, 7.5), (8.5, 7.5)])
         self.assertEqual(list(known), [True, False, True, True, False])
 

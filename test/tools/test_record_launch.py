@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""record.launch records what the chain takes: all inputs of the graph of stages that no stage makes, under the
-names of perception.launch and live.launch; with `results` what it makes; each topic once."""
+"""record.launch records the chain's inputs: all inputs of the graph of stages that no stage
+publishes, under the names of perception.launch and live.launch; with `results` also the outputs;
+each topic once."""
 
 import json
 import os
@@ -12,12 +13,12 @@ from xml.etree import ElementTree
 
 from launch_files import PACKAGE, load
 
-# Made and left out: large, drawn while somebody looks, or no topic of their own.
+# Published but not recorded: large, drawn only for viewers, or without a topic of their own.
 NOT_RECORDED = {"/tf", "/tf_static", "grids/lidar", "grids/stereo", "grids/mono", "grids/fused", "grids/conflict"}
 
 
 def recorded(*words):
-    """The words of rosbag record."""
+    """Returns the arguments of rosbag record."""
     node, = load("record.launch", ["bag:=drive", *words]).nodes
     return node.args.split()
 
@@ -27,7 +28,8 @@ def printed(*words):
 
 
 def graph_topics():
-    """What no stage makes and some stage takes, with any switches: topic -> type; and what the stages make."""
+    """Returns the inputs that no stage publishes, with any switches (topic -> type), and the
+    stages' outputs."""
     switches = printed("--switches")
     all_but_merging = [name for name in switches if name != "merge_scans"]
     inputs, outputs = {}, set()
@@ -41,13 +43,13 @@ def graph_topics():
 
 
 def topic_arguments(file):
-    """Arguments of a launch file that name a topic of a message: name -> default."""
+    """Returns the arguments of a launch file that name the topic of a message: name -> default."""
     return {tag.get("name"): tag.get("default") for tag in ElementTree.parse(PACKAGE / "launch" / file).findall("arg")
             if re.match(r"topic, \w+/\w+", tag.get("doc") or "")}
 
 
 class RecordLaunch(unittest.TestCase):
-    def test_all_that_the_stages_take_is_recorded(self):
+    def test_all_inputs_of_the_stages_are_recorded(self):
         inputs, _ = graph_topics()
         words = recorded()
         for topic, kind in inputs.items():
@@ -74,7 +76,7 @@ class RecordLaunch(unittest.TestCase):
         remaps = {node.name: dict(node.remap_args) for node in load("live.launch", ["lidar:=velodyne"]).nodes}
         self.assertIn(remaps["device"]["points"], recorded())
 
-    def test_with_results_all_that_the_stages_make_is_recorded(self):
+    def test_with_results_all_outputs_of_the_stages_are_recorded(self):
         _, outputs = graph_topics()
         words = recorded("results:=true")
         self.assertLessEqual(outputs - NOT_RECORDED, set(words))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The robustness benchmark: its summary by hand, and its runs with programs that only pretend."""
+"""The robustness benchmark: its summary, worked out by hand,
+and its runs with stand-in programs."""
 
 import contextlib
 import io
@@ -95,7 +96,7 @@ class Runs(unittest.TestCase):
                          "--out", str(self.folder / "out.json"), *words])
         return code, out.getvalue(), err.getvalue()
 
-    def test_failed_run_is_reported_and_the_others_go_on(self):
+    def test_failed_run_is_reported_and_the_others_continue(self):
         code, out, _ = self.benchmark("--seeds", "3", "--movers", "0", "4")
         self.assertEqual(code, 1)
         self.assertIn("road, 4 movers, seed 2: no map", out)

@@ -11,7 +11,7 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "run_readme"
 
 
 def block(commands, needs=""):
-    """A block of bash, with its mark if it needs something."""
+    """Returns a block of bash, with its mark if it needs something."""
     return (f"<!-- needs: {needs} -->\n" if needs else "") + f"```bash\n{commands}\n```\n"
 
 
@@ -25,7 +25,7 @@ class RunReadme(unittest.TestCase):
         (self.devel / "setup.bash").write_text("export SOURCED=yes\n")
 
     def run_on(self, *texts, options=()):
-        """(exit code, output) for pages with these texts."""
+        """Returns (exit code, output) for pages with these texts."""
         pages = []
         for index, text in enumerate(texts):
             pages.append(self.folder / f"page{index}.md")
@@ -76,7 +76,7 @@ class RunReadme(unittest.TestCase):
         self.assertIn("page1.md: ok, 1 blocks run", output)
         self.assertNotIn("/nowhere", output)
 
-    def test_what_a_program_says_is_a_failure_too(self):
+    def test_error_output_of_a_program_is_a_failure_too(self):
         code, output = self.run_on(block("echo 'a'; echo '[FATAL] no parameters'"))
         self.assertEqual(code, 1, output)
         self.assertIn("page0.md:1: FAILED: said: [FATAL] no parameters", output)
@@ -93,7 +93,7 @@ class RunReadme(unittest.TestCase):
         self.assertIn("0 blocks run, left out: 1 hours, 1 robot", output)
         self.assertIn("  1 hours: takes more than a few minutes", output)
 
-    def test_roslaunch_checks_the_arguments_of_what_needs_sensors(self):
+    def test_roslaunch_checks_the_arguments_of_blocks_that_need_sensors(self):
         code, output = self.run_on(
             block('roslaunch() { echo "$@" >said; }')
             + block("false\nroslaunch a b.launch config:=/path/to/x.yaml y:=/path/to/z", "robot")
@@ -116,7 +116,7 @@ class RunReadme(unittest.TestCase):
         code, output = self.run_on(block("false", "hours"), options=["--with", "hours"])
         self.assertEqual(code, 1, output)
 
-    def test_downloads_run_where_all_their_files_are(self):
+    def test_downloads_run_if_all_their_files_exist(self):
         data = self.folder / "data" / "below"
         data.mkdir(parents=True)
         (data / "log.txt").write_text("")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""config/perception.rviz shows what is published: each topic in it has a publisher, each namespace of
-markers is one that is drawn, and each that is drawn is named, so that none is on by accident."""
+"""config/perception.rviz shows what is published: each topic in it has a publisher, each namespace
+of markers in it is drawn, and each one that is drawn is in it, so that none is on by accident."""
 
 import contextlib
 import io
@@ -29,14 +29,14 @@ def read(file):
 
 VIEW = read(FILE)
 DISPLAYS = VIEW["Visualization Manager"]["Displays"]
-# What our own displays draw, or what is for who looks for a fault.
+# What our own displays draw, or what is for debugging.
 OFF = {"dropped labels", "intersection", "objects", "object bodies", "object heads", "road borders",
        "road border sigmas", "track covariances", "track sensors", "track bodies", "track labels",
        "track paths", "host tube", "contacts", "contact labels", "risk level"}
 PLUGINS = {each.get("name") for each in
            ElementTree.parse(PACKAGE / "rviz_plugins.xml").getroot().iter("class")}
 
-# Of the input: the stereo camera's nodelets or the bag.
+# Inputs: from the stereo camera's nodelets or the bag.
 INPUTS = {"/stereo/points2"}
 
 
@@ -45,7 +45,8 @@ def text_of(pattern):
 
 
 def published():
-    """Topics that nodelets advertise and stages declare, and those that perception.launch remaps theirs to."""
+    """Returns the topics that nodelets advertise and stages declare, and those to which
+    perception.launch remaps them."""
     topics = set(re.findall(r'advertise<[^>]+>\(\s*"([^"]+)"', text_of("src/nodelets/*")))
     topics |= set(re.findall(r'\.out<[^>]+>\(\s*"([^"]+)"', text_of("src/ros/stage/*_stage.cpp")))
     launch = text_of("launch/perception.launch")
@@ -55,7 +56,7 @@ def published():
 
 
 def drawn():
-    """The namespaces of the markers: those that are named, and those that shapes have two of."""
+    """Returns the namespaces of the markers: the named ones, and those of shapes with two."""
     code = text_of("src/ros/display/*marker*.cpp")
     made = re.findall(r'(?:makeMarker|outlineOf|groundOutline)\([^;"]*?"([^"]+)"', code)
     shapes = re.findall(r'shapeOf\([^;"]*?"([^"]+)"', code)
@@ -73,7 +74,7 @@ class RvizView(unittest.TestCase):
         self.assertGreater(len(topics), 8)
         self.assertLessEqual(topics, published())
 
-    def test_the_namespaces_are_those_that_are_drawn(self):
+    def test_the_namespaces_are_the_drawn_ones(self):
         for display in DISPLAYS:
             if "Namespaces" in display:
                 with self.subTest(display=display["Name"]):
@@ -85,7 +86,7 @@ class RvizView(unittest.TestCase):
         self.assertEqual(shown & OFF, set())
         self.assertLessEqual({"vehicle", "scan", "ground truth"}, shown)
 
-    def test_displays_and_panels_of_our_own_are_those_that_there_are(self):
+    def test_our_displays_and_panels_exist(self):
         for name in ("perception.rviz", "risk.rviz"):
             view = yaml.safe_load((PACKAGE / "config" / name).read_text(encoding="utf-8"))
             classes = {each["Class"] for each in
@@ -116,7 +117,7 @@ class ViewOfAVehicle(unittest.TestCase):
     """One of several vehicles on one master."""
 
     def vehicle_view(self, prefix, namespace):
-        """What open_rviz shows."""
+        """Returns the configuration that open_rviz shows."""
         environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
         with mock.patch.dict(os.environ, environment):
             return open_rviz.vehicle_view(FILE, prefix)
@@ -126,7 +127,7 @@ class ViewOfAVehicle(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.home = folder.name
 
-    def test_of_one_that_is_alone_it_is_the_file_itself(self):
+    def test_for_a_single_vehicle_it_is_the_file_itself(self):
         for namespace in ("", "/"):
             self.assertEqual(self.vehicle_view("", namespace), FILE)
 
@@ -141,7 +142,7 @@ class ViewOfAVehicle(unittest.TestCase):
         panel = next(each for each in view["Panels"] if each["Class"] == "datmo_fusion/DriverView")
         self.assertEqual((panel["Risks Topic"], panel["Tracks Topic"]), ("/car1/risks", "/car1/tracks"))
 
-    def test_all_else_is_as_it_was(self):
+    def test_everything_else_is_unchanged(self):
         text = Path(self.vehicle_view("car1/", "/car1")).read_text(encoding="utf-8")
         view = yaml.safe_load(text.replace("/car1/", "/").replace("car1/", ""))
         self.assertEqual(view, VIEW)
@@ -158,7 +159,7 @@ class ViewOfAVehicle(unittest.TestCase):
         self.assertEqual(len({self.vehicle_view(prefix, namespace) for prefix, namespace in
                               (("car1/", "/car1"), ("car2/", "/car2"), ("", "/car3"), ("car4/", ""))}), 4)
 
-    def test_a_view_that_is_none_is_named(self):
+    def test_an_invalid_view_is_named(self):
         file = Path(self.home, "a.rviz")
         for text, problem in (("a: [", "expected yaml"), ("a: &a [*a]", "expected yaml"), ("3", "expected an rviz")):
             file.write_text(text)
@@ -168,7 +169,7 @@ class ViewOfAVehicle(unittest.TestCase):
                 self.assertEqual(open_rviz.main(), 1)
             self.assertRegex(said.getvalue(), f"open_rviz: {file}.*{problem}")
 
-    def test_the_launch_file_hands_the_prefix_on(self):
+    def test_the_launch_file_passes_the_prefix_on(self):
         nodes = load("live.launch", ["rviz:=true", "frame_prefix:=car1/"]).nodes
         words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
         self.assertEqual(words, ["--frame-prefix", "car1/", "-d", FILE])

@@ -76,7 +76,7 @@ class WholeRun(ScoreRunCase):
         ]
         report = self.score("--set", "intersection_merge_gap=0.5")
         self.assertEqual(report["thesis"]["false_moving_objects_frames"], 1.0)
-        # It goes with the vehicle, 1 m from frame to frame, within the gate.
+        # It moves with the vehicle, 1 m from frame to frame, within the gate.
         self.assertEqual(report["thesis"]["false_moving_objects_episodes"], 1)
         self.assertEqual(report["thesis"]["intersections"], 1)
         self.assertEqual(report["thesis"]["intersections_found"], 1)
@@ -87,7 +87,7 @@ class WholeRun(ScoreRunCase):
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
 
     def test_attainable_delays(self):
-        """One beam on the rear of a car that keeps 20 m ahead: 10 m/s, distinguished by the second scan."""
+        """One beam on the rear of a car 20 m ahead: 10 m/s, distinguishable by the second scan."""
         drive = self.folder / "drive.bag"
         write(drive, {"/tf_static": [mount()], "/scan": [scan_at(i) for i in range(FRAMES)]})
         report = self.score("--attainable", drive, "--set", "attainable/range_noise=0.2")
@@ -115,7 +115,7 @@ class WholeRun(ScoreRunCase):
         self.assertIsNone(report["attainable"])
         self.assertNotIn("delay_ratio", report["objects"][0])
 
-    def test_objects_are_those_that_the_tracker_took(self):
+    def test_objects_are_those_that_the_tracker_used(self):
         def objects(moving):
             return [
                 ObjectArray(header=header("base_link", i), objects=[
@@ -155,7 +155,7 @@ class WholeRun(ScoreRunCase):
         self.assertEqual(report["options"]["matching/gate"], 0.4)
         self.assertEqual(report["options"]["region/range"], 30.0)
 
-    def test_what_no_sensor_sees_need_not_be_found_unless_wanted(self):
+    def test_objects_seen_by_no_sensor_are_not_required_by_default(self):
         for message in self.truth_messages["/ground_truth/objects"]:
             message.objects[0].visible_to = []
         self.assertEqual(self.score()["clear_mot"]["required"], 0)
@@ -168,7 +168,7 @@ class WholeRun(ScoreRunCase):
         self.assertEqual(report["clear_mot"]["mota"], 1.0)
 
     def test_matches_of_each_frame(self):
-        """Two cars that change their tracks halfway, and a track of neither."""
+        """Two cars that swap their tracks halfway, and a track of neither."""
         for i, (truth, tracks) in enumerate(zip(self.truth_messages["/ground_truth/objects"],
                                                 self.run_messages["/tracks"])):
             x = CAR_AHEAD + i
@@ -200,7 +200,7 @@ class WholeRun(ScoreRunCase):
         self.assertIsNone(report["errors"]["position_rmse_m"])
         self.assertEqual(report["thesis"]["missed_objects"], 1)
 
-    def test_covariances_that_are_none_are_counted_and_said(self):
+    def test_invalid_covariances_are_counted_and_reported(self):
         for message in self.run_messages["/tracks"][:3]:
             message.tracks[0].covariance = [0.0] * 36
         self.run_messages["/pose"][0].pose.covariance = [-value for value in identity(6)]
@@ -239,7 +239,7 @@ class BadUsage(ScoreRunCase):
     def refuse(self, *arguments, expected):
         self.assert_no_report(*expected, arguments=arguments)
 
-    def test_wrong_words(self):
+    def test_wrong_arguments(self):
         self.refuse(expected=["0 bags are named"])
         self.refuse("a.bag", "b.bag", "c.bag", expected=["3 bags are named"])
         self.refuse(self.run_bag, "--fast", expected=["'--fast'"])
@@ -266,7 +266,7 @@ class BadUsage(ScoreRunCase):
         self.refuse(self.run_bag, self.truth_bag, "--out", self.folder / "none" / "report.json",
                     expected=["none/report.json: cannot be written"])
 
-    def test_an_old_report_stays_if_there_is_no_new_one(self):
+    def test_an_old_report_is_kept_if_there_is_no_new_one(self):
         self.report.write_text("old")
         self.truth_bag.unlink()
         self.assert_no_report(self.truth_bag)

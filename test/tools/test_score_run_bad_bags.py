@@ -114,7 +114,7 @@ class BadBags(ScoreRunCase):
 
         self.assert_change_refused(self.run_messages, "/timing", lose_time, "tracker", "nan")
 
-    def test_poses_and_boxes_that_are_none(self):
+    def test_invalid_poses_and_boxes(self):
         def lose_rotation(message):
             message.tracks[0].pose.orientation = Quaternion()
 
@@ -134,14 +134,15 @@ class BadBags(ScoreRunCase):
             message.header.frame_id = "odom"
         self.assert_refused(f"{self.run_bag}: /tracks is in frame 'odom', but /pose in 'map'")
 
-    def test_bag_that_is_cut_short(self):
+    def test_truncated_bag(self):
         self.write_bags()
         content = self.run_bag.read_bytes()
         self.run_bag.write_bytes(content[: len(content) // 2])
         self.assert_no_report(self.run_bag)
 
-    def test_bag_that_is_broken_anywhere(self):
-        """Bytes that nobody reads may be any; else the file is named. It never ends otherwise."""
+    def test_bag_that_is_corrupt_anywhere(self):
+        """Bytes that are not read may have any value;
+        for others the file is named. It ends in no other way."""
         self.write_bags()
         content = self.truth_bag.read_bytes()
         refused = 0
@@ -160,7 +161,7 @@ class BadBags(ScoreRunCase):
                 refused += 1
         self.assertGreater(refused, 0)
 
-    def test_files_that_are_no_bags(self):
+    def test_files_that_are_not_bags(self):
         self.write_bags()
         self.truth_bag.write_text("not a bag")
         self.assert_no_report(f"{self.truth_bag}: is not a bag")

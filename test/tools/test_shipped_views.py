@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the package ships for other people's tools: the Foxglove layout and the groups of the diagnostics
-name topics and nodes that there are."""
+"""Files that the package ships for other tools: the Foxglove layout and the groups of the
+diagnostics name existing topics and nodes."""
 
 import itertools
 import json
@@ -13,14 +13,14 @@ from launch_files import PACKAGE
 
 
 def panels_of(node):
-    """The names of the panels in a layout's tree."""
+    """Returns the names of the panels in a layout's tree."""
     if isinstance(node, str):
         return [node]
     return panels_of(node["first"]) + panels_of(node["second"])
 
 
 def node_names():
-    """Of all nodelets of perception.launch."""
+    """Returns the names of all nodelets of perception.launch."""
     text = (PACKAGE / "launch/perception.launch").read_text()
     return set(re.findall(r'name="(\w+)" args="load', text))
 
@@ -30,7 +30,7 @@ class ShippedViews(unittest.TestCase):
         layout = json.loads((PACKAGE / "config/foxglove_layout.json").read_text())
         self.assertEqual(sorted(panels_of(layout["layout"])), sorted(layout["configById"]))
 
-    def test_the_layout_names_topics_that_there_are(self):
+    def test_the_layout_names_existing_topics(self):
         text = (PACKAGE / "config/foxglove_layout.json").read_text()
         code = "".join(file.read_text() for folder in ("src/nodelets", "src/ros", "launch")
                        for file in (PACKAGE / folder).rglob("*") if file.is_file())

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The simulator as a program: exit codes, messages, and bags that are the same byte for byte."""
+"""The simulator as a program: exit codes, messages, and bags that are identical byte for byte."""
 
 import os
 import subprocess
@@ -85,7 +85,7 @@ class Simulate(unittest.TestCase):
         self.assert_refused(self.folder, self.bag, expected=[f"{self.folder}: expected a yaml"])
         self.assert_refused(SCENE, self.folder, expected=[f"{self.folder}: is a folder"])
 
-    def test_key_that_is_no_name(self):
+    def test_key_that_is_not_a_name(self):
         scene = self.folder / "bad.yaml"
         scene.write_text("ego: {}\n? [a]\n: b\n")
         self.assert_refused(scene, self.bag, expected=["bad.yaml: a key in line 2"])
@@ -96,7 +96,7 @@ class Simulate(unittest.TestCase):
 
 
 class Contract(unittest.TestCase):
-    """What readers of the committed bag rely on."""
+    """Properties of the committed bag that its users rely on."""
 
     @classmethod
     def setUpClass(cls):
@@ -118,7 +118,7 @@ class Contract(unittest.TestCase):
             for message, time in self.messages[topic]:
                 self.assertEqual(message.header.stamp, time)
 
-    def test_truth_stands_at_the_scans_stamps(self):
+    def test_truth_has_the_scans_stamps(self):
         stamps = [time for _, time in self.messages["/echoes"]]
         for topic in ("/ground_truth/objects", "/ground_truth/pose"):
             self.assertEqual([time for _, time in self.messages[topic]], stamps)
@@ -128,7 +128,7 @@ class Contract(unittest.TestCase):
         self.assertEqual((pose.position.x, pose.position.y, pose.orientation.w), (0.0, 0.0, 1.0))
 
     def test_velocity_is_the_change_of_position(self):
-        # To 5 cm per scan in a turn, and only where an object keeps its motion.
+        # Up to 5 cm per scan in a turn, and only if an object keeps its motion.
         last = {}
         checked = 0
         for message, time in self.messages["/ground_truth/objects"]:
@@ -156,7 +156,7 @@ class Contract(unittest.TestCase):
 
 
 class Stereo(unittest.TestCase):
-    """A bag with the stereo camera and the true echoes beside one without."""
+    """Writes a bag with the stereo camera and the true echoes beside one without."""
 
     @classmethod
     def setUpClass(cls):
@@ -168,7 +168,7 @@ class Stereo(unittest.TestCase):
 
     @staticmethod
     def simulated(bag, *options):
-        """Dictionary topic -> list of (message, record time)."""
+        """Returns a dictionary topic -> list of (message, record time)."""
         subprocess.run([SIMULATE, SCENE, bag, "--quiet", "--set", "duration=2", *options],
                        check=True)
         messages = {}
@@ -199,7 +199,7 @@ class Stereo(unittest.TestCase):
             self.assertGreater(len(points), 20000)
             self.assertTrue(np.all((points[:, 2] > 2.999) & (points[:, 2] < 60.001)))
 
-    def test_points_with_velocity_come_before_the_points(self):
+    def test_points_with_velocity_precede_the_points(self):
         clouds = self.messages["/stereo/point_velocities"]
         self.assertEqual([(message.header.stamp, time) for message, time in clouds],
                          [(message.header.stamp, time)
@@ -232,7 +232,7 @@ class Stereo(unittest.TestCase):
                 for item in message.objects if "stereo" in item.visible_to]
         self.assertGreater(len(seen), 100)
 
-    def test_true_echoes_stand_beside_the_scans(self):
+    def test_true_echoes_accompany_the_scans(self):
         pairs = list(zip(self.messages["/echoes"], self.messages["/ground_truth/echoes"]))
         self.assertEqual(len(pairs), len(self.messages["/ground_truth/echoes"]))
         for (scan, _), (truth, _) in pairs:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""slam_benchmark without the stack: which files it takes, its table, what it refuses."""
+"""slam_benchmark without the stack: which files it uses, its table, rejected input."""
 
 import contextlib
 import io
@@ -13,12 +13,12 @@ from datmo_tools.experiments.slam_benchmark import find_pairs, main, table
 
 
 def figures(mean):
-    """A score whose figures are all the same."""
+    """Returns a score whose figures are all the same."""
     return {"mean": mean, "std": mean, "max": mean}
 
 
 def result(log):
-    """A log's result."""
+    """Returns a log's result."""
     scored = {
         "used": 2,
         "not_covered": 1,
@@ -63,7 +63,7 @@ class Benchmark(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "no log with relations"):
             find_pairs(self.root)
 
-    def test_published_figures_stand_beside_the_log_they_are_of(self):
+    def test_published_figures_are_listed_beside_their_log(self):
         text = table([result("intel"), result("elsewhere")])
         ours, other = text.split("elsewhere", 1)
         self.assertIn("0.070 +- 0.083", ours)
@@ -73,7 +73,7 @@ class Benchmark(unittest.TestCase):
         self.assertNotIn("0.070", other)
         self.assertIn("2/3", other)
 
-    def test_refused(self):
+    def test_rejected_input(self):
         self.assert_refused("a", "b", "c", text="3 files, expected LOG RELATIONS pairs")
         self.make("a.clf", "a.relations")
         self.assert_refused(self.root, text="run_bag: no such program")

@@ -40,7 +40,7 @@ class OfAProcess(unittest.TestCase):
             process_usage.read(7, time=1.5, proc=self.proc), ProcessUsage(1.5, 5.0, 2.0, 3.0)
         )
 
-    def test_one_that_is_gone_or_has_no_memory_any_more(self):
+    def test_a_process_that_has_ended_or_is_a_zombie(self):
         self.put(8, "8 (a) Z 1 1 1 0 -1 0 0 0 0 0 1 1 0 0 20 0\n", "Name:\ta\n")
         self.assertIsNone(process_usage.read(8, 0.0, self.proc))
         self.assertIsNone(process_usage.read(9, 0.0, self.proc))
@@ -149,7 +149,7 @@ class Report(unittest.TestCase):
         self.assertEqual(lines[1].split(), ["step", "8", "2", "4"])
         self.assertIn("micro/alone/cpu_us", lines[-2])
 
-    def test_ratios_are_judged_and_not_times(self):
+    def test_ratios_are_compared_instead_of_times(self):
         old = report_of({"step": {"cpu_us": 8.0}, "limit/step": {"cpu_us": 2.0},
                          "other": {"cpu_us": 1.0}, "limit/other": {"cpu_us": 1.0}})  # fmt: skip
         half_as_fast = report_of({"step": {"cpu_us": 16.0}, "limit/step": {"cpu_us": 4.0},
@@ -202,7 +202,7 @@ class CommandLine(unittest.TestCase):
             self.run_tool("--compare", "a", "b", "c")
         self.assertEqual(ended.exception.code, 2)
 
-    def test_files_that_are_no_benchmark_are_named(self):
+    def test_files_that_are_not_benchmarks_are_named(self):
         for text in ("", "[]", '{"format": 0}'):
             file = self.folder / "bad.json"
             file.write_text(text)

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
-parameters, for every combination of levels, with and without all that goes with any of them; and each in
-the part of the stack that the graph says, where parts run on machines of their own. What a new stage lacks
-(doc/development.md) is said by name."""
+"""perception.launch starts the stages of the graph that run_bag runs, with the same topics and the
+same parameters, for every combination of levels, with and without everything that depends on them;
+and each in the part of the stack given by the graph, if parts run on separate machines. What a new
+stage lacks (doc/development.md) is reported by name."""
 
 import collections
 import itertools
@@ -21,7 +21,7 @@ from launch_files import PACKAGE, load
 
 
 def printed(*words):
-    """What print_stage_graph says; ends the test with its message where it fails."""
+    """Returns the output of print_stage_graph; if it fails, ends the test with its message."""
     done = subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *words], check=False, encoding="utf-8",
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if done.returncode != 0:
@@ -34,19 +34,21 @@ LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion",
 OTHERS = ("cloud", *(name for name in SWITCHES if name not in (*LEVELS, "merge_scans")))
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
 PARTS = ("sensors", "stereo", "perception", "risk")
-# Nodelets that are no stages of the graph, by part; stereo_points and those of raw images go with stereo_image_proc.
+# Nodelets that are no stages of the graph, by part; stereo_points and those of raw images belong to
+# stereo_image_proc.
 BESIDE = {"stack": "perception", "stereo_points": "stereo", "left_debayer": "stereo", "left_rectify": "stereo",
           "right_debayer": "stereo", "right_rectify": "stereo",
           **{name: "risk" for name in DISPLAYS - {"stack"}}}
 
 
 def graph_stages(switches):
-    """The stages of the graph: name -> type, remaps, parameters."""
+    """Returns the stages of the graph: name -> type, remaps, parameters."""
     return printed(*switches)
 
 
 def launched_stages(switches):
-    """The same of perception.launch; topics that are remapped to themselves are left out."""
+    """Returns the same of perception.launch;
+    topics that are remapped to themselves are left out."""
     words = [f"{switch}:={str(switch in switches).lower()}"
              for switch in (*LEVELS, *OTHERS, "merge_scans") if switch != "cloud"]
     words += ["cloud:=cloud"] if "cloud" in switches else []
@@ -64,7 +66,8 @@ def launched_stages(switches):
 
 
 def crossing_topics():
-    """Topics that parts take from drivers or from other parts: type, who publishes them, which parts take them."""
+    """Returns topics that parts receive from drivers or other parts: type, publisher, and the parts
+    that subscribe."""
     crossing = {}
     for switches in (LEVELS, ["rectified_images", *LEVELS, *OTHERS], ["merge_scans", *LEVELS]):
         stages = graph_stages(switches).values()
@@ -103,15 +106,15 @@ class StageGraph(unittest.TestCase):
                     for key, value in stage["parameters"].items():
                         self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
 
-    def test_what_crosses_from_part_to_part_is_in_the_documents(self):
-        """The table of doc/machines.md: topic, type, who publishes it, which parts take it."""
+    def test_topics_between_parts_are_documented(self):
+        """The table of doc/machines.md: topic, type, publisher, and the parts that subscribe."""
         page = (PACKAGE / "doc/machines.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
         self.assertEqual({row[:3]: row[3] for row in rows}, crossing_topics())
 
 
 class NewStage(unittest.TestCase):
-    """All that a stage takes is there; a failure names what is missing, and no more."""
+    """Everything that a stage needs is there; a failure names only what is missing."""
     longMessage = False
 
     @classmethod
@@ -130,7 +133,7 @@ class NewStage(unittest.TestCase):
     def test_each_entry_names_the_class_of_its_stage(self):
         for name in self.stages:
             if f"datmo_fusion/{name}" not in self.classes:
-                continue  # the test before says so
+                continue  # reported by the test before
             stage = self.classes[f"datmo_fusion/{name}"].replace("datmo::", "").replace("Nodelet", "Stage")
             header = f"include/datmo_fusion/ros/stage/{name}_stage.h"
             self.assertRegex((PACKAGE / header).read_text(encoding="utf-8"), rf"\nclass {stage} ",
@@ -153,7 +156,7 @@ class NewStage(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
-    """The parts of the stack on machines of their own."""
+    """The parts of the stack on separate machines."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -171,11 +174,12 @@ class Parts(unittest.TestCase):
 
     @staticmethod
     def by_name(nodes):
-        """All that a node is but where it runs, by its name; what answers for a clock is left out."""
+        """Returns everything about a node except its machine, by name;
+        the clock responder is left out."""
         return {node.name: (node.package, node.type, node.args.split()[:2], sorted(node.remap_args), node.respawn)
                 for node in nodes if "part_clock" not in node.args}
 
-    def test_all_parts_together_are_the_whole(self):
+    def test_all_parts_together_are_the_whole_stack(self):
         for switches, images in (([], "none"), (LEVELS, "rectified"), ([*LEVELS, *OTHERS], "raw")):
             more = ["aggregator:=true", f"stereo_images:={images}"]
             whole = self.by_name(self.loaded([], switches, *more))

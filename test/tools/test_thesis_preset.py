@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""config/thesis.yaml has the value of each parameter of which doc/parameters.md says what the thesis's is."""
+"""config/thesis.yaml has the thesis's value of each parameter for which doc/parameters.md gives
+one."""
 
 import math
 import re
@@ -11,10 +12,11 @@ import yaml
 
 PACKAGE = Path(__file__).resolve().parents[2]
 
-# Of no stage of the thesis's; what its method of borders does not use.
+# Belongs to no stage of the thesis; not used by its method of road borders.
 NOT_OF_THE_THESIS = (("loop_closing", ""), ("road_border", "side_streets/"))
 
-# Modes and switches whose description names the thesis without a value of its own, and where they stand in it.
+# Modes and switches whose description names the thesis without its value, and where the thesis has
+# it.
 MODES = {
     "grid_fusion/rule": "weighted_sum", "grid_slam/grid_ends": "cells", "mono_grid/color/components": 1,
     "road_border/search/score": "hits", "road_border/search/take": "highest",
@@ -30,7 +32,7 @@ VALUE_BEFORE = re.compile(r"(?:^|; )([\w./]+): [^;|]*\(thesis[^)]*\)")
 
 
 def value_of(text, allowed):
-    """A value as the page writes it; None for what is none of this parameter's."""
+    """Returns a value as the page writes it; None if it is no value of this parameter."""
     if text == "pi/2":
         return math.pi / 2
     if text in ("true", "false"):
@@ -44,7 +46,7 @@ def value_of(text, allowed):
 
 
 def thesis_values(page):
-    """(section, key, value by default, the thesis's value) of the rows that have one."""
+    """Returns (section, key, default value, the thesis's value) of the rows that have one."""
     section = None
     for line in page.splitlines():
         if line.startswith("#"):
@@ -60,7 +62,7 @@ def thesis_values(page):
 
 
 def leaves(node, name=""):
-    """Each value of nested sections by its full key."""
+    """Yields each value of nested sections by its full key."""
     if not isinstance(node, dict):
         return {name: node}
     return {key: value for part, inner in node.items() for key, value in leaves(inner, f"{name}/{part}").items()}

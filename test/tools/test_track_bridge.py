@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tracks in the messages of vision_msgs and derived_object_msgs. Neither package is needed: stand-ins
-with the fields of their published definitions refuse any other field."""
+"""Tracks in the messages of vision_msgs and derived_object_msgs. Neither package is required:
+stand-ins with the fields of their published definitions refuse any other field."""
 
 import math
 import types
@@ -15,7 +15,7 @@ from datmo_tools import track_bridge
 
 
 def message(name, **defaults):
-    """A class whose instances have these fields alone; a default is a value or makes one."""
+    """Returns a class whose instances have only these fields; a default is a value or makes one."""
     def __init__(self):
         for field, default in defaults.items():
             setattr(self, field, default() if callable(default) else default)
@@ -43,7 +43,7 @@ DERIVED = types.SimpleNamespace(
 
 
 def one_car():
-    """A car of 4 x 2 m at (10, 5) that looks to the left of the x axis."""
+    """Returns a car of 4 x 2 m at (10, 5) that faces to the left of the x axis."""
     track = Track(id=7, classification=Object.CLASS_VEHICLE, class_probability=0.8, hits=12,
                   class_probabilities=[0.2, 0.0, 0.0, 0.8, 0.0], existence_probability=0.5,
                   yaw_rate=0.25, heading_variance=0.04)

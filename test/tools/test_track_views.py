@@ -15,7 +15,7 @@ from datmo_fusion.msg import ViewFan
 
 class Distances(unittest.TestCase):
     def test_of_boxes(self):
-        """A box of 4 m x 2 m that looks along y: its side is at x = 11, its front at y = 2."""
+        """A box of 4 m x 2 m that faces along y: its side is at x = 11, its front at y = 2."""
         poses, size = np.array([[10.0, 0.0, math.pi / 2]]), np.array([[4.0, 2.0]])
         positions = np.array([[10.5, 1.5], [12.0, 0.0], [10.0, 3.0], [14.0, -6.0]])
         expected = [[0.0], [1.0], [1.0], [5.0]]
@@ -28,7 +28,7 @@ class Distances(unittest.TestCase):
 
 
 class Views(unittest.TestCase):
-    """A camera at (1, 0) that looks along y, 30 degrees to either side, from 2 m to 20 m."""
+    """A camera at (1, 0) that faces along y, 30 degrees to either side, from 2 m to 20 m."""
 
     VIEW = ViewFan(sensor=Pose2D(1.0, 0.0, math.pi / 2), first_bearing=-math.pi / 6,
                    beam_spacing=math.pi / 180, min_range=2.0, range=20.0,
@@ -39,7 +39,7 @@ class Views(unittest.TestCase):
                               ((4.0, 4.0), False), ((4.0, 6.0), True), ((1.0, -5.0), False)):
             self.assertEqual(is_in_view([self.VIEW], position), inside, position)
 
-    def test_behind_what_it_saw(self):
+    def test_behind_the_end_of_its_view(self):
         """To the left it saw 10 m far; what ended the beams may be the object itself."""
         for position, seen in (((2.0, 15.0), True), ((0.0, 15.0), False), ((0.0, 9.0), True),
                             ((0.0, 10.4), True), ((0.0, 10.6), False)):  # fmt: skip

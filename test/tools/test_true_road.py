@@ -33,7 +33,7 @@ class Rows(unittest.TestCase):
     """Stations 1 m apart."""
 
     def row(self, *stretches, bounded=None):
-        """Row of (number of stations, depth)."""
+        """Returns a row of (number of stations, depth)."""
         depths = np.concatenate([np.full(count, depth) for count, depth in stretches])
         bounded = np.ones(len(depths), dtype=bool) if bounded is None else bounded
         return row_of(depths, bounded, 1.0, OPTIONS)
@@ -51,7 +51,7 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(row.depth[3:8], [2.0, 1.75, 1.5, 1.25, 1.0])
         self.assertFalse(np.any(row.open))
 
-    def test_in_a_gap_longer_than_a_car_the_curb_does_too(self):
+    def test_in_a_gap_longer_than_a_car_the_curb_is_the_border_too(self):
         row = self.row((4, 2.0), (8, NONE), (4, 2.0))
         np.testing.assert_allclose(row.depth, 2.0)
         self.assertEqual(np.flatnonzero(row.open).tolist(), list(range(4, 12)))
@@ -63,7 +63,7 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(row.depth[11:], 1.0)
         self.assertEqual(int(row.open.sum()), 10)
 
-    def test_row_does_not_go_on_over_a_junction(self):
+    def test_row_ends_at_a_junction(self):
         bounded = np.array([True, True, False, True, True])
         row = self.row((1, 2.0), (3, NONE), (1, 2.0), bounded=bounded)
         np.testing.assert_allclose(row.depth, [2.0, 2.0, NONE, 2.0, 2.0])

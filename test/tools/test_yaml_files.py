@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Yaml files of strangers: read within bounds, or refused in a line."""
+"""Yaml files from outside: read within bounds, or refused with one line."""
 
 import tempfile
 import unittest
@@ -18,17 +18,17 @@ class YamlFiles(unittest.TestCase):
             parse_yaml("a.yaml", text)
         self.assertEqual(str(caught.exception), f"a.yaml{said}")
 
-    def test_what_it_says(self):
+    def test_contents(self):
         self.assertEqual(parse_yaml("a", "a: &a [1, 2]\nb: *a\nc: [*a, *a]"),
                          {"a": [1, 2], "b": [1, 2], "c": [[1, 2], [1, 2]]})  # fmt: skip
         self.assertIsNone(parse_yaml("a", ""))
 
-    def test_an_alias_of_what_it_stands_in(self):
+    def test_a_recursive_alias(self):
         said = ":2: expected yaml, but an alias stands for what it stands in"
         self.refused("b: 1\na: &a [*a]", said)
         self.refused("b: 1\na: &a {b: {c: *a}}", said)
 
-    def test_aliases_stand_for_too_much(self):
+    def test_excessive_aliases(self):
         lines = ["a0: &a0 [1, 1]"]
         lines += [f"a{n}: &a{n} [*a{n - 1}, *a{n - 1}]" for n in range(1, LEVELS + 1)]
         self.refused("\n".join(lines),
@@ -38,7 +38,7 @@ class YamlFiles(unittest.TestCase):
         self.refused("a: " + 20000 * "[", ":1: expected yaml, but lists and maps are nested more than 100 deep")
         self.assertEqual(len(parse_yaml("a", 90 * "[" + 90 * "]")), 1)
 
-    def test_values_that_are_not_what_their_tags_say(self):
+    def test_values_that_contradict_their_tags(self):
         for value in ("!!bool x", "!!int ''", "!!timestamp x", "!!float ''", f"!!float {'1:' * 300}1"):
             with self.subTest(value), self.assertRaisesRegex(InputError, "a.yaml: expected yaml, but a value is not"):
                 parse_yaml("a.yaml", f"a: {value}")

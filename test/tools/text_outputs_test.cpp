@@ -29,8 +29,8 @@ Publication published(const std::string& topic, const boost::shared_ptr<Message>
   return {topic, ros::message_traits::datatype<Message>(), message};
 }
 
-/// The vehicle at (10, 20) looks to the left of the map's x axis; 3 m ahead of it and 1 m to its
-/// left stands a car that looks where the vehicle looks.
+/// The vehicle at (10, 20) faces to the left of the map's x axis; a car 3 m ahead of it and 1 m to
+/// its left has the same heading.
 Frame oneFrame() {
   const auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header.stamp = kStamp;
@@ -86,7 +86,7 @@ std::size_t linesIn(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
+TEST_F(RunBag, ResultsAreWrittenAsTextOnRequest) {
   arguments_.text.tum = arguments_.output + ".tum";
   arguments_.text.kitti = arguments_.output + ".kitti";
   arguments_.text.mot = arguments_.output + ".mot";
@@ -95,14 +95,14 @@ TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
   EXPECT_EQ(linesIn(bytes(arguments_.text.kitti)), linesIn(bytes(arguments_.text.mot)));
 }
 
-TEST_F(RunBag, NoTextIsLeftWhereThereIsNoBag) {
+TEST_F(RunBag, WithoutABagNoTextIsLeft) {
   arguments_.text.tum = arguments_.output + ".tum";
   arguments_.input = "/nowhere.bag";
   EXPECT_THROW(run(), std::exception);
   EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum));
 }
 
-TEST(TextOutputs, AFileThatCannotBeWrittenIsNamedAtTheStart) {
+TEST(TextOutputs, AnUnwritableFileIsNamedAtTheStart) {
   EXPECT_THROW(TextOutputs({"", "/nowhere/tracks.txt", ""}), std::runtime_error);
 }
 

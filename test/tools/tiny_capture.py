@@ -18,19 +18,19 @@ SCAN_PERIOD = 0.08  # s
 SCANS = 11
 CAPTURE_PERIOD = 0.01  # s
 
-# The message of a package that need not be there.
+# The message of a package that need not be installed.
 Encoder = generate_dynamic("barc/Encoder", "float32 FL\nfloat32 FR\nfloat32 BL\nfloat32 BR\n")[
     "barc/Encoder"
 ]
 
 
 def nanoseconds(seconds):
-    """Stamp (ns) at `seconds` after START."""
+    """Returns the stamp (ns) at `seconds` after START."""
     return START + round(seconds * 1e9)
 
 
 def pose_message(seconds, pose):
-    """PoseStamped of x, y, yaw."""
+    """Returns a PoseStamped of x, y, yaw."""
     return PoseStamped(
         header=Header(stamp=to_ros_time(nanoseconds(seconds)), frame_id="room"),
         pose=_pose(pose),
@@ -45,7 +45,7 @@ def _pose(pose):
 
 
 def scan_message(seconds, ranges):
-    """LaserScan of a full turn, counter-clockwise in the order of the message."""
+    """Returns a LaserScan of a full turn, counter-clockwise in the order of the message."""
     step = 2.0 * math.pi / len(ranges)
     return LaserScan(
         header=Header(stamp=to_ros_time(nanoseconds(seconds)), frame_id="laser"),
@@ -60,7 +60,8 @@ def scan_message(seconds, ranges):
 
 
 def imu_message(seconds, vertical, yaw_rate):
-    """Imu that turns about `vertical` (unit vector in its frame) and feels gravity along it."""
+    """Returns an Imu that turns about `vertical` (unit vector in its frame)
+    and measures gravity along it."""
     message = Imu(header=Header(stamp=to_ros_time(nanoseconds(seconds)), frame_id="imu"))
     message.angular_velocity = Vector3(*(yaw_rate * np.array(vertical)))
     message.linear_acceleration = Vector3(*(9.81 * np.array(vertical)))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A KITTI raw drive of a few frames, made up so that everything in it can be worked out by hand.
 
-The car drives 1 m a frame (10 m/s, 10 Hz) straight east. All mounts are plain: the Velodyne is 0.8
-m ahead of the IMU and 0.8 m above it, the camera looks ahead from the Velodyne's place.
+The car drives 1 m per frame (10 m/s, 10 Hz) straight east. All mounts are simple: the Velodyne is
+0.8 m ahead of the IMU and 0.8 m above it, the camera faces ahead from the Velodyne's position.
 """
 
 import struct
@@ -109,7 +109,7 @@ def oxts_line(frame, speed=10.0, yaw=0.0, yaw_rate=0.0):
 
 
 def write_png(path, gray, width=WIDTH, height=HEIGHT):
-    """A gray image whose pixels are all `gray`, but the first one: 0."""
+    """Writes a gray image whose pixels are all `gray`, except for the first one: 0."""
     import cv2
     import numpy as np
 

@@ -5,13 +5,13 @@ START = 1000.0  # s
 
 
 def flaser(time, robot, laser=None, ranges=(1.0, 2.0, 3.0, 4.0), kind="FLASER"):
-    """A line of a front laser; robot, laser: x, y, yaw (None: the robot's)."""
+    """Returns a line of a front laser; robot, laser: x, y, yaw (None: the robot's)."""
     laser = robot if laser is None else laser
     return join(kind, len(ranges), *ranges, *laser, *robot, stamp(time), "host", f"{time:.6f}")
 
 
 def robot_laser(time, robot, laser, ranges, step=0.01, remissions=(), range_max=50.0):
-    """A line of ROBOTLASER1, with the first beam at -0.5 rad."""
+    """Returns a line of ROBOTLASER1, with the first beam at -0.5 rad."""
     head = (0, -0.5, step * len(ranges), step, range_max, 0.01, 0)
     tail = (0.1, 0.2, 1.0, 2.0, 1e6, stamp(time), "host", f"{time:.6f}")
     return join(
@@ -28,17 +28,17 @@ def robot_laser(time, robot, laser, ranges, step=0.01, remissions=(), range_max=
 
 
 def odom(time, robot):
-    """A line of odometry."""
+    """Returns a line of odometry."""
     return join("ODOM", *robot, 0.0, 0.0, 0.0, stamp(time), "host", f"{time:.6f}")
 
 
 def stamp(time):
-    """`time` (s after START) as the log writes it."""
+    """Returns `time` (s after START) as the log writes it."""
     return f"{START + time:.6f}"
 
 
 def join(*words):
-    """The words as one line."""
+    """Returns the words as one line."""
     return " ".join(str(word) for word in words)
 
 

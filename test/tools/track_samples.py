@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A drive of one second with tracks of two sensors and fused ones, that tests of tools share.
 
-The vehicle stands at the origin of the true map and looks along x. The run has drifted: its map is
-laid 5 m to the side, and turned by a right angle.
+The vehicle is stationary at the origin of the true map and faces along x. The run has drifted: its
+map is shifted by 5 m to the side, and rotated by a right angle.
 """
 
 import math

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The tests of the core, by room; vision links OpenCV, and stands with those of ROS.
+# The tests of the core, by folder; vision links OpenCV, and is built with those of ROS.
 datmo_fusion_add_core_test(common
   common/angle_test.cpp
   common/box2_test.cpp
@@ -63,7 +63,7 @@ datmo_fusion_add_core_test(tracking
   tracking/wrong_classes_test.cpp
 )
 
-# A program of its own: it counts what all of the program allocates.
+# A separate program: it counts all allocations in the process.
 datmo_fusion_add_core_test(tracking_memory
   tracking/steady_memory_test.cpp
 )

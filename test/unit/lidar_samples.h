@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/sensor_model/lidar_points.h"
 
-/// Clouds of a 3D lidar, from which tests make others.
+/// Clouds of a 3D lidar, which tests modify.
 namespace datmo::samples {
 
 inline constexpr double kLidarHeight = 1.7;  // m above the ground
@@ -17,7 +17,7 @@ inline Eigen::Isometry3d lidarMount(double pitch = 0.0) {
          Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
 }
 
-/// Points of base_link (m) as the mounted lidar has them.
+/// Points of base_link (m) as the mounted lidar measures them.
 class LidarCloudMaker {
  public:
   explicit LidarCloudMaker(const Eigen::Isometry3d& mount = lidarMount()) {
@@ -30,7 +30,7 @@ class LidarCloudMaker {
                              static_cast<float>(point.z())});
   }
 
-  /// Rings of the ground z = height + slope_x x + slope_y y about the lidar, one point a degree.
+  /// Rings of the ground z = height + slope_x x + slope_y y around the lidar, one point per degree.
   void addGround(double height = 0.0, double slope_x = 0.0, double slope_y = 0.0) {
     const Eigen::Vector3d lidar = cloud.lidar_in_base.translation();
     for (int ring = 0; ring < 30; ++ring) {
@@ -44,7 +44,8 @@ class LidarCloudMaker {
     }
   }
 
-  /// A wall across, at `x` ahead of the vehicle's origin, from y = -1 to 1, z = 0 to 2 (m).
+  /// A wall across the view, at `x` ahead of the vehicle's origin, from y = -1 to 1, z = 0 to 2
+  /// (m).
   void addWall(double x, double ground = 0.0) {
     for (int row = 0; row <= 20; ++row) {
       for (int column = -20; column <= 20; ++column) {

@@ -15,7 +15,7 @@
 
 namespace datmo {
 
-/// Upright on the ground, sides along the axes; m.
+/// An upright box on the ground, sides along the axes; m.
 struct MadeBox {
   Eigen::Vector3d min, max;
 };
@@ -25,16 +25,16 @@ struct MadeHole {
   double begin = 0.0, end = 0.0;  ///< along x, all across
 };
 
-/// What a stereo camera looks at, and how. The road is z = 0.
+/// The scene of a stereo camera, and how it is measured. The road is z = 0.
 struct MadeScene {
   std::vector<MadeBox> boxes;
   std::optional<MadeHole> hole;
-  double camera_height = 1.2;  ///< m
-  double camera_yaw = 0.0;     ///< rad, to the left
-  double unknown_pitch = 0.0;  ///< rad, downwards; the mount that the cloud tells knows none of it
+  double camera_height = 1.2;    ///< m
+  double camera_yaw = 0.0;       ///< rad, to the left
+  double unknown_pitch = 0.0;    ///< rad, downward; unknown to the mount in the cloud
   double disparity_noise = 0.0;  ///< px, standard deviation
   double disparity_bias = 0.0;   ///< px, of all points
-  /// Of a depth camera without baseline, in place of that of disparities.
+  /// For a depth camera without baseline, in place of that of disparities.
   std::optional<DepthNoise> depth_noise;
   double depth_bias = 0.0;  ///< of a depth camera's points, standard deviations of the depth
   std::uint64_t seed = 3;   ///< of the noise
@@ -91,7 +91,7 @@ class MadeCloud {
   EIGEN_MAKE_ALIGNED_OPERATOR_NEW
 
  private:
-  static constexpr std::size_t kFloats = 4;  ///< x, y, z, and one that is none of them
+  static constexpr std::size_t kFloats = 4;  ///< x, y, z, and padding
   static constexpr int kHalfWidth = 200;     ///< px
   static constexpr int kHalfHeight = 120;    ///< px
 
@@ -114,7 +114,7 @@ class MadeCloud {
     return depth * disparity / noisy;
   }
 
-  /// To the nearest thing on a line of sight, in lengths of `end` - `origin`.
+  /// Returns the distance to the nearest thing on a line of sight, in lengths of `end` - `origin`.
   static double depthAlong(const Eigen::Vector3d& end, const Eigen::Vector3d& origin,
                            const MadeScene& scene) {
     const Eigen::Vector3d direction = end - origin;
@@ -140,7 +140,7 @@ class MadeCloud {
   std::vector<float> memory_;
 };
 
-/// A wall across, `width` wide about the x axis, 2 m high; m.
+/// A wall across the view, `width` wide, centered on the x axis, 2 m high; m.
 inline MadeBox wallAt(double distance, double width) {
   return {{distance, -0.5 * width, 0.0}, {distance + 0.5, 0.5 * width, 2.0}};
 }

@@ -13,8 +13,8 @@
 
 namespace datmo {
 
-/// Where a beam from the origin of a box's frame at `from` along `direction` enters the box: the
-/// distance to there, m. Nothing if it misses it.
+/// Returns the distance (m) at which a beam from `from` along `direction`, in a box's frame, enters
+/// the box; nothing if it misses it.
 inline std::optional<double> distanceInto(const Box2& box, const Point2& from,
                                           const Point2& direction) {
   const Pose2 to_box = box.center.inverse();
@@ -35,12 +35,12 @@ inline std::optional<double> distanceInto(const Box2& box, const Point2& from,
   return in < out ? std::optional<double>(in) : std::nullopt;
 }
 
-/// A scanner at the origin that looks along x, over a field symmetric about it.
+/// A scanner at the origin that faces along x, with a field of view symmetric about it.
 struct RayCaster {
   ScanField field;
   double range_sigma = 0.0;  ///< m
 
-  /// Over this angle (rad), a beam every `spacing` (rad).
+  /// A field of view of this angle (rad), with a beam every `spacing` (rad).
   RayCaster(double angle, double spacing, double sigma) : range_sigma(sigma) {
     field.first_bearing = -0.5 * angle;
     field.beam_spacing = spacing;
@@ -49,7 +49,7 @@ struct RayCaster {
     field.range = 100.0;
   }
 
-  /// What it sees of boxes of which all points are moving, with noise on the ranges.
+  /// Returns its scan of boxes whose points are all moving, with noise on the ranges.
   LabeledScan scan(const std::vector<Box2>& boxes, Random& random) const {
     LabeledScan scan;
     scan.field = field;

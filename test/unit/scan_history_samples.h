@@ -9,9 +9,9 @@
 
 namespace datmo::samples {
 
-/// What a scanner at the base frame's origin sees: 81 beams, 2 degrees apart, to both sides of x,
-/// known free up to 40 m. The beams nearest to the points (m, map frame) end there; the vehicle is
-/// at `base_in_map`, `seconds` after the start.
+/// A scan from the base frame's origin: 81 beams, 2 degrees apart, to both sides of x, known free
+/// up to 40 m. The beams nearest to the points (m, map frame) end there; the vehicle is at
+/// `base_in_map`, `seconds` after the start.
 inline LabeledScan scanOf(const std::vector<Point2>& positions, double seconds,
                           const Pose2& base_in_map = {}) {
   LabeledScan scan;

@@ -11,7 +11,7 @@
 namespace datmo::assignment_test {
 namespace {
 
-/// Least cost of the rows from `row` on, by trying everything.
+/// Least cost of the rows from `row` on, by exhaustive search.
 double bruteForce(const CostMatrix& cost, const Eigen::VectorXd& none, int row,
                   std::vector<bool>& taken) {
   if (row == cost.rows()) {
@@ -82,7 +82,7 @@ TEST(Assignment, GivesUpTheNearestForTheBestSum) {
   EXPECT_DOUBLE_EQ(result.cost, 4.0);
 }
 
-TEST(Assignment, ARowGivesItsColumnUpAndStaysUnassigned) {
+TEST(Assignment, ARowGivesUpItsColumnAndStaysUnassigned) {
   CostMatrix cost(2, 1);
   cost << -5.0, -9.0;
   const Assignment result = solveAssignment(cost, Eigen::VectorXd::Zero(2));
@@ -115,7 +115,7 @@ TEST(Assignment, WrongSizesAreRefused) {
                std::invalid_argument);
 }
 
-/// Every row prefers the same columns: the more rows there are, the longer each one's search.
+/// Every row prefers the same columns: the more rows, the longer the search of each.
 CostMatrix samePreferences(int rows, int columns) {
   CostMatrix cost(rows, columns);
   for (int row = 0; row < rows; ++row) {
@@ -130,13 +130,13 @@ TEST(Assignment, HundredsOfRowsWithTheSameColumnsEndUpOptimal) {
   const int size = 300;
   const Assignment result =
       solveAssignment(samePreferences(size, size), Eigen::VectorXd::Constant(size, 1e9));
-  // The rearrangement inequality: the dearest row gets the cheapest column.
+  // The rearrangement inequality: the most expensive row gets the cheapest column.
   for (int row = 0; row < size; ++row) {
     EXPECT_EQ(result.column_of_row[static_cast<std::size_t>(row)], size - 1 - row);
   }
 }
 
-TEST(Assignment, CutShortItIsValidAndEveryRowGetsWhatIsLeft) {
+TEST(Assignment, CutShortItIsValidAndEveryRowGetsAFreeColumn) {
   const CostMatrix cost = samePreferences(40, 60);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(40, 1e6);
   const Assignment best = solveAssignment(cost, none);
@@ -149,18 +149,19 @@ TEST(Assignment, CutShortItIsValidAndEveryRowGetsWhatIsLeft) {
   EXPECT_EQ(cut.column_of_row, solveAssignment(cost, none, 5000).column_of_row);
 }
 
-TEST(Assignment, CutShortARowRatherHasNoneThanADearerColumn) {
+TEST(Assignment, CutShortARowStaysUnassignedRatherThanPayMore) {
   CostMatrix cost(3, 2);
   cost << 1.0, 2.0,  //
       3.0, 4.0,      //
       kForbidden, 1.0;
   const Assignment cut = solveAssignment(cost, Eigen::VectorXd::Constant(3, 3.5), 0);
-  // The first row is assigned with the work of its own look; the others get what is free.
+  // The first row is assigned by its own scan; the others get what is free.
   EXPECT_EQ(cut.column_of_row, (std::vector<int>{0, kUnassigned, 1}));
 }
 
 TEST(Assignment, AThousandEqualColumnsNeedNoSecondSearch) {
-  // For each row all columns are reached, and compared before the column and before the void.
+  // For each row all columns are reached, and compared twice: for the choice of a column, and with
+  // leaving the row unassigned.
   const Assignment result = solveAssignment(CostMatrix::Constant(300, 1000, 1.0),
                                             Eigen::VectorXd::Constant(300, 5.0), 3 * 300 * 1000);
   EXPECT_FALSE(result.cut);

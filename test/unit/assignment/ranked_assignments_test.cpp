@@ -20,7 +20,7 @@ struct Problem {
   Eigen::VectorXd none;
 };
 
-/// Costs of all assignments, by trying everything.
+/// Costs of all assignments, by exhaustive search.
 class BruteForce {
  public:
   explicit BruteForce(const Problem& problem)
@@ -53,7 +53,7 @@ class BruteForce {
   std::vector<double> costs_;
 };
 
-/// Sum of the costs; fails where a column is given twice or forbidden.
+/// Sum of the costs; fails if a column is assigned twice or is forbidden.
 double checkedCost(const Assignment& assignment, const Problem& problem) {
   std::set<int> taken;
   double sum = 0.0;
@@ -109,13 +109,13 @@ TEST_P(AllAssignments, ComeByRisingCostEachOnce) {
   }
 }
 
-TEST_P(AllAssignments, OfEqualCostsToo) {
+TEST_P(AllAssignments, AlsoForEqualCosts) {
   std::mt19937_64 engine(12);
   std::uniform_int_distribution<int> size(0, 4);
   for (int run = 0; run < 500; ++run) {
     const int rows = size(engine);
     Problem problem = randomProblem(rows, size(engine), GetParam(), engine);
-    // Few different values: most of them are equal to others.
+    // Few distinct values: most of them are tied.
     problem.cost = (problem.cost / 8.0).array().round();
     problem.none = (problem.none / 8.0).array().round();
     expectAll(problem);
@@ -185,7 +185,7 @@ TEST(RankedAssignments, TheSameInputGivesTheSameOrder) {
   }
 }
 
-TEST(RankedAssignments, GoOnAfterAMove) {
+TEST(RankedAssignments, ContinueAfterAMove) {
   std::mt19937_64 engine(16);
   const Problem problem = randomProblem(3, 3, 0.0, engine);
   RankedAssignments ranked(problem.cost, problem.none);
@@ -194,7 +194,7 @@ TEST(RankedAssignments, GoOnAfterAMove) {
   EXPECT_GT(moved.next()->cost, first);
 }
 
-TEST(RankedAssignments, StopWhereTheWorkAllowedEnds) {
+TEST(RankedAssignments, StopAtTheWorkLimit) {
   std::mt19937_64 engine(17);
   const Problem problem = randomProblem(30, 30, 0.0, engine);
   const std::int64_t work = 20000;
@@ -229,7 +229,7 @@ TEST(RankedAssignments, WorkAndMemoryAreBoundedWhereFewPairsArePossible) {
   EXPECT_LE(assignments, kWork / kColumns) << "each is kept with a price for each column";
 }
 
-TEST(RankedAssignments, WithHardlyAnyWorkTheFirstIsWhatTheSolverGives) {
+TEST(RankedAssignments, WithLittleWorkTheFirstIsTheSolversOwn) {
   std::mt19937_64 engine(18);
   const Problem problem = randomProblem(30, 30, 0.0, engine);
   const std::int64_t work = 60;

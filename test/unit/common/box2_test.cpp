@@ -13,7 +13,7 @@
 namespace datmo::box2_test {
 namespace {
 
-/// 4 m x 2 m, heading left: it reaches from x 9 to 11 and from y 3 to 7.
+/// 4 m x 2 m, facing left: x from 9 to 11, y from 3 to 7.
 const Box2 kCar{{10.0, 5.0, kPi / 2.0}, 4.0, 2.0};
 
 TEST(Box2, CornersGoRoundFromFrontLeft) {

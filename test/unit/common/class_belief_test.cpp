@@ -13,7 +13,7 @@ constexpr ObjectClass kAllClasses[] = {ObjectClass::kUnknown, ObjectClass::kPede
                                        ObjectClass::kCyclist, ObjectClass::kVehicle,
                                        ObjectClass::kPole};
 
-TEST(ClassBelief, IsOpenAtFirst) {
+TEST(ClassBelief, IsUniformInitially) {
   const ClassBelief belief;
   for (const ObjectClass object_class : kAllClasses) {
     EXPECT_DOUBLE_EQ(belief.probability(object_class), 0.2);
@@ -82,13 +82,13 @@ TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
   EXPECT_TRUE(belief.compatible(ObjectClass::kPedestrian));
 }
 
-TEST(ClassBelief, TellsAnythingWhereOneClassIsAboveChanceByMoreThanTheDoubt) {
+TEST(ClassBelief, IsInformativeIfOneClassExceedsChanceByMoreThanTheDoubt) {
   EXPECT_FALSE(tellsAnything(ClassBelief().probabilities()));
   EXPECT_FALSE(tellsAnything({0.19, 0.19, 0.19, 0.24, 0.19}));
   EXPECT_TRUE(tellsAnything({0.18, 0.18, 0.18, 0.28, 0.18}));
 }
 
-TEST(ClassBelief, WhatWasMeasuredWeighsRoadUsersAndLeavesTheOthers) {
+TEST(ClassBelief, LikelihoodsWeightRoadUsersAndLeaveTheOthers) {
   const ClassProbabilities factors = ofEachClass({0.5, 1.0, 0.3});
   EXPECT_NEAR(factors[1], 0.5 / 0.6, kTolerance);
   EXPECT_NEAR(factors[2], 1.0 / 0.6, kTolerance);
@@ -113,7 +113,7 @@ TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
   EXPECT_NEAR(both[3], 0.694, kTolerance);
   EXPECT_NEAR(both[2], 0.162, kTolerance);
   EXPECT_EQ(both, jointBelief({b, a}));
-  // Nothing is known from contradictions.
+  // Contradictions leave the class unknown.
   for (const double value : jointBelief({ClassProbabilities{1.0}, ClassProbabilities{0.0, 1.0}})) {
     EXPECT_DOUBLE_EQ(value, 0.2);
   }
@@ -133,7 +133,7 @@ TEST(ClassBelief, SeveralBeliefsAreJoinedInAnyOrderWithTheDoubtOfOneObservation)
   EXPECT_EQ(jointBelief({}), ClassBelief().probabilities());
 }
 
-TEST(ClassBelief, OfASourceThatReportsNoClassesIsThatOfNothingSaid) {
+TEST(ClassBelief, OfASourceWithoutClassesIsUninformed) {
   const ClassProbabilities none{};
   const ClassProbabilities equal = ClassBelief().probabilities();
   const ClassProbabilities said = {0.1, 0.1, 0.1, 0.6, 0.1};

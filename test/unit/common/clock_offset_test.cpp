@@ -20,21 +20,21 @@ ClockOffsetEstimator withoutDrift() {
   return ClockOffsetEstimator(options);
 }
 
-TEST(ClockOffset, NothingIsKnownBeforeTheFirstAnswer) {
+TEST(ClockOffset, IsUnknownBeforeTheFirstAnswer) {
   EXPECT_FALSE(withoutDrift().at(Stamp::fromSeconds(1.0)));
 }
 
 TEST(ClockOffset, OneExchangeBoundsItByHalfOfTheRoundTrip) {
   ClockOffsetEstimator clock = withoutDrift();
-  // Asked at 100.000, answered at 100.110 of the other, received at 100.040: between 0.070 and
-  // 0.110.
+  // Asked at 100.000, answered at 100.110 by the other clock, received at 100.040: between 0.070
+  // and 0.110.
   clock.add(exchange(100.0, 0.100, 0.010, 0.030));
   const ClockOffset offset = clock.at(Stamp::fromSeconds(100.04)).value();
   EXPECT_NEAR(offset.ahead, 0.090, kRounding);
   EXPECT_NEAR(offset.uncertainty, 0.020, kRounding);
 }
 
-TEST(ClockOffset, TheFastestWaysOfEitherDirectionCountTogether) {
+TEST(ClockOffset, TheFastestDelaysOfBothDirectionsAreCombined) {
   ClockOffsetEstimator clock = withoutDrift();
   clock.add(exchange(100.0, -0.005, 0.002, 0.050));  // below -0.005 + 0.002
   clock.add(exchange(101.0, -0.005, 0.050, 0.004));  // above -0.005 - 0.004
@@ -43,7 +43,7 @@ TEST(ClockOffset, TheFastestWaysOfEitherDirectionCountTogether) {
   EXPECT_NEAR(offset.uncertainty, 0.003, kRounding);
 }
 
-TEST(ClockOffset, WhatIsOlderBoundsItLessAsTheClocksDrift) {
+TEST(ClockOffset, OlderExchangesAreLooserBoundsAsTheClocksDrift) {
   ClockOffsetOptions options;
   options.max_drift = 1e-3;
   ClockOffsetEstimator clock(options);
@@ -65,7 +65,7 @@ TEST(ClockOffset, ADriftIsFollowed) {
   EXPECT_LE(offset.uncertainty, 0.001 + kRounding);
 }
 
-TEST(ClockOffset, OneThatIsSetIsKnownWithTheNextExchange) {
+TEST(ClockOffset, AStepIsKnownAfterTheNextExchange) {
   ClockOffsetEstimator clock((ClockOffsetOptions()));
   clock.add(exchange(100.0, 0.0, 0.001, 0.001));
   clock.add(exchange(101.0, 1.0, 0.003, 0.003));

@@ -82,7 +82,7 @@ struct SourcesOptions {
   void visit(OptionVisitor& visitor) { visitor.each({"sources", "", "each"}, sources); }
 };
 
-TEST(ReadOptions, ANameThatIsSetIsOneMoreEntry) {
+TEST(ReadOptions, ASetNameAddsAnEntry) {
   const auto options =
       readOptions<SourcesOptions>({{"sources/lidar/cells", 7}, {"sources/radar/cell_size", 0.5}});
   ASSERT_EQ(options.sources.size(), 2U);
@@ -98,7 +98,7 @@ TEST(ReadOptions, EntriesAreCheckedAndTheirKeysToo) {
   EXPECT_THROW(readOptions<SourcesOptions>({{"sources/lidar", 1}}), OptionError);
 }
 
-TEST(ReadOptions, AWholeNumberServesAsANumber) {
+TEST(ReadOptions, AnIntegerIsAcceptedAsANumber) {
   EXPECT_EQ(readOptions<StageOptions>({{"map/cell_size", 1}}).map.cell_size, 1.0);
 }
 
@@ -129,7 +129,7 @@ TEST(ReadOptions, AMisspelledKeyIsRefusedAndTheNearestKeyNamed) {
   expectMentions(errorOf({{"odometri", true}}), {"odometri", "nearest one is odometry"});
 }
 
-TEST(ReadOptions, TwoOptionsOfOneNameAreAMistakeOfTheProgram) {
+TEST(ReadOptions, DuplicateOptionNamesAreALogicError) {
   struct Twice {
     double value = 0.0;
     void visit(OptionVisitor& visitor) {
@@ -152,7 +152,7 @@ TEST(OptionTable, HasALineForEachOption) {
             "| `gain` | 1 | 1 | any number | a\\|b |\n");
 }
 
-/// Options of all tiers; what is in the group is of experts, whatever it says.
+/// Options of all tiers; everything in the group is of expert tier, whatever it says itself.
 struct TieredOptions {
   double gate = 2.0;
   int points = 3;
@@ -185,7 +185,7 @@ TEST(OptionTable, TiersHaveTablesOfTheirOwn) {
   EXPECT_EQ(publicOptionTable<StageOptions>(), "") << "none of it is public";
 }
 
-TEST(LiveOptions, AreListedWithTheirPresentValues) {
+TEST(LiveOptions, AreListedWithTheirCurrentValues) {
   TieredOptions options;
   options.gate = 5.0;
   const std::vector<LiveOption> live = liveOptions(options);
@@ -251,7 +251,7 @@ TEST(CheckedOptions, OutOfBoundsOrContradictingEachOtherAreRefused) {
   EXPECT_THROW(Checked<RangeOptions>{options}, OptionError);
 }
 
-TEST(OptionTable, HalfOpenRangesSaySo) {
+TEST(OptionTable, HalfOpenRangesAreReportedAsSuch) {
   struct HalfOpen {
     double min = 1.0;
     double max = 1.0;

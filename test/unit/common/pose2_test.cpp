@@ -25,13 +25,13 @@ void expectNear(const Pose2& a, const Pose2& b) {
   EXPECT_NEAR(angleBetween(a.heading(), b.heading()), 0.0, 1e-9);
 }
 
-TEST(Pose2, ASensorAheadOfACarThatLooksLeft) {
+TEST(Pose2, ASensorAheadOfACarFacingLeft) {
   const Pose2 car_in_map(10.0, 5.0, kPi / 2.0);
   const Pose2 sensor_in_car(2.0, 0.0, 0.0);
   expectNear(car_in_map * sensor_in_car, {10.0, 7.0, kPi / 2.0});
 }
 
-TEST(Pose2, TakesAPointToTheParentFrame) {
+TEST(Pose2, TransformsAPointToTheParentFrame) {
   const Point2 in_parent = Pose2(1.0, 2.0, kPi / 2.0) * Point2(3.0, 0.0);
   EXPECT_NEAR(in_parent.x(), 1.0, 1e-12);
   EXPECT_NEAR(in_parent.y(), 5.0, 1e-12);

@@ -34,7 +34,7 @@ TEST(RenamedOption, APresentKeyWasNotRenamed) {
   EXPECT_EQ(renamedOption("max_sigma", kKeys), std::nullopt);
 }
 
-TEST(RenamedOption, NothingIsNamedThatIsNoKey) {
+TEST(RenamedOption, OnlyKeysAreNamed) {
   EXPECT_EQ(renamedOption("most_work", kKeys), std::nullopt);
   EXPECT_EQ(renamedOption("longest_gap", kKeys), std::nullopt);
   EXPECT_EQ(renamedOption("", kKeys), std::nullopt);

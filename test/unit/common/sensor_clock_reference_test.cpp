@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of two clocks is the right one, and for how long.
+// Which of two clocks is correct, and for how long.
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace datmo::sensor_clock_test {
 namespace {
 
-TEST(SensorClockReferenceTest, AClockThatIsOffStaysKnownOverMessagesThatAreFarOff) {
+TEST(SensorClockReferenceTest, AnOffsetSurvivesMessagesWithStampsFarOff) {
   const auto isOne = [](double measured) { return std::abs(measured - 112.0) < 0.5 * kPeriod; };
   const std::vector<Change> changes = {
       [&](Sent& one, double measured) { one.stamp += isOne(measured) ? 1.5 : 0.0; },
@@ -36,7 +36,7 @@ TEST(SensorClockReferenceTest, AClockThatIsOffStaysKnownOverMessagesThatAreFarOf
   }
 }
 
-TEST(SensorClockReferenceTest, AClockThatWasAheadFromTheStartAndIsSetRightIsTheRightOne) {
+TEST(SensorClockReferenceTest, AClockThatIsCorrectedAfterAnInitialOffsetIsRight) {
   SensorClock clock;
   const std::vector<double> ahead = found(
       sent([](Sent& one, double measured) { one.stamp += measured < 110.0 ? 0.1 : 0.0; }), clock);
@@ -58,7 +58,7 @@ TEST(SensorClockReferenceTest, AfterItIsSetRightItIsTheReference) {
   EXPECT_EQ(clock.taken(), 1U);
 }
 
-TEST(SensorClockReferenceTest, WhereNeitherClockIsSurelyWrongTheNewOneIsTakenInTheEnd) {
+TEST(SensorClockReferenceTest, IfNeitherClockIsClearlyWrongTheNewOneIsEventuallyUsed) {
   constexpr double kLong = 0.2;  // s, more messages for the same count
   for (const double step : {-0.1, 0.1}) {
     for (const double offset : {0.0, -0.15}) {
@@ -80,7 +80,7 @@ TEST(SensorClockReferenceTest, WhereNeitherClockIsSurelyWrongTheNewOneIsTakenInT
   }
 }
 
-TEST(SensorClockReferenceTest, ArrivalsOfAnotherClockDoNotTellWhichIsRight) {
+TEST(SensorClockReferenceTest, ArrivalsByAnotherClockDoNotShowWhichIsRight) {
   SensorClock clock;
   const std::vector<double> ahead = found(sent([](Sent& one, double measured) {
                                             one.arrival -= 1e6;
@@ -91,7 +91,7 @@ TEST(SensorClockReferenceTest, ArrivalsOfAnotherClockDoNotTellWhichIsRight) {
   EXPECT_EQ(clock.taken(), 0U);
 }
 
-TEST(SensorClockReferenceTest, StampsAndArrivalsThatGoBackBeginAnew) {
+TEST(SensorClockReferenceTest, StampsAndArrivalsThatGoBackStartOver) {
   SensorClock clock;
   const auto add = [&clock](double stamp, double delay) {
     return clock.add(Stamp::fromSeconds(stamp), Stamp::fromSeconds(stamp + delay));
@@ -105,7 +105,7 @@ TEST(SensorClockReferenceTest, StampsAndArrivalsThatGoBackBeginAnew) {
   }
 }
 
-TEST(SensorClockReferenceTest, StampsAloneThatGoBackBeginAnewAtTheSecond) {
+TEST(SensorClockReferenceTest, StampsAloneThatGoBackStartOverAtTheSecond) {
   SensorClock clock;
   const std::vector<double> ahead = found(sent([](Sent& one, double measured) {
                                             one.stamp += measured > 110.0 ? 0.1 : 0.0;

@@ -19,7 +19,7 @@ struct Sent {
   double arrival;  // s
 };
 
-/// What is done to a message that was measured at this time (s).
+/// Changes a message that was measured at this time (s).
 using Change = std::function<void(Sent& sent, double measured)>;
 
 inline std::vector<Sent> sent(const Change& change, double period = kPeriod) {
@@ -32,7 +32,7 @@ inline std::vector<Sent> sent(const Change& change, double period = kPeriod) {
   return messages;
 }
 
-/// By arrival; a message that never comes has none.
+/// Returns the offsets that the clock finds, in the order of arrival; lost messages have none.
 inline std::vector<double> found(std::vector<Sent> messages, SensorClock& clock) {
   messages.erase(std::remove_if(messages.begin(), messages.end(),
                                 [](const Sent& one) { return std::isnan(one.arrival); }),
@@ -48,7 +48,7 @@ inline std::vector<double> found(std::vector<Sent> messages, SensorClock& clock)
 
 inline bool isDuring(double measured) { return measured >= 110.0 && measured < 115.0; }
 
-/// s, ahead at the message that was measured at this time.
+/// Offset (s, positive: ahead) at the message that was measured at this time.
 inline double aheadAt(const std::vector<double>& ahead, double measured) {
   return ahead.at(static_cast<std::size_t>(std::lround((measured - 100.0) / kPeriod)));
 }

@@ -20,7 +20,7 @@ void expectNothingFound(const Change& change, double period = kPeriod) {
   EXPECT_EQ(clock.steps(), 0U);
 }
 
-TEST(SensorClockTest, AStepIsFoundWithItsFirstMessageOrIfThatIsNoneLaterWithTheSecond) {
+TEST(SensorClockTest, AStepIsDetectedByItsFirstMessageOrElseByTheSecond) {
   for (const double period : {0.02, 0.06, 0.1}) {
     for (const double step : {0.1, -0.1, 0.04, -0.04, 0.8, -0.8}) {
       SensorClock clock;
@@ -40,7 +40,7 @@ TEST(SensorClockTest, AStepIsFoundWithItsFirstMessageOrIfThatIsNoneLaterWithTheS
   }
 }
 
-TEST(SensorClockTest, AmongLateMessagesItTakesTheDelaysOfTheNextOnes) {
+TEST(SensorClockTest, LateMessagesAreResolvedByTheDelaysOfTheNextOnes) {
   std::mt19937 random(1);
   std::exponential_distribution<double> wait(1.0 / 0.02);
   for (const double step : {0.1, -0.1}) {
@@ -64,7 +64,7 @@ TEST(SensorClockTest, AmongLateMessagesItTakesTheDelaysOfTheNextOnes) {
   }
 }
 
-TEST(SensorClockTest, AnOldMessageThatIsSentOnceMoreInTimeIsNoStep) {
+TEST(SensorClockTest, AResentOldMessageIsNoStep) {
   for (const double age : {0.06, 0.12, 0.6}) {
     expectNothingFound(
         [&](Sent& one, double measured) {
@@ -95,7 +95,7 @@ TEST(SensorClockTest, MessagesThatAreLateLostOrDoubleAreNoStep) {
   }
 }
 
-TEST(SensorClockTest, ASensorThatPausesOrDriftsIsNotSet) {
+TEST(SensorClockTest, PausesAndDriftAreNoStep) {
   expectNothingFound([](Sent& one, double measured) {
     one.stamp += measured > 110.0 ? 0.45 : 0.0;
     one.arrival += measured > 110.0 ? 0.45 : 0.0;
@@ -133,7 +133,7 @@ TEST(SensorClockTest, ASensorThatChangesItsRateIsJudgedByTheNewOne) {
   EXPECT_EQ(clock.steps(), 1U);
 }
 
-TEST(SensorClockTest, NothingIsSaidOfBunchesOfRecordTimesAsStampsAndOfNoPeriod) {
+TEST(SensorClockTest, BunchedRecordTimesAndMissingPeriodsAreNotJudged) {
   const auto change = [](Sent& one, double measured) {
     one.stamp += isDuring(measured) ? 0.1 : 0.0;
     one.arrival = std::ceil(measured / 5.0) * 5.0;
@@ -150,7 +150,7 @@ TEST(SensorClockTest, NothingIsSaidOfBunchesOfRecordTimesAsStampsAndOfNoPeriod) 
   expectNothingFound([&](Sent& one, double /*measured*/) { one.stamp += 1.2 * jitter(random); });
 }
 
-TEST(SensorClockTest, MessagesThatComeBeforeTheirStampsTellOfAClockThatIsAhead) {
+TEST(SensorClockTest, ArrivalsBeforeTheirStampsShowAClockThatIsAhead) {
   const auto leadOf = [](const Change& change) {
     SensorClock clock;
     found(sent(change), clock);
@@ -167,7 +167,7 @@ TEST(SensorClockTest, MessagesThatComeBeforeTheirStampsTellOfAClockThatIsAhead) 
   EXPECT_EQ(leadOf([](Sent& one, double) { one.arrival -= 1e6; }), 0.0) << "without a clock";
 }
 
-TEST(SensorClockTest, AClockThatJumpsBeginsAnew) {
+TEST(SensorClockTest, AClockJumpStartsOver) {
   SensorClock clock;
   const auto messages = sent([](Sent& one, double measured) {
     one.stamp += isDuring(measured) ? 0.1 : 0.0;

@@ -52,7 +52,7 @@ TEST(StampGate, WithoutRosTimeEachJumpIsFollowed) {
   EXPECT_EQ(judge(gate, 8.1), StampVerdict::kAccept) << "the new run goes on";
 }
 
-TEST(StampGate, AStrayStampCostsItselfAlone) {
+TEST(StampGate, AStrayStampCostsOneMessage) {
   for (const double off : {1.0, -1.0, 3600.0, -3600.0, 1e6, -1e6}) {
     StampGate gate;
     int used = 0;
@@ -67,7 +67,7 @@ TEST(StampGate, AStrayStampCostsItselfAlone) {
   }
 }
 
-TEST(StampGate, TwoStrayStampsThatDisagreeCostThemselves) {
+TEST(StampGate, TwoStrayStampsThatDisagreeCostTwoMessages) {
   StampGate gate;
   judgeAt(gate, 100.0, 100.0);
   EXPECT_EQ(judgeAt(gate, 300.0, 100.1), StampVerdict::kStray);
@@ -132,7 +132,7 @@ TEST(StampGate, ASlowStreamThatRosTimeDoesNotFollowIsUsed) {
   EXPECT_EQ(used, 19);
 }
 
-TEST(StampGate, OfTwoClocksOnOneTopicTheFirstServes) {
+TEST(StampGate, OfTwoClocksOnOneTopicTheFirstIsUsed) {
   StampGate gate;
   judgeAt(gate, 100.0, 100.0);
   for (int message = 1; message < 10; ++message) {

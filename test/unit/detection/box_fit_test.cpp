@@ -160,8 +160,8 @@ TEST(BoxFitTest, NoisyHeadingsAreAsGoodAsTheirVariance) {
   EXPECT_LE(far_off, kRuns / 100);
 }
 
-/// Mean of the squared errors of the heading over its variance, of sides of 30 points of which each
-/// five share their noise.
+/// Mean of the squared heading error over its variance, for sides of 30 points that share their
+/// noise in groups of five.
 double headingNees(double correlated_points) {
   constexpr double kNoise = 0.05;
   constexpr std::size_t kBlock = 5;
@@ -183,13 +183,13 @@ double headingNees(double correlated_points) {
   return squares / kRuns;
 }
 
-TEST(BoxFitTest, PointsThatShareTheirNoiseTellLessOfTheHeading) {
+TEST(BoxFitTest, CorrelatedNoiseReducesTheInformationOnTheHeading) {
   EXPECT_GT(headingNees(1.0), 2.0) << "taken for independent";
   EXPECT_LT(headingNees(5.0), 1.3);
   EXPECT_GT(headingNees(5.0), 0.2) << "it is honest, if cautious";
 }
 
-TEST(BoxFitTest, WithoutAHeadingTheBoxLiesAcrossTheLineOfSight) {
+TEST(BoxFitTest, WithoutAHeadingTheBoxIsAcrossTheLineOfSight) {
   // Seen along the diagonal: ends at right angles to it, the depth is the mean one.
   const Point2 scanner(1.0, 2.0);
   const std::vector<Point2> points = {scanner + Point2(9.0, 10.0), scanner + Point2(10.0, 10.0),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well positions are known, of stereo and of depth cameras.
+// Accuracy of positions from stereo and depth cameras.
 #include <cmath>
 #include <functional>
 
@@ -15,8 +15,8 @@ struct Consistency {
   double bias = 0.0;
 };
 
-/// `shake`: gives a scene the errors that all points of a cloud share, of this standard deviation
-/// in those of a point.
+/// `shake`: adds errors shared by all points of a cloud to a scene, with this standard deviation in
+/// units of a point's.
 Consistency consistencyOf(MadeScene scene, double distance,
                           const StereoObjectDetectorOptions& options,
                           const std::function<void(MadeScene&, double)>& shake) {
@@ -57,7 +57,7 @@ TEST(StereoObjectDetector, KnowsTheUncertaintyOfAPosition) {
   EXPECT_NEAR(far.bias, 0.0, 0.4);
 }
 
-/// Of the room that a depth camera sees.
+/// The room that a depth camera sees.
 StereoObjectDetectorOptions ofARoom() {
   StereoObjectDetectorOptions options = ofBoxes();
   options.noise.body_sigma = 0.02;
@@ -83,15 +83,15 @@ TEST(StereoObjectDetector, DepthCamerasFindAPersonAndKnowHowWell) {
                       [](MadeScene& shaken, double sigmas) { shaken.depth_bias = sigmas; });
     EXPECT_LT(consistency.squares, 1.5) << noise.constant;
     EXPECT_NEAR(consistency.bias, 0.0, 0.06) << noise.constant;
-    // Along the line of sight the covariance is that of the law: half of a standard deviation.
+    // The covariance along the line of sight is that of the law: half of a standard deviation.
     const double expected = std::pow(0.5 * noise.sigma(3.5), 2.0) + 0.02 * 0.02;
     EXPECT_NEAR(objects[0].position_covariance(0, 0), expected, 0.1 * expected);
   }
 }
 
 TEST(StereoObjectDetector, WithoutBaselineNothingIsHiddenFromASecondCamera) {
-  // The car ends 0.078 to the right of the axis (tangents), the person begins at 0.15; what is up
-  // to 0.5 m (1 / 2.5 m - 1 / 11.5 m) = 0.157 to its left is hidden from the right camera.
+  // The car ends 0.078 to the right of the axis (tangents), the person begins at 0.15; up to 0.5 m
+  // (1 / 2.5 m - 1 / 11.5 m) = 0.157 to its left is hidden from the right camera.
   MadeScene scene = sceneOf({pedestrianAt(3.0, -0.625), carAt(12.0, 0.0)});
   const auto rightOfTheCar = [](const std::vector<Object>& objects) {
     const auto car = std::find_if(objects.begin(), objects.end(), [](const Object& object) {

@@ -13,9 +13,10 @@ namespace {
 
 using samples::LidarCloudMaker;
 
-constexpr double kBodyFloor = 0.2;  // m above the ground, of what has wheels
+constexpr double kBodyFloor = 0.2;  // m above the ground, of the body of a vehicle
 
-/// The sides of an upright box that face the lidar at (0.5, 0), points 5 cm apart, as far as 1 mm.
+/// The sides of an upright box that face the lidar at (0.5, 0), with points 5 cm apart that are
+/// exact to 1 mm.
 void addBox(LidarCloudMaker& maker, const Box2& box, double height) {
   const Point2 lidar(0.5, 0.0);
   const Pose2& at = box.center;
@@ -64,7 +65,7 @@ TEST(CloudObjectDetectorTest, TwoCarsAndAPedestrianOnARoad) {
   EXPECT_NEAR(objects[2].height, 1.5, 0.1);
 }
 
-TEST(CloudObjectDetectorTest, ACarsBoxIsWhereItsSeenSidesAre) {
+TEST(CloudObjectDetectorTest, ACarsBoxFitsItsVisibleSides) {
   LidarCloudMaker maker;
   maker.addGround();
   addBox(maker, kCarAhead, 1.5);
@@ -81,7 +82,7 @@ TEST(CloudObjectDetectorTest, ACarsBoxIsWhereItsSeenSidesAre) {
   EXPECT_EQ(unknown_sides, 0) << "both far sides are where the near ones end";
 }
 
-TEST(CloudObjectDetectorTest, WhatIsBehindSomethingNearerEndsNobodyKnowsWhere) {
+TEST(CloudObjectDetectorTest, AnOccludedObjectHasUnknownEnds) {
   LidarCloudMaker maker;
   maker.addGround();
   // The shadow of the nearer one begins at y = 1.06, where the farther one's rear is.
@@ -109,7 +110,7 @@ TEST(CloudObjectDetectorTest, TheGroundAndTheVehicleItselfAreNoObjects) {
   EXPECT_EQ(found.points, 0U);
 }
 
-TEST(CloudObjectDetectorTest, WallsAndSignsAreNone) {
+TEST(CloudObjectDetectorTest, WallsAndSignsAreNoObjects) {
   LidarCloudMaker maker;
   maker.addGround();
   for (int i = 0; i < 400; ++i) {
@@ -125,7 +126,7 @@ TEST(CloudObjectDetectorTest, WallsAndSignsAreNone) {
   EXPECT_EQ(found.too_large, 1U);
 }
 
-TEST(CloudObjectDetectorTest, BehindTheLidarAnObjectIsOne) {
+TEST(CloudObjectDetectorTest, AnObjectAcrossTheSeamBehindIsOneObject) {
   LidarCloudMaker maker;
   maker.addGround();
   addBox(maker, {Pose2(-12.0, 0.0, 0.0), 4.2, 1.8}, 1.5);
@@ -134,8 +135,8 @@ TEST(CloudObjectDetectorTest, BehindTheLidarAnObjectIsOne) {
   EXPECT_NEAR(found.list.objects.front().box.center.y(), 0.0, 0.15);
 }
 
-TEST(CloudObjectDetectorTest, PointsAreWhereTheVehiclesMotionSays) {
-  // The vehicle drives at 10 m/s to a wall at x = 10; its second half is seen 0.1 s later, 1 m
+TEST(CloudObjectDetectorTest, PointsAreCompensatedForTheVehiclesMotion) {
+  // The vehicle drives at 10 m/s toward a wall at x = 10; its second half is seen 0.1 s later, 1 m
   // nearer.
   LidarCloudMaker maker;
   for (int half = 0; half < 2; ++half) {

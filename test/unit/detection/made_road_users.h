@@ -10,7 +10,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/detection/stereo_object_detector.h"
 
-/// What a camera's object detector is shown, and how its answer is read.
+/// Input of a camera's object detector, and its output.
 namespace datmo {
 
 /// m from base_link's origin to the camera.
@@ -53,7 +53,7 @@ inline StereoObjectDetectorOptions ofBoxes() {
   return options;
 }
 
-/// Least x and least y of the corners of its box, m: where it begins ahead, and ends to the right.
+/// Least x and least y of the corners of its box, m: its near end and its right end.
 inline Point2 leastCorner(const Object& object) {
   Point2 least = object.box.center.position();
   for (const Point2& corner : object.box.corners()) {
@@ -73,7 +73,7 @@ struct Side {
   double variance;  ///< m^2
 };
 
-/// The side of an object that looks most into a direction.
+/// The side of an object that faces a direction most.
 inline Side sideToward(const Object& object, const Point2& direction) {
   const Pose2 turn(Point2::Zero(), object.box.center.heading());
   const std::array<Point2, kBoxSides> normals = {turn.rotate({1.0, 0.0}), turn.rotate({-1.0, 0.0}),

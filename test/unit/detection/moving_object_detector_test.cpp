@@ -41,7 +41,7 @@ ObjectList detect(const LabeledScan& scan, const MovingObjectDetectorOptions& op
   return MovingObjectDetector(options).detect(scan);
 }
 
-/// By side of the world, of an object seen along x: near, far, left, right.
+/// By direction in the world, of an object seen along x: near, far, left, right.
 struct SeenSides {
   double near, far, left, right;  ///< m^2
 };
@@ -71,7 +71,7 @@ TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
   EXPECT_EQ(list.stamp, Stamp::fromSeconds(5.0));
 }
 
-TEST(MovingObjectDetectorTest, WhatIsStaticIsNoObject) {
+TEST(MovingObjectDetectorTest, StaticPointsAreNoObject) {
   EXPECT_TRUE(detect(labeledScan({{10.0, 40, kS}, {10.0, 41, kS}})).objects.empty());
 }
 
@@ -122,7 +122,7 @@ TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
   }
 }
 
-TEST(MovingObjectDetectorTest, TheThesisTakesAnyMovingPoint) {
+TEST(MovingObjectDetectorTest, TheThesisUsesAnyMovingPoint) {
   const LabeledScan scan =
       labeledScan({{10.0, 40, kM}, {10.0, 41, kU}, {10.0, 42, kU}, {10.0, 43, kU}});
   EXPECT_EQ(detect(scan).objects.at(0).dynamic_state, DynamicState::kUnknown);
@@ -137,7 +137,7 @@ TEST(MovingObjectDetectorTest, AStaticPointNextToAMoverDoesNotHideIt) {
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
-TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
+TEST(MovingObjectDetectorTest, AnAttachmentToAWallIsPartOfIt) {
   const ObjectList list =
       detect(labeledScan({{10.0, 40, kU}, {10.0, 41, kU}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
@@ -145,7 +145,7 @@ TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
-TEST(MovingObjectDetectorTest, WhatMovesNextToAWallStillMoves) {
+TEST(MovingObjectDetectorTest, AMoverNextToAWallIsStillReported) {
   const ObjectList list =
       detect(labeledScan({{10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
@@ -204,8 +204,8 @@ TEST(MovingObjectDetectorTest, TwoSidesOfACarGiveItsWholeBox) {
   EXPECT_LT(right, left) << "the left is where the rear ends";
 }
 
-/// Over random positions of a box, the mean of (error of a side)^2 / its variance, of the sides
-/// seen.
+/// Over random positions of a box, the mean of (error of a side)^2 / its variance, of the visible
+/// sides.
 double sideNees(const RayCaster& scanner, double length, double width) {
   MovingObjectDetectorOptions options;
   options.range_sigma = scanner.range_sigma;
@@ -260,7 +260,7 @@ TEST(MovingObjectDetectorTest, SidesAreAsGoodAsTheirVariance) {
   }
 }
 
-TEST(MovingObjectDetectorTest, HeadingIsSurerTheLongerTheObject) {
+TEST(MovingObjectDetectorTest, HeadingIsMoreCertainForLongerObjects) {
   const double pair = detect(labeledScan({{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}}))
                           .objects[0]
                           .heading_variance;

@@ -10,7 +10,7 @@
 namespace datmo::object_classifier_test {
 namespace {
 
-/// Seen well, all of it.
+/// Completely and accurately visible.
 SeenSize seen(double height, double across, double along = 0.0) {
   SeenSize size;
   size.height = height;
@@ -51,13 +51,13 @@ TEST(ObjectClassifier, ProbabilitiesSumToOneHoweverOddTheSize) {
   }
 }
 
-TEST(ObjectClassifier, ItsProbabilityShowsWhatCannotBeClassified) {
+TEST(ObjectClassifier, LowProbabilityShowsUnclassifiableObjects) {
   EXPECT_LT(probability(seen(1.72, 0.6), ObjectClass::kPedestrian), 0.9)
       << "a cyclist from behind looks like that as well";
   EXPECT_GT(probability(seen(1.5, 4.2, 1.8), ObjectClass::kVehicle), 0.9);
 }
 
-TEST(ObjectClassifier, WhatWasNotSeenMayBeLarger) {
+TEST(ObjectClassifier, PartiallySeenObjectsMayBeLarger) {
   SeenSize half = seen(1.75, 0.6);
   const double whole_cyclist = probability(half, ObjectClass::kCyclist);
   half.wider = true;
@@ -76,7 +76,7 @@ TEST(ObjectClassifier, ReportsTheEvidenceForOneOfItsKinds) {
   EXPECT_GT(odds(seen(1.5, 1.8)), 2.0);
   EXPECT_LT(odds(seen(0.6, 3.0)), -2.0) << "hedge";
   EXPECT_TRUE(std::isfinite(odds(seen(1e6, 1e6))));
-  // What tells nothing leaves the odds as they were.
+  // An observation without information leaves the odds unchanged.
   const double known = 20.0 / 22.0;
   EXPECT_NEAR(classifier.logOddsOfKnown({1.0 - known, known, 0.0, 0.0, 0.0}), 0.0, 1e-9);
 }

@@ -13,7 +13,7 @@
 namespace datmo {
 namespace {
 
-/// What a radar would measure of a point without noise.
+/// A radar's measurement of a point without noise.
 RadarReturn returnOf(const Point2& position, const Point2& velocity, const Pose2& radar,
                      const Twist2& twist) {
   const Point2 lever = radar.position();
@@ -30,10 +30,10 @@ RadarObjects detect(const std::vector<RadarReturn>& returns, const Pose2& radar 
 }
 
 TEST(RadarObjects, VelocityAlongTheLineOfSightIsOverTheGround) {
-  // 3 m ahead of the origin and 1 m to the left, looking to the left; the vehicle drives 10 m/s and
-  // turns by 0.5 rad/s to the left, so that the radar goes 10 - 0.5 * 1 = 9.5 m/s ahead and
-  // 0.5 * 3 = 1.5 m/s to the left. 20 m to the left of it something comes nearer by 4.5 m/s: it
-  // goes 3 m/s to the right.
+  // 3 m ahead of the origin and 1 m to the left, facing left; the vehicle drives 10 m/s and turns
+  // at 0.5 rad/s to the left, so that the radar moves 10 - 0.5 * 1 = 9.5 m/s ahead and 0.5 * 3 =
+  // 1.5 m/s to the left. 20 m to its left an object approaches at 4.5 m/s: it moves 3 m/s to the
+  // right.
   const Pose2 radar(3.0, 1.0, degrees(90.0));
   const RadarObjects found = detect({{20.0, 0.0, -4.5}}, radar, {10.0, 0.5});
   ASSERT_EQ(found.list.objects.size(), 1U);
@@ -44,8 +44,8 @@ TEST(RadarObjects, VelocityAlongTheLineOfSightIsOverTheGround) {
   EXPECT_NEAR(object.velocity->velocity.x(), 0.0, 1e-9);
   EXPECT_NEAR(object.velocity->velocity.y(), -3.0, 1e-9);
   EXPECT_NEAR(object.velocity->covariance(0, 0), 100.0, 1e-9);
-  // By the Doppler shift, and by the bearing through the motions across, 9.5 and 10 m/s; not by the
-  // vehicle's own speed, which is across.
+  // By the Doppler shift, and by the bearing due to the lateral motions, 9.5 and 10 m/s; not by the
+  // vehicle's own speed, which is lateral.
   EXPECT_NEAR(object.velocity->covariance(1, 1), 0.01 + 1e-4 * (square(9.5) + square(10.0)), 1e-9);
   EXPECT_EQ(object.sensors, std::vector<std::string>{"radar"});
   for (const double variance : object.side_variance) {
@@ -53,22 +53,22 @@ TEST(RadarObjects, VelocityAlongTheLineOfSightIsOverTheGround) {
   }
 }
 
-TEST(RadarObjects, PositionIsAsSureAsRangeAndBearing) {
+TEST(RadarObjects, PositionIsAsCertainAsRangeAndBearing) {
   RadarObjectDetectorOptions options;
   options.reflection_sigma = 0.0;
   const Object ahead = detect({{50.0, 0.0, 5.0}}, Pose2(), {}, options).list.objects.at(0);
   EXPECT_NEAR(ahead.position_covariance(0, 0), square(0.2), 1e-9);
   EXPECT_NEAR(ahead.position_covariance(1, 1), square(50.0 * 0.01), 1e-9);
-  // Ahead the vehicle's own speed counts, too.
+  // Ahead, the vehicle's own speed counts, too.
   EXPECT_NEAR(ahead.velocity->covariance(0, 0), 0.01 + 1e-4 * square(10.0) + 0.01, 1e-9);
-  // Four returns of it know its middle twice as well.
+  // Four returns of it halve the standard deviation of its middle.
   const Object four = detect(std::vector<RadarReturn>(4, {50.0, 0.0, 5.0}), Pose2(), {}, options)
                           .list.objects.at(0);
   EXPECT_NEAR(four.position_covariance(1, 1), square(0.25), 1e-9);
   EXPECT_GT(four.box.length, 0.0);
 }
 
-TEST(RadarObjects, WhatStandsIsLeftOutAtAnySpeedOfTheVehicle) {
+TEST(RadarObjects, StationaryObjectsAreLeftOutAtAnySpeedOfTheVehicle) {
   const Pose2 radar(3.5, -0.5, degrees(-20.0));
   const Twist2 twist{15.0, 0.4};
   std::vector<RadarReturn> returns;
@@ -82,7 +82,7 @@ TEST(RadarObjects, WhatStandsIsLeftOutAtAnySpeedOfTheVehicle) {
   EXPECT_GT(found.standing, 0U);
 }
 
-TEST(RadarObjects, AreApartByPlaceOrBySpeed) {
+TEST(RadarObjects, AreSeparatedByPositionOrSpeed) {
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {21.0, 0.0, 5.2}}).list.objects.size(), 1U);
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {24.0, 0.0, 5.0}}).list.objects.size(), 2U);
   EXPECT_EQ(detect({{20.0, 0.0, 5.0}, {20.5, 0.0, 9.0}}).list.objects.size(), 2U);
@@ -92,7 +92,7 @@ TEST(RadarObjects, AreApartByPlaceOrBySpeed) {
   EXPECT_EQ(detect({{150.0, -0.015, 5.0}, {150.0, 0.015, 5.0}}).list.objects.size(), 1U);
 }
 
-TEST(RadarObjects, OfTooFewReturnsAreNone) {
+TEST(RadarObjects, RequireEnoughReturns) {
   RadarObjectDetectorOptions options;
   options.min_returns = 3;
   const std::vector<RadarReturn> returns{
@@ -104,9 +104,9 @@ TEST(RadarObjects, OfTooFewReturnsAreNone) {
   EXPECT_TRUE(detect({}).list.objects.empty());
 }
 
-TEST(RadarObjects, AreAsSureAsTheySay) {
-  // A curve with a radar at the front's corner: objects of known position and velocity, whose
-  // reflections lie anywhere on them; noise of what the options say.
+TEST(RadarObjects, HaveConsistentCovariances) {
+  // A curve, with a radar at a front corner: objects of known position and velocity, whose
+  // reflections lie anywhere on them; noise as in the options.
   constexpr int kCycles = 2000;
   const RadarObjectDetectorOptions options;
   const Pose2 radar(3.6, 0.8, degrees(30.0));

@@ -52,7 +52,7 @@ TEST(SegmentEndTest, AtAFlatAngleTheGapIsLong) {
   EXPECT_NEAR(end->variance, gap * gap / 12.0 + slant * slant, 1e-9);
 }
 
-TEST(SegmentEndTest, AVagueDirectionMakesTheEndVague) {
+TEST(SegmentEndTest, AnUncertainDirectionMakesTheEndUncertain) {
   const LabeledScan scan = scanWithLast();
   const Point2 along(std::cos(0.5), std::sin(0.5));
   const SegmentEnds ends(scan, kSigma, kMaxGap);
@@ -77,7 +77,7 @@ TEST(SegmentEndTest, SomethingNearerHidesTheEnd) {
   EXPECT_TRUE(leftEnd(scan)) << "what is behind does not";
 }
 
-TEST(SegmentEndTest, ASurfaceThatGoesOnHasNotEnded) {
+TEST(SegmentEndTest, AContinuingSurfaceHasNotEnded) {
   LabeledScan scan = scanWithLast();
   scan.points.push_back(pointOf(kLast + 1, kRange + 2.0 * kSigma));
   EXPECT_FALSE(leftEnd(scan));

@@ -62,7 +62,7 @@ TEST(StereoObjectDetector, LeavesOutWallsHousesAndCurbs) {
   EXPECT_TRUE(objectsIn(sceneOf({})).empty());
 }
 
-TEST(StereoObjectDetector, WhatLooksLikeNoRoadUserHasOddsAgainstIt) {
+TEST(StereoObjectDetector, UnlikelyRoadUsersHaveOddsAgainstThem) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({carAt(10.0, 3.0), boxAt(10.0, -2.0, {0.8, 2.4, 0.9})}));
   ASSERT_EQ(objects.size(), 2U);
@@ -71,7 +71,7 @@ TEST(StereoObjectDetector, WhatLooksLikeNoRoadUserHasOddsAgainstIt) {
   EXPECT_GE(objects[1].log_odds, -StereoObjectDetectorOptions().max_doubt);
 }
 
-TEST(StereoObjectDetector, SeesWhatIsBehindAndAboveNearerThings) {
+TEST(StereoObjectDetector, SeesObjectsBehindAndAboveNearerOnes) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({carAt(9.0, 0.0), boxAt(18.0, 0.0, {9.0, 2.5, 3.4})}));
   ASSERT_EQ(objects.size(), 2U) << "a truck, seen over a car";
@@ -92,15 +92,15 @@ TEST(StereoObjectDetector, MarksAnEndThatSomethingNearerHides) {
 }
 
 TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
-  // Half of the car is beyond the border, at a tangent of 0.5.
+  // Half of the car is outside the image, beyond a tangent of 0.5.
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, -4.0)}));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(rightOf(objects[0]).variance, kHiddenSide);
   EXPECT_LT(leftOf(objects[0]).variance, 0.2);
 }
 
-/// Whose far end lies along the line of sight, however aside of the camera's axis that is: a car
-/// that goes away, seen at the border of the image.
+/// The far end lies along the line of sight, however far it is from the camera's axis: a car that
+/// drives away, seen at the border of the image.
 TEST(StereoObjectDetector, AnEndInDepthIsNotSeenInTheImage) {
   MadeScene scene = sceneOf({carAt(14.0, 2.4)});
   scene.camera_yaw = degrees(34.0);
@@ -112,7 +112,7 @@ TEST(StereoObjectDetector, AnEndInDepthIsNotSeenInTheImage) {
   EXPECT_EQ(sideToward(car, {1.0, 0.0}).variance, kHiddenSide);
 }
 
-TEST(StereoObjectDetector, WhatAllDepthsHaveInCommonIsInThePosition) {
+TEST(StereoObjectDetector, CommonDepthErrorsAreInThePosition) {
   MadeCloud made(sceneOf({carAt(20.0, 0.0)}));
   const std::vector<Object> before = detect(made).list.objects;
   made.cloud().camera.disparity_offset_variance = 1.0;
@@ -126,7 +126,7 @@ TEST(StereoObjectDetector, WhatAllDepthsHaveInCommonIsInThePosition) {
       << "1 px at a focal length of 400 px and a baseline of 0.5 m";
 }
 
-TEST(StereoObjectDetector, HasNoEvidenceOnWhatTheRightCameraDoesNotSee) {
+TEST(StereoObjectDetector, HasNoEvidenceWhereTheRightCameraIsBlind) {
   // The left camera sees the car's left side, the right one does not: it is 0.5 m to the right.
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, 2.85)}));
   ASSERT_EQ(objects.size(), 1U);
@@ -145,7 +145,7 @@ TEST(StereoObjectDetector, SeparatesObjectsThatTouchInTheImage) {
   EXPECT_NEAR(leastCorner(cyclist).x(), 12.0, 0.3);
 }
 
-TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {
+TEST(StereoObjectDetector, APedestrianNextToAPoleIsSeparate) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({pedestrianAt(10.0, 0.5), boxAt(10.0, 0.05, {0.2, 0.2, 4.5})}));
   ASSERT_EQ(objects.size(), 2U);
@@ -154,7 +154,7 @@ TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {
 }
 
 TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
-  // Windows: the rear of the car is farther away in them.
+  // Windows: the rear of the car appears farther away through them.
   MadeScene scene = sceneOf({boxAt(12.0, 0.0, {0.3, 1.8, 0.9}), boxAt(12.8, 0.0, {3.0, 1.6, 1.5})});
   scene.disparity_noise = 0.25;
   const std::vector<Object> objects = objectsIn(scene);
@@ -163,7 +163,7 @@ TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
   EXPECT_NEAR(-rearOf(objects[0]).position, 12.0, 0.3);
 }
 
-TEST(StereoObjectDetector, SaysNothingBeyondItsRange) {
+TEST(StereoObjectDetector, ReportsNothingBeyondItsRange) {
   MadeCloud made(sceneOf({carAt(20.0, 0.0)}));
   StereoObjectDetectorOptions options;
   EXPECT_EQ(detect(made, options).list.objects.size(), 1U);
@@ -195,7 +195,7 @@ TEST(StereoObjectDetector, OrderOfPointsDoesNotMatter) {
     backward.add(points[i].cast<double>());
   }
   StereoObjectDetectorOptions options;
-  options.road.estimate = false;  // it looks at some of the points
+  options.road.estimate = false;  // it uses only some of the points
   const std::vector<Object> one = detect(made, options).list.objects;
   const std::vector<Object> other = detect(backward, options).list.objects;
   ASSERT_EQ(one.size(), 2U);
@@ -251,7 +251,7 @@ TEST(StereoObjectDetector, ReportsItsFieldOfView) {
   EXPECT_LE(view.field.sure_range, view.field.range);
 }
 
-TEST(StereoObjectDetector, TakesCloudsWithoutPoints) {
+TEST(StereoObjectDetector, AcceptsCloudsWithoutPoints) {
   MadeCloud made;
   EXPECT_TRUE(detect(made).list.objects.empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -262,9 +262,9 @@ TEST(StereoObjectDetector, TakesCloudsWithoutPoints) {
   EXPECT_EQ(result.list.views.size(), 1U) << "it looked, and saw nothing";
 }
 
-TEST(StereoObjectDetector, TakesCamerasOfAnyImageSize) {
+TEST(StereoObjectDetector, AcceptsCamerasOfAnyImageSize) {
   MadeCloud made(sceneOf({carAt(10.0, 0.0)}));
-  made.cloud().camera.focal_length = 1e5;  // 100,000 px wide; it is thinned, then
+  made.cloud().camera.focal_length = 1e5;  // 100,000 px wide; it is then downsampled
   EXPECT_EQ(detect(made).list.objects.size(), 1U);
   made.cloud().camera.focal_length = 10.0;
   EXPECT_NO_THROW(detect(made));
@@ -279,7 +279,7 @@ TEST(StereoObjectDetector, RefusesCamerasThatMeasureNothing) {
   EXPECT_THROW(StereoObjectDetector{options}, OptionError);
 }
 
-TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) {
+TEST(StereoObjectDetector, UncertaintyIsAlongTheLineOfSightAndGrowsWithDepth) {
   const std::vector<Object> objects = objectsIn(sceneOf({pedestrianAt(20.0, 6.0)}), ofBoxes());
   ASSERT_EQ(objects.size(), 1U);
   const Point2 ray = (objects[0].box.center.position() - Point2(kCameraX, 0.0)).normalized();

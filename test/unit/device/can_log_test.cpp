@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs of candump: their lines, and when their frames come.
+// Logs of candump: their lines, and when their frames are delivered.
 #include "datmo_fusion/device/can_log.h"
 
 #include <chrono>
@@ -40,7 +40,7 @@ TEST(CanLogTest, LinesOfAllKindsOfFramesAreRead) {
   EXPECT_FALSE(canLogLine("  "));
 }
 
-TEST(CanLogTest, WhatIsNoLineIsRefused) {
+TEST(CanLogTest, InvalidLinesAreRefused) {
   for (const char* line :
        {"can0 123#00", "(now) can0 123#00", "(1.2.3) can0 123#00",
         "(99999999999999999999) can0 123#00", "(1.2.3.4) can0", "() can0 123#00", "(1.0) can0",
@@ -52,7 +52,7 @@ TEST(CanLogTest, WhatIsNoLineIsRefused) {
   }
 }
 
-TEST(CanLogTest, ItsFramesComeAtTheirRateAndThenItsEnd) {
+TEST(CanLogTest, FramesAreDeliveredAtTheirRateAndThenTheEnd) {
   const std::string file = testing::TempDir() + "can_log_test.log";
   std::ofstream(file) << "(1000.0) can0 1A0#01\n(1000.01) can1 1A0#02\n\nbroken\n"
                          "(1000.05) can0 1A0#03\n(3.0) can0 1A0#04\n";
@@ -63,7 +63,7 @@ TEST(CanLogTest, ItsFramesComeAtTheirRateAndThenItsEnd) {
   EXPECT_EQ(reasonOf([&] { log.next(); }), "bad_frame");
   EXPECT_EQ(log.next().data[0], 3);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(49));
-  EXPECT_EQ(log.next().data[0], 4);  // another recording, joined to it
+  EXPECT_EQ(log.next().data[0], 4);  // another recording, appended to it
   try {
     log.next();
     FAIL() << "it is at its end";

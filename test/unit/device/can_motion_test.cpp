@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle's motion from the frames of a made-up bus, and what is wrong with them.
+// The vehicle's motion from the frames of a made-up bus, and faults of these frames.
 #include "datmo_fusion/device/can_motion.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ class CanMotionTest : public testing::Test {
     return motion_->take(frame, Stamp::fromSeconds(now_));
   }
 
-  /// Speed and yaw rate at once, the counter as it should be.
+  /// Takes speed and yaw rate, with a correct counter.
   std::optional<CanMotion::Motion> takeBoth(double speed, double rate) {
     take(yawFrame(rate));
     return take(speedFrame(speed, counter_++));
@@ -50,7 +50,7 @@ class CanMotionTest : public testing::Test {
 };
 
 TEST_F(CanMotionTest, EachSpeedGivesAMotionWithTheNewestYawRate) {
-  takeBoth(0.0, 0.0);  // whose counter has not moved yet
+  takeBoth(0.0, 0.0);  // whose counter has not advanced yet
   const auto motion = takeBoth(10.0, -5.0);
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->twist.speed, 10.0, 1e-9);
@@ -68,7 +68,7 @@ TEST_F(CanMotionTest, EachSpeedGivesAMotionWithTheNewestYawRate) {
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(CanMotionTest, TheCounterBeginsAgainAtItsEnd) {
+TEST_F(CanMotionTest, TheCounterWrapsAround) {
   options_.counter_values = 15;  // 0 to 14
   take(yawFrame(0.0));
   take(speedFrame(1.0, 13));
@@ -77,7 +77,7 @@ TEST_F(CanMotionTest, TheCounterBeginsAgainAtItsEnd) {
   EXPECT_EQ(take(speedFrame(1.0, 14))->missed, 13U);
 }
 
-TEST_F(CanMotionTest, AMessageWhoseCounterStandsStillIsNotUsedUntilItMoves) {
+TEST_F(CanMotionTest, AMessageWithAFrozenCounterIsNotUsed) {
   takeBoth(1.0, 0.0);
   EXPECT_TRUE(takeBoth(2.0, 0.0));
   for (int i = 0; i < 2; ++i) {  // a repeated message alone is no fault
@@ -90,14 +90,14 @@ TEST_F(CanMotionTest, AMessageWhoseCounterStandsStillIsNotUsedUntilItMoves) {
   EXPECT_TRUE(takeBoth(2.0, 0.0));
 }
 
-TEST_F(CanMotionTest, AYawRateWhoseCounterStandsStillIsNotUsedUntilItMoves) {
+TEST_F(CanMotionTest, AYawRateWithAFrozenCounterIsNotUsed) {
   options_.yaw_counter = "0x1B0 16|4@1+ (1,0)";
   std::uint8_t yaw_counter = 0;
   const auto yaw = [&yaw_counter] { return canFrame(samples::kYawId, {0, 0, yaw_counter}); };
   const auto speed = [this] { return take(speedFrame(1.0, counter_++)); };
   take(yaw());
   speed();
-  EXPECT_FALSE(speed());  // it has not moved yet
+  EXPECT_FALSE(speed());  // it has not advanced yet
   ++yaw_counter;
   take(yaw());
   EXPECT_TRUE(speed());
@@ -135,7 +135,7 @@ TEST_F(CanMotionTest, AnIdWithoutXIsDecimal) {
   EXPECT_TRUE(takeBoth(1.0, 0.0));
 }
 
-TEST_F(CanMotionTest, BadFramesAndSignalsAreNamedAndTheRestGoesOn) {
+TEST_F(CanMotionTest, BadFramesAndSignalsAreNamedAndTheRestIsUsed) {
   takeBoth(1.0, 0.0);
   EXPECT_FALSE(take(canFrame(samples::kSpeedId, {static_cast<std::uint8_t>(counter_), 0})));
   EXPECT_EQ(warnings_["bad_frame"], 1);
@@ -152,7 +152,7 @@ TEST_F(CanMotionTest, BadFramesAndSignalsAreNamedAndTheRestGoesOn) {
   EXPECT_TRUE(takeBoth(1.0, 0.0));
 }
 
-TEST_F(CanMotionTest, AnOldYawRateDoesNotServe) {
+TEST_F(CanMotionTest, AnOldYawRateIsNotUsed) {
   takeBoth(1.0, 0.0);
   take(yawFrame(1.0));
   now_ += 0.49;
@@ -195,7 +195,7 @@ TEST_F(CanMotionTest, WheelsGiveSpeedAndYawRate) {
   EXPECT_NEAR(back->twist.yaw_rate, -1.0 / 1.6, 1e-9);
 }
 
-TEST_F(CanMotionTest, TheSpeedOfWheelsInTwoMessagesComesWithTheLastOne) {
+TEST_F(CanMotionTest, TheSpeedOfWheelsInTwoMessagesIsThatOfTheLastOne) {
   options_ = CanOptions();
   options_.front_left = "0x0F0 0|8@1+ (1,0) [0|0] \"km/h\"";
   options_.rear_right = "0x0F1 0|8@1+ (1,0) [0|0] \"km/h\"";

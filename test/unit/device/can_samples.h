@@ -23,7 +23,7 @@ inline CanFrame canFrame(std::uint32_t number, const std::vector<std::uint8_t>& 
 constexpr std::uint32_t kSpeedId = 0x1A0;
 constexpr std::uint32_t kYawId = 0x1B0;
 
-/// A made-up vehicle: no make has these messages.
+/// A made-up vehicle: no real make has these messages.
 inline CanOptions canSample() {
   CanOptions options;
   options.speed = "0x1A0 8|16@1+ (0.01,0) [0|250] \"km/h\"";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in frames of a CAN bus, by hand: both byte orders, signs, scales; and what describes
-// them.
+// Numbers in frames of a CAN bus, worked out by hand: both byte orders, signs, scales; and their
+// descriptions.
 #include "datmo_fusion/device/can_signal.h"
 
 #include <fstream>
@@ -28,7 +28,7 @@ std::string errorOf(const std::function<void()>& act) {
   return "none";
 }
 
-TEST(CanSignalTest, IntelBeginsByTheLeastSignificantBit) {
+TEST(CanSignalTest, IntelStartsAtTheLeastSignificantBit) {
   // Bits 8 to 19: byte 1 = 0x34, low half of byte 2 = 0x2: 0x234.
   const CanFrame frame = canFrame(0x1A0, {0xFF, 0x34, 0xA2, 0xFF});
   EXPECT_EQ(signalOf("8|12@1+ (1,0)").raw(frame), 0x234U);
@@ -37,9 +37,9 @@ TEST(CanSignalTest, IntelBeginsByTheLeastSignificantBit) {
   EXPECT_EQ(signalOf("0|32@1+ (1,0)").raw(frame), 0xFFA234FFU);
 }
 
-TEST(CanSignalTest, MotorolaBeginsByTheMostSignificantBitAndGoesOnInTheNextByte) {
+TEST(CanSignalTest, MotorolaStartsAtTheMostSignificantBitAndContinuesInTheNextByte) {
   const CanFrame frame = canFrame(0x1A0, {0x12, 0x34, 0x56, 0x78});
-  // Bit 7 is the top one of byte 0: 0x12, 0x34.
+  // Bit 7 is the most significant one of byte 0: 0x12, 0x34.
   EXPECT_EQ(signalOf("7|16@0+ (1,0)").raw(frame), 0x1234U);
   // From bit 3 of byte 0, the low half 0x2, through the whole byte 1: 0x234.
   EXPECT_EQ(signalOf("3|12@0+ (1,0)").raw(frame), 0x234U);
@@ -71,7 +71,7 @@ TEST(CanSignalTest, AFrameThatIsTooShortHasNoValue) {
   EXPECT_EQ(signalOf("0|3@0+ (1,0)").bytes(), 2U);
 }
 
-TEST(CanSignalTest, ItsTextIsThatOfADbcFile) {
+TEST(CanSignalTest, ItsTextHasTheFormatOfADbcFile) {
   const CanSignal signal = signalOf(R"( 23|16@0- (1.5E-2,-3) [-250|250] "km/h" Vector__XXX,ABS)");
   EXPECT_EQ(signal.start, 23U);
   EXPECT_EQ(signal.length, 16U);
@@ -86,7 +86,7 @@ TEST(CanSignalTest, ItsTextIsThatOfADbcFile) {
   EXPECT_TRUE(signalOf("8|16@1+ (0.01,0) [0|0]").isInLimits(1e9));
 }
 
-TEST(CanSignalTest, WhatIsWrongInItIsNamed) {
+TEST(CanSignalTest, ErrorsInItAreNamed) {
   for (const char* text : {"", "8|16", "8|16@2+ (1,0)", "8|16@1 (1,0)", "8|0@1+ (1,0)",
                            "8|65@1+ (1,0)", "505|16@1+ (1,0)", "8|16@1+ (0,0)",
                            "8|16@1+ (1,0) [5|1]", "8|16@1+ (1.2.3.,0)", "8|16@1+ (1e999,0)"}) {
@@ -146,7 +146,7 @@ TEST_F(CanDatabaseTest, ASignalIsFoundByItsName) {
   EXPECT_EQ(find("Page").length, 4U);
 }
 
-TEST_F(CanDatabaseTest, WhatCannotBeUsedIsNamed) {
+TEST_F(CanDatabaseTest, UnusableSignalsAreNamed) {
   EXPECT_NE(errorOfName("Speed").find("in several messages"), std::string::npos);
   EXPECT_NE(errorOfName("Yaw").find("does not exist"), std::string::npos);
   EXPECT_NE(errorOfName("Odometer").find("multiplexed"), std::string::npos);

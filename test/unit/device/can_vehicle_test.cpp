@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle's bus, served by a device's thread from a log, and from a socket that takes its
-// place: one of datagrams that are frames as the kernel has them.
+// A vehicle's bus, served by a device's thread from a log, and from a stand-in socket: datagrams
+// that are frames in the kernel's layout.
 #include "datmo_fusion/device/can_vehicle.h"
 
 #include <array>
@@ -47,7 +47,7 @@ class CanRecordingTest : public testing::Test {
   DeviceProbe probe_{DeviceKind::kCan};
 };
 
-TEST_F(CanRecordingTest, ItsMotionComesAndItsEndIsReported) {
+TEST_F(CanRecordingTest, ItsMotionIsDeliveredAndItsEndIsReported) {
   probe_.setup.can.delay = 0.02;
   play(canLogText(1.0, yawFrame(10.0)) + canLogText(1.0, speedFrame(3.0, 0)) + "broken\n" +
        "(1.01) can0 20000008#0000000000000000\n" + canLogText(1.02, speedFrame(4.0, 1)) +
@@ -65,7 +65,7 @@ TEST_F(CanRecordingTest, ItsMotionComesAndItsEndIsReported) {
   EXPECT_EQ(probe_.faults.take(), "recording_end");
 }
 
-TEST_F(CanRecordingTest, AGapInItIsNoReasonToBeginAnew) {
+TEST_F(CanRecordingTest, AGapInItIsNoReasonToStartOver) {
   probe_.setup.timeout = 0.05;
   play(canLogText(1.0, yawFrame(1.0)) + canLogText(1.0, speedFrame(3.0, 0)) +
        canLogText(1.0, speedFrame(3.0, 1)) + canLogText(1.2, samples::canFrame(0x123, {1})) +
@@ -75,7 +75,7 @@ TEST_F(CanRecordingTest, AGapInItIsNoReasonToBeginAnew) {
   EXPECT_EQ(probe_.faults.take(), "recording_end");
 }
 
-TEST_F(CanRecordingTest, OneOfAnotherVehicleAndOneThatIsNoneAreReported) {
+TEST_F(CanRecordingTest, AnotherVehiclesAndInvalidLogsAreReported) {
   play(canLogText(1.0, samples::canFrame(0x123, {1})));
   EXPECT_EQ(probe_.faults.take(), "recording_end");
   EXPECT_TRUE(probe_.devices.isEmpty());
@@ -88,7 +88,7 @@ TEST_F(CanRecordingTest, OneOfAnotherVehicleAndOneThatIsNoneAreReported) {
   EXPECT_EQ(probe_.faults.take(), "recording_end");
 }
 
-TEST_F(CanRecordingTest, WhatIsWrongInItDoesNotBeginItAnew) {
+TEST_F(CanRecordingTest, ErrorsInItDoNotRestartIt) {
   std::string text = canLogText(1.0, yawFrame(1.0)) + canLogText(1.0, speedFrame(3.0, 0)) +
                      canLogText(1.0, speedFrame(3.0, 1)) +
                      "(1.0) can0 20000040#0000000000000000\n" + canLogText(1.0, speedFrame(4.0, 2));
@@ -165,7 +165,8 @@ class CanBusTest : public testing::Test {
 TEST_F(CanBusTest, AFrameHasTheTimeOfItsReception) {
   const auto socket = bus(60.0);
   CanFrame frame;
-  for (int i = 0; i < 100 && frame.age < 0.05; ++i) {  // the first ones may come before it is on
+  for (int i = 0; i < 100 && frame.age < 0.05;
+       ++i) {  // the first ones may be sent before the bus is on
     sendFrame(samples::canFrame(0x18FEF100, {1, 2, 3}));
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     frame = socket->next();
@@ -178,7 +179,7 @@ TEST_F(CanBusTest, AFrameHasTheTimeOfItsReception) {
   EXPECT_LT(frame.age, 10.0);
 }
 
-TEST_F(CanBusTest, FramesOfCanFdAndErrorsComeAndOthersAreNone) {
+TEST_F(CanBusTest, CanFdAndErrorFramesAreAcceptedAndOthersRefused) {
   const auto socket = bus(60.0);
   canfd_frame flexible{};
   flexible.can_id = 0x123;
@@ -202,7 +203,7 @@ TEST_F(CanBusTest, FramesOfCanFdAndErrorsComeAndOthersAreNone) {
   EXPECT_EQ(reasonOf([&] { socket->next(); }), "bad_frame");
 }
 
-TEST_F(CanBusTest, AVehiclesMotionComesAndASilentBusIsReported) {
+TEST_F(CanBusTest, AVehiclesMotionIsDeliveredAndASilentBusIsReported) {
   const auto device = vehicle(0.3);
   sendFrame(yawFrame(1.0));
   sendFrame(speedFrame(5.0, 0));
@@ -212,7 +213,7 @@ TEST_F(CanBusTest, AVehiclesMotionComesAndASilentBusIsReported) {
   EXPECT_EQ(reasonOf([&] { device->next(); }), "silent_device");
 }
 
-TEST_F(CanBusTest, ABusOfOtherMessagesIsAsGoodAsSilent) {
+TEST_F(CanBusTest, ABusOfOtherMessagesCountsAsSilent) {
   const auto device = vehicle(0.2);
   std::atomic<bool> is_done{false};
   std::thread others([&] {
@@ -251,7 +252,7 @@ TEST_F(CanBusTest, ItStopsWhileItWaits) {
   EXPECT_THROW(socket->next(), DeviceStopped);
 }
 
-TEST(CanInterfaceTest, OneThatThereIsNotIsReported) {
+TEST(CanInterfaceTest, AMissingOneIsReported) {
   const std::atomic<bool> stop{false};
   EXPECT_EQ(reasonOf([&] { CanSocket::open("nocan7", 1.0, stop); }), "no_connection");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings of the network: which datagrams are in them, and when they come.
+// Network captures: which datagrams they contain, and when these are delivered.
 #include "datmo_fusion/device/capture_file.h"
 
 #include <filesystem>
@@ -37,7 +37,7 @@ TEST(DatagramTest, TheDataOfADatagramToThePortAreFound) {
             "data");
 }
 
-TEST(DatagramTest, FramesCutAnywhereAndPartsOfPacketsAreNone) {
+TEST(DatagramTest, TruncatedFramesAndFragmentsAreIgnored) {
   const std::string frame = ethernetFrame({0.0, kPort, "data"});
   for (std::size_t length = 0; length < frame.size(); ++length) {
     EXPECT_FALSE(datagramOf(frame.substr(0, length), DLT_EN10MB, kPort)) << length;
@@ -51,7 +51,7 @@ TEST(DatagramTest, FramesCutAnywhereAndPartsOfPacketsAreNone) {
   EXPECT_FALSE(datagramOf(frame, DLT_IEEE802_11, kPort));
 }
 
-TEST(CaptureFileTest, ItsDatagramsComeAtTheirRateAndThenItsEnd) {
+TEST(CaptureFileTest, DatagramsAreDeliveredAtTheirRateAndThenTheEnd) {
   const std::string file = testing::TempDir() + "capture_file_test.pcap";
   writeCapture(file, {{1000.0, kPort, "a"}, {1000.01, 8308, "position"}, {1000.05, kPort, "b"}});
   const std::atomic<bool> stop{false};
@@ -85,7 +85,7 @@ TEST(CaptureFileTest, FramesOfAnotherKindAreNamed) {
   }
 }
 
-TEST(CaptureFileTest, FilesThatAreNoneAndThatAreCutAreReported) {
+TEST(CaptureFileTest, InvalidAndTruncatedFilesAreReported) {
   const std::atomic<bool> stop{false};
   EXPECT_EQ(reasonOf([&] { CaptureFile("/no/such/file", kPort, stop); }), "bad_recording");
   const std::string file = testing::TempDir() + "capture_file_cut_test.pcap";

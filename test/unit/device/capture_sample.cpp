@@ -8,12 +8,12 @@ namespace datmo::samples {
 
 namespace {
 
-/// In the network's order.
+/// In network byte order.
 std::string word(unsigned value) {
   return {static_cast<char>(value >> 8U), static_cast<char>(value & 0xFFU)};
 }
 
-/// In this computer's order, which the file's first number tells.
+/// In this computer's byte order, which the file's magic number indicates.
 std::string number(std::uint32_t value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }

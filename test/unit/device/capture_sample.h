@@ -13,10 +13,10 @@ struct CapturedDatagram {
   std::string data;
 };
 
-/// A frame of Ethernet with an IPv4 datagram, as it is on the wire.
+/// An Ethernet frame with an IPv4 datagram, as it is on the wire.
 std::string ethernetFrame(const CapturedDatagram& datagram);
 
-/// A capture file (pcap) with these frames of Ethernet; `link`: what it says that they are.
+/// A capture file (pcap) with these Ethernet frames; `link`: link type in its header.
 void writeCapture(const std::string& file, const std::vector<CapturedDatagram>& datagrams,
                   std::uint32_t link = 1);
 

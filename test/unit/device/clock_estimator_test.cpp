@@ -13,13 +13,13 @@ constexpr double kStart = 1.7e9;      // s, of the computer
 constexpr double kPeriod = 0.025;     // s
 constexpr double kLeastDelay = 1e-3;  // s
 
-/// A device that sends at once, and a network that is only ever late.
+/// A device that sends immediately, and a network that only ever delays.
 class Messages {
  public:
-  /// `drift`: so much slower is the device's clock.
+  /// `drift`: relative drift of the device's clock, positive: slow.
   explicit Messages(double drift) : drift_(drift) {}
 
-  /// The next one; returns by how much (s) its time is too late.
+  /// Takes the next one; returns by how much (s) its time is too late.
   double next() {
     seconds_ += kPeriod;
     const double sent = kStart + seconds_ + host_step;
@@ -48,7 +48,7 @@ class Messages {
   std::exponential_distribution<double> jitter_{1.0 / 5e-3};
 };
 
-TEST(ClockEstimator, TheFirstMessageIsOfItsArrival) {
+TEST(ClockEstimator, TheFirstMessageHasItsArrivalTime) {
   ClockEstimator clock{ClockOptions()};
   EXPECT_FALSE(clock.offset());
   const Stamp arrival = Stamp::fromSeconds(100.0);
@@ -56,7 +56,7 @@ TEST(ClockEstimator, TheFirstMessageIsOfItsArrival) {
   EXPECT_DOUBLE_EQ(clock.offset().value(), 97.0);
 }
 
-TEST(ClockEstimator, PositiveJitterIsTakenOut) {
+TEST(ClockEstimator, PositiveJitterIsRemoved) {
   Messages messages(0.0);
   messages.run(20.0);
   for (int i = 0; i < 1000; ++i) {
@@ -82,7 +82,7 @@ TEST(ClockEstimator, ADriftOf100PpmIsFollowed) {
   }
 }
 
-TEST(ClockEstimator, ADeviceClockThatIsSetIsFoundOutAtOnce) {
+TEST(ClockEstimator, AStepOfTheDeviceClockIsDetectedImmediately) {
   for (const double step : {1.0, -1.0}) {
     Messages messages(0.0);
     messages.run(20.0);
@@ -95,7 +95,7 @@ TEST(ClockEstimator, ADeviceClockThatIsSetIsFoundOutAtOnce) {
   }
 }
 
-TEST(ClockEstimator, AComputerThatIsSetAheadIsFoundOutAfterAWhile) {
+TEST(ClockEstimator, AStepOfTheComputerClockIsDetectedAfterAWhile) {
   Messages messages(0.0);
   messages.run(20.0);
   messages.host_step = 1.0;
@@ -104,7 +104,7 @@ TEST(ClockEstimator, AComputerThatIsSetAheadIsFoundOutAfterAWhile) {
   EXPECT_LT(std::abs(messages.next()), 0.05);
 }
 
-TEST(ClockEstimator, MessagesThatWereHeldUpAreNoStep) {
+TEST(ClockEstimator, DelayedMessagesAreNoStep) {
   Messages messages(0.0);
   messages.run(20.0);
   // They arrive together, 0.4 s after the first of them was sent.

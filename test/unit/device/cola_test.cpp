@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The language of SICK's scanners in its two dialects: frames, and the fields of telegrams.
+// The protocol of SICK's scanners in its two dialects: frames, and the fields of telegrams.
 #include "datmo_fusion/device/cola.h"
 
 #include "device/device_reason.h"
@@ -23,7 +23,7 @@ std::string nextOf(ColaReader& reader) {
   return telegram ? telegram->bytes : "none";
 }
 
-/// Why bytes are refused in a dialect.
+/// Returns the reason why bytes are refused in a dialect.
 std::string reasonOfBytes(ColaDialect dialect, const std::string& bytes) {
   ColaReader reader(dialect);
   reader.feed(bytes);
@@ -63,13 +63,13 @@ TEST(ColaTest, BinaryBytesBecomeTelegramsOneByOne) {
   EXPECT_EQ(nextOf(reader), "sEN LMDscandata \x01");
 }
 
-TEST(ColaTest, ATextTelegramThatWasCutOffDoesNotCostTheNext) {
+TEST(ColaTest, ATruncatedTextTelegramDoesNotCostTheNextOne) {
   ColaReader reader(ColaDialect::kText);
   reader.feed("\x02sSN LMDscandata 1 1 A0\x02sAN Run 1\x03");
   EXPECT_EQ(nextOf(reader), "sAN Run 1");
 }
 
-TEST(ColaTest, BytesThatAreNoTelegramAreRefused) {
+TEST(ColaTest, InvalidBytesAreRefused) {
   EXPECT_EQ(reasonOfBytes(ColaDialect::kText, std::string(200000, 'x')), "bad_answer");
   EXPECT_EQ(reasonOfBytes(ColaDialect::kText, "HTTP/1.1 400\x03"), "bad_answer");
   EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, "H"), "bad_answer");
@@ -88,7 +88,7 @@ TEST(ColaTest, AWrongChecksumIsRefusedWhereverTheErrorIs) {
   }
 }
 
-TEST(ColaTest, HalfABinaryTelegramBeforeAnotherIsRefused) {
+TEST(ColaTest, ATruncatedBinaryTelegramBeforeAnotherIsRefused) {
   EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, kManualsFrame.substr(0, 15) + kManualsFrame),
             "bad_answer");
 }
@@ -101,7 +101,7 @@ TEST(ColaTest, ALengthBeyondTheBoundIsRefusedBeforeItIsWaitedFor) {
   EXPECT_EQ(reasonOfBytes(ColaDialect::kBinary, bytesOf("\x02\x02\x02\x02\0\x02\0\0")), "none");
 }
 
-TEST(ColaTest, ATelegramIsCalledByItsWholeName) {
+TEST(ColaTest, ATelegramIsMatchedByItsWholeName) {
   for (const ColaTelegram& one : {text("sSN LMDscandata 1"), binary("sSN LMDscandata \x01")}) {
     EXPECT_TRUE(one.isCalled("sSN LMDscandata"));
     EXPECT_FALSE(one.isCalled("sSN LMDscan"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams over the loopback, with the thread that listens.
+// Datagrams over loopback, with the receiving thread.
 #include <memory>
 #include <string>
 
@@ -32,7 +32,7 @@ class DatagramLoopbackTest : public testing::Test {
   Mailbox<std::string> faults_;
 };
 
-TEST_F(DatagramLoopbackTest, WhatIsSentIsReceived) {
+TEST_F(DatagramLoopbackTest, SentDatagramsAreReceived) {
   const auto listener = listen("127.0.0.1");
   EXPECT_TRUE(listening_.take());
   const DatagramSender sender("localhost", port_);
@@ -53,19 +53,19 @@ TEST_F(DatagramLoopbackTest, WithoutListenerNothingFails) {
   EXPECT_EQ(received_.take(), "to somebody");
 }
 
-TEST_F(DatagramLoopbackTest, WhatIsTooLongIsNotSent) {
+TEST_F(DatagramLoopbackTest, OverlongDatagramsAreNotSent) {
   const DatagramSender sender("127.0.0.1", port_);
   EXPECT_THROW(sender.send(std::string(70000, 'a')), DeviceError);
 }
 
-TEST_F(DatagramLoopbackTest, APortThatIsTakenIsAFault) {
+TEST_F(DatagramLoopbackTest, APortInUseIsAFault) {
   const auto first = listen();
   EXPECT_TRUE(listening_.take());
   const auto second = listen();
   EXPECT_EQ(faults_.take(), "no_connection");
 }
 
-TEST_F(DatagramLoopbackTest, ANameThatIsNoneIsAFault) {
+TEST_F(DatagramLoopbackTest, AnInvalidNameIsAFault) {
   EXPECT_THROW(DatagramSender("no host is named so", port_), DeviceError);
   const auto listener = listen("no host is named so");
   EXPECT_EQ(faults_.take(), "no_connection");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What waits between a device's thread and another one.
+// The queue between a device's thread and another one.
 #include "datmo_fusion/device/device_events.h"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@
 
 namespace datmo::samples {
 
-/// Waits for what another thread says.
+/// Waits for events from another thread.
 template <typename Item>
 class Mailbox {
  public:
@@ -56,7 +56,7 @@ struct Measured {
   const DeviceScan& scan() const { return std::get<DeviceScan>(data); }
 };
 
-/// Serves a device on the loopback, and keeps what comes of it.
+/// Serves a device on loopback, and keeps its output.
 class DeviceProbe {
  public:
   static constexpr double kStart = 1.7e9;  ///< s, when the computer's time `host` is 0
@@ -64,7 +64,7 @@ class DeviceProbe {
   explicit DeviceProbe(DeviceKind kind) {
     setup.kind = kind;
     setup.address = "127.0.0.1";
-    setup.timeout = 60.0;  // a busy machine's fake is not silent
+    setup.timeout = 60.0;  // a fake device on a busy machine does not count as silent
     setup.runner.min_backoff = 0.001;
     setup.runner.max_backoff = 0.01;
   }
@@ -82,7 +82,7 @@ class DeviceProbe {
     runner_ = std::make_unique<DeviceRunner>(setup.runner, deviceMaker(setup), handlers);
   }
 
-  /// Until the device's thread has ended.
+  /// Waits until the device's thread has ended.
   void stop() { runner_.reset(); }
 
   DeviceSetup setup;

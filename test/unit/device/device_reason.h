@@ -8,7 +8,7 @@
 
 namespace datmo::samples {
 
-/// Why it fails; "none" if it does not.
+/// Returns the reason of its failure; "none" if it does not fail.
 inline std::string reasonOf(const std::function<void()>& act) {
   try {
     act();

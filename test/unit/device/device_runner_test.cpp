@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all devices have in common: where nobody listens, and options that are out of range.
+// Common to all devices: nobody listening, and options that are out of range.
 #include "datmo_fusion/device/device_runner.h"
 
 #include <chrono>
@@ -17,7 +17,7 @@ using samples::UnusedPort;
 
 class DeviceRunnerTest : public testing::TestWithParam<DeviceKind> {};
 
-TEST_P(DeviceRunnerTest, WhereNobodyListensIsReportedAndItIsTriedAgain) {
+TEST_P(DeviceRunnerTest, ARefusedConnectionIsReportedAndRetried) {
   const UnusedPort unused;
   DeviceProbe probe(GetParam());
   probe.start(unused.port());
@@ -35,7 +35,7 @@ TEST_P(DeviceRunnerTest, ASilentDeviceIsConnectedAgain) {
   fake.accept();
 }
 
-TEST_P(DeviceRunnerTest, ItEndsAtOnceWhileItWaits) {
+TEST_P(DeviceRunnerTest, ItEndsImmediatelyWhileItWaits) {
   FakeServer fake;
   DeviceProbe probe(GetParam());
   probe.start(fake.port());

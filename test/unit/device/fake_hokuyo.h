@@ -10,16 +10,16 @@
 
 namespace datmo::samples {
 
-/// A scanner of Hokuyo's on the loopback, as its manual has it: 90 degrees ahead in 5 beams, 40
-/// turns a second.
+/// A Hokuyo scanner on loopback, according to its manual: 90 degrees ahead in 5 beams, 40 turns per
+/// second.
 class FakeHokuyo : public FakeServer {
  public:
   using FakeServer::FakeServer;
 
-  /// Answers all that is asked before scans; `model`: answer to PP, without a status.
+  /// Answers all requests that precede scans; `model`: answer to PP, without a status.
   void shakeHands(const std::vector<std::string>& model = kModel);
 
-  /// The next command, without its end; empty if the other side has gone.
+  /// Returns the next command, without its end; empty if the peer has closed the connection.
   std::string command() { return receive('\n'); }
 
   void answer(const std::string& command, const std::string& status,
@@ -30,7 +30,7 @@ class FakeHokuyo : public FakeServer {
   static std::string answerText(const std::string& command, const std::string& status,
                                 const std::vector<std::string>& lines = {});
 
-  /// A scan's message: `clock` in ms, of 24 bits; ranges in mm, one a beam.
+  /// Returns a scan's message: `clock` in ms, 24 bits; ranges in mm, one per beam.
   static std::string scan(std::uint32_t clock, const std::vector<std::uint32_t>& ranges);
 
   static const std::vector<std::string> kModel;

@@ -5,7 +5,7 @@
 
 namespace datmo::samples {
 
-/// Sends datagrams to a port of the loopback.
+/// Sends datagrams to a port of loopback.
 class FakeLidar {
  public:
   explicit FakeLidar(int port);
@@ -15,7 +15,7 @@ class FakeLidar {
 
   void send(const std::string& bytes) const;
 
-  /// A UDP port that nobody listens to at present.
+  /// Returns a UDP port that nobody listens to at present.
   static int freePort();
 
  private:

@@ -19,7 +19,7 @@ class FakeSerial {
 
   void send(const std::string& bytes) const;
 
-  /// What comes up to `end`, without it. Waits for whoever opens the port.
+  /// Returns what is received up to `end`, without it. Waits until the port is opened.
   std::string receive(char end);
 
   speed_t speed() const;

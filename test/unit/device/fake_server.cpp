@@ -21,8 +21,7 @@ void bePatient(int socket) {
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
 }
 
-/// Binds a socket to a port of the loopback, 0: a free one; returns the port, negative where that
-/// fails.
+/// Binds a socket to a port of loopback, 0: a free one; returns the port, negative on failure.
 int bound(int socket, int port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;

@@ -6,8 +6,8 @@
 
 namespace datmo::samples {
 
-/// A port of the loopback that nobody listens on, nor can as long as this is there: one that was
-/// closed may be another process's the next moment.
+/// A loopback port that nobody listens on, nor can as long as this object exists: a closed port may
+/// be another process's the next moment.
 class UnusedPort {
  public:
   UnusedPort();
@@ -22,7 +22,7 @@ class UnusedPort {
   int port_;
 };
 
-/// The loopback's side of a device with TCP. It does what the test says, in the test's own thread;
+/// The peer of a device with TCP on loopback. It does what the test says, in the test's own thread;
 /// nothing sleeps.
 class FakeServer {
  public:
@@ -34,22 +34,22 @@ class FakeServer {
 
   int port() const { return port_; }
 
-  /// The next one that connects.
+  /// Waits for the next connection.
   void accept();
 
-  /// What comes up to `end`, without it; empty if the other side has gone.
+  /// Returns what is received up to `end`, without it; empty if the peer has closed the connection.
   std::string receive(char end);
 
-  /// The next `count` bytes; empty if the other side has gone.
+  /// Returns the next `count` bytes; empty if the peer has closed the connection.
   std::string receiveBytes(std::size_t count);
 
   void send(const std::string& bytes) const;
 
-  /// Hangs up.
+  /// Closes the connection.
   void close();
 
  private:
-  /// Waits for more; false if the other side has gone.
+  /// Waits for more; returns false if the peer has closed the connection.
   bool receiveMore();
 
   int listener_ = -1;

@@ -129,7 +129,7 @@ std::string FakeSick::command() {
       answer("sFA 2");
     }
     if (other != OtherDialect::kHangsUp) {
-      EXPECT_EQ(receiveBytes(1), "");  // until the other side has hung up
+      EXPECT_EQ(receiveBytes(1), "");  // until the peer has closed the connection
     }
     accept();
     asked = anyCommand();

@@ -11,7 +11,7 @@
 
 namespace datmo::samples {
 
-/// What a scan of the fake scanner says, as it stands in its telegram.
+/// Contents of a scan telegram of the fake scanner.
 struct SickTelegram {
   std::uint16_t counter = 1;
   std::uint32_t begun = 1000000;  ///< us
@@ -22,7 +22,7 @@ struct SickTelegram {
   std::vector<std::uint32_t> ranges{1000, 0, 3, 4000};
   std::vector<std::uint32_t> intensities{10, 0, 0, 0xFE};
 
-  /// As the telegram listing has it, in either dialect.
+  /// As in the telegram listing, in either dialect.
   ColaTelegram in(ColaDialect dialect) const;
 };
 
@@ -32,26 +32,27 @@ std::string bytesOf(const char (&literal)[kSize]) {
   return {literal, kSize - 1};
 }
 
-/// What a fake scanner does with a command in the dialect that it does not speak.
+/// How a fake scanner responds to a command in the dialect that it does not speak.
 enum class OtherDialect { kRefuses, kHangsUp, kIsSilent };
 
-/// An LMS111 of SICK's on the loopback, as the telegram listing has it: 25 turns a second, a beam
-/// each half degree.
+/// A SICK LMS111 on loopback, according to the telegram listing: 25 turns per second, one beam
+/// every half degree.
 class FakeSick : public FakeServer {
  public:
   using FakeServer::FakeServer;
 
-  /// Answers all that is asked before scans; `name`: of the model.
+  /// Answers all requests that precede scans; `name`: of the model.
   void shakeHands(const std::string& name = "LMS10x_FieldEval");
 
-  /// The next command without its frame; empty if the other side has gone. One in the other dialect
-  /// is not answered well, and the next one is that of another connection.
+  /// Returns the next command without its frame; empty if the peer has closed the connection. A
+  /// command in the other dialect is not answered properly, and the next one is from another
+  /// connection.
   std::string command();
 
   void answer(const std::string& bytes) const { send(colaFrame({dialect, bytes})); }
   void scan(const SickTelegram& telegram) const { answer(telegram.in(dialect).bytes); }
 
-  /// What a scanner that is well answers to a command.
+  /// Returns a healthy scanner's answer to a command.
   std::string goodAnswer(const std::string& command, const std::string& name) const;
 
   static constexpr double kScanTime = 0.04;  ///< s
@@ -60,7 +61,7 @@ class FakeSick : public FakeServer {
   OtherDialect other = OtherDialect::kRefuses;
 
  private:
-  /// In whatever dialect.
+  /// In either dialect.
   ColaTelegram anyCommand();
 };
 

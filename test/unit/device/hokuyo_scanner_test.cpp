@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The client of a scanner against a fake one on the loopback: what comes through, and what happens
-// when the device does not do as it should.
+// The client of a scanner against a fake one on loopback: its output, and what happens if the
+// device misbehaves.
 #include "datmo_fusion/device/hokuyo_scanner.h"
 
 #include <cmath>
@@ -28,7 +28,8 @@ class HokuyoScannerTest : public testing::Test {
     probe_.devices.take();
   }
 
-  /// A scan that arrives at a time of the computer (s after the start); `clock`: ms of the device.
+  /// Sends a scan that arrives at a time of the computer (s after the start), and returns the
+  /// measurement; `clock`: ms of the device.
   Measured exchange(std::uint32_t clock, double host) {
     probe_.host = host;
     fake_.send(FakeHokuyo::scan(clock & 0xFFFFFFU, {1000, 2000, 3000, 4000, 5000}));
@@ -39,7 +40,7 @@ class HokuyoScannerTest : public testing::Test {
   DeviceProbe probe_{DeviceKind::kHokuyo};
 };
 
-TEST_F(HokuyoScannerTest, AScanComesAsItWasSent) {
+TEST_F(HokuyoScannerTest, AScanIsDeliveredAsSent) {
   start();
   connect();
   const Measured scan = exchange(100, 5.0);
@@ -49,7 +50,7 @@ TEST_F(HokuyoScannerTest, AScanComesAsItWasSent) {
   EXPECT_NEAR(scan.clock.offset, kStart + 4.9, 1e-3);
 }
 
-TEST_F(HokuyoScannerTest, HalfPacketsBecomeOneScan) {
+TEST_F(HokuyoScannerTest, SplitPacketsBecomeOneScan) {
   start();
   connect();
   const std::string bytes = FakeHokuyo::scan(100, {1000, 2000, 3000, 4000, 5000});
@@ -59,7 +60,7 @@ TEST_F(HokuyoScannerTest, HalfPacketsBecomeOneScan) {
   EXPECT_EQ(probe_.measurements.take().scan().ranges.size(), FakeHokuyo::kBeams);
 }
 
-TEST_F(HokuyoScannerTest, ScansThatAreMissingAreCounted) {
+TEST_F(HokuyoScannerTest, MissingScansAreCounted) {
   start();
   connect();
   EXPECT_EQ(exchange(100, 0.0).missed, 0U);
@@ -67,7 +68,7 @@ TEST_F(HokuyoScannerTest, ScansThatAreMissingAreCounted) {
   EXPECT_EQ(exchange(225, 0.125).missed, 3U);
 }
 
-TEST_F(HokuyoScannerTest, StampsGoOnWhereTheDevicesClockBeginsAgain) {
+TEST_F(HokuyoScannerTest, StampsContinueWhenTheDevicesClockWraps) {
   start();
   connect();
   exchange(0xFFFFFF - 9, 0.0);
@@ -78,14 +79,14 @@ TEST_F(HokuyoScannerTest, StampsGoOnWhereTheDevicesClockBeginsAgain) {
               1e-6);
 }
 
-TEST_F(HokuyoScannerTest, ADriftingClockAndOneThatIsSetAreFollowed) {
+TEST_F(HokuyoScannerTest, DriftAndStepsOfTheClockAreFollowed) {
   start();
   connect();
   constexpr double kDrift = 1e-4;
   double host = 0.0;
   for (int i = 0; i < 2400; ++i) {  // a minute
     host = i * FakeHokuyo::kScanTime;
-    // The device's clock has whole milliseconds; the network is up to 3 ms late.
+    // The device's clock has millisecond resolution; the network is up to 3 ms late.
     const auto clock = static_cast<std::uint32_t>((1.0 - kDrift) * host * 1e3);
     const Measured scan = exchange(clock, host + 1e-3 * (i % 4));
     const double late =
@@ -104,7 +105,7 @@ TEST_F(HokuyoScannerTest, ADriftingClockAndOneThatIsSetAreFollowed) {
   EXPECT_NEAR(secondsBetween(scan.stamp, after.stamp), 0.025, 2e-3);
 }
 
-TEST_F(HokuyoScannerTest, ADeviceThatIsGoneAndBackIsConnectedAgain) {
+TEST_F(HokuyoScannerTest, ADeviceThatReturnsIsConnectedAgain) {
   start();
   connect();
   exchange(100, 0.0);
@@ -112,7 +113,7 @@ TEST_F(HokuyoScannerTest, ADeviceThatIsGoneAndBackIsConnectedAgain) {
   fake_.close();
   EXPECT_EQ(probe_.faults.take(), "lost_connection");
   connect();
-  const Measured scan = exchange(7, 2.0);  // it was switched off: its clock begins again
+  const Measured scan = exchange(7, 2.0);  // it was switched off: its clock restarts
   EXPECT_EQ(scan.missed, 0U);
   EXPECT_NEAR(secondsBetween(Stamp::fromSeconds(kStart), scan.stamp), 2.0 - FakeHokuyo::kSweep,
               1e-6);

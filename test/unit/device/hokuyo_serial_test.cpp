@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scanner on USB or at a serial port, faked by a pseudo terminal.
+// A scanner on USB or a serial port, simulated by a pseudo terminal.
 #include <memory>
 
 #include "device/device_probe.h"
@@ -21,14 +21,14 @@ class HokuyoSerialTest : public testing::Test {
     probe_.start(0);
   }
 
-  /// Answers the next command, which is to be this one.
+  /// Answers the next command, which must be this one.
   void answer(const std::string& command, const std::string& status,
               const std::vector<std::string>& lines = {}) {
     ASSERT_EQ(serial_->receive('\n'), command);
     serial_->send(FakeHokuyo::answerText(command, status, lines));
   }
 
-  /// All after SCIP2.0 and QT.
+  /// Answers everything after SCIP2.0 and QT.
   void begin() {
     answer("PP", "00", FakeHokuyo::kModel);
     answer("BM", "00");
@@ -56,7 +56,7 @@ TEST_F(HokuyoSerialTest, OldFirmwareIsSwitchedToTheProtocol) {
   expectScan();
 }
 
-TEST_F(HokuyoSerialTest, OneThatStillSendsToWhoHasGoneIsStopped) {
+TEST_F(HokuyoSerialTest, OneThatIsStillSendingIsStopped) {
   start();
   ASSERT_EQ(serial_->receive('\n'), "SCIP2.0");
   const std::string scan = FakeHokuyo::scan(50, {1000, 2000, 3000, 4000, 5000});
@@ -67,7 +67,7 @@ TEST_F(HokuyoSerialTest, OneThatStillSendsToWhoHasGoneIsStopped) {
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_F(HokuyoSerialTest, OneThatIsUnpluggedIsReported) {
+TEST_F(HokuyoSerialTest, AnUnpluggedOneIsReported) {
   start();
   ASSERT_EQ(serial_->receive('\n'), "SCIP2.0");
   answer("QT", "00");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A satellite receiver by TCP and at a serial port, both faked on this computer.
+// A satellite receiver via TCP and at a serial port, both simulated on this computer.
 #include "datmo_fusion/device/nmea_receiver.h"
 
 #include <cmath>
@@ -68,13 +68,13 @@ TEST_F(NmeaReceiverTest, PositionsAndVelocitiesOfOneTimeHaveOneStamp) {
   EXPECT_NEAR(seconds(exchange(ggaLine(1.2), 5.2).stamp), 5.2, 1e-6);
 }
 
-TEST_F(NmeaReceiverTest, WhatTheReceiverTakesIsTakenAway) {
+TEST_F(NmeaReceiverTest, TheReceiversLatencyIsSubtracted) {
   probe_.setup.nmea.delay = 0.08;
   start();
   EXPECT_NEAR(seconds(exchange(ggaLine(1.0), 5.0).stamp), 4.92, 1e-6);
 }
 
-TEST_F(NmeaReceiverTest, OfTwoSentencesOfVelocityOneCounts) {
+TEST_F(NmeaReceiverTest, OneOfTwoVelocitySentencesCounts) {
   start();
   exchange(ggaLine(1.0), 5.0);
   const std::string vtg = nmeaLine("GPVTG,090.0,T,,M,020.0,N,,K");
@@ -96,7 +96,7 @@ TEST_F(NmeaReceiverTest, AVelocityWithoutATimeBelongsToThePositionNearerToIt) {
   probe_.host = 5.36;
   fake_.send(vtg(20));
   fake_.send("$GPTXT,broken*00\r\n");
-  EXPECT_EQ(probe_.warnings.take(), "bad_sentence");  // all before it is read
+  EXPECT_EQ(probe_.warnings.take(), "bad_sentence");  // all that precedes it is read
   EXPECT_TRUE(probe_.measurements.isEmpty());
   const Measured fix = exchange(ggaLine(1.4), 5.4);
   EXPECT_EQ(fixOf(fix).satellites, 8);
@@ -105,7 +105,7 @@ TEST_F(NmeaReceiverTest, AVelocityWithoutATimeBelongsToThePositionNearerToIt) {
   EXPECT_EQ(ahead.stamp, fix.stamp);
 }
 
-TEST_F(NmeaReceiverTest, AClockThatDriftsAndOneThatIsSetAreFollowed) {
+TEST_F(NmeaReceiverTest, DriftAndStepsOfTheClockAreFollowed) {
   start();
   constexpr double kDrift = 1e-4;  // of the computer's
   Measured fix;
@@ -124,7 +124,7 @@ TEST_F(NmeaReceiverTest, AClockThatDriftsAndOneThatIsSetAreFollowed) {
   EXPECT_NEAR(seconds(fix.stamp), host + 0.2, 1e-3);
 }
 
-TEST_F(NmeaReceiverTest, BadSentencesAreCountedAndWithoutTimeNothingComes) {
+TEST_F(NmeaReceiverTest, BadSentencesAreCountedAndThoseWithoutTimeIgnored) {
   start();
   fake_.send("$GPGGA,100001.00,broken*00\r\n");
   EXPECT_EQ(probe_.warnings.take(), "bad_sentence");
@@ -137,7 +137,7 @@ TEST_F(NmeaReceiverTest, BadSentencesAreCountedAndWithoutTimeNothingComes) {
   EXPECT_EQ(probe_.warnings.take(), "late_sentence");
 }
 
-TEST_F(NmeaReceiverTest, AReceiverThatIsGoneAndBackAndOneThatIsNoneAreReported) {
+TEST_F(NmeaReceiverTest, DisconnectionsAndOtherDevicesAreReported) {
   start();
   exchange(ggaLine(1.0), 1.0);
   fake_.send("$GPGGA,1000");
@@ -163,7 +163,7 @@ TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsReported) {
   EXPECT_EQ(probe.faults.take(), "no_connection");
 }
 
-TEST(SerialReceiverTest, ABaudRateThatThereIsNotIsReported) {
+TEST(SerialReceiverTest, AnUnsupportedBaudRateIsReported) {
   const FakeSerial serial;
   const std::atomic<bool> stop{false};
   EXPECT_THROW(SerialLine({serial.file(), 12345, 1.0, false}, stop), DeviceError);

@@ -8,14 +8,14 @@
 
 namespace datmo::samples {
 
-/// A sentence as it is on the wire; `text`: between $ and *.
+/// Returns a sentence as it is on the wire; `text`: between $ and *.
 inline std::string nmeaLine(const std::string& text) {
   char checksum[3];
   std::snprintf(checksum, sizeof checksum, "%02X", nmeaChecksum(text));
   return "$" + text + "*" + checksum + "\r\n";
 }
 
-/// Time of day by seconds after 10 o'clock.
+/// Returns the time of day from seconds after 10 o'clock.
 inline std::string nmeaClock(double seconds) {
   const int whole = static_cast<int>(seconds);
   char text[20];

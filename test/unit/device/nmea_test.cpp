@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NMEA 0183: sentences out of bytes, and what they say.
+// NMEA 0183: sentences parsed from bytes, and their contents.
 #include "datmo_fusion/device/nmea.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ TEST(NmeaTest, BytesBecomeSentences) {
   NmeaReader reader;
   reader.feed("07.03,N*55\r\n$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,");
   EXPECT_FALSE(reader.next());
-  reader.feed("*47\r\n");  // the sentence of all text books
+  reader.feed("*47\r\n");  // the textbook sentence
   const NmeaSentence gga = reader.next().value();
   EXPECT_EQ(gga.type, "GGA");
   EXPECT_EQ(gga.field(0), "123519");
@@ -86,7 +86,7 @@ TEST(NmeaTest, APositionIsReadWithItsHeightAboveTheEllipsoid) {
   }
 }
 
-TEST(NmeaTest, TheQualityTellsHowGoodAPositionIs) {
+TEST(NmeaTest, TheQualityGivesTheAccuracyOfAPosition) {
   const auto fix = [](const std::string& quality) {
     return nmeaFix(
         sentence("GPGGA,123519,4807.038,S,01131.000,E," + quality + ",08,1.0,545.4,M,46.9,M,,"),

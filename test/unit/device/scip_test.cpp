@@ -55,7 +55,7 @@ TEST(Scip, AnswersAreCutAtEmptyLines) {
   EXPECT_EQ(reader.next().value().status, "02");
 }
 
-TEST(Scip, WhatIsNoAnswerIsRefused) {
+TEST(Scip, InvalidAnswersAreRefused) {
   ScipReader reader;
   reader.feed("HTTP/1.1 400 Bad Request\nServer: x\n\n");
   EXPECT_THROW(reader.next(), DeviceError);
@@ -83,7 +83,7 @@ TEST(Scip, AChecksumMayBeASemicolon) {
   EXPECT_EQ(scipModel(answer).beamSpacing(), model().beamSpacing());
 }
 
-TEST(Scip, ADeviceThatIsNoScannerIsRefused) {
+TEST(Scip, ADeviceOtherThanAScannerIsRefused) {
   EXPECT_THROW(scipModel({"PP", "00", {"MODL:radio;x"}}), DeviceError);
   std::vector<std::string> lines = FakeHokuyo::kModel;
   lines[3] = "ARES:0";

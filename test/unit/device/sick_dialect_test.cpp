@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the client of a scanner of SICK's finds out its dialect, and what it does when that changes.
+// How the client of a SICK scanner detects its dialect, and what it does when that changes.
 #include "device/device_probe.h"
 #include "device/fake_sick.h"
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST_F(SickDialectTest, AScannerThatIsSilentInBinaryIsAskedInText) {
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_F(SickDialectTest, AScannerThatHangsUpIsAskedInTheOther) {
+TEST_F(SickDialectTest, AScannerThatDisconnectsIsAskedInTheOther) {
   fake_.dialect = ColaDialect::kText;
   fake_.other = OtherDialect::kHangsUp;
   probe_.start(fake_.port());
@@ -50,7 +50,7 @@ TEST_F(SickDialectTest, AScannerThatHangsUpIsAskedInTheOther) {
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_F(SickDialectTest, TheDialectThatWasFoundIsTheFirstOfTheNextConnection) {
+TEST_F(SickDialectTest, TheDetectedDialectIsTriedFirstOnTheNextConnection) {
   fake_.dialect = ColaDialect::kText;
   probe_.start(fake_.port());
   connect();
@@ -61,7 +61,7 @@ TEST_F(SickDialectTest, TheDialectThatWasFoundIsTheFirstOfTheNextConnection) {
   EXPECT_EQ(fake_.receive('\x03'), "\x02sRN DeviceIdent");
 }
 
-TEST_F(SickDialectTest, ADialectThatWasSwitchedOffLineIsFoundAgain) {
+TEST_F(SickDialectTest, ADialectSwitchedWhileOfflineIsDetected) {
   probe_.start(fake_.port());
   for (const ColaDialect dialect :
        {ColaDialect::kBinary, ColaDialect::kText, ColaDialect::kBinary}) {
@@ -73,7 +73,7 @@ TEST_F(SickDialectTest, ADialectThatWasSwitchedOffLineIsFoundAgain) {
   }
 }
 
-TEST_F(SickDialectTest, ADialectThatIsSwitchedOnLineIsOneFault) {
+TEST_F(SickDialectTest, ADialectSwitchedWhileOnlineIsOneFault) {
   probe_.start(fake_.port());
   connect();
   expectAScan();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The client of a scanner of SICK's against a fake one on the loopback.
+// The client of a SICK scanner against a fake one on loopback.
 #include "datmo_fusion/device/sick_scanner.h"
 
 #include <cmath>
@@ -34,8 +34,8 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
 
   static bool isBinary() { return GetParam() == ColaDialect::kBinary; }
 
-  /// A scan that was sent at a time of the scanner's (us), and arrives at one of the computer's (s
-  /// after the start).
+  /// Sends a scan stamped with a time of the scanner (us) that arrives at a time of the computer (s
+  /// after the start), and returns the measurement.
   Measured exchange(std::uint16_t counter, std::uint32_t sent, double host) {
     probe_.host = host;
     SickTelegram telegram;
@@ -50,7 +50,7 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
     return secondsBetween(Stamp::fromSeconds(DeviceProbe::kStart), stamp);
   }
 
-  /// To the question for its state; 7: it is measuring.
+  /// Answers the request for its state; 7: it is measuring.
   static std::string stateAnswer(char state) {
     return isBinary() ? bytesOf("sRA STlms \0") + state + bytesOf("\0\0\x08") + "00:00:14" +
                             bytesOf("\0\x08") + "01.01.00" + bytesOf("\0\0\0")
@@ -65,7 +65,7 @@ class SickScannerTest : public testing::TestWithParam<ColaDialect> {
 INSTANTIATE_TEST_SUITE_P(Dialects, SickScannerTest,
                          testing::Values(ColaDialect::kBinary, ColaDialect::kText));
 
-TEST_P(SickScannerTest, AScanComesAsItWasSent) {
+TEST_P(SickScannerTest, AScanIsDeliveredAsSent) {
   start();
   const Measured scan = exchange(1, 1020000, 5.0);
   EXPECT_EQ(scan.scan().ranges.size(), 4U);
@@ -73,7 +73,7 @@ TEST_P(SickScannerTest, AScanComesAsItWasSent) {
   EXPECT_NEAR(seconds(scan.stamp), 5.0 - 0.02, 1e-6);
 }
 
-TEST_P(SickScannerTest, HalfPacketsBecomeOneScan) {
+TEST_P(SickScannerTest, SplitPacketsBecomeOneScan) {
   start();
   for (const char byte : colaFrame(SickTelegram().in(GetParam()))) {
     fake_.send(std::string(1, byte));
@@ -81,14 +81,14 @@ TEST_P(SickScannerTest, HalfPacketsBecomeOneScan) {
   EXPECT_EQ(probe_.measurements.take().scan().ranges.size(), 4U);
 }
 
-TEST_P(SickScannerTest, ScansThatAreMissingAreCountedAcrossTheCountersEnd) {
+TEST_P(SickScannerTest, MissingScansAreCountedAcrossTheCountersEnd) {
   start();
   EXPECT_EQ(exchange(0xFFFE, 1000000, 0.0).missed, 0U);
   EXPECT_EQ(exchange(0xFFFF, 1040000, 0.04).missed, 0U);
   EXPECT_EQ(exchange(2, 1160000, 0.16).missed, 2U);
 }
 
-TEST_P(SickScannerTest, StampsGoOnWhereTheScannersClockBeginsAgain) {
+TEST_P(SickScannerTest, StampsContinueWhenTheScannersClockWraps) {
   start();
   exchange(1, 0xFFFFFFFFU - 9999, 0.0);
   const Measured scan = exchange(2, 30000, 0.04);
@@ -96,7 +96,7 @@ TEST_P(SickScannerTest, StampsGoOnWhereTheScannersClockBeginsAgain) {
   EXPECT_NEAR(seconds(scan.stamp), 0.02, 1e-6);
 }
 
-TEST_P(SickScannerTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
+TEST_P(SickScannerTest, DriftAndAStepOfTheClockAreFollowed) {
   start();
   constexpr double kDrift = 1e-4;
   std::uint16_t counter = 0;
@@ -119,14 +119,14 @@ TEST_P(SickScannerTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
   EXPECT_NEAR(seconds(scan.stamp), host + 0.04 - 0.02, 1e-3);
 }
 
-TEST_P(SickScannerTest, AScannerThatIsGoneAndBackIsConnectedAgain) {
+TEST_P(SickScannerTest, AScannerThatReturnsIsConnectedAgain) {
   start();
   exchange(100, 5000000, 0.0);
   fake_.send(colaFrame(SickTelegram().in(GetParam())).substr(0, 20));
   fake_.close();
   EXPECT_EQ(probe_.faults.take(), "lost_connection");
   connect();
-  const Measured scan = exchange(3, 40000, 2.0);  // it was switched off: its clock begins again
+  const Measured scan = exchange(3, 40000, 2.0);  // it was switched off: its clock restarts
   EXPECT_EQ(scan.missed, 0U);
   EXPECT_NEAR(seconds(scan.stamp), 2.0 - 0.02, 1e-6);
 }
@@ -142,14 +142,14 @@ TEST_P(SickScannerTest, AWrongScanIsOneFaultAndAnotherConnection) {
   EXPECT_EQ(exchange(1, 1000000, 0.0).scan().ranges.size(), 4U);
 }
 
-TEST_P(SickScannerTest, OtherTelegramsArePassedOver) {
+TEST_P(SickScannerTest, OtherTelegramsAreSkipped) {
   start();
   fake_.answer(isBinary() ? bytesOf("sSN LMDscandatamon \0\x01") : "sSN LMDscandatamon 1");
   EXPECT_EQ(exchange(1, 1000000, 0.0).missed, 0U);
   EXPECT_TRUE(probe_.faults.isEmpty());
 }
 
-TEST_P(SickScannerTest, ScansOfAnOldConnectionArePassedOver) {
+TEST_P(SickScannerTest, ScansOfAnOldConnectionAreSkipped) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.command();
@@ -167,7 +167,7 @@ TEST_P(SickScannerTest, AnotherModelIsRefused) {
   EXPECT_EQ(probe_.faults.take(), "wrong_device");
 }
 
-TEST_P(SickScannerTest, AnErrorInPlaceOfAnAnswerIsReported) {
+TEST_P(SickScannerTest, AnErrorAnswerIsReported) {
   probe_.start(fake_.port());
   fake_.accept();
   fake_.command();
@@ -196,7 +196,7 @@ TEST_P(SickScannerTest, SilenceIsNoFaultWhileItWarmsUp) {
   EXPECT_EQ(probe_.faults.take(), "silent_device");
 }
 
-TEST_P(SickScannerTest, ADirtyWindowAndAnErrorAreReportedAndScansGoOn) {
+TEST_P(SickScannerTest, ADirtyWindowAndAnErrorAreReportedAndScansContinue) {
   start();
   SickTelegram telegram;
   telegram.state = 2;

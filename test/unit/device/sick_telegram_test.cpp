@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the telegrams of SICK's scanners say, in both dialects.
+// Contents of the telegrams of SICK scanners, in both dialects.
 #include "datmo_fusion/device/sick_telegram.h"
 
 #include <cmath>
@@ -76,7 +76,7 @@ TEST_P(SickTelegramTest, TheFactorCountsAndRemissionMayBeMissing) {
   EXPECT_TRUE(scan.scan.intensities.empty());
 }
 
-TEST_P(SickTelegramTest, WhatTheScannerSaysOfItselfIsRead) {
+TEST_P(SickTelegramTest, TheScannersStatusIsRead) {
   SickTelegram telegram;
   telegram.state = 2;
   EXPECT_EQ(read(telegram).state, SickState::kDirty);
@@ -84,7 +84,7 @@ TEST_P(SickTelegramTest, WhatTheScannerSaysOfItselfIsRead) {
   EXPECT_EQ(read(telegram).state, SickState::kFault);
 }
 
-TEST_P(SickTelegramTest, AScanCutAnywhereBeforeItsLastBeamIsRefused) {
+TEST_P(SickTelegramTest, AScanTruncatedBeforeItsLastBeamIsRefused) {
   const ColaTelegram whole = SickTelegram().in(GetParam());
   constexpr std::size_t kTail = 10;  // five zeros, of two bytes each in either dialect
   for (std::size_t length = 0; length + kTail < whole.bytes.size(); ++length) {
@@ -110,7 +110,7 @@ TEST_P(SickTelegramTest, WhateverBytesAreDamagedAScanIsReadOrRefused) {
   EXPECT_GT(refused, 500);
 }
 
-TEST_P(SickTelegramTest, ScansThatCannotBeAreRefused) {
+TEST_P(SickTelegramTest, ImpossibleScansAreRefused) {
   SickTelegram telegram;
   telegram.ranges = {1000};
   EXPECT_EQ(refusalOf(telegram), "bad_answer");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lidar of Velodyne's whose packets are lost, late or another's, whose clock is set, or that does
-// not turn.
+// A Velodyne lidar whose packets are lost, late or from another device, whose clock is set, or that
+// does not turn.
 #include "device/velodyne_lidar_case.h"
 
 namespace datmo::velodyne_faults_test {
@@ -12,7 +12,7 @@ using samples::VelodyneStream;
 
 using VelodyneFaultTest = samples::VelodyneLidarTest;
 
-TEST_F(VelodyneFaultTest, PacketsThatAreLostAreCountedAndTheirTurnGoesOn) {
+TEST_F(VelodyneFaultTest, LostPacketsAreCountedAndTheirTurnContinues) {
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 1.0);
   stream.skip(3);
@@ -39,7 +39,7 @@ TEST_F(VelodyneFaultTest, ATurnWithALongGapIsLeftOut) {
   EXPECT_EQ(points(turns[1]).size(), 900U * VelodyneModel::kChannels);
 }
 
-TEST_F(VelodyneFaultTest, PacketsThatOvertookEachOtherCostThemselvesAlone) {
+TEST_F(VelodyneFaultTest, ReorderedPacketsCostOnlyThemselves) {
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 3.0);
   std::swap(packets_[100].bytes, packets_[101].bytes);
@@ -62,7 +62,7 @@ TEST_F(VelodyneFaultTest, TheHourIsNoStep) {
   EXPECT_NEAR(secondsBetween(turns[0].stamp, turns[1].stamp), 900 * 110.592e-6, 2e-6);
 }
 
-TEST_F(VelodyneFaultTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
+TEST_F(VelodyneFaultTest, DriftAndAStepOfTheClockAreFollowed) {
   constexpr double kDrift = 1e-4;
   VelodyneSample sample;
   sample.distances = {0};
@@ -79,7 +79,7 @@ TEST_F(VelodyneFaultTest, ADriftingClockAndOneThatIsASecondOffAreFollowed) {
     const double due = (static_cast<double>(i) + 0.5) * turn / (1.0 - kDrift);
     ASSERT_NEAR(seconds(turns[i].stamp), due, 1e-4);
   }
-  // Its receiver has found the satellites: the lidar's time is another.
+  // Its receiver has found the satellites: the lidar's time jumps.
   const double arrival = packets_.empty() ? now_ : 0.0;
   stream.setTime(stream.time() + 1e6);
   for (int i = 0; i < 3 * stream.packetsPerTurn(); ++i) {
@@ -122,12 +122,12 @@ TEST_F(VelodyneFaultTest, AnotherModelIsRefusedUnlessItIsNamed) {
   } catch (const DeviceError& error) {
     EXPECT_EQ(error.reason(), "wrong_device");
   }
-  options_.model = "VLP-16";  // of old firmware
+  options_.model = "VLP-16";  // with old firmware
   connect();
   EXPECT_GE(clouds().size(), 1U);
 }
 
-TEST_F(VelodyneFaultTest, ANamedModelIsHeldAgainstThePackets) {
+TEST_F(VelodyneFaultTest, ANamedModelIsCheckedAgainstThePackets) {
   options_.model = "HDL-32E";
   VelodyneStream stream{VelodyneSample()};
   sendTurns(stream, 1.0);

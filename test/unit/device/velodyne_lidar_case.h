@@ -25,7 +25,7 @@ struct SentPacket {
   std::string bytes;
 };
 
-/// Packets of a list; at its end the recording is, too.
+/// Packets from a list; the recording ends with the list.
 class ListedPackets : public PacketSource {
  public:
   ListedPackets(std::deque<SentPacket>& packets, double& now) : packets_(packets), now_(now) {}
@@ -46,10 +46,10 @@ class ListedPackets : public PacketSource {
   SentPacket current_;
 };
 
-/// A lidar whose packets are those of a list.
+/// A lidar whose packets come from a list.
 class VelodyneLidarTest : public testing::Test {
  protected:
-  /// Packets of a lidar for so many turns, each up to `jitter` (s) late; `drift`: of its clock,
+  /// Packets of a lidar for this many turns, each up to `jitter` (s) late; `drift`: of its clock,
   /// s/s.
   void sendTurns(VelodyneStream& stream, double turns, double drift = 0.0, double jitter = 0.0) {
     const int count = static_cast<int>(std::lround(turns * stream.packetsPerTurn()));
@@ -59,7 +59,7 @@ class VelodyneLidarTest : public testing::Test {
   }
 
   void send(VelodyneStream& stream, double drift = 0.0, double late = 0.0) {
-    // It arrives when it is done, by the computer's clock since the stream's first second.
+    // It arrives when it is complete, by the computer's clock since the stream's first second.
     const double done = (stream.time() * 1e-6 + stream.period() - 1.0) / (1.0 - drift) + late;
     packets_.push_back({done, stream.next()});
   }
@@ -70,7 +70,7 @@ class VelodyneLidarTest : public testing::Test {
     name_ = lidar_->connect();
   }
 
-  /// All clouds until nothing is sent any more.
+  /// Returns all clouds until nothing more is sent.
   std::vector<DeviceMeasurement> clouds() {
     std::vector<DeviceMeasurement> all;
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lidar of Velodyne's on the loopback, and a recording of one, with the thread that serves them.
+// A Velodyne lidar on loopback, and a recording of one, with the thread that serves them.
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,8 +26,8 @@ class VelodyneLoopbackTest : public testing::Test {
  protected:
   VelodyneLoopbackTest() { probe_.setup.address = ""; }
 
-  /// The next packets, until something has come into the box; what the network or the machine
-  /// loses of them does not matter.
+  /// Sends the next packets until a measurement is queued; losses by the network or the machine do
+  /// not matter.
   template <typename Box>
   void sendUntil(Box& box, const FakeLidar& lidar) {
     while (box.isEmpty()) {
@@ -41,7 +41,7 @@ class VelodyneLoopbackTest : public testing::Test {
   VelodyneStream stream_{VelodyneSample()};
 };
 
-TEST_F(VelodyneLoopbackTest, ALidarThatIsGoneAndBackIsServedAgain) {
+TEST_F(VelodyneLoopbackTest, ALidarThatReturnsIsServedAgain) {
   const int port = FakeLidar::freePort();
   const FakeLidar lidar(port);
   probe_.setup.timeout = 0.05;
@@ -59,7 +59,7 @@ TEST_F(VelodyneLoopbackTest, ALidarThatIsGoneAndBackIsServedAgain) {
   EXPECT_FALSE(cloudOf(probe_.measurements.take()).points.empty());
 }
 
-TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreNotTaken) {
+TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreIgnored) {
   const int port = FakeLidar::freePort();
   const FakeLidar lidar(port);
   probe_.setup.timeout = 0.05;
@@ -70,13 +70,13 @@ TEST_F(VelodyneLoopbackTest, PacketsOfAnotherSenderAreNotTaken) {
   EXPECT_TRUE(probe_.devices.isEmpty());
 }
 
-TEST_F(VelodyneLoopbackTest, APortThatIsTakenIsReported) {
+TEST_F(VelodyneLoopbackTest, APortInUseIsReported) {
   const int port = FakeLidar::freePort();
   DeviceProbe first(DeviceKind::kVelodyne);
   first.setup.address = "";
   first.setup.timeout = 0.05;
   first.start(port);
-  first.faults.take();  // it listens, again and again
+  first.faults.take();  // it keeps trying to listen
   probe_.setup.timeout = 0.05;
   probe_.start(port);
   constexpr int kFaults = 100;  // of other kinds, before it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of Velodyne's lidars: tables by model, points and their times, and what is no packet.
+// Packets of Velodyne lidars: tables by model, points and their times, and invalid packets.
 #include "datmo_fusion/device/velodyne_packet.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ TEST(VelodynePacketTest, APointIsWhereTheManualHasIt) {
   EXPECT_FLOAT_EQ(points[0].intensity, 77.0F);
 }
 
-TEST(VelodynePacketTest, LasersThatLookAsideAreTurned) {
+TEST(VelodynePacketTest, AzimuthOffsetsOfLasersAreApplied) {
   VelodyneSample sample;
   sample.product = kVlp32c;
   sample.azimuth = 9000;  // to the right
@@ -137,7 +137,7 @@ TEST(VelodynePacketTest, EachFiringHasItsOwnTimeAndAzimuth) {
   EXPECT_NEAR(azimuthOf(points[16]), -0.2 + 0.4 * 0.5, 1e-4);
   EXPECT_NEAR(points[31].time, 55.296e-6 + 15 * 2.304e-6, 1e-9);
   EXPECT_NEAR(azimuthOf(points[31]), -0.2 + 0.4 * (55.296 + 15 * 2.304) / 110.592, 1e-4);
-  // The last block turns as the one before it.
+  // The last block turns like the one before it.
   EXPECT_NEAR(azimuthOf(pointsOf(sample, 11)[16]), -0.2 + 11.5 * 0.4, 1e-4);
 }
 
@@ -159,7 +159,7 @@ TEST(VelodynePacketTest, ReturnsOutOfRangeAreLeftOut) {
   EXPECT_EQ(pointsOf(sample, 0).size(), 8U);
 }
 
-TEST(VelodynePacketTest, WhatIsNoPacketIsRefused) {
+TEST(VelodynePacketTest, InvalidPacketsAreRefused) {
   const std::string good = VelodyneSample().bytes();
   EXPECT_EQ(reasonOf([&] { VelodynePacket packet(good); }), "none");
   for (std::size_t length : {0U, 512U, 1205U}) {

@@ -28,7 +28,7 @@ struct VelodyneSample {
   std::string bytes() const;
 };
 
-/// The packets of a lidar that turns, one after the other.
+/// The packets of a turning lidar, one after the other.
 class VelodyneStream {
  public:
   explicit VelodyneStream(const VelodyneSample& first) : sample_(first) {}
@@ -39,14 +39,14 @@ class VelodyneStream {
   /// s, from a packet to the next.
   double period() const;
 
-  /// Packets that a turn has.
+  /// Number of packets per turn.
   int packetsPerTurn() const;
 
   /// us past the hour, of the next packet's first firing.
   double time() const { return time_; }
   void setTime(double time) { time_ = time; }
 
-  /// The next packets are not sent.
+  /// Does not send the next packets.
   void skip(int packets);
 
  private:

@@ -45,7 +45,7 @@ TEST_F(AttainableTest, ThresholdIsTheOddsOverThePriorOnes) {
   EXPECT_NEAR(options_.requiredLogRatio(), std::log(16.0), 1e-12);
 }
 
-TEST_F(AttainableTest, FirstScanThatTellsMotion) {
+TEST_F(AttainableTest, FirstScanThatRevealsMotion) {
   // 0.5 v^2 n (n^2 - 1) dt^2 / (12 sigma^2): n = 2: 1/2 * 9 * 0.01 * 6 / 0.48 = 0.5625, 3: 2.25.
   drive(3.0, 10);
   const auto found = motions();
@@ -54,7 +54,7 @@ TEST_F(AttainableTest, FirstScanThatTellsMotion) {
   EXPECT_EQ(found.at(1).seen.size(), 10U);
 }
 
-TEST_F(AttainableTest, TooFewScansTellNothing) {
+TEST_F(AttainableTest, TooFewScansRevealNothing) {
   drive(0.5, 3);
   EXPECT_FALSE(motions().at(1).detectable);
 }
@@ -88,7 +88,7 @@ TEST_F(AttainableTest, DelaysBesideTheAttainable) {
   EXPECT_FALSE(delays[2].attainable);
 }
 
-TEST_F(AttainableTest, WhatIsReportedBeforeItHasToBeFoundIsAttainedAtOnce) {
+TEST_F(AttainableTest, EarlyReportsAreAttainedImmediately) {
   drive(3.0, 10);
   ObjectScore object;
   object.id = 1;

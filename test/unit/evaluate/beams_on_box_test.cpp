@@ -44,7 +44,7 @@ TEST(BeamsOnBox, TheSideOfATurnedBox) {
   EXPECT_TRUE(seen.beams[0].normal.isApprox(Point2(-1.0, 0.0)));
 }
 
-TEST(BeamsOnBox, BeamsBeforeBehindAndBesideAreOfSomethingElse) {
+TEST(BeamsOnBox, BeamsInFrontBehindAndBesideBelongToOthers) {
   const std::vector<Ray> rays = {rayTo(0.0, 9.8), rayTo(0.0, 12.2), rayTo(0.3, 10.0),
                                  rayTo(0.0, 40.0, false), rayTo(kPi, 10.0)};
   for (const Ray& ray : rays) {

@@ -115,7 +115,7 @@ TEST(ClearMot, SharesIncludeAndExcludeTheirBounds) {
   EXPECT_DOUBLE_EQ(score(followedBy({0, 0, 0, 0, 0, 1})).mostly_lost.value(), 1.0);
 }
 
-TEST(ClearMot, FramesWithoutDutyAreNoPartOfAnObjectsLife) {
+TEST(ClearMot, FramesNotRequiredAreNoPartOfAnObjectsLife) {
   const ClearMot result = score(FrameMaker()
                                     .add({truthAt(1, 0.0)}, {trackAt(1, 0.0)})
                                     .add({optionalAt(1, 0.0)}, {})

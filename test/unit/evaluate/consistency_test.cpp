@@ -18,7 +18,7 @@ Eigen::Matrix2d matrix(double xx, double xy, double yy) {
   return result;
 }
 
-/// Errors drawn from `truth`, judged by `claimed`.
+/// Errors drawn from `truth`, evaluated with the covariance `claimed`.
 Consistency ofRandomErrors(const Eigen::Matrix2d& truth, const Eigen::Matrix2d& claimed) {
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;
@@ -73,7 +73,7 @@ TEST(Consistency, BoundsOfTheMeanOfFiftySamples) {
   EXPECT_NEAR(sum.result().upper.value(), 2.591, 0.001);
 }
 
-TEST(Consistency, AnHonestFilterIsWithinTheBounds) {
+TEST(Consistency, AConsistentFilterIsWithinTheBounds) {
   const Eigen::Matrix2d covariance = matrix(4.0, 1.0, 0.5);
   const Consistency result = ofRandomErrors(covariance, covariance);
   EXPECT_GT(result.mean_nees.value(), result.lower.value());
@@ -81,7 +81,7 @@ TEST(Consistency, AnHonestFilterIsWithinTheBounds) {
   EXPECT_NEAR(result.inside_share.value(), 0.95, 0.015);
 }
 
-TEST(Consistency, TooSureAndNotSureEnough) {
+TEST(Consistency, OverconfidentAndConservative) {
   const Eigen::Matrix2d covariance = matrix(4.0, 1.0, 0.5);
   const Consistency too_sure = ofRandomErrors(covariance, 0.8 * covariance);
   EXPECT_GT(too_sure.mean_nees.value(), too_sure.upper.value());
@@ -89,7 +89,7 @@ TEST(Consistency, TooSureAndNotSureEnough) {
   EXPECT_LT(too_cautious.mean_nees.value(), too_cautious.lower.value());
 }
 
-TEST(Consistency, CovariancesThatAreNoneAreCounted) {
+TEST(Consistency, InvalidCovariancesAreCounted) {
   NeesSum sum(2);
   sum.add(normalizedErrorSquared<2>({1.0, 1.0}, Eigen::Matrix2d::Zero()));
   sum.add(normalizedErrorSquared<2>({1.0, 1.0}, matrix(1.0, 2.0, 1.0)));

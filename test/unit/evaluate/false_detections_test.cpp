@@ -27,7 +27,7 @@ FalseDetections countOf(const std::vector<std::pair<double, std::vector<Point2>>
   return countFalseDetections(recorded, TrueScene(drivePastParkedCar(), options), options);
 }
 
-TEST(CountFalseDetections, WhatIsWithinTheGateOfAMoverIsRight) {
+TEST(CountFalseDetections, DetectionsWithinTheGateOfAMoverAreRight) {
   // At 1 s the car's box reaches from 18 m to 22 m, and the gate is 2 m.
   const FalseDetections result = countOf({{1.0, {Point2(23.9, 0.0), Point2(16.1, 0.0)}}});
   EXPECT_EQ(result.frames, 1U);
@@ -35,7 +35,7 @@ TEST(CountFalseDetections, WhatIsWithinTheGateOfAMoverIsRight) {
   EXPECT_EQ(result.perFrame(), 0.0);
 }
 
-TEST(CountFalseDetections, WhatIsBeyondTheGateOrOnAParkedCarIsFalse) {
+TEST(CountFalseDetections, DetectionsBeyondTheGateOrOnAParkedCarAreFalse) {
   const FalseDetections result =
       countOf({{1.0, {Point2(24.1, 0.0), Point2(20.0, 5.0)}}, {1.1, {}}});
   EXPECT_EQ(result.detections, 2U);

@@ -28,7 +28,7 @@ BuiltFrames build(const std::vector<RecordedTracks>& tracks, const RecordedTruth
                      options);
 }
 
-/// The frames alone, of a run whose poses are true.
+/// Returns only the frames, of a run whose poses are true.
 Frames framesOf(const std::vector<RecordedTracks>& tracks, const RecordedTruth& truth,
                 ScoreOptions options = optionsForBriefObjects()) {
   return build(tracks, truth, options, standingVehicle()).frames;
@@ -44,7 +44,7 @@ std::size_t trackCount(const Frames& frames, Stamp stamp) {
   return 0;
 }
 
-TEST(BuildFrames, TruthIsBroughtToTheStampsOfTheTracks) {
+TEST(BuildFrames, TruthIsInterpolatedToTheStampsOfTheTracks) {
   const auto frames = framesOf({tracksAt(0.05, {}), tracksAt(0.15, {})}, drivingCar(0.2));
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_NEAR(frames[0].truths.at(0).box.center.x(), 10.5, 1e-9);
@@ -74,7 +74,7 @@ TEST(BuildFrames, WithoutOverlapThereIsNoFrame) {
   EXPECT_TRUE(framesOf({tracksAt(50.0, {})}, drivingCar()).empty());
 }
 
-TEST(BuildFrames, StandingTracksDoNotCountUnlessWanted) {
+TEST(BuildFrames, StationaryTracksDoNotCountByDefault) {
   RecordedTrack standing = movingTrackAt(7, 20.0);
   standing.moving = false;
   const Stamp stamp = Stamp::fromSeconds(1.0);
@@ -118,8 +118,8 @@ TEST(BuildFrames, InASingleFrameObjectsAreThereForNoTime) {
   EXPECT_EQ(duty(0.1), Duty::kOptional);
 }
 
-/// A run whose map is turned by 90 degrees against the truth's, and drifts by 3 m along the way
-/// until 1 s.
+/// A run whose map is rotated by 90 degrees relative to the truth's, and drifts by 3 m along the
+/// path until 1 s.
 std::vector<StampedPose> turnedAndDrifting() {
   std::vector<StampedPose> poses;
   for (int i = 0; i <= 20; ++i) {
@@ -128,7 +128,7 @@ std::vector<StampedPose> turnedAndDrifting() {
   return poses;
 }
 
-/// Where a track that the run has at (0, 13) at 1 s comes to lie, with this alignment.
+/// Returns where a track that the run has at (0, 13) at 1 s is placed by this alignment.
 TrackState alignedTrack(TrackAlignment align) {
   ScoreOptions options = optionsForBriefObjects();
   options.align = align;
@@ -146,7 +146,7 @@ TrackState alignedTrack(TrackAlignment align) {
   return {};
 }
 
-TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
+TEST(BuildFrames, PoseAtStampRemovesTheDrift) {
   const TrackState track = alignedTrack(TrackAlignment::kPoseAtStamp);
   EXPECT_NEAR(track.box.center.x(), 10.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
@@ -163,7 +163,7 @@ TEST(BuildFrames, FirstPoseLeavesTheDriftIn) {
   EXPECT_NEAR(track.velocity.x(), 10.0, 1e-9);
 }
 
-TEST(BuildFrames, NoneTakesTheMapAsItIs) {
+TEST(BuildFrames, NoneLeavesTheMapUnchanged) {
   const TrackState track = alignedTrack(TrackAlignment::kNone);
   EXPECT_NEAR(track.box.center.x(), 0.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 13.0, 1e-9);

@@ -61,7 +61,7 @@ TEST(Gospa, PartsAddUpInSquares) {
 }
 
 TEST(Gospa, TheBestAssignmentIsTaken) {
-  // Nearest first would be 0 and 3.5^2 = 12.25; best are 2^2 + 1.5^2 = 6.25.
+  // Nearest first would give 0 and 3.5^2 = 12.25; the best assignment has 2^2 + 1.5^2 = 6.25.
   const Gospa result =
       gospa({Point2(0.0, 0.0), Point2(2.0, 0.0)}, {Point2(2.0, 0.0), Point2(3.5, 0.0)}, kCutoff4);
   EXPECT_DOUBLE_EQ(result.total, 2.5);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMergeGap = 1.0;  // s
 
-/// A state every 0.5 s for 30 s, true within the stretches (first and last second).
+/// A state every 0.5 s for 30 s, true within the intervals (first and last second).
 std::vector<RecordedIntersection> statesOf(
     const std::vector<std::pair<double, double>>& stretches) {
   std::vector<RecordedIntersection> states;
@@ -45,7 +45,7 @@ TEST(ScoreIntersections, AFlickerIsOne) {
   EXPECT_EQ(score.wrong, 2U);  // 10 s to 13 s, and 15 s to 16 s
 }
 
-TEST(ScoreIntersections, ARunThatDoesNotLookHasNoCounts) {
+TEST(ScoreIntersections, ARunWithoutDetectionHasNoCounts) {
   const auto score = scoreIntersections(statesOf({{2, 4}}), std::nullopt, kMergeGap);
   EXPECT_EQ(score.intersections, 1U);
   EXPECT_FALSE(score.found);

@@ -23,7 +23,7 @@ inline TrueState optionalAt(std::uint32_t id, double x, double y = 0.0) {
   return truth;
 }
 
-/// A standing track at (x, y), m, of unit covariance.
+/// A stationary track at (x, y), m, of unit covariance.
 inline TrackState trackAt(std::uint32_t id, double x, double y = 0.0) {
   TrackState track;
   track.id = id;
@@ -46,7 +46,7 @@ class FrameMaker {
   Frames frames_;
 };
 
-/// One object that stands at the origin, and in each frame the track that is exactly on it (0:
+/// One stationary object at the origin, and in each frame the track that is exactly on it (0:
 /// none).
 inline Frames followedBy(const std::vector<std::uint32_t>& tracks) {
   FrameMaker maker;

@@ -13,7 +13,7 @@ inline StampedPose poseAt(double seconds, const Pose2& pose) {
   return {Stamp::fromSeconds(seconds), {pose, Eigen::Matrix3d::Zero()}};
 }
 
-/// A vehicle that stands in the map's origin from 0 s to 10 s.
+/// A vehicle that is stationary at the map's origin from 0 s to 10 s.
 inline std::vector<StampedPose> standingVehicle() {
   std::vector<StampedPose> poses;
   for (int i = 0; i <= 100; ++i) {
@@ -22,7 +22,7 @@ inline std::vector<StampedPose> standingVehicle() {
   return poses;
 }
 
-/// A car of 4 m x 2 m at (x, y), m, that drives along x with 10 m/s and is in sight.
+/// A car of 4 m x 2 m at (x, y), m, that drives along x at 10 m/s and is visible.
 inline RecordedObject carAt(std::uint32_t id, double x, double y = 0.0) {
   RecordedObject car;
   car.state.id = id;
@@ -45,7 +45,7 @@ inline RecordedTrack movingTrackAt(std::uint32_t id, double x, double y = 0.0) {
   return track;
 }
 
-/// Options under which an object counts however briefly it is there.
+/// Options under which an object counts however briefly it is present.
 inline ScoreOptions optionsForBriefObjects() {
   ScoreOptions options;
   options.truth.min_time_seen = 0.0;

@@ -18,7 +18,7 @@ json framesOf(const Frames& frames) {
   return report["frames"];
 }
 
-TEST(MatchesJson, SaysWhatBecameOfEachObjectAndTrack) {
+TEST(MatchesJson, HasTheMatchOfEachObjectAndTrack) {
   const json frames =
       framesOf(FrameMaker()
                    .add({}, {})
@@ -41,7 +41,7 @@ TEST(MatchesJson, SaysWhatBecameOfEachObjectAndTrack) {
   }
 }
 
-TEST(MatchesJson, SaysWhichObjectChangesItsTrack) {
+TEST(MatchesJson, NamesTheObjectThatChangesItsTrack) {
   const json frames = framesOf(followedBy({7, 0, 8, 8}));
   EXPECT_EQ(frames[2]["switches"], json({{{"truth_id", 1}, {"from", 7}, {"to", 8}}}));
   for (const std::size_t without : {0, 1, 3}) {

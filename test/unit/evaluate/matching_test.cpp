@@ -37,7 +37,7 @@ TEST(Matching, TheGateBelongsToIt) {
 TEST(Matching, DistanceToTheBoxOrItsCenter) {
   TrueState truck = truthAt(1, 10.0, 5.0);
   truck.box = {Pose2(10.0, 5.0, degrees(90.0)), 8.0, 2.0};
-  // The truck stands along y, from 1 to 9.
+  // The truck is parked along y, from 1 to 9.
   const TrackState behind = trackAt(1, 10.0, -0.5);
   const TrackState beside = trackAt(2, 10.5, 8.0);
   const MatchOptions to_box;
@@ -52,7 +52,7 @@ TEST(Matching, DistanceToTheBoxOrItsCenter) {
 }
 
 TEST(Matching, AsManyAsPossibleBeforeNearest) {
-  // The nearest pair (0.1 m) would leave the first object alone.
+  // Matching the nearest pair (0.1 m) would leave the first object unmatched.
   const Matching matching =
       matchFrames(FrameMaker()
                       .add({truthAt(1, 0.0), truthAt(2, 2.0)}, {trackAt(1, 1.9), trackAt(2, 3.5)})
@@ -102,7 +102,7 @@ TEST(Matching, PartnersFindEachOtherAgainAfterAGap) {
 }
 
 TEST(Matching, ATrackStaysWithItsLastObject) {
-  // The track of object 1 goes over to object 2; then 1 comes near again.
+  // The track of object 1 moves over to object 2; then 1 approaches again.
   const Matching matching =
       matchFrames(FrameMaker()
                       .add({truthAt(1, 0.0), truthAt(2, 5.0)}, {trackAt(1, 0.0)})

@@ -14,14 +14,14 @@ constexpr double kPeriod = 0.1;  // s
 const Point2 kAlongX(1.0, 0.0);
 const Point2 kAlongY(0.0, 1.0);
 
-TEST(MotionBound, NothingIsKnownFromOneScan) {
+TEST(MotionBound, OneScanIsUninformative) {
   MotionBound bound;
   EXPECT_DOUBLE_EQ(bound.logRatio(), 0.0);
   bound.addRange(Point2::Zero(), kAlongX, -kAlongX, kSigma);
   EXPECT_DOUBLE_EQ(bound.logRatio(), 0.0);
 }
 
-TEST(MotionBound, AWallThatComesAlongTheBeam) {
+TEST(MotionBound, AWallApproachingAlongTheBeam) {
   // Slope of a line through n points: variance 12 sigma^2 / (n (n^2 - 1) dt^2).
   constexpr double kSpeed = 3.0;  // m/s
   MotionBound bound;
@@ -33,7 +33,7 @@ TEST(MotionBound, AWallThatComesAlongTheBeam) {
   }
 }
 
-TEST(MotionBound, AlongASideWithoutItsEndsNothingIsEverKnown) {
+TEST(MotionBound, MotionAlongASideWithoutEndsIsUnobservable) {
   MotionBound bound;
   const Point2 oblique = Point2(1.0, 1.0).normalized();
   for (int n = 0; n < 100; ++n) {
@@ -42,7 +42,7 @@ TEST(MotionBound, AlongASideWithoutItsEndsNothingIsEverKnown) {
   EXPECT_NEAR(bound.logRatio(), 0.0, 1e-6);
 }
 
-TEST(MotionBound, AnObliqueBeamTellsMoreOfASide) {
+TEST(MotionBound, AnObliqueBeamIsMoreInformative) {
   // At 60 degrees to the normal the range changes by twice the displacement along it.
   MotionBound bound;
   const Point2 oblique(0.5, std::sqrt(0.75));
@@ -52,7 +52,7 @@ TEST(MotionBound, AnObliqueBeamTellsMoreOfASide) {
   EXPECT_NEAR(bound.logRatio(), 2.25, 1e-9);
 }
 
-TEST(MotionBound, EndsTellOfMotionAcross) {
+TEST(MotionBound, EndsRevealLateralMotion) {
   MotionBound bound;
   bound.addInterval(Point2::Zero(), kAlongY, 1.2);
   bound.addInterval(2.4 * kAlongY, kAlongY, 1.2);
@@ -61,7 +61,7 @@ TEST(MotionBound, EndsTellOfMotionAcross) {
 }
 
 TEST(MotionBound, NoiseInOneScanCountsAgainstTheOthers) {
-  // There and back: the mean is where it is likeliest to have stood.
+  // There and back: the mean is the most likely position if it was stationary.
   MotionBound bound;
   for (const double x : {0.0, 0.6, 0.0}) {
     bound.addRange(x * kAlongX, kAlongX, -kAlongX, kSigma);

@@ -66,7 +66,7 @@ TEST(ObjectScores, ByFirstFrameEachWithItsOwnErrors) {
   EXPECT_DOUBLE_EQ(objects[1].delay.value(), 0.0);
 }
 
-TEST(ObjectScores, DelaysAreOfThoseThatWereFound) {
+TEST(ObjectScores, DelaysAreOfFoundObjects) {
   EXPECT_FALSE(scoreDelays({}).mean);
   std::vector<ObjectScore> objects(4);
   objects[0].delay = 0.5;

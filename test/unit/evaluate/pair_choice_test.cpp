@@ -11,7 +11,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// Greatest sum of gains of the pairs from `index` on, by trying everything.
+/// Greatest sum of gains of the pairs from `index` on, by exhaustive search.
 double bruteForce(const std::vector<PairGain>& pairs, std::size_t index, std::vector<bool>& rows,
                   std::vector<bool>& columns) {
   if (index == pairs.size()) {
@@ -29,12 +29,12 @@ double bruteForce(const std::vector<PairGain>& pairs, std::size_t index, std::ve
 
 TEST(PairChoice, NothingToChooseFrom) { EXPECT_TRUE(choosePairs({}).empty()); }
 
-TEST(PairChoice, PairsThatShareNothingAreAllChosen) {
+TEST(PairChoice, DisjointPairsAreAllChosen) {
   EXPECT_EQ(choosePairs({{0, 7, 1.0}, {3, 2, 0.1}, {1, 0, 5.0}}), (Indices{0, 1, 2}));
 }
 
 TEST(PairChoice, TwoGoodPairsBeatOneBest) {
-  // 4 + 4 against 5 + nothing.
+  // 4 + 4 versus 5 + nothing.
   EXPECT_EQ(choosePairs({{0, 0, 5.0}, {0, 1, 4.0}, {1, 0, 4.0}}), (Indices{1, 2}));
 }
 

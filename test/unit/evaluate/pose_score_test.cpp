@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaxGap = 0.5;  // s
 
-/// 100 m along x with 10 m/s, a pose every 0.1 s, as `pose_at` (argument: m driven) sees it.
+/// 100 m along x at 10 m/s, a pose every 0.1 s, as estimated by `pose_at` (argument: m driven).
 Trajectory driveOf(const std::function<Pose2(double)>& pose_at) {
   std::vector<StampedPose> poses;
   for (int i = 0; i <= 100; ++i) {
@@ -77,8 +77,8 @@ TEST(ScorePoses, AJumpIsFoundWhateverTheDriftBefore) {
   EXPECT_NEAR(score.largest_jump, 1.5 - 0.04, 1e-9);  // from 40 m, one second before
 }
 
-TEST(ScorePoses, ErrorsAreOfOneSizeWhereverTheVehicleHeads) {
-  // Always one meter too far to the vehicle's left from 2 s on, while it turns round.
+TEST(ScorePoses, ErrorsAreIndependentOfTheHeading) {
+  // Always 1 m too far to the vehicle's left from 2 s on, while it turns around.
   const auto turning = [](double path_length) {
     return Pose2(path_length, 0.0, 0.05 * path_length);
   };
@@ -104,7 +104,7 @@ TEST(ScorePoses, AnOldDriftIsNoJumpWhenTheVehicleTurns) {
   EXPECT_NEAR(score->largest_jump, 0.2, 1e-9);
 }
 
-TEST(ScorePoses, AStandingVehicleHasNoShareAndNoRelations) {
+TEST(ScorePoses, AStationaryVehicleHasNoShareAndNoRelations) {
   const auto standing = driveOf([](double) { return Pose2(); });
   const auto score = scorePoses(standing, standing);
   ASSERT_TRUE(score);
@@ -116,7 +116,7 @@ TEST(ScorePoses, AStandingVehicleHasNoShareAndNoRelations) {
 }
 
 TEST(ScorePoses, NeesIsTheErrorInUnitsOfTheCovariance) {
-  // The run's map is turned by 90 degrees, so that it drives along y there. An error of 2 m ahead
+  // The run's map is rotated by 90 degrees, so that it drives along y there. An error of 2 m ahead
   // with a variance of 4 m^2 along that axis is a NEES of 1.
   std::vector<StampedPose> poses;
   for (int i = 0; i <= 10; ++i) {

@@ -7,8 +7,8 @@
 namespace datmo::evaluation::score_json_test {
 namespace {
 
-/// A car that drives along x from 10 m, for 2 s, before a standing vehicle; a track half a meter
-/// beside it from 0.5 s on.
+/// A car that drives along x from 10 m, for 2 s, in front of a stationary vehicle; a track half a
+/// meter beside it from 0.5 s on.
 struct Drive {
   RecordedRun run;
   RecordedTruth truth{{}, standingVehicle(), std::nullopt};
@@ -31,7 +31,7 @@ struct Drive {
   }
 };
 
-TEST(ScoreJson, HoldsWhatWasScored) {
+TEST(ScoreJson, HoldsTheScores) {
   const auto report = Drive().report();
   EXPECT_EQ(report["format"], 1);
   EXPECT_EQ(report["run"], "run.bag");
@@ -91,10 +91,10 @@ TEST(ScoreJson, PartsThatTheRunDoesNotHaveAreNull) {
                            "intersections", "intersections_found", "intersections_false"}) {
     EXPECT_TRUE(report["thesis"][name].is_null()) << name;
   }
-  EXPECT_TRUE(report["pose"]["end_error_share"].is_null());  // it stands
+  EXPECT_TRUE(report["pose"]["end_error_share"].is_null());  // it is stationary
 }
 
-TEST(ScoreJson, OptionalPartsAreThereWhereTheRunHasThem) {
+TEST(ScoreJson, OptionalPartsArePresentIfTheRunHasThem) {
   Drive drive;
   drive.run.detections.emplace({RecordedDetections{Stamp::fromSeconds(1.0), {Point2(5.0, 9.0)}}});
   drive.truth.intersections.emplace({RecordedIntersection{Stamp::fromSeconds(1.0), true}});
@@ -113,7 +113,7 @@ TEST(ScoreJson, OptionalPartsAreThereWhereTheRunHasThem) {
   EXPECT_NEAR(report["timing"]["grid_slam"]["latency"]["p99_ms"].get<double>(), 4.0, 1e-9);
 }
 
-TEST(ScoreJson, OptionsStandUnderTheirKeys) {
+TEST(ScoreJson, OptionsAreUnderTheirKeys) {
   const auto options = Drive().report()["options"];
   EXPECT_EQ(options["align"], "pose_at_stamp");
   EXPECT_EQ(options["region/range"], 50.0);

@@ -18,7 +18,7 @@ RecordedObject parkedAt(std::uint32_t id, double x, double y) {
 }
 
 /// Tracks at 0 s, between a car that drives at (10, 0) and parked ones, 4 m x 2 m, at (10, 6) and
-/// (15, 6). Another stands beyond the region, and a pole beside the road.
+/// (15, 6). Another one is parked outside the region, and there is a pole beside the road.
 std::vector<StandingObject> scoreOf(const std::vector<TrackState>& tracks) {
   RecordedObject pole = parkedAt(5, 10.0, -6.0);
   pole.state.classification = ObjectClass::kPole;
@@ -33,7 +33,7 @@ std::vector<StandingObject> scoreOf(const std::vector<TrackState>& tracks) {
   return scoreStandingObjects(frames, matchFrames(frames, options), scene, options);
 }
 
-TEST(ScoreStandingObjects, HoldsThoseThatCouldBeTakenForMovers) {
+TEST(ScoreStandingObjects, HoldsThoseThatCouldBeMistakenForMovers) {
   const auto objects = scoreOf({});
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].id, 2U);

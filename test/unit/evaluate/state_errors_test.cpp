@@ -11,7 +11,7 @@
 namespace datmo::evaluation::state_errors_test {
 namespace {
 
-/// Of one pair that differs in heading alone.
+/// Errors of one pair that differs in heading only.
 StateErrors errorsOfHeadings(double truth_heading, double track_heading) {
   TrueState truth = truthAt(1, 0.0);
   TrackState track = trackAt(1, 0.0);

@@ -42,7 +42,7 @@ TEST(ThesisCounts, FalseTracksAreFalseInMoreThanHalfOfTheirFrames) {
   EXPECT_EQ(count(trackThatLeaves(2, 3)).tracks, 1U);
 }
 
-TEST(ThesisCounts, NeutralFramesSpeakForATrack) {
+TEST(ThesisCounts, NeutralFramesCountInFavorOfATrack) {
   const ThesisCounts counts = count(FrameMaker()
                                         .add({optionalAt(1, 0.0)}, {trackAt(1, 0.0)})
                                         .add({optionalAt(1, 0.0)}, {trackAt(1, 50.0)})

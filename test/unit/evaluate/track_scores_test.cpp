@@ -10,8 +10,8 @@
 namespace datmo::evaluation::track_scores_test {
 namespace {
 
-/// Objects on straight ways, some of them optional, followed by tracks that err, get lost, change
-/// their ids and are joined by false ones.
+/// Objects on straight paths, some of them optional, followed by tracks with errors, losses and id
+/// switches, and by false ones.
 Frames randomRun(std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -52,7 +52,7 @@ void expectSame(const TrackScores& a, const TrackScores& b) {
 
 class RandomRuns : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(RandomRuns, TheSumsFitTogether) {
+TEST_P(RandomRuns, TheSumsAreConsistent) {
   const TrackScores scores = scoreTracks(randomRun(GetParam()), TrackScoreOptions());
   const ClearMot& clear_mot = scores.clear_mot;
   EXPECT_EQ(clear_mot.matches + clear_mot.misses, clear_mot.required);
@@ -81,9 +81,9 @@ TEST_P(RandomRuns, HotaIsTheGeometricMeanAndInBounds) {
   const HotaScores hota = scoreTracks(randomRun(GetParam()), TrackScoreOptions()).hota;
   EXPECT_GT(hota.hota.value(), 0.0);
   EXPECT_LT(hota.hota.value(), 1.0);
-  // Of means over alpha it is an upper bound (Cauchy and Schwarz).
+  // Averaged over alpha it is an upper bound (Cauchy-Schwarz).
   EXPECT_LE(hota.hota.value(), std::sqrt(hota.deta.value() * hota.assa.value()) + 1e-12);
-  // What matches at one alpha matches at all lower ones, at least in number.
+  // There are at least as many matches at lower alphas as at one alpha.
   EXPECT_GT(hota.hota_alpha.front(), hota.hota_alpha.back());
 }
 

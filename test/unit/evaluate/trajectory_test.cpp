@@ -30,7 +30,7 @@ TEST(Trajectory, InterpolatesAlongTheMotionAndTheShorterTurn) {
   expectPose(pose, Pose2(1, 2, kPi));
 }
 
-TEST(Trajectory, GoesOnByOneStepBeyondItsEndsAndNoFurther) {
+TEST(Trajectory, ExtrapolatesByAtMostOneStep) {
   const Trajectory trajectory({poseAt(1.0, Pose2(0, 0, 0)), poseAt(1.1, Pose2(1, 0, 0))}, kMaxGap);
   expectPose(trajectory.at(Stamp::fromSeconds(1.15)), Pose2(1.5, 0, 0));
   expectPose(trajectory.at(Stamp::fromSeconds(0.95)), Pose2(-0.5, 0, 0));
@@ -38,7 +38,7 @@ TEST(Trajectory, GoesOnByOneStepBeyondItsEndsAndNoFurther) {
   EXPECT_FALSE(trajectory.at(Stamp::fromSeconds(0.89)));
 }
 
-TEST(Trajectory, SaysNothingInALongGap) {
+TEST(Trajectory, IsUnknownInALongGap) {
   const Trajectory trajectory({poseAt(1.0, Pose2(0, 0, 0)), poseAt(1.6, Pose2(1, 0, 0))}, kMaxGap);
   EXPECT_FALSE(trajectory.at(Stamp::fromSeconds(1.1)));
   EXPECT_TRUE(trajectory.at(Stamp::fromSeconds(1.6)));
@@ -51,7 +51,7 @@ TEST(Trajectory, OnePoseOrNoneHasNoMotion) {
   EXPECT_FALSE(Trajectory({}, kMaxGap).at(Stamp::fromSeconds(1.0)));
 }
 
-TEST(AlignAtFirstPose, LaysTheFirstCommonPosesOnEachOther) {
+TEST(AlignAtFirstPose, AlignsTheFirstCommonPoses) {
   const Trajectory truth({poseAt(2.0, Pose2(5, 1, kPi / 2)), poseAt(2.1, Pose2(5, 2, kPi / 2))},
                          kMaxGap);
   const Trajectory run({poseAt(1.0, Pose2(9, 9, 1)), poseAt(2.0, Pose2(1, 0, 0))}, kMaxGap);

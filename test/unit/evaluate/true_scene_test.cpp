@@ -10,7 +10,7 @@ namespace {
 const Stamp kEarlier = Stamp::fromSeconds(1.0);
 const Stamp kLater = Stamp::fromSeconds(1.2);
 
-/// A standing vehicle and what is about it at 1.0 s and 1.2 s.
+/// A stationary vehicle and its surroundings at 1.0 s and 1.2 s.
 RecordedTruth truthOf(const std::vector<RecordedObject>& earlier,
                       const std::vector<RecordedObject>& later) {
   return {{{kEarlier, earlier}, {kLater, later}}, standingVehicle(), std::nullopt};
@@ -22,7 +22,7 @@ std::vector<TrueState> objectsAt(const RecordedTruth& truth, double seconds,
   return view ? view->objects : std::vector<TrueState>();
 }
 
-/// Whether a car, changed so, has to be found.
+/// Returns whether a car, changed like this, has to be found.
 bool isRequired(const RecordedObject& object, const ScoreOptions& options = {}) {
   const auto objects = objectsAt(truthOf({object}, {object}), 1.0, options);
   return objects.size() == 1 && objects.front().duty == Duty::kRequired;
@@ -48,7 +48,7 @@ TEST(TrueScene, HeadingsAreInterpolatedTheShorterWayRound) {
   EXPECT_NEAR(std::abs(objects.at(0).box.center.heading()), kPi, 1e-9);
 }
 
-TEST(TrueScene, AnObjectThatOneNeighborHasIsCarriedWithItsVelocity) {
+TEST(TrueScene, AnObjectInOneNeighborIsExtrapolated) {
   const auto ends = objectsAt(truthOf({carAt(1, 10.0)}, {}), 1.1);
   ASSERT_EQ(ends.size(), 1U);
   EXPECT_NEAR(ends[0].box.center.x(), 11.0, 1e-9);
@@ -57,7 +57,7 @@ TEST(TrueScene, AnObjectThatOneNeighborHasIsCarriedWithItsVelocity) {
   EXPECT_NEAR(begins[0].box.center.x(), 9.0, 1e-9);
 }
 
-TEST(TrueScene, NothingIsKnownOutsideAndInAGap) {
+TEST(TrueScene, IsUnknownOutsideAndInAGap) {
   ScoreOptions options;
   const TrueScene scene(truthOf({carAt(1, 10.0)}, {carAt(1, 12.0)}), options);
   EXPECT_FALSE(scene.at(Stamp::fromSeconds(0.99)));
@@ -67,7 +67,7 @@ TEST(TrueScene, NothingIsKnownOutsideAndInAGap) {
   EXPECT_FALSE(TrueScene(truthOf({}, {}), options).at(Stamp::fromSeconds(1.1)));
 }
 
-TEST(TrueScene, WhatNeverMovesIsNotThereAndWhatStandsForAWhileNeedNotBeFound) {
+TEST(TrueScene, ParkedObjectsAreLeftOutAndStoppedOnesAreOptional) {
   RecordedObject parked = carAt(1, 10.0);
   parked.moving = false;
   RecordedObject waiting = carAt(2, 20.0);
@@ -101,7 +101,7 @@ TEST(TrueScene, SensorsWithAViewAreRequired) {
   EXPECT_TRUE(isRequired(car, options));
 }
 
-TEST(TrueScene, SpeedAndBeamsAreAskedFor) {
+TEST(TrueScene, SpeedAndBeamsAreRequired) {
   ScoreOptions options;
   options.truth.min_speed = 10.1;
   EXPECT_FALSE(isRequired(carAt(1, 10.0), options));

@@ -64,7 +64,7 @@ TEST(AgingMap, AGridIsSeenFromThePoseAndNoObstacleIsLost) {
   EXPECT_EQ(std::count(image.cells().begin(), image.cells().end(), kOccupied), 1);
 }
 
-TEST(AgingMap, WhatLeavesTheWindowIsForgotten) {
+TEST(AgingMap, CellsThatLeaveTheWindowAreForgotten) {
   AgingMap map(evenLooks(), 20, 10, 1.0);
   map.update(gridWith(kCell, kOccupied, 0.0), Pose2());
   map.centerOn({5.5, 0.5});

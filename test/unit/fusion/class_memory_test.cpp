@@ -22,7 +22,7 @@ const ClassProbabilities kUnknown = ClassBelief().probabilities();
 const ClassProbabilities kPedestrian = reportedAs(ObjectClass::kPedestrian, 0.9);
 const ClassProbabilities kCyclist = reportedAs(ObjectClass::kCyclist, 0.6);
 
-TEST(ClassMemoryTest, BeforeAnythingWasSaidAllAreEquallyLikely) {
+TEST(ClassMemoryTest, InitiallyAllClassesAreEquallyLikely) {
   EXPECT_EQ(ClassMemory().belief(), kUnknown);
 }
 
@@ -33,7 +33,7 @@ TEST(ClassMemoryTest, SourcesAreJoinedByBayes) {
   EXPECT_EQ(memory.belief(), jointBelief({kCyclist, kPedestrian}));
 }
 
-TEST(ClassMemoryTest, WhatATrackThatEndedSaidCountsOn) {
+TEST(ClassMemoryTest, EvidenceOfAnEndedTrackIsKept) {
   ClassMemory memory;
   const Beliefs both{{kLidar, kUnknown}, {kStereo, kPedestrian}};
   memory.update(both, both);
@@ -44,7 +44,7 @@ TEST(ClassMemoryTest, WhatATrackThatEndedSaidCountsOn) {
   }
 }
 
-TEST(ClassMemoryTest, WhatWentOverToAnotherObjectDoesNot) {
+TEST(ClassMemoryTest, EvidenceOfATrackThatSwitchedObjectsIsNot) {
   for (const bool lost : {false, true}) {
     ClassMemory memory;
     const Beliefs both{{kLidar, kUnknown}, {kStereo, kPedestrian}};
@@ -56,7 +56,7 @@ TEST(ClassMemoryTest, WhatWentOverToAnotherObjectDoesNot) {
   }
 }
 
-TEST(ClassMemoryTest, TheNextTrackOfTheSourceReplacesItOnceItTellsSomething) {
+TEST(ClassMemoryTest, TheNextInformativeTrackOfTheSourceReplacesIt) {
   ClassMemory memory;
   memory.update({{kStereo, kPedestrian}}, {{kStereo, kPedestrian}});
   memory.update({}, {});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM with all that may stand in them, also what is passed over.
+// SPATEM and MAPEM with all optional fields, including those that are skipped.
 #pragma once
 
 #include "fusion/signal_messages.h"
 
 namespace datmo::samples {
 
-/// An addition of a region, which a reader passes over.
+/// An addition to a region, which a reader skips.
 inline WireBits regionalAddition(const WireBits& content) {
   return WireBits().add(0, 2).add(3, 8).addOpen(content);
 }
@@ -22,7 +22,7 @@ inline WireBits connectionAssist() {
       .add(0, 1);
 }
 
-/// With an addition of a later version.
+/// With an addition from a later version.
 inline WireBits speedAdvice() {
   return WireBits()
       .add(1, 1)  // extended
@@ -39,7 +39,7 @@ inline WireBits speedAdvice() {
       .addOpen(WireBits().add(0xFF, 8));
 }
 
-/// The events of a movement with all that may stand beside them.
+/// The events of a movement with all optional fields.
 inline WireBits eventsWithAll(const WireBits& regional) {
   const WireBits assist = connectionAssist();
   return WireBits()
@@ -58,7 +58,7 @@ inline WireBits eventsWithAll(const WireBits& regional) {
       .add(regional);
 }
 
-/// A SPATEM with all that may stand in it beside what is read.
+/// A SPATEM with all optional fields besides those that are read.
 inline WireBits spatemWithAll() {
   const WireBits regional = regionalAddition(WireBits().add(0xABC, 12));
   return signalHeader(4)
@@ -92,7 +92,7 @@ inline WireBits spatemWithAll() {
       .addOpen(WireBits().add(0x12, 8));
 }
 
-/// Those of a node, with a segment's name of a later version.
+/// The attributes of a node, with a segment's name from a later version.
 inline WireBits nodeAttributes(const WireBits& regional, const WireBits& limits) {
   return WireBits()
       .add(0, 1)
@@ -119,7 +119,7 @@ inline WireBits nodeAttributes(const WireBits& regional, const WireBits& limits)
       .add(regional);
 }
 
-/// A lane with all that may stand in it but connections.
+/// A lane with all optional fields except connections.
 inline WireBits laneWithAll(const WireBits& regional, const WireBits& limits) {
   return WireBits()
       .add(0b1111011, 7)  // all but connections
@@ -154,7 +154,7 @@ inline WireBits laneWithAll(const WireBits& regional, const WireBits& limits) {
       .add(regional);
 }
 
-/// A MAPEM with all that may stand in it beside what is read.
+/// A MAPEM with all optional fields besides those that are read.
 inline WireBits mapemWithAll() {
   const WireBits regional = regionalAddition(WireBits().add(0x5, 4));
   const WireBits limits = WireBits().add(0, 4).add(0, 1).add(5, 4).add(694, 13);

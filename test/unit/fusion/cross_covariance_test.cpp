@@ -21,7 +21,8 @@ JointCovariance jointOf(const CovariancePair& pair, const CrossCovariance& cross
   return joint;
 }
 
-/// Of both errors, each whitened by itself: the largest is the greatest correlation.
+/// Correlation of both errors, each whitened by itself: the largest singular value is the greatest
+/// correlation.
 double greatestCorrelation(const CovariancePair& pair, const CrossCovariance& cross) {
   const TrackCovariance lower_a = pair.a.llt().matrixL();
   const TrackCovariance lower_b = pair.b.llt().matrixL();
@@ -54,8 +55,8 @@ TEST(CrossCovarianceTest, OneStepIsByHand) {
   EXPECT_TRUE(cross.isApprox(identity * (0.25 * 1.5 * 0.5), 1e-9));
 }
 
-TEST(CrossCovarianceTest, IsThatOfTheGainsOfKalmanFilters) {
-  // The second one measures in every other step only, and less well; both turn.
+TEST(CrossCovarianceTest, AgreesWithTheGainsOfKalmanFilters) {
+  // The second one measures only in every other step, and less accurately; both turn.
   const LinearMotion motion = coordinatedTurn(0.4, TargetMotionOptions(), kStep);
   TrackState variance;
   variance << 1.0, 2.0, 9.0, 4.0, 0.25, 0.25;
@@ -106,7 +107,7 @@ TEST(CrossCovarianceTest, AnEvenOneHasItsCorrelation) {
       evenCrossCovariance({identity * 4.0, identity * 9.0}, 0.5).isApprox(identity * 3.0, 1e-9));
 }
 
-TEST(CrossCovarianceTest, TheJointCovarianceIsPositiveWhateverComesIn) {
+TEST(CrossCovarianceTest, TheJointCovarianceIsAlwaysPositive) {
   Random random(3);
   constexpr double kLimit = 0.95;
   const LinearMotion motion = coordinatedTurn(0.4, TargetMotionOptions(), kStep);
@@ -121,7 +122,7 @@ TEST(CrossCovarianceTest, TheJointCovarianceIsPositiveWhateverComesIn) {
   }
 }
 
-TEST(CrossCovarianceTest, ErrorsThatGrowAreNotPassedOn) {
+TEST(CrossCovarianceTest, GrowingErrorsAreNotPropagated) {
   // An IMM filter's covariance jumps up as another mode gains weight.
   const TrackCovariance identity = TrackCovariance::Identity();
   const CovariancePair before{identity, identity};

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// A drive along a curve, seen by a receiver with white noise and an error that drifts.
+/// A drive along a curve, measured by a receiver with white noise and a drifting error.
 class Drive {
  public:
   Drive(unsigned seed, double sigma, const EarthFrameOptions& options, bool drifts = false)
@@ -56,7 +56,7 @@ class Drive {
   std::normal_distribution<double> normal_;
   double sigma_;
   EarthFrameOptions options_;
-  bool drifts_;  ///< the map, as the options say
+  bool drifts_;  ///< the map drifts, as in the options
   Pose2 truth_{120.0, -60.0, 2.2};
   Point2 shared_ = Point2::Zero();
   double time_ = 0.0;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = kPi / 180.0;
 
-/// Takes 30 s of fixes, so that the map is known; returns the last one.
+/// Processes 30 s of fixes, so that the map is known; returns the last one.
 EarthFix drivenBefore(Drive& drive, EarthFrameFilter& filter) {
   EarthFix last;
   for (int i = 0; i < 150; ++i) {
@@ -35,7 +35,7 @@ TEST(LocalPlane, KnownDistancesOnTheEllipsoid) {
   EXPECT_NEAR(north.x(), 0.0, 1e-6);
 }
 
-TEST(LocalPlane, ThereAndBack) {
+TEST(LocalPlane, RoundTrip) {
   const LocalPlane plane({45.19 * kDegree, 5.72 * kDegree, 212.0});
   for (const Point2& point : {Point2(0.0, 0.0), Point2(300.0, -40.0), Point2(-2000.0, 3000.0)}) {
     GeodeticPosition back = plane.toGeodetic(point);
@@ -43,14 +43,14 @@ TEST(LocalPlane, ThereAndBack) {
   }
 }
 
-TEST(LocalPlane, WhatIsNotOnTheEarth) {
+TEST(LocalPlane, PositionsOffTheEarth) {
   EXPECT_TRUE(isValid({0.8, 0.1, 200.0}));
   EXPECT_FALSE(isValid({1.6, 0.1, 200.0}));
   EXPECT_FALSE(isValid({std::nan(""), 0.1, 200.0}));
   EXPECT_FALSE(isValid({0.8, 0.1, 1e7}));
 }
 
-TEST(EarthFrameFilter, KnowsNothingWhileItStands) {
+TEST(EarthFrameFilter, IsUnknownAtRest) {
   EarthFrameFilter filter{EarthFrameOptions()};
   EarthFix fix;
   for (int i = 0; i < 1000; ++i) {
@@ -78,7 +78,7 @@ TEST(EarthFrameFilter, FindsTheMapWithinItsCovariance) {
     EXPECT_LT(std::abs(error.z()), 0.1);
   }
   // Mean of 200 draws of chi-square with 3 degrees of freedom: 2.54 to 3.49 in 99.5 %; the first
-  // solution is not optimal, and may be too careful.
+  // solution is not optimal, and may be conservative.
   EXPECT_GT(nees, 1.5);
   EXPECT_LT(nees, 3.6);
 }
@@ -101,7 +101,7 @@ TEST(EarthFrameFilter, FixFarOffIsLeftOut) {
       3.0);
 }
 
-TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
+TEST(EarthFrameFilter, LossOfAllDigitsStartsItOver) {
   for (const double far : {1e9, 1e150, 1e300}) {
     Drive drive(3, 0.5, EarthFrameOptions());
     EarthFrameFilter filter{EarthFrameOptions()};
@@ -118,8 +118,8 @@ TEST(EarthFrameFilter, WhatLeavesNoDigitStartsItOver) {
   }
 }
 
-// 4 s without a fix, 40 m of drift: what is said of the map then grows by it.
-TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
+// 4 s without a fix, 40 m of drift: the reported uncertainty of the map grows by it.
+TEST(EarthFrameFilter, AccountsForTheMapsDriftInAnOutage) {
   const EarthFrameOptions options;
   double nees = 0.0;
   double nees_of_last = 0.0;
@@ -144,8 +144,8 @@ TEST(EarthFrameFilter, KnowsInAnOutageWhatTheMapHasDrifted) {
   EXPECT_GT(nees_of_last, 6.0) << "else the outage is too short to tell";
 }
 
-// The distance counts, not how far the vehicle is from where the last fix was.
-TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
+// The traveled distance counts, not the distance from the last fix.
+TEST(EarthFrameFilter, ALoopWithoutFixesCountsAsDistance) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);
@@ -166,7 +166,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   const double distance = 2.0 * kPi * kRadius;
   const double turned = filter.mapInPlane()->covariance(2, 2) - before->covariance(2, 2);
   EXPECT_NEAR(turned, distance * options.map_turn * options.map_turn, 0.01 * turned);
-  // The next fix is at the place of the last one, and finds the map as vague.
+  // The next fix is at the position of the last one, and finds the map equally uncertain.
   EarthFrameFilter by_straight_line(options);
   Drive again(1, 0.1, options);
   drivenBefore(again, by_straight_line);
@@ -176,7 +176,7 @@ TEST(EarthFrameFilter, ALoopWithoutFixesIsDrivenToo) {
   EXPECT_GT(filter.mapInPlane()->covariance(2, 2), by_straight_line.mapInPlane()->covariance(2, 2));
 }
 
-TEST(EarthFrameFilter, APoseThatTremblesIsNoDrive) {
+TEST(EarthFrameFilter, AJitteringPoseIsNoDistance) {
   const EarthFrameOptions options;
   Drive drive(1, 0.1, options);
   EarthFrameFilter filter(options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first fixes, from which the filter of the earth's frame starts.
+// The first fixes, which initialize the filter of the earth's frame.
 #include <cmath>
 #include <vector>
 
@@ -19,8 +19,8 @@ double deviationOf(const PoseWithCovariance& map, const Pose2& truth) {
   return std::sqrt(error.dot(map.covariance.inverse() * error));
 }
 
-// One position that is far off in some direction, anywhere at the start, is not in what is said
-// then: the error stays what is said of it, from the first frame on.
+// One position that is far off in some direction, anywhere at the start, is excluded from the
+// estimate: the error stays consistent with the covariance, from the first frame on.
 TEST(EarthFrameFilter, FixFarOffAtTheStartIsLeftOut) {
   EarthFrameOptions options;
   options.map_drift = options.map_turn = 0.0;  // this map does not drift
@@ -81,7 +81,7 @@ TEST(EarthFrameFilter, FixThatIsLeftOutAtTheStartIsCounted) {
   EXPECT_EQ(filter.counts().used, 59U);
 }
 
-TEST(ConsistentPairs, PairsThatBendTheFitToThemselvesAreFound) {
+TEST(ConsistentPairs, PairsThatPullTheFitAreDetected) {
   std::vector<PointPair> pairs;
   const Pose2 motion(4e5, -3e5, 2.0);
   for (int i = 0; i < 12; ++i) {
@@ -99,7 +99,7 @@ TEST(ConsistentPairs, PairsThatBendTheFitToThemselvesAreFound) {
   EXPECT_LT(found.variance_factor, 1e-3);
 }
 
-TEST(ConsistentPairs, FewAreTakenAsTheyAre) {
+TEST(ConsistentPairs, FewFixesAreNotFiltered) {
   EXPECT_EQ(consistentPairs({}, 13.8).count, 0U);
   EXPECT_EQ(consistentPairs({PointPair(), PointPair()}, 13.8).count, 2U);
 }

@@ -12,12 +12,12 @@ ExistenceReport seen(double existence) { return {true, existence, 0.0, 0.8, 0.1}
 
 ExistenceReport notSeen(double looked) { return {false, 0.0, looked, 0.8, 0.1}; }
 
-TEST(FusedExistenceTest, OfOneSourceItIsItsOwn) {
+TEST(FusedExistenceTest, OfOneSourceIsUnchanged) {
   EXPECT_NEAR(fusedExistence({seen(0.7)}), 0.7, kRounding);
   EXPECT_NEAR(fusedExistence({seen(0.7), notSeen(0.0)}), 0.7, kRounding);
 }
 
-TEST(FusedExistenceTest, WhatIsNotThereIsNotDetected) {
+TEST(FusedExistenceTest, ImpossibleObjectsAreNotDetected) {
   EXPECT_EQ(fusedExistence({}), 0.0);
   EXPECT_EQ(fusedExistence({notSeen(0.5), notSeen(0.9)}), 0.0);
 }
@@ -34,13 +34,13 @@ TEST(FusedExistenceTest, AnotherDetectionIsEvidenceForIt) {
   EXPECT_NEAR(fusedExistence({seen(0.3), seen(0.5)}), 8.0 / 9.0, kRounding);
 }
 
-TEST(FusedExistenceTest, ASourceThatAgreesWithAnythingSaysNothing) {
+TEST(FusedExistenceTest, ASourceThatAgreesWithAnythingIsUninformative) {
   ExistenceReport credulous = seen(0.2);
   credulous.false_agreement_probability = 1.0;
   EXPECT_NEAR(fusedExistence({seen(0.5), credulous}), 0.5, kRounding);
 }
 
-TEST(FusedExistenceTest, CertaintyCanBeTalkedOutOf) {
+TEST(FusedExistenceTest, CertaintyCanBeRevised) {
   const double sure = fusedExistence({seen(1.0)});
   EXPECT_LT(sure, 1.0);
   EXPECT_LT(fusedExistence({seen(1.0), notSeen(1.0)}), sure);

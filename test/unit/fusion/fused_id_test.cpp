@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which fused track is the same as which one before.
+// Which fused track is the same as which earlier one.
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -33,8 +33,8 @@ TEST(FusedIdTest, TheIdStaysWhileOneSensorLosesTheObjectAndFindsItAgain) {
   EXPECT_EQ(ids.size(), 1U);
 }
 
-TEST(FusedIdTest, WhereTracksPartTheIdGoesWithTheOneThatItHadForLongest) {
-  // The camera follows a cyclist all the time; the scanner's second track of him ends on a car.
+TEST(FusedIdTest, WhenTracksPartTheLongestMemberKeepsTheId) {
+  // The camera tracks a cyclist all the time; the scanner's second track of him ends up on a car.
   TrackFuser fuser{TrackFuserOptions()};
   std::uint32_t with_camera = 0;
   std::uint32_t at_first = 0;
@@ -57,7 +57,7 @@ TEST(FusedIdTest, WhereTracksPartTheIdGoesWithTheOneThatItHadForLongest) {
   EXPECT_EQ(with_camera, at_first);
 }
 
-TEST(FusedIdTest, WhatAllLoseForAMomentIsKnownAgain) {
+TEST(FusedIdTest, AnObjectBrieflyLostByAllKeepsItsId) {
   TrackFuserOptions options;
   options.memory = 1.5;
   const auto idsAcross = [&](double gap) {
@@ -80,7 +80,7 @@ TEST(FusedIdTest, WhatAllLoseForAMomentIsKnownAgain) {
 }
 
 TEST(FusedIdTest, OneObjectIsNeverTwo) {
-  // What the sensors say of its velocity contradicts itself for too long for them to be one.
+  // The sensors contradict each other about its velocity for too long for the tracks to be one.
   TrackFuser fuser(withScheme(TrackScheme::kUnion));
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;

@@ -18,7 +18,7 @@ constexpr auto kCampo = TrackCombinationMethod::kBarShalomCampo;
 constexpr auto kInformation = TrackCombinationMethod::kInformation;
 const std::vector<TrackCombinationMethod> kMethods = {kIntersection, kCampo, kInformation};
 
-/// The weight that covariance intersection keeps of what tells nothing new, of 1.
+/// The weight, of 1, that covariance intersection gives to an estimate without new information.
 constexpr double kMinWeight = 0.02;
 
 TrackCombinationOptions by(TrackCombinationMethod method) {
@@ -37,7 +37,7 @@ StateEstimate fusedBy(TrackCombinationMethod method, const StateEstimate& a, con
 }
 
 bool isPositive(const TrackCovariance& covariance) {
-  // Units as they are would hide small negative values behind large variances.
+  // Unscaled units would hide small negative values behind large variances.
   const TrackState scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   const TrackCovariance scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
   return covariance == covariance.transpose() && scaled.allFinite() &&
@@ -54,7 +54,7 @@ TEST(FusedStateTest, IndependentEstimatesAreWeightedByTheirVariances) {
 }
 
 TEST(FusedStateTest, AMixtureCoversBothOfTwoThatContradictEachOther) {
-  // Mean 2, variance (1 + 3) / 2 + 2^2, and all components go along with each other.
+  // Mean 2, variance (1 + 3) / 2 + 2^2, and all components are fully correlated.
   const StateEstimate mixture = mixtureOf({estimateAt(0.0, 1.0), estimateAt(4.0, 3.0)});
   EXPECT_TRUE(mixture.mean.isApproxToConstant(2.0, 1e-12));
   EXPECT_TRUE(mixture.covariance.isApprox(
@@ -62,7 +62,7 @@ TEST(FusedStateTest, AMixtureCoversBothOfTwoThatContradictEachOther) {
   EXPECT_TRUE(isPositive(mixture.covariance));
 }
 
-TEST(FusedStateTest, AMixtureOfThreeIsThatOfAllWhateverTheirOrder) {
+TEST(FusedStateTest, AMixtureOfThreeIsIndependentOfTheirOrder) {
   // Mean (0 + 0 + 6) / 3, variance (1 + 2 + 3) / 3 + (4 + 4 + 16) / 3.
   std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(0.0, 2.0),
                                     estimateAt(6.0, 3.0)};
@@ -75,7 +75,7 @@ TEST(FusedStateTest, AMixtureOfThreeIsThatOfAllWhateverTheirOrder) {
   }
 }
 
-TEST(FusedStateTest, OfThreeTheThirdIsFusedWithWhatTheOthersAreTogether) {
+TEST(FusedStateTest, TheThirdOfThreeIsFusedWithTheResultOfTheOthers) {
   const std::vector<StateEstimate> all = {estimateAt(0.0, 1.0), estimateAt(6.0, 3.0),
                                           estimateAt(3.0, 2.0)};
   TrackCombinationOptions options;
@@ -109,7 +109,7 @@ TEST(FusedStateTest, IntersectionOfEqualCovariancesIsTheMean) {
   EXPECT_TRUE(fused.covariance.isApprox(a.covariance, 1e-9));
 }
 
-TEST(FusedStateTest, IntersectionTakesOfEachWhatItKnowsBetter) {
+TEST(FusedStateTest, IntersectionUsesTheBetterPartOfEach) {
   // One knows x and its derivatives well, the other y. By symmetry the weight is one half.
   StateEstimate a = estimateAt(0.0, 1.0);
   StateEstimate b = estimateAt(1.0, 1.0);
@@ -143,7 +143,7 @@ TEST(FusedStateTest, IntersectionHasTheLeastDeterminant) {
   }
 }
 
-TEST(FusedStateTest, IntersectionIgnoresWhatHasNoNewInformation) {
+TEST(FusedStateTest, IntersectionIgnoresEstimatesWithoutNewInformation) {
   const StateEstimate sure = estimateAt(0.0, 1.0);
   const StateEstimate fused = fusedBy(kIntersection, sure, estimateAt(1.0, 4.0));
   EXPECT_NEAR(fused.covariance(0, 0), 1.0, kMinWeight);
@@ -151,7 +151,7 @@ TEST(FusedStateTest, IntersectionIgnoresWhatHasNoNewInformation) {
 }
 
 TEST(FusedStateTest, TheWeightOfIntersectionDoesNotJump) {
-  // From a little surer to a little less sure than the other.
+  // From slightly more certain to slightly less certain than the other.
   double last = fusedBy(kIntersection, estimateAt(0.0, 0.99), estimateAt(1.0, 1.0)).mean[0];
   for (double variance = 0.991; variance < 1.01; variance += 0.001) {
     const double mean =
@@ -178,7 +178,7 @@ TEST(FusedStateTest, OrderDoesNotMatter) {
   }
 }
 
-TEST(FusedStateTest, TurnedEstimatesAreTheFusedOneTurned) {
+TEST(FusedStateTest, FusionIsRotationInvariant) {
   Random random(4);
   const TrackCovariance turn = stateRotation(0.7);
   for (int i = 0; i < 100; ++i) {
@@ -231,7 +231,7 @@ TEST(FusedStateTest, TheResultIsPositiveWhateverTheCrossCovarianceIs) {
 }
 
 TEST(FusedStateTest, NearlySingularEstimatesAreFused) {
-  // A position that is as good as known, one direction that rounding has made negative, and two
+  // A position that is practically known, one direction that rounding has made negative, and two
   // that are the same.
   StateEstimate sure = estimateAt(1.0, 1.0);
   sure.covariance.topLeftCorner<2, 2>() *= 1e-18;
@@ -251,8 +251,8 @@ TEST(FusedStateTest, NearlySingularEstimatesAreFused) {
   }
 }
 
-TEST(FusedStateTest, HowMuchOfTheSecondOneIsNewsIsByTheMethod) {
-  // Of equally good ones: half the variance, (1 + correlation) / 2 of it, all of it.
+TEST(FusedStateTest, TheMethodDecidesTheSecondOnesNewInformation) {
+  // For equally good ones: half the variance, (1 + correlation) / 2 of it, all of it.
   Random random(7);
   const StateEstimate a = randomEstimate(random);
   const StateEstimate b{randomEstimate(random).mean, a.covariance};

@@ -25,9 +25,9 @@ Track far(const std::string& source, double speed, double existence = 0.9, std::
   return track;
 }
 
-TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
-  // Each has its own target of it until the scanner's track comes to the camera's at 1 s, and the
-  // scanner loses it while the camera's old target is not forgotten yet.
+TEST(FusedTargetsTest, TheIdIsKeptWhicheverSourceLosesAJustFusedObject) {
+  // Each has its own target of it until the scanner's track approaches the camera's at 1 s, and the
+  // scanner loses it while the camera's old target is not deleted yet.
   TrackFuser fuser{TrackFuserOptions()};
   for (int i = 0; i <= 25; ++i) {
     const double t = 0.1 * i;
@@ -42,7 +42,7 @@ TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
   }
 }
 
-TEST(FusedTargetsTest, WhatTheSpeedSaysOfTheClassCountsOnce) {
+TEST(FusedTargetsTest, SpeedAsEvidenceOfTheClassCountsOnce) {
   TrackFuser fuser{TrackFuserOptions()};
   const auto moving = [](double x, const std::string& source) {
     Track track = carTrack(x, 0.0, 7.0, 0.0, source, 5);
@@ -68,7 +68,7 @@ TEST(FusedTargetsTest, WhatTheSpeedSaysOfTheClassCountsOnce) {
   }
 }
 
-TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
+TEST(FusedTargetsTest, TheCamerasClassIsKeptWhenTheScannerAloneTracksIt) {
   TrackFuserOptions options;
   options.sources["lidar"].class_by_speed = false;
   options.sources["stereo"].class_by_speed = false;
@@ -94,9 +94,9 @@ TEST(FusedTargetsTest, WhatTheCameraTookItForCountsOnWhenTheScannerAloneHasIt) {
   }
 }
 
-TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
-  // What sensors take for the body's center is in the covariance of both already: where it would
-  // make them one if it counted twice, they are two.
+TEST(FusedTargetsTest, ReacquiredObjectsAreMatchedByTheirUnmodifiedCovariance) {
+  // The uncertainty of the body's center between sensors is in the covariance of both already:
+  // counted twice, it would merge the two, which must stay two.
   const TrackFuserOptions options;
   const TrackComparisonOptions& comparison = options.association.comparison;
   const auto ofTwo = [&](double y, std::uint32_t id) {
@@ -126,8 +126,8 @@ TEST(FusedTargetsTest, WhatIsFoundAgainIsKnownByItsCovarianceAsItIs) {
   EXPECT_GT(borderline, 0) << "or this shows nothing";
 }
 
-TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
-  // Of the camera alone, and so not of the thesis's list, however sure.
+TEST(FusedTargetsTest, UnpublishedTracksHideNothing) {
+  // Of the camera alone, and therefore not in the thesis's list, however certain it is.
   TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));
   const auto result = fuser.fuse(
       at(0.0), {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", -9.0, 0.99)})});
@@ -135,7 +135,7 @@ TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
   EXPECT_EQ(result.list.tracks[0].sources[0].source, "lidar");
 }
 
-TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
+TEST(FusedTargetsTest, AConfirmedOneOfLowExistenceHidesNothing) {
   TrackFuser fuser(withScheme(TrackScheme::kUnion));
   EXPECT_EQ(idsOf(fuser.fuse(at(0.0),
                              {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", 9.0)})})),
@@ -167,8 +167,8 @@ TEST(FusedTargetsTest, ASourceWithoutBeamsIsNotMissed) {
   EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
 }
 
-/// How long a car that comes toward the vehicle has not been published since it was first, when
-/// the camera has a track of it `needed` s after it came into its view.
+/// Returns how long an approaching car is not published after it first was, if the camera has a
+/// track of it `needed` s after it came into its view.
 double secondsHidden(double needed, TrackScheme scheme) {
   TrackFuser fuser(withScheme(scheme));
   int hidden = 0;
@@ -185,7 +185,7 @@ double secondsHidden(double needed, TrackScheme scheme) {
   return 0.1 * hidden;
 }
 
-TEST(FusedTargetsTest, WhatComesIntoAnothersViewIsNotHiddenUntilThatConfirmsIt) {
+TEST(FusedTargetsTest, ATrackEnteringAnothersViewStaysPublishedUntilConfirmed) {
   for (const TrackScheme scheme : {TrackScheme::kByExistence, TrackScheme::kFusedPlusFallback}) {
     EXPECT_EQ(secondsHidden(0.2, scheme), 0.0);
     EXPECT_EQ(secondsHidden(1.0, scheme), 0.0);
@@ -203,7 +203,7 @@ TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
   EXPECT_NEAR(result.list.tracks[0].age, 30.0, 1e-6);
 }
 
-TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
+TEST(FusedTargetsTest, TheMostCertainSourceIsCountedOnce) {
   TrackFuserOptions options;
   for (auto& [name, source] : options.sources) {
     constexpr double kFar = 300.0;  // m
@@ -218,7 +218,7 @@ TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
                                              stereo(0.0, {far("stereo", 9.0, by_stereo)})});
     return result.list.tracks.at(0).existence_probability;
   };
-  // Odds of 4; of detection / false_agreement_probability the other one's counts: 8, and 1.
+  // Odds of 4; the other one's evidence is detection / false_agreement_probability: 8, and 1.
   EXPECT_NEAR(existence(0.6, 0.8), 32.0 / 33.0, 1e-9);
   EXPECT_NEAR(existence(0.8, 0.6), 0.8, 1e-9);
 }

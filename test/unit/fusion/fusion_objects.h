@@ -15,8 +15,7 @@ namespace datmo {
 
 constexpr std::size_t sideIndex(BoxSide side) { return static_cast<std::size_t>(side); }
 
-/// A valid object without size, of which nothing but its position is known; `sigma` in m, along
-/// each axis.
+/// A valid object without size, of which only the position is known; `sigma` in m, along each axis.
 inline Object pointObject(double x, double y, double sigma, const std::string& sensor = "lidar") {
   Object object;
   object.box.center = Pose2(x, y, 0.0);
@@ -25,7 +24,7 @@ inline Object pointObject(double x, double y, double sigma, const std::string& s
   return object;
 }
 
-/// A box along x of which all sides are seen with this variance (m^2).
+/// A box along x of which all sides are measured with this variance (m^2).
 inline Object boxObject(double x, double y, double length, double width, double side_variance,
                         const std::string& sensor = "lidar") {
   Object object = pointObject(x, y, 0.1, sensor);
@@ -42,13 +41,13 @@ inline void hide(Object& object, BoxSide side) {
 
 inline const Stamp kReference = Stamp::fromSeconds(5.0);
 
-/// A source's list of this time, and where the vehicle was then.
+/// A source's list at this time, and the vehicle's pose at that time.
 inline SourceObjects received(const std::string& source, std::vector<Object> objects,
                               double seconds = 5.0, const Pose2& base_in_reference = Pose2()) {
   return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
 }
 
-/// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
+/// 81 beams, one degree apart, facing ahead; those within 5 degrees end at this range.
 inline LabeledScan scanAhead(double range, PointState state) {
   LabeledScan scan;
   scan.stamp = kReference;

@@ -14,7 +14,7 @@
 
 namespace datmo {
 
-/// A valid track of a car that is where its state is and heads for where it moves.
+/// A valid track of a car whose box is at its state's position and along its velocity.
 inline Track carTrack(double x, double y, double vx, double vy, const std::string& source = "lidar",
                       std::uint32_t id = 1) {
   constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
@@ -37,7 +37,7 @@ inline Track carTrack(double x, double y, double vx, double vy, const std::strin
   return track;
 }
 
-/// Rotation of a state: of its three vectors.
+/// Rotation matrix of a state: of its three vectors.
 inline TrackCovariance stateRotation(double angle) {
   const Eigen::Matrix2d rotation = Pose2(0.0, 0.0, angle).rotation();
   TrackCovariance matrix = TrackCovariance::Zero();
@@ -47,7 +47,7 @@ inline TrackCovariance stateRotation(double angle) {
   return matrix;
 }
 
-/// Correlated at random, with standard deviations over two orders of magnitude.
+/// Randomly correlated, with standard deviations over two orders of magnitude.
 inline TrackCovariance randomCovariance(Random& random) {
   constexpr double kByItself = 0.1;  // share of each variance
   TrackCovariance root;

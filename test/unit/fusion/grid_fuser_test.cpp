@@ -39,7 +39,7 @@ GridFuserOptions standingWorld(FusionRule rule) {
   return options;
 }
 
-TEST(GridFuserTest, GridsAreBroughtToTheStampOfTheReference) {
+TEST(GridFuserTest, GridsAreMovedToTheStampOfTheReference) {
   const GridFuser fuser(standingWorld(FusionRule::kWeightedSum));
   // The same obstacle, 3.5 m ahead at 5.0 s.
   for (const auto& [seconds, column] : {std::pair(4.9, 4), std::pair(5.0, 3), std::pair(5.1, 2)}) {
@@ -53,11 +53,11 @@ TEST(GridFuserTest, GridsAreBroughtToTheStampOfTheReference) {
   }
 }
 
-TEST(GridFuserTest, WhereAMoverMayHaveComeTheOtherSourceIsNotCalledFree) {
+TEST(GridFuserTest, CellsThatAMoverMayHaveReachedAreNotFree) {
   GridFuserOptions options = standingWorld(FusionRule::kPriority);
   options.mover_speed = 15.0;
   const GridFuser fuser(options);
-  // In 0.1 s it comes 1.5 m: from stereo's column 6 to the lidar's column 7.
+  // In 0.1 s it comes 1.5 m closer: from stereo's column 6 to the lidar's column 7.
   const FusionResult result =
       fuser.fuse({{matched("lidar", 5.0, {7, 0}), matched("stereo", 4.9, {7, 0})}, {}}, ahead);
   EXPECT_EQ(result.grids.fused.at({6, 0}), kOccupied);
@@ -74,7 +74,7 @@ TEST(GridFuserTest, AtTheSameStampNoMotionNeedsToBeKnown) {
   EXPECT_TRUE(result.missing.empty());
 }
 
-TEST(GridFuserTest, ASourceWhoseMotionIsNotKnownIsLeftOutAndNamed) {
+TEST(GridFuserTest, ASourceOfUnknownMotionIsLeftOutAndNamed) {
   const GridFuser fuser(standingWorld(FusionRule::kMaximum));
   const FusionResult result =
       fuser.fuse({{matched("lidar", 5.0, {3, 0}), matched("stereo", 4.95, {4, 0})},
@@ -97,7 +97,7 @@ TEST(GridFuserTest, OptionsAreReadUnderTheNameOfEachSource) {
   EXPECT_DOUBLE_EQ(options.sources.at("radar").weight, 0.2);
 }
 
-TEST(GridFuserTest, RefusesARuleThatThereIsNot) {
+TEST(GridFuserTest, RefusesAnUnknownRule) {
   EXPECT_THROW(readOptions<GridFuserOptions>({{"rule", std::string("majority")}}), OptionError);
 }
 

@@ -26,7 +26,7 @@ GridSourceOptions source(int priority = 0, double weight = 0.5, double reliabili
   return options;
 }
 
-/// What one source says of the one cell there is.
+/// One source's value of the only cell.
 struct Said {
   Percent percent;
   GridSourceOptions source = {};
@@ -57,7 +57,7 @@ int conflict(const std::vector<Said>& all) {
   return fuse(FusionRule::kMaximum, all).conflict.at({0, 0});
 }
 
-TEST(GridFusionTest, ACellThatOneSourceAloneKnowsIsAsThatOneSays) {
+TEST(GridFusionTest, ACellKnownToOneSourceHasItsValue) {
   for (const FusionRule rule : kAllRules) {
     for (const Percent percent : std::vector<Percent>{0, 20, 50, 80, 100}) {
       EXPECT_EQ(fused(rule, {{percent, source(0, 0.2, 0.5)}, {kUnknownPercent, source(9)}}),
@@ -75,7 +75,7 @@ TEST(GridFusionTest, ConflictIsUnknownWhereNoTwoKnow) {
   EXPECT_EQ(conflict({{kUnknownPercent}, {kUnknownPercent}}), kUnknownPercent);
 }
 
-TEST(GridFusionTest, AThirdSourceThatKnowsNothingChangesNothing) {
+TEST(GridFusionTest, AThirdSourceWithoutInformationChangesNothing) {
   for (const FusionRule rule : kAllRules) {
     const FusedGrids two = fuse(rule, {{80}, {30, source(1, 0.3, 0.7)}});
     const FusedGrids three = fuse(rule, {{80}, {kUnknownPercent}, {30, source(1, 0.3, 0.7)}});
@@ -92,10 +92,10 @@ TEST(GridFusionTest, WeightedSumIsTheMeanOfThoseThatKnow) {
   EXPECT_EQ(fused(FusionRule::kWeightedSum, {{90}, {20}, {10}}), 40);
 }
 
-TEST(GridFusionTest, TheHighestPriorityThatKnowsTheCellHasTheWord) {
+TEST(GridFusionTest, TheHighestPriorityThatKnowsTheCellDecides) {
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(0)}, {20, source(1)}}), 20);
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(1)}, {20, source(0)}}), 80);
-  // Vision looked there and could not tell: it still decides (eq. 3.2.6).
+  // Vision covered it but could not decide: it still decides (eq. 3.2.6).
   EXPECT_EQ(fused(FusionRule::kPriority, {{80, source(0)}, {50, source(1)}}), 50);
   EXPECT_EQ(fused(FusionRule::kPriority,
                   {{10, source(0)}, {kUnknownPercent, source(2)}, {90, source(1)}}),
@@ -129,9 +129,9 @@ TEST(GridFusionTest, DempsterShaferAsComputedByHand) {
       fused(FusionRule::kDempsterShafer, {{80, source(0, 0.5, 0.8)}, {20, source(0, 0.5, 0.9)}}),
       46);
   EXPECT_EQ(conflict({{80, source(0, 0.5, 0.8)}, {20, source(0, 0.5, 0.9)}}), 26);
-  // Who says 50 brings no evidence.
+  // A source that reports 50 brings no evidence.
   EXPECT_EQ(fused(FusionRule::kDempsterShafer, {{73}, {50}}), 73);
-  // Three: open 0.4^3, never against, so 1 - 0.032.
+  // Three: open 0.4^3, never in conflict, so 1 - 0.032.
   EXPECT_EQ(fused(FusionRule::kDempsterShafer, {{80}, {80}, {80}}), 97);
 }
 
@@ -148,7 +148,7 @@ TEST(GridFusionTest, CertainSourcesThatAgreeStayCertain) {
   EXPECT_EQ(fused(FusionRule::kLogOdds, {{0}, {0}}), 0);
 }
 
-TEST(GridFusionTest, ConflictIsWhatContradicts) {
+TEST(GridFusionTest, ConflictIsTheContradictoryEvidence) {
   EXPECT_EQ(conflict({{80}, {20}}), 36);
   EXPECT_EQ(conflict({{80}, {80}}), 0);
   EXPECT_EQ(conflict({{20}, {0}}), 0);
@@ -164,7 +164,7 @@ TEST(GridFusionTest, ConflictIsTheSameForEachRule) {
   }
 }
 
-TEST(GridFusionTest, WhoIsNotReliableAtAllBringsNoEvidence) {
+TEST(GridFusionTest, AnUnreliableSourceBringsNoEvidence) {
   for (const FusionRule rule : {FusionRule::kLogOdds, FusionRule::kDempsterShafer}) {
     EXPECT_EQ(fused(rule, {{90}, {0, source(0, 0.5, 0.0)}}), 90);
   }
@@ -186,7 +186,7 @@ TEST(GridFusionTest, OrderMattersToNoRule) {
   }
 }
 
-TEST(GridFusionTest, EveryPairOfWordsGivesAPercentAndEvidenceRulesPreferTheSameSide) {
+TEST(GridFusionTest, EveryPairGivesAPercentAndEvidenceRulesAgreeOnTheSide) {
   for (int a = 0; a <= 100; ++a) {
     for (int b = 0; b <= 100; ++b) {
       const std::vector<Said> words = {{static_cast<Percent>(a)}, {static_cast<Percent>(b)}};
@@ -205,7 +205,7 @@ TEST(GridFusionTest, EveryPairOfWordsGivesAPercentAndEvidenceRulesPreferTheSameS
   }
 }
 
-TEST(GridFusionTest, WordsThatAreNoPercentDoNoHarm) {
+TEST(GridFusionTest, InvalidPercentsDoNoHarm) {
   for (const FusionRule rule : kAllRules) {
     const int percent = fused(rule, {{std::numeric_limits<Percent>::max()}, {80}});
     EXPECT_GT(percent, 50);
@@ -244,7 +244,7 @@ TEST(GridFusionTest, CellsDoNotMix) {
   }
 }
 
-TEST(GridFusionTest, RefusesNothingAndGridsOfSeveralWindows) {
+TEST(GridFusionTest, RefusesNoGridsAndGridsOfSeveralWindows) {
   EXPECT_THROW(fuseGrids(FusionRule::kMaximum, {}), std::invalid_argument);
   const SensorGrid first(Stamp{}, {1.0, 2, 2, {0, 0}});
   const SensorGrid second(Stamp{}, {1.0, 2, 2, {0, 1}});

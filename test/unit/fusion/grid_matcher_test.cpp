@@ -16,8 +16,8 @@ Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
 
 SensorGrid gridAt(double seconds) { return {at(seconds), kWindow}; }
 
-/// A lidar and a stereo camera; waits 0.1 s, takes grids within 0.06 s, gives up on a source after
-/// 0.5 s.
+/// A lidar and a stereo camera; waits 0.1 s, accepts grids within 0.06 s, gives up on a source
+/// after 0.5 s.
 class GridMatcherTest : public testing::Test {
  protected:
   static SourceMatcherOptions options() {
@@ -49,9 +49,9 @@ class GridMatcherTest : public testing::Test {
   GridMatcher matcher_{options(), {"stereo", "lidar"}};
 };
 
-TEST_F(GridMatcherTest, NothingComesOfNothing) { EXPECT_EQ(next(0.0), ""); }
+TEST_F(GridMatcherTest, NoInputGivesNoOutput) { EXPECT_EQ(next(0.0), ""); }
 
-TEST_F(GridMatcherTest, AGridOfTheReferenceIsReadyWhenTheOthersHaveSpokenOfItsTime) {
+TEST_F(GridMatcherTest, AReferenceGridIsReadyWhenTheOthersHaveReachedItsTime) {
   lidar(0.0);
   EXPECT_EQ(next(0.0), "");
   stereo(0.02);
@@ -65,7 +65,7 @@ TEST_F(GridMatcherTest, TheSameStampIsEnough) {
   EXPECT_EQ(next(0.0), "lidar 0, stereo 0");
 }
 
-TEST_F(GridMatcherTest, TheNearestInTimeIsTakenOfEquallyNearOnesTheEarlier) {
+TEST_F(GridMatcherTest, TheNearestInTimeIsUsedAndOfTiesTheEarlier) {
   stereo(0.0);
   stereo(0.08);
   lidar(0.05);
@@ -75,7 +75,7 @@ TEST_F(GridMatcherTest, TheNearestInTimeIsTakenOfEquallyNearOnesTheEarlier) {
   EXPECT_EQ(next(0.16), "lidar 0.12, stereo 0.08");
 }
 
-TEST_F(GridMatcherTest, OneGridMayServeTwice) {
+TEST_F(GridMatcherTest, OneGridMayBeUsedTwice) {
   stereo(0.04);
   lidar(0.0);
   EXPECT_EQ(next(0.04), "lidar 0, stereo 0.04");
@@ -84,13 +84,13 @@ TEST_F(GridMatcherTest, OneGridMayServeTwice) {
   EXPECT_EQ(next(0.2), "lidar 0.08, stereo 0.04");
 }
 
-TEST_F(GridMatcherTest, NobodyIsWaitedForLongerThanTheLongestWait) {
+TEST_F(GridMatcherTest, TheWaitIsBounded) {
   lidar(0.0);
   EXPECT_EQ(next(0.099), "");
   EXPECT_EQ(next(0.1), "lidar 0, stereo none near");
 }
 
-TEST_F(GridMatcherTest, WhatIsFartherThanTheToleranceIsNotTaken) {
+TEST_F(GridMatcherTest, GridsBeyondTheToleranceAreNotUsed) {
   stereo(0.0);
   lidar(0.061);
   EXPECT_EQ(next(0.161), "lidar 0.061, stereo none near");
@@ -105,12 +105,12 @@ TEST_F(GridMatcherTest, ASilentSourceIsNotWaitedFor) {
   EXPECT_EQ(next(0.6), "lidar 0.6, stereo silent");
   stereo(0.65);
   lidar(0.7);
-  EXPECT_EQ(next(0.7), "");  // it speaks again
+  EXPECT_EQ(next(0.7), "");  // it publishes again
   stereo(0.73);
   EXPECT_EQ(next(0.73), "lidar 0.7, stereo 0.73");
 }
 
-TEST_F(GridMatcherTest, ASourceThatNeverSpokeCountsAsSilentOnlyAfterAWhile) {
+TEST_F(GridMatcherTest, ASourceWithoutGridsCountsAsSilentOnlyAfterAWhile) {
   lidar(0.0);
   EXPECT_EQ(next(0.0), "");
   EXPECT_EQ(next(0.1), "lidar 0, stereo none near");
@@ -118,7 +118,7 @@ TEST_F(GridMatcherTest, ASourceThatNeverSpokeCountsAsSilentOnlyAfterAWhile) {
   EXPECT_EQ(next(0.5), "lidar 0.5, stereo silent");
 }
 
-TEST_F(GridMatcherTest, ASilentReferenceIsReplacedUntilItSpeaksAgain) {
+TEST_F(GridMatcherTest, ASilentReferenceIsReplacedUntilItReturns) {
   lidar(0.0);
   stereo(0.01);
   EXPECT_EQ(next(0.01), "lidar 0, stereo 0.01");
@@ -127,7 +127,7 @@ TEST_F(GridMatcherTest, ASilentReferenceIsReplacedUntilItSpeaksAgain) {
   stereo(0.49);
   EXPECT_EQ(next(0.49), "");
   stereo(0.5);
-  // What it said before, it said in time; the lidar's last grid is near the first of them.
+  // Its earlier grids arrived in time; the lidar's last grid is near the first of them.
   EXPECT_EQ(next(0.5), "stereo 0.01, lidar 0");
   EXPECT_EQ(next(0.5), "stereo 0.3, lidar silent");
   EXPECT_EQ(next(0.5), "stereo 0.49, lidar silent");
@@ -140,7 +140,7 @@ TEST_F(GridMatcherTest, ASilentReferenceIsReplacedUntilItSpeaksAgain) {
   EXPECT_EQ(next(0.58), "lidar 0.56, stereo 0.58");
 }
 
-TEST_F(GridMatcherTest, AReferenceThatNeverSpeaksIsReplaced) {
+TEST_F(GridMatcherTest, AReferenceWithoutGridsIsReplaced) {
   stereo(0.0);
   stereo(0.4);
   EXPECT_EQ(next(0.4), "");
@@ -148,7 +148,7 @@ TEST_F(GridMatcherTest, AReferenceThatNeverSpeaksIsReplaced) {
   EXPECT_EQ(next(0.5), "stereo 0, lidar silent");
 }
 
-TEST_F(GridMatcherTest, StampsOfSetsRise) {
+TEST_F(GridMatcherTest, StampsOfSetsIncrease) {
   std::optional<Stamp> last;
   for (int i = 0; i < 300; ++i) {
     const double now = 0.02 * i;
@@ -168,7 +168,7 @@ TEST_F(GridMatcherTest, StampsOfSetsRise) {
   EXPECT_LE(secondsBetween(*last, at(0.02 * 299)), 0.2);
 }
 
-TEST_F(GridMatcherTest, WhatIsNotNewerIsLeftOut) {
+TEST_F(GridMatcherTest, GridsThatAreNotNewerAreLeftOut) {
   lidar(0.1);
   SensorGrid repeated = gridAt(0.1);
   repeated.at({0, 0}) = 80;
@@ -182,7 +182,7 @@ TEST_F(GridMatcherTest, WhatIsNotNewerIsLeftOut) {
   EXPECT_EQ(next(0.3), "");
 }
 
-TEST_F(GridMatcherTest, AfterAResetTimeMayBeginAnew) {
+TEST_F(GridMatcherTest, AfterAResetTimeMayStartOver) {
   lidar(50.0);
   stereo(50.0);
   EXPECT_EQ(next(50.0), "lidar 50, stereo 50");
@@ -193,7 +193,7 @@ TEST_F(GridMatcherTest, AfterAResetTimeMayBeginAnew) {
   EXPECT_EQ(next(0.0), "lidar 0, stereo 0");
 }
 
-TEST_F(GridMatcherTest, AfterAResetAnotherWindowIsTaken) {
+TEST_F(GridMatcherTest, AfterAResetAnotherWindowIsAccepted) {
   lidar(50.0);
   matcher_.reset();
   matcher_.add("stereo", SensorGrid(at(0.0), {0.25, 7, 5, {-3, -2}}));
@@ -226,7 +226,7 @@ TEST_F(GridMatcherTest, RefusesAnotherWindowAndNamesBoth) {
   EXPECT_EQ(next(0.0), "lidar 0, stereo 0");
 }
 
-TEST_F(GridMatcherTest, TheReferenceHasTheWordOnTheWindow) {
+TEST_F(GridMatcherTest, TheReferenceDecidesTheWindow) {
   stereo(0.0);
   const GridWindow other{0.25, 7, 5, {-3, -2}};
   matcher_.add("lidar", SensorGrid(at(0.0), other));
@@ -271,7 +271,7 @@ TEST(GridMatcherThreeSourcesTest, OfSeveralTheNextByNameReplacesTheReference) {
   EXPECT_EQ(second->samples[2].source, "stereo");
 }
 
-TEST(GridMatcherOneSourceTest, OneSourceNeedsNobody) {
+TEST(GridMatcherOneSourceTest, OneSourceIsEnough) {
   GridMatcher matcher({}, {"lidar"});
   matcher.add("lidar", gridAt(0.0));
   const auto matched = matcher.next(at(0.0));

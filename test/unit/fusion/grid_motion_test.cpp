@@ -35,7 +35,7 @@ std::vector<CellIndex> occupiedCells(const SensorGrid& grid) {
   return cells;
 }
 
-/// Cells that touch no other one, well inside of the window.
+/// Cells that touch no other one, well inside the window.
 SensorGrid scattered(Random& random) {
   SensorGrid grid = allFree();
   for (int column = -11; column < 12; column += 4) {
@@ -59,13 +59,13 @@ TEST(GridMotionTest, NoMotionIsTheIdentity) {
   EXPECT_EQ(moved.stamp(), Stamp{2});
 }
 
-TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardIt) {
+TEST(GridMotionTest, StationaryCellsApproachWhenTheVehicleDrivesTowardThem) {
   SensorGrid grid = allFree();
   grid.at({10, 3}) = kOccupied;
   // 2 m ahead: the old frame is 2 m behind.
   const SensorGrid moved = movedGrid(grid, Stamp{2}, Pose2(-2.0, 0.0, 0.0), 0.0);
   ASSERT_EQ(occupiedCells(moved), std::vector<CellIndex>({{6, 3}}));
-  // Nobody had looked at what has come in ahead.
+  // What has come into the window ahead has not been observed.
   EXPECT_EQ(moved.at({15, 0}), kFree);
   EXPECT_EQ(moved.at({16, 0}), kUnknownPercent);
 }
@@ -91,7 +91,7 @@ TEST(GridMotionTest, NoOccupiedCellIsLostByRotation) {
   }
 }
 
-TEST(GridMotionTest, ThereAndBackOccupiedCellsStayWithinACell) {
+TEST(GridMotionTest, ForthAndBackOccupiedCellsStayWithinACell) {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
     const SensorGrid grid = scattered(random);
@@ -110,7 +110,7 @@ TEST(GridMotionTest, ThereAndBackOccupiedCellsStayWithinACell) {
   }
 }
 
-TEST(GridMotionTest, NothingFreeIsLeftWhereAMoverMayHaveCome) {
+TEST(GridMotionTest, CellsThatAMoverMayHaveReachedAreNotFree) {
   SensorGrid grid = allFree();
   grid.at({2, 3}) = kOccupied;
   grid.at({3, 3}) = 60;
@@ -136,7 +136,7 @@ TEST(GridMotionTest, AMarginLargerThanTheGridLeavesNothingFree) {
   }
 }
 
-TEST(GridMotionTest, AMotionOutOfTheWindowLeavesNothingKnown) {
+TEST(GridMotionTest, AMotionOutOfTheWindowLeavesAllUnknown) {
   for (const Pose2& motion : {Pose2(1e3, 0.0, 0.3), Pose2(0.0, -1e12, 0.0)}) {
     const SensorGrid moved = movedGrid(allFree(), Stamp{2}, motion, 0.0);
     for (const Percent percent : moved.cells()) {

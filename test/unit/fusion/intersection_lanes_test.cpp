@@ -32,7 +32,7 @@ TEST(ApproachLanes, NodesAreStepsFromTheReferencePoint) {
   EXPECT_NEAR((found.lanes[1].points[1] - Point2(25.0, 33.0)).norm(), 0.0, 1e-6);
 }
 
-TEST(ApproachLanes, APlaceOnTheEarthIsANodeToo) {
+TEST(ApproachLanes, APositionOnTheEarthIsANodeToo) {
   MapIntersection intersection = samples::mapem().intersections[0];
   intersection.lanes.resize(1);
   intersection.lanes[0].nodes = {{true, 57200000, 451900000}, {true, 57200000, 451910000}};
@@ -42,7 +42,7 @@ TEST(ApproachLanes, APlaceOnTheEarthIsANodeToo) {
   EXPECT_NEAR(found.lanes[0].points[1].y(), 111.13, 0.1);
 }
 
-TEST(ApproachLanes, LanesThatVehiclesDoNotComeOnAndThoseThatCannotBeUsedAreLeftOut) {
+TEST(ApproachLanes, NonVehicleAndUnusableLanesAreLeftOut) {
   MapIntersection intersection = samples::mapem().intersections[0];
   intersection.lanes[0].direction = MapLane::kEgress;
   intersection.lanes[1].computed->is_changed = true;
@@ -77,7 +77,7 @@ TEST(PositionOnLane, DistancesAreAlongTheLane) {
   position = positionOn(lane, {-3.0, 0.5});
   EXPECT_NEAR(position.distance, -3.0, 1e-9);
   EXPECT_NEAR(position.lateral, 0.5, 1e-9);
-  position = positionOn(lane, {10.0, 26.0});  // before it begins
+  position = positionOn(lane, {10.0, 26.0});  // before its start
   EXPECT_NEAR(position.distance, 36.0, 1e-9);
   EXPECT_NEAR(position.lateral, 0.0, 1e-9);
   EXPECT_NEAR(position.outside, 6.0, 1e-9);

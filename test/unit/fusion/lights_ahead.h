@@ -11,8 +11,8 @@ namespace datmo::samples {
 
 constexpr double kHourStart = 1704067200.0;  // s, a whole hour
 
-/// A lane of 200 m from the west, whose stop line is at the origin, with group 3; beside it to the
-/// left one with group 4.
+/// A lane of 200 m from the west, whose stop line is at the origin, with group 3; to the left of it
+/// one with group 4.
 class LightsAhead : public testing::Test {
  protected:
   LightsAhead() {

@@ -20,7 +20,7 @@ SensorGrid freeBut(CellIndex cell) {
   return grid;
 }
 
-TEST(MapChanges, WhatIsElsewhereIsNewThereAndVanishedHere) {
+TEST(MapChanges, AMovedObjectIsNewThereAndVanishedHere) {
   const auto changes = changesBetween(freeBut({0, 0}), freeBut({3, 0}), poseOf(Pose2(), 0.0), {});
   EXPECT_EQ(changes.appeared, 1);
   EXPECT_EQ(changes.vanished, 1);
@@ -46,7 +46,7 @@ TEST(MapChanges, AnUncertainPoseExplainsMore) {
   EXPECT_EQ(changed({3, 0}, poseOf(Pose2(-6.5, 0.5, 0.0), 0.0, 0.2)), 0) << "10 m away";
 }
 
-TEST(MapChanges, WhatOneMapDoesNotKnowHasNotChanged) {
+TEST(MapChanges, CellsUnknownToOneMapHaveNotChanged) {
   SensorGrid unknown(stampAt(0.0), kWindow);
   const SensorGrid known = freeBut({0, 0});
   for (const auto& [before, now] : {std::pair(unknown, known), std::pair(known, unknown)}) {

@@ -47,7 +47,7 @@ class MapFuserTest : public testing::Test {
   MapFuser fuser_{options_};
 };
 
-TEST_F(MapFuserTest, TwoThatAgreeAreSurerThanOne) {
+TEST_F(MapFuserTest, TwoThatAgreeAreMoreCertainThanOne) {
   take("lidar", kOccupied);
   EXPECT_EQ(fuser_.fuse(stampAt(0.0))->fused.at(kCell), kOccupied);
   take("stereo", kOccupied);
@@ -68,7 +68,7 @@ TEST_F(MapFuserTest, TwoThatContradictAreAConflict) {
   EXPECT_EQ(maps->cells_in_conflict, 1);
 }
 
-TEST_F(MapFuserTest, OneThatHasAgedSaysLess) {
+TEST_F(MapFuserTest, AnAgedOneIsLessInformative) {
   take("lidar", kOccupied, 0.0);
   take("stereo", kFree, kTimeConstant);
   const auto maps = fuser_.fuse(stampAt(kTimeConstant));
@@ -78,7 +78,7 @@ TEST_F(MapFuserTest, OneThatHasAgedSaysLess) {
   EXPECT_EQ(maps->cells_in_conflict, 0);
 }
 
-TEST_F(MapFuserTest, ReliabilityBoundsWhatASourceSaysHoweverOftenItLooks) {
+TEST_F(MapFuserTest, ReliabilityBoundsTheEvidenceOfRepeatedObservations) {
   options_.sources["lidar"].reliability = 0.5;
   fuser_ = MapFuser(options_);
   for (int i = 0; i < 20; ++i) {
@@ -98,7 +98,7 @@ TEST_F(MapFuserTest, WithoutReliabilityItIsNoSource) {
   EXPECT_FALSE(fuser_.fuse(stampAt(0.0))) << "no map yet";
 }
 
-TEST_F(MapFuserTest, WhatMovesIsNotInTheMaps) {
+TEST_F(MapFuserTest, MovingObjectsAreNotInTheMaps) {
   const Point2 mover = kWindow.centerOf(kCell) + Point2(0.6, 0.0);
   fuser_.take("lidar", gridWith(kCell, kOccupied, 0.0), Pose2(), {mover});
   EXPECT_EQ(fuser_.fuse(stampAt(0.0))->fused.at(kCell), kUnknownPercent);
@@ -118,7 +118,7 @@ TEST_F(MapFuserTest, TheMapsMoveWithTheVehicle) {
   EXPECT_EQ(fuser_.fuse(stampAt(0.2))->fused.at(kCell), 94);
 }
 
-TEST_F(MapFuserTest, AfterAGapTheMapsBeginAnew) {
+TEST_F(MapFuserTest, AfterAGapTheMapsStartOver) {
   take("lidar", kOccupied);
   fuser_.moveTo(poseOf(Pose2(), 0.4));
   EXPECT_EQ(fuser_.mapsBegun(), 0);
@@ -130,13 +130,13 @@ TEST_F(MapFuserTest, AfterAGapTheMapsBeginAnew) {
   EXPECT_EQ(fuser_.mapsBegun(), 2) << "found again: elsewhere";
 }
 
-TEST_F(MapFuserTest, WhatGridSlamTakesForAGapIsOneHere) {
+TEST_F(MapFuserTest, GapsAreThoseOfGridSlam) {
   take("lidar", kOccupied);
   fuser_.moveTo(poseOf(Pose2(), 0.504));
   EXPECT_EQ(fuser_.mapsBegun(), 1) << "0.25 m^2 more than 0.05 m squared";
 }
 
-TEST_F(MapFuserTest, AfterAGapThatIsNeverResolvedTheMapsGoOn) {
+TEST_F(MapFuserTest, AfterAnUnresolvedGapTheMapsContinue) {
   const auto uncertainSince = [](double x) {
     PoseWithCovariance pose = poseOf(Pose2(x, 0.0, 0.0));
     pose.covariance += carried(poseOf(Pose2(), 1.0, 0.5).covariance, pose.pose.position());
@@ -149,7 +149,7 @@ TEST_F(MapFuserTest, AfterAGapThatIsNeverResolvedTheMapsGoOn) {
   EXPECT_EQ(fuser_.mapsBegun(), 0) << "the heading of the map is uncertain, not the position in it";
 }
 
-TEST_F(MapFuserTest, APoseThatJumpsBeginsTheMapsAnew) {
+TEST_F(MapFuserTest, APoseJumpStartsTheMapsOver) {
   take("lidar", kOccupied);
   const Pose2 motion(1.0, 0.0, 0.0);
   fuser_.moveTo(poseOf(Pose2(2.5, 0.0, 0.0)), motion);

@@ -16,7 +16,7 @@ inline constexpr double kTimeConstant = 60.0;  // s
 inline const GridWindow kWindow{1.0, 20, 10, {-10, -5}};
 inline const CellIndex kCell{3, 1};
 
-/// A look at a free cell says as much as one at an occupied cell.
+/// An observation of a free cell is as informative as one of an occupied cell.
 inline AgingMapOptions evenLooks() {
   AgingMapOptions options;
   options.free_probability = 0.2;

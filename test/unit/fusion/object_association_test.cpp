@@ -47,7 +47,7 @@ TEST(ObjectAssociationTest, BeyondTheGateThereIsNoPair) {
 }
 
 TEST(ObjectAssociationTest, SidesAreComparedThatBothSaw) {
-  // The scanner sees the rear of a truck, and a meter of its side; the other sensor all of it.
+  // The scanner sees the rear of a truck, and a meter of its side; the other sensor sees all of it.
   Object part = boxObject(10.5, 0.0, 1.0, 2.0, 0.001);
   hide(part, BoxSide::kFront);
   Object whole = boxObject(14.0, 0.0, 8.0, 2.0, 0.001, "stereo");
@@ -56,7 +56,7 @@ TEST(ObjectAssociationTest, SidesAreComparedThatBothSaw) {
   EXPECT_FALSE(pairing(part, whole, exact()).possible);
 }
 
-TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
+TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsUnknown) {
   ObjectAssociationOptions options = exact();
   options.unknown_size_std = 1.0;
   // One end of a bus each, 3 m apart.
@@ -65,7 +65,7 @@ TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
   Object right = boxObject(10.0, -2.0, 0.0, 2.0, 0.0, "stereo");
   hide(right, BoxSide::kLeft);
   EXPECT_NEAR(pairing(left, right, options).squared_distance, 9.0 / 1.02, 1e-3);
-  // Where they overlap they agree.
+  // They agree in the overlap.
   right.box.center = Pose2(10.0, 2.0, 0.0);
   EXPECT_NEAR(pairing(left, right, options).squared_distance, 0.0, 1e-9);
 }
@@ -78,7 +78,7 @@ TEST(ObjectAssociationTest, AGapBetweenSidesThatWereSeenIsNoUnknownSize) {
   hide(car, BoxSide::kRight);
   EXPECT_FALSE(pairing(echo, car, ObjectAssociationOptions()).possible);
   EXPECT_FALSE(pairing(car, echo, ObjectAssociationOptions()).possible);
-  // Either may fill the gap where it is not seen to end.
+  // Either may fill the gap, as its end there is not visible.
   hide(car, BoxSide::kLeft);
   car.box.center = Pose2(10.2, -1.0, 0.0);
   EXPECT_TRUE(pairing(echo, car, ObjectAssociationOptions()).possible);
@@ -95,7 +95,7 @@ TEST(ObjectAssociationTest, PairingIsSymmetric) {
   EXPECT_NEAR(pairing(a, b, options).score, pairing(b, a, options).score, 1e-9);
 }
 
-TEST(ObjectAssociationTest, WhatMovesMayBeElsewhereAtAnotherTime) {
+TEST(ObjectAssociationTest, MovingObjectsMayBeElsewhereAtAnotherTime) {
   const Object a = pointObject(10.0, 0.0, 0.05);
   Object b = pointObject(11.0, 0.0, 0.05, "stereo");
   EXPECT_FALSE(pairing(a, b, exact()).possible);
@@ -117,8 +117,8 @@ TEST(ObjectAssociationTest, DifferentClassesAreDifferentObjects) {
 }
 
 TEST(ObjectAssociationTest, TheAssignmentIsBestOverAllWhereTheNearestNeighborFails) {
-  // Three in a row, 1 m apart; the other sensor sees all of them 0.6 m farther to the left, and so
-  // each but the last one nearer to the next.
+  // Three in a row, 1 m apart; the other sensor sees all of them 0.6 m farther to the left, so that
+  // each one except the last is nearer to the next.
   std::vector<Object> known;
   std::vector<Object> added;
   for (int i = 0; i < 3; ++i) {
@@ -155,7 +155,7 @@ TEST(ObjectAssociationTest, TheNearestNeighborIsThatOfTheThesis) {
 }
 
 TEST(ObjectAssociationTest, TheNearestNeighborComparesFrontSides) {
-  // The scanner sees the rear only; of the other sensor's car the rear is as near.
+  // The scanner sees only the rear; the other sensor's car has its rear equally near.
   const std::vector<Object> known = {pointObject(10.0, 0.0, 0.1)};
   const std::vector<Object> added = {boxObject(12.5, 0.0, 5.0, 2.0, 0.01, "stereo")};
   EXPECT_EQ(associate(known, added, Point2::Zero(), nearest())[0], 0);

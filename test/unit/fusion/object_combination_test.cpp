@@ -49,7 +49,7 @@ TEST(ObjectCombinationTest, RangeOfTheOneAndBearingOfTheOtherMeet) {
   EXPECT_LT(fused.position_covariance(1, 1), 0.01);
 }
 
-TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
+TEST(ObjectCombinationTest, ASideSeenByOneIsAsThatOneSawIt) {
   // The rear and the left of a car of 4 m x 2 m at 10 m; the other sees rear, left and right.
   Object lidar = boxObject(10.5, 0.5, 1.0, 1.0, 0.0004);
   hide(lidar, BoxSide::kFront);
@@ -64,7 +64,8 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   EXPECT_NEAR(box.center.y() - 0.5 * box.width, -1.0, 0.01);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRight)]));
-  // The right side is known by the other one's size, tied by the left side to the surer position.
+  // The right side is known from the other one's size, tied by the left side to the more certain
+  // position.
   const double right =
       fused.side_variance[sideIndex(BoxSide::kRight)] + fused.position_covariance(1, 1);
   const double left =
@@ -72,11 +73,11 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   EXPECT_LT(left, 0.0104);
   EXPECT_GT(right, left);
   EXPECT_LT(right, 0.05);
-  // No nearer than either surely says: 2 m, less the 0.1 m by which that one is less sure.
+  // No nearer than either certainly reports: 2 m, less the 0.1 m by which that one is less certain.
   EXPECT_NEAR(box.length, 1.9, 1e-6);
 }
 
-TEST(ObjectCombinationTest, ASideThatNobodySawStaysHidden) {
+TEST(ObjectCombinationTest, AnUnseenSideStaysHidden) {
   Object lidar = pointObject(10.0, 0.0, 0.05);
   for (const BoxSide side : {BoxSide::kFront, BoxSide::kLeft, BoxSide::kRight}) {
     hide(lidar, side);
@@ -105,7 +106,7 @@ TEST(ObjectCombinationTest, BoxesThatAreAQuarterTurnApartAreOne) {
 }
 
 TEST(ObjectCombinationTest, TheLengthIsAlongTheAxisOnWhichBothAgree) {
-  // Seen from behind: wider than long, but both say where it heads for.
+  // Seen from behind: wider than long, but both report its direction of motion.
   const Object a = boxObject(10.0, 0.0, 1.0, 2.0, 0.01);
   const Object b = boxObject(10.0, 0.0, 1.2, 2.0, 0.01, "stereo");
   const Object fused = combined(a, b);
@@ -113,7 +114,7 @@ TEST(ObjectCombinationTest, TheLengthIsAlongTheAxisOnWhichBothAgree) {
   EXPECT_NEAR(fused.box.center.heading(), 0.0, 1e-6);
 }
 
-TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
+TEST(ObjectCombinationTest, HeadingsAreFusedByTheirInformation) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
   b.box.center = Pose2(10.0, 0.0, 0.2);
@@ -127,8 +128,8 @@ TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
 }
 
 TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeasuredBoxHolds) {
-  // The rear of a car, to the centimeter, but its heading may as well be another one; the other
-  // sensor has taken it for a corner.
+  // The rear of a car, accurate to the centimeter, but its heading is ambiguous; the other sensor
+  // has taken it for a corner.
   Object rear = boxObject(20.0, 0.0, 0.0, 1.8, 0.0025);
   rear.heading_variance = kUnknownHeadingVariance;
   Object corner = boxObject(20.5, 0.0, 1.3, 1.3, 0.01, "stereo");
@@ -138,15 +139,15 @@ TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeas
   EXPECT_NEAR(std::cos(fused.box.center.heading()), 1.0, 1e-6);
   EXPECT_EQ(fused.heading_variance, rear.heading_variance);
   EXPECT_NEAR(fused.box.center.x() - 0.5 * fused.box.length, 20.0, 0.05);
-  // A post has no heading that could be right.
+  // A post has no meaningful heading.
   Object post = rear;
   post.box.width = 0.1;
   EXPECT_NEAR(combined(post, corner).box.center.heading(), 0.7, 1e-6);
 }
 
 TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
-  // A short line of points across the line of sight, its ends seen, and not what is behind it; the
-  // other sensor sees the corner of a car.
+  // A short line of points across the line of sight with visible ends, and nothing visible behind
+  // it; the other sensor sees the corner of a car.
   Object line = boxObject(20.0, 0.0, 0.0, 0.6, 0.01);
   hide(line, BoxSide::kFront);
   Object car = boxObject(22.0, 0.0, 4.0, 1.8, 0.01, "stereo");
@@ -156,13 +157,13 @@ TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
   const Object fused = combined(line, car);
   ASSERT_NEAR(fused.box.center.heading(), 0.5, 1e-6);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
-  // The corner that reaches farthest to the right is that of the line's hidden side.
+  // The corner that extends farthest to the right belongs to the line's hidden side.
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kRight)], kHiddenSide);
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRear)]));
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kLeft)]));
 }
 
-TEST(ObjectCombinationTest, TheSurerOneDecidesTheDirection) {
+TEST(ObjectCombinationTest, TheMoreCertainOneDecidesTheDirection) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
   b.box.center = Pose2(10.0, 0.0, kPi);
@@ -240,7 +241,7 @@ TEST(ObjectCombinationTest, VelocitiesAreFusedByTheirInformation) {
   EXPECT_NEAR(fused.velocity->covariance(0, 0), 0.75, 1e-12);
 }
 
-TEST(ObjectCombinationTest, WhatTheRoadSaysCountsOnce) {
+TEST(ObjectCombinationTest, EvidenceOfTheRoadCountsOnce) {
   Object a = pointObject(10.0, 2.0, 0.1);
   Object b = pointObject(10.0, 2.0, 0.1, "stereo");
   a.motion_log_odds = -2.0;
@@ -285,7 +286,7 @@ TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
   EXPECT_EQ(combined(fused, a).sensors, fused.sensors);
 }
 
-TEST(ObjectCombinationTest, PointsAreThoseOfWhoeverKnowsThePositionBest) {
+TEST(ObjectCombinationTest, PointsAreThoseOfTheMostAccurateSource) {
   Object camera = pointObject(10.0, 0.0, 0.5, "stereo");
   Object scanner = pointObject(10.0, 0.0, 0.1, "lidar");
   camera.points = {{9.0, 0.1}, {11.0, 0.0}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the covariances of fused objects hold the errors.
+// How well the covariances of fused objects match the errors.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -40,7 +40,7 @@ Object measured(const Box2& truth, const Eigen::Matrix2d& covariance,
   return object;
 }
 
-/// Of the front left corner, whose two sides must be seen.
+/// The front left corner, whose two sides must be visible.
 double squaredError(const Object& fused, const Box2& truth) {
   const Eigen::Matrix2d to_box = fused.box.center.rotation().transpose();
   Eigen::Matrix2d covariance = to_box * fused.position_covariance * to_box.transpose();
@@ -50,15 +50,16 @@ double squaredError(const Object& fused, const Box2& truth) {
   return error.dot(covariance.inverse() * error);
 }
 
-/// What a pair of sensors sees of a car.
+/// A pair of sensors' measurements of a car.
 struct SidesCase {
   std::string name;
   std::array<double, kBoxSides> of_lidar;
   std::array<double, kBoxSides> of_stereo;
-  double min_mean;  ///< of the squared error: fewer sides in common are told too cautiously
+  double min_mean;  ///< of the squared error: covariances are conservative if fewer sides are in
+                    ///< common
 };
 
-TEST(ObjectConsistencyTest, CovariancesAreHonest) {
+TEST(ObjectConsistencyTest, CovariancesAreConsistent) {
   constexpr int kRuns = 5000;
   // Mean of 5000 values of chi-square with two degrees of freedom: 2 +- 3.3 * 2 / sqrt(5000).
   constexpr double kBound = 0.094;

@@ -50,8 +50,8 @@ TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
   }
 }
 
-TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {
-  // In 0.05 s the vehicle came 1 m ahead: of a pole the older list told 1 m more.
+TEST(ObjectFuserTest, ListsAreMovedToTheStampOfTheReference) {
+  // In 0.05 s the vehicle drove 1 m: the older list has a pole 1 m farther away.
   SourceObjects stereo =
       received("stereo", {pointObject(11.0, 0.0, 0.1, "stereo")}, 4.95, Pose2(-1.0, 0.0, 0.0));
   stereo.list.objects[0].delay = 0.01;
@@ -85,7 +85,7 @@ TEST(ObjectFuserTest, OrderOfTheObjectsDoesNotMatter) {
   }
 }
 
-TEST(ObjectFuserTest, AThirdSourceJoinsWhatTwoSee) {
+TEST(ObjectFuserTest, AThirdSourceJoinsAPair) {
   ObjectFuserOptions options;
   options.sources["radar"];
   const std::vector<SourceObjects> sources = {
@@ -112,7 +112,7 @@ TEST(ObjectFuserTest, SeenByTwoIsLikelierToBeAnObject) {
   EXPECT_NEAR(list.objects[0].log_odds, std::log(6.0), 1e-9);
 }
 
-TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
+TEST(ObjectFuserTest, MissedByAnotherInItsViewIsLessLikely) {
   ObjectFuserOptions options;
   options.sources["stereo"].detection_probability = 0.6;
   SourceObjects stereo = received("stereo", {boxObject(20.0, 0.0, 2.0, 2.0, 0.01, "stereo")});
@@ -134,7 +134,7 @@ TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
   EXPECT_NEAR(list.objects[2].log_odds, std::log(1.0 - 0.6 * hidden), 1e-9);
 }
 
-TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
+TEST(ObjectFuserTest, TheScanShowsWhatTheScannerDoesNotList) {
   const std::vector<SourceObjects> sources = {
       received("lidar", {}), received("stereo", {boxObject(20.0, 0.0, 1.0, 2.0, 0.01, "stereo")})};
   const LabeledScan on_static = scanAhead(19.5, PointState::kStatic);
@@ -151,8 +151,9 @@ TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
   EXPECT_EQ(hidden.log_odds, 0.0);
 }
 
-TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
-  // Of the beams on what stereo sees, 4 of 9 end on static points: too few to say that it stands.
+TEST(ObjectFuserTest, FewMovingPointsDoNotMakeAStaticObjectMove) {
+  // 4 of 9 of the beams on what stereo sees end on static points: too few to conclude that it is
+  // stationary.
   const SourceObjects stereo = received("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
   LabeledScan scan = scanAhead(19.5, PointState::kStatic);
   for (ScanPoint& point : scan.points) {
@@ -177,7 +178,7 @@ TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
   EXPECT_LT(little.objects[0].moving_fraction, 0.3);
 }
 
-TEST(ObjectFuserTest, PolesStandUnlessTheyWereSeenToMove) {
+TEST(ObjectFuserTest, PolesAreStaticUnlessSeenMoving) {
   Object walker = pointObject(10.0, -5.0, 0.1);
   walker.dynamic_state = DynamicState::kMoving;
   const auto list = fuse({received("lidar", {walker}),
@@ -194,7 +195,7 @@ TEST(ObjectFuserTest, ATableReplacesTheCovarianceOfTheObjects) {
   ObjectFuserOptions options;
   options.sources["stereo"].covariance.range_variance = {0.1, 0.2, 0.3};
   options.sources["stereo"].covariance.bearing_variance = {0.001, 0.002, 0.003};
-  // Seen from 1 m ahead of the vehicle's origin, which turned by a quarter since then.
+  // Seen from 1 m ahead of the vehicle's origin, which has turned by a quarter since then.
   SourceObjects stereo = received("stereo", {pointObject(4.5, 0.0, 7.0, "stereo")}, 5.0,
                                   Pose2(0.0, 0.0, kQuarterTurn));
   stereo.list.views = {ahead("stereo")};
@@ -211,7 +212,7 @@ TEST(ObjectFuserTest, TablesOfDifferentLengthsAreRefused) {
   EXPECT_THROW(ObjectFuser{options}, OptionError);
 }
 
-TEST(ObjectFuserTest, AScannerThatIsNoSourceIsRefused) {
+TEST(ObjectFuserTest, AScannerThatIsNotASourceIsRefused) {
   ObjectFuserOptions options;
   options.scanner = "laser";
   EXPECT_THROW(ObjectFuser{options}, OptionError);
@@ -232,7 +233,7 @@ TEST(ObjectFuserTest, InvalidObjectsAreCountedAndTheOthersKept) {
   EXPECT_EQ(list.objects.size(), 2U);
 }
 
-TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
+TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreUsed) {
   std::vector<Object> lidar;
   for (int i = 0; i < 1000; ++i) {
     lidar.push_back(pointObject(0.1 * (1000 - i), 1.0, 0.01));
@@ -249,7 +250,7 @@ TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
   }
 }
 
-TEST(ObjectFuserTest, SourcesThatNobodyKnowsAreRefused) {
+TEST(ObjectFuserTest, UnknownSourcesAreRefused) {
   EXPECT_THROW(fuse({received("sonar", {})}), std::out_of_range);
   EXPECT_THROW(fuse({}), std::out_of_range);
 }

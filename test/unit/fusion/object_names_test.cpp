@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes that an image gives to the scanner's objects, in the fusion of objects.
+// Fusion of the classes that an image gives to the scanner's objects.
 #include <utility>
 #include <vector>
 
@@ -11,7 +11,7 @@
 namespace datmo::object_names_test {
 namespace {
 
-/// What MonoClassifier makes of a scanner's object that the image shows to be a vehicle.
+/// Output of MonoClassifier for a scanner's object that the image shows to be a vehicle.
 Object nameOfVehicle(const Object& of) {
   Object name = of;
   name.position_covariance *= 100.0;
@@ -29,7 +29,7 @@ ObjectFusionResult fuseNames(std::vector<Object> seen, std::vector<Object> names
       {received("lidar", std::move(seen)), received("mono", std::move(names))}, scan);
 }
 
-TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
+TEST(ObjectNames, ANameAddsOnlyAClass) {
   Object seen = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
   hide(seen, BoxSide::kFront);
   seen.moving_fraction = 0.25;
@@ -48,7 +48,7 @@ TEST(ObjectNames, ANameAddsAClassAndNothingElse) {
   EXPECT_EQ(object.side_variance, expected.side_variance);
 }
 
-TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
+TEST(ObjectNames, AClassWithoutItsObjectIsNoObject) {
   const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
   const ObjectFusionResult left_out = fuseNames({}, {nameOfVehicle(gone)});
   EXPECT_TRUE(left_out.list.objects.empty());
@@ -58,7 +58,7 @@ TEST(ObjectNames, ANameOfWhatIsGoneIsNoObject) {
   EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
 }
 
-/// As RadarObjectDetector has it: no side, but a velocity, under a source's name of one's own.
+/// As output by RadarObjectDetector: no side, but a velocity, under a custom source name.
 Object radarObject(double x) {
   Object object = pointObject(x, 4.0, 0.3, "radar");
   object.side_variance.fill(kHiddenSide);
@@ -84,7 +84,7 @@ TEST(ObjectNames, ARadarUnderAnotherNameSeesObjects) {
   EXPECT_TRUE(both.list.objects[0].velocity);
 }
 
-TEST(ObjectNames, ASensorThatIsNoOthersSeesObjects) {
+TEST(ObjectNames, AnIndependentSensorSeesObjects) {
   Object object = pointObject(15.0, 4.0, 0.3, "far_camera");
   object.side_variance.fill(kHiddenSide);
   EXPECT_EQ(fuseFrontRadar({}, {object}).list.objects.size(), 1U);

@@ -27,7 +27,7 @@ TEST(PositionCovarianceTest, RangeIsAlongTheLineOfSightAndBearingAcrossIt) {
   const Eigen::Matrix2d left = rangeBearingCovariance({0.0, 10.0}, 0.25, 0.0004);
   EXPECT_NEAR(left(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(left(1, 1), 0.25, 1e-12);
-  // Half left: a quarter of the difference of both to either side of their mean.
+  // Half left: a quarter of the difference on either side of their mean.
   const Eigen::Matrix2d slant = rangeBearingCovariance({6.0, 8.0}, 0.25, 0.0004);
   EXPECT_NEAR(slant(0, 0), 0.36 * 0.25 + 0.64 * 0.04, 1e-12);
   EXPECT_NEAR(slant(0, 1), 0.48 * (0.25 - 0.04), 1e-12);
@@ -41,7 +41,7 @@ TEST(PositionCovarianceTest, TheBinIsThatOfTheRangeFromTheSensor) {
   EXPECT_NEAR(options.at({3.1, 0.0}, sensor)(1, 1), 0.002 * 2.1 * 2.1, 1e-12);
 }
 
-TEST(PositionCovarianceTest, BeyondTheLastBinItsVariancesHold) {
+TEST(PositionCovarianceTest, BeyondTheLastBinItsVariancesApply) {
   const Eigen::Matrix2d far = table().at({100.0, 0.0}, Point2::Zero());
   EXPECT_NEAR(far(0, 0), 0.09, 1e-12);
   EXPECT_NEAR(far(1, 1), 0.003 * 1e4, 1e-9);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the vehicle passes a light at its speed: cases by hand, and an approach whose truth is
-// known.
+// Whether the vehicle passes a light at its speed: cases by hand, and an approach with known truth.
 #include "datmo_fusion/fusion/earth/signal_advice.h"
 
 #include <cmath>
@@ -59,7 +58,7 @@ TEST_F(SignalAdviceTest, YellowPassesOnlyWhereItCannotStop) {
   EXPECT_EQ(verdict(), SignalVerdict::kMustBrake);
   host_.front.x() = -20.0;  // 2 s; it needs 10 m + 16.7 m to stop
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
-  for (const double distance : {26.3, 27.0}) {  // 0.4 m more or less decide
+  for (const double distance : {26.3, 27.0}) {  // 0.4 m more or less matter
     host_.front.x() = -distance;
     EXPECT_EQ(verdict(), SignalVerdict::kUnknown) << distance;
   }
@@ -69,17 +68,17 @@ TEST_F(SignalAdviceTest, YellowPassesOnlyWhereItCannotStop) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalAdviceTest, ASpeedThatIsNotKnownWellCountsAtTheArrival) {
+TEST_F(SignalAdviceTest, SpeedUncertaintyCountsForTheArrival) {
   show({event(SignalState::kProtected, 12.0, 20.0)});
   host_.speed_sigma = 0.5;  // 9 m/s to 11 m/s: up to 11.2 s and the margin
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
   host_.speed_sigma = 0.8;
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
-  host_.speed_sigma = 6.0;  // it may stand
+  host_.speed_sigma = 6.0;  // it may be stationary
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalAdviceTest, BothLanesCountWhereThePlaceIsNotKnownWellEnough) {
+TEST_F(SignalAdviceTest, BothLanesCountIfThePositionIsUncertain) {
   show({event(SignalState::kProtected, 30.0, 30.0)});
   show({event(SignalState::kStop, 30.0, 30.0)}, 4);
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
@@ -98,12 +97,12 @@ TEST_F(SignalAdviceTest, BothLanesCountWhereThePlaceIsNotKnownWellEnough) {
   EXPECT_EQ(advise()->reason, "position_uncertain");
 }
 
-TEST_F(SignalAdviceTest, GroupsOfOneLaneThatDifferAreNotKnown) {
+TEST_F(SignalAdviceTest, GroupsOfOneLaneThatDifferGiveNoVerdict) {
   lanes_[0].groups = {3, 4};
   show({event(SignalState::kProtected, 30.0, 30.0)});
   show({event(SignalState::kStop, 30.0, 30.0)}, 4);
   EXPECT_EQ(advise()->reason, "groups_differ");
-  lanes_[0].groups = {3, 9};  // of which nothing is given
+  lanes_[0].groups = {3, 9};  // for which nothing is given
   EXPECT_EQ(advise()->reason, "not_known_on_arrival");
   lanes_[0].groups.clear();
   EXPECT_EQ(advise()->reason, "no_signal_group");
@@ -116,7 +115,7 @@ TEST_F(SignalAdviceTest, OffTheLanesThereIsNoAdvice) {
   host_.heading = 0.0;
   host_.front = {-100.0, -10.0};
   EXPECT_FALSE(advise());
-  host_.front = {-201.0, 0.0};  // before what is known of it
+  host_.front = {-201.0, 0.0};  // before the known part of it
   EXPECT_FALSE(advise());
   host_.front = {5.0, 0.0};  // past the line
   EXPECT_FALSE(advise());
@@ -125,7 +124,7 @@ TEST_F(SignalAdviceTest, OffTheLanesThereIsNoAdvice) {
   EXPECT_FALSE(advise());
 }
 
-TEST_F(SignalAdviceTest, LightsThatAreOldOffOrNotThereSayNothing) {
+TEST_F(SignalAdviceTest, OldDisabledOrMissingLightsGiveNoAdvice) {
   show({event(SignalState::kProtected, 30.0, 30.0)});
   const IntersectionSignals good = *signals_;
   signals_->stamp = host_.stamp + -2.1;
@@ -182,9 +181,9 @@ struct Cycle {
   }
 };
 
-/// Approaches at constant speed with each offset of the cycle: what is said is what is then found,
-/// from the first time on at which something is said.
-TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthTheAdviceHolds) {
+/// Approaches at constant speed with each offset of the cycle: the advice is what is then observed,
+/// from the first time at which there is advice.
+TEST_F(SignalAdviceTest, OnSimulatedApproachesTheAdviceIsCorrect) {
   int said = 0;
   int passes = 0;
   int not_said = 0;
@@ -219,8 +218,8 @@ TEST_F(SignalAdviceTest, OnApproachesOfKnownTruthTheAdviceHolds) {
       advice.verdict == SignalVerdict::kUnknown ? ++not_said : ++said;
     }
   }
-  // Not said is what changes within 0.5 s of the arrival and 0.4 m of the position, before or
-  // after: about a second at two of the changes in a minute.
+  // There is no advice for changes within 0.5 s of the arrival and 0.4 m of the position, before or
+  // after: about a second at two of the changes per minute.
   EXPECT_GT(passes, 400);
   EXPECT_GT(said, 15 * not_said);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a group of lights shows on arrival, by its events: those that are given, and what lies
-// between and after them.
+// The state of a group of lights on arrival, by its events: the given ones, and those between and
+// after them.
 #include "lights_ahead.h"
 #include <gtest/gtest.h>
 
@@ -30,13 +30,13 @@ TEST_F(SignalEventsTest, AnEndFarAheadIsNotPast) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);  // ends in the wrong order
 }
 
-TEST_F(SignalEventsTest, WhatHasEndedAndIsSentAsOnIsNotKnown) {
+TEST_F(SignalEventsTest, AnEndedEventSentAsActiveIsUnknown) {
   show({event(SignalState::kStop, -5.0, -5.0), event(SignalState::kProtected, 30.0, 40.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
   EXPECT_NEAR(*advise()->movements[0].min_end, -5.0, 1e-6);  // not an hour ahead
 }
 
-TEST_F(SignalEventsTest, WhatLiesBetweenTwoEventsIsNotKnown) {
+TEST_F(SignalEventsTest, TheTimeBetweenTwoEventsIsUnknown) {
   host_.speed = 4.0;  // 25 s to go
   const SpatEvent red = event(SignalState::kStop, 20.0, 20.0);
   const SpatEvent green = event(SignalState::kProtected, 50.0, 50.0);
@@ -46,7 +46,7 @@ TEST_F(SignalEventsTest, WhatLiesBetweenTwoEventsIsNotKnown) {
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
 }
 
-TEST_F(SignalEventsTest, AFirstEventThatHasNotBegunIsNotOn) {
+TEST_F(SignalEventsTest, AFirstEventThatHasNotBegunIsNotActive) {
   const SpatEvent green = event(SignalState::kProtected, 50.0, 50.0);
   show({startingAt(30.0, green)});
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
@@ -54,7 +54,7 @@ TEST_F(SignalEventsTest, AFirstEventThatHasNotBegunIsNotOn) {
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
 }
 
-TEST_F(SignalEventsTest, WhatFollowsIsUsedWhereItIsSent) {
+TEST_F(SignalEventsTest, FollowingEventsAreUsedIfSent) {
   show({event(SignalState::kStop, 5.0, 5.0), event(SignalState::kPreMovement, 7.0, 7.0),
         event(SignalState::kProtected, 30.0, 40.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kPasses);
@@ -65,7 +65,7 @@ TEST_F(SignalEventsTest, WhatFollowsIsUsedWhereItIsSent) {
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }
 
-TEST_F(SignalEventsTest, RedThatEndsWithNothingSentIsNotKnown) {
+TEST_F(SignalEventsTest, AfterRedWithoutNextEventItIsUnknown) {
   show({event(SignalState::kStop, 5.0, 6.0)});
   EXPECT_EQ(verdict(), SignalVerdict::kUnknown);
 }

@@ -8,8 +8,8 @@
 
 namespace datmo::samples {
 
-// A SPATEM and a MAPEM by the bits of their fields: ISO/TS 19091 (2018), module DSRC. Of each: what
-// the value has above its minimum, and the bits of the range.
+// A SPATEM and a MAPEM by the bits of their fields: ISO/TS 19091 (2018), module DSRC. For each
+// field: the value above its minimum, and the bits of the range.
 
 inline WireBits signalHeader(std::uint64_t kind) {
   return WireBits().add(2, 8).add(kind, 8).add(0x00ABCDEF, 32);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM: bits by hand, there and back, what is passed over, and what is none.
+// SPATEM and MAPEM: bits by hand, round trip, skipped fields, and invalid messages.
 #include "fusion/signal_messages.h"
 
 #include <string>
@@ -63,7 +63,7 @@ TEST(Mapem, ItsBitsAreThoseOfTheStandard) {
   EXPECT_EQ(intersection.lanes[1].computed->y, 3500);
 }
 
-TEST(Spatem, WhatIsNotReadIsPassedOver) {
+TEST(Spatem, UnreadFieldsAreSkipped) {
   const WireBits bits = samples::spatemWithAll();
   const std::size_t size = bits.size();
   const Spatem message = decodeSpatem(bits.bytes());
@@ -72,12 +72,12 @@ TEST(Spatem, WhatIsNotReadIsPassedOver) {
   ASSERT_EQ(message.intersections[0].movements.size(), 1U);
   EXPECT_EQ(message.intersections[0].movements[0].group, 9);
   EXPECT_EQ(message.intersections[0].movements[0].events[0].state, SignalState::kStop);
-  // All of it was walked over: with an octet less it is not whole.
+  // All of it was parsed: with one octet less it is incomplete.
   EXPECT_EQ(refusalOf([&] { decodeSpatem(bits.bytes().substr(0, (size - 1) / 8)); }),
             "truncated_message");
 }
 
-TEST(Mapem, WhatIsNotReadIsPassedOver) {
+TEST(Mapem, UnreadFieldsAreSkipped) {
   const WireBits bits = samples::mapemWithAll();
   const Mapem message = decodeMapem(bits.bytes());
   ASSERT_EQ(message.intersections.size(), 1U);
@@ -112,7 +112,7 @@ TEST(Mapem, ANodeOfARegionMakesItsLaneOneWithoutNodes) {
                       .add(0, 1)
                       .add(0b10, 2)
                       .add(0, 10)
-                      .add(0b1, 1)  // a type of a later version
+                      .add(0b1, 1)  // a type from a later version
                       .add(0, 7)
                       .addOpen(WireBits().add(1, 3))
                       .add(0b00, 2)

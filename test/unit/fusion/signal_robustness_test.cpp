@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM that are written and read again, cut off, changed, or anything.
+// SPATEM and MAPEM that are written and read again, truncated, changed, or random.
 #include <random>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 
 using samples::refusalOf;
 
-TEST(SignalMessages, EveryPartOfOneIsRefused) {
+TEST(SignalMessages, EveryTruncationIsRefused) {
   const std::string spatem = samples::wireSpatem().bytes();
   for (std::size_t size = 0; size < spatem.size(); ++size) {
     EXPECT_EQ(refusalOf([&] { decodeSpatem(spatem.substr(0, size)); }), "truncated_message");
@@ -22,7 +22,7 @@ TEST(SignalMessages, EveryPartOfOneIsRefused) {
   }
 }
 
-/// Any message that a writer can write, which all have other bits.
+/// Returns a random message that a writer can write; each one has different bits.
 Mapem randomMapem(std::mt19937& random) {
   const auto upTo = [&random](std::int64_t max) {
     return std::uniform_int_distribution<std::int64_t>(0, max)(random);
@@ -51,7 +51,7 @@ Mapem randomMapem(std::mt19937& random) {
   return message;
 }
 
-TEST(SignalMessages, WhatIsWrittenIsRead) {
+TEST(SignalMessages, WrittenMessagesAreRead) {
   std::mt19937 random(11);
   for (int i = 0; i < 300; ++i) {
     const Mapem message = randomMapem(random);
@@ -81,7 +81,7 @@ TEST(SignalMessages, AnyBytesAreReadOrRefused) {
   std::uniform_int_distribution<int> octet(0, 255);
   std::uniform_int_distribution<std::size_t> size(0, 300);
   const auto take = [](const std::string& bytes) {
-    const std::string copy(bytes);  // of its own size, so that a sanitizer sees what is beyond it
+    const std::string copy(bytes);  // of its own size, so that a sanitizer detects reads beyond it
     for (const auto& decode : {+[](const std::string& one) { decodeSpatem(one); },
                                +[](const std::string& one) { decodeMapem(one); }}) {
       try {

@@ -32,7 +32,7 @@ TEST(SignalTimes, TheYearIsTheNearest) {
   EXPECT_NEAR(stampAt(0, 500, kNewYear2024 - 2.0)->seconds(), kNewYear2024 + 0.5, 1e-6);
 }
 
-TEST(SignalTimes, TheMessagesMinuteServesAndWithoutOneThereIsNone) {
+TEST(SignalTimes, TheMessagesMinuteIsUsedAndWithoutOneThereIsNone) {
   Spatem message;
   SpatIntersection intersection;
   intersection.millisecond = 1000;

@@ -18,8 +18,8 @@ using Matcher = SourceMatcher<int>;
 
 Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
 
-/// What GridMatcherTest does not show: samples that serve once. A lidar and a stereo camera; takes
-/// samples within 0.06 s, gives up on a source after 0.5 s.
+/// What GridMatcherTest does not cover: samples that are used once. A lidar and a stereo camera;
+/// accepts samples within 0.06 s, gives up on a source after 0.5 s.
 class SourceMatcherTest : public testing::Test {
  protected:
   static SourceMatcherOptions options() {
@@ -37,7 +37,7 @@ class SourceMatcherTest : public testing::Test {
   /// "lidar 0.1, stereo 0.12" or "stereo 0.3, lidar silent"; empty if nothing is ready.
   std::string next(double now) { return textOf(matcher_.next(at(now))); }
 
-  /// The same of what waits, of all or after a time.
+  /// The same for early(): of all waiting samples, or of those after a time.
   std::string early(double now) { return textOf(matcher_.early(std::nullopt, at(now))); }
   std::string early(double now, double after) { return textOf(matcher_.early(at(after), at(now))); }
 
@@ -59,7 +59,7 @@ class SourceMatcherTest : public testing::Test {
   Matcher matcher_{options(), {"stereo", "lidar"}, Serving::kOnce};
 };
 
-TEST_F(SourceMatcherTest, WhatWaitsIsThereEarlyWithoutTheOthers) {
+TEST_F(SourceMatcherTest, WaitingSamplesAreAvailableEarly) {
   lidar(0.0);
   EXPECT_EQ(next(0.0), "");
   EXPECT_EQ(early(0.0), "lidar 0, stereo none near");
@@ -68,7 +68,7 @@ TEST_F(SourceMatcherTest, WhatWaitsIsThereEarlyWithoutTheOthers) {
   EXPECT_EQ(early(0.06, 0.0), "lidar 0.06, stereo none near");
 }
 
-TEST_F(SourceMatcherTest, WhatWasThereEarlyComesAsIfItHadNotBeen) {
+TEST_F(SourceMatcherTest, EarlySamplesAreStillMatchedLater) {
   lidar(0.0);
   EXPECT_NE(early(0.0), "");
   stereo(0.02);
@@ -78,7 +78,7 @@ TEST_F(SourceMatcherTest, WhatWasThereEarlyComesAsIfItHadNotBeen) {
   EXPECT_EQ(matcher_.unserved("stereo"), 0U);
 }
 
-TEST_F(SourceMatcherTest, EarlyASampleServesOnceToo) {
+TEST_F(SourceMatcherTest, AnEarlySampleIsUsedOnce) {
   lidar(0.0);
   lidar(0.04);
   stereo(-0.01);
@@ -86,7 +86,7 @@ TEST_F(SourceMatcherTest, EarlyASampleServesOnceToo) {
   EXPECT_EQ(early(0.04, 0.0), "lidar 0.04, stereo none near");
 }
 
-TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
+TEST(LateSource, DelaysNoSetAndCountsOnArrival) {
   Matcher matcher({}, {"lidar", "mono"}, Serving::kOnce, {{"mono", 0.3}});
   const auto add = [&matcher](const char* source, double seconds) {
     matcher.add(source, at(seconds), std::make_shared<const int>(0));
@@ -95,7 +95,7 @@ TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
   const auto alone = matcher.next(at(0.0));
   ASSERT_TRUE(alone);
   EXPECT_EQ(alone->samples.size(), 1U);
-  add("mono", -0.1);  // it took more than a scan
+  add("mono", -0.1);  // later than a scan
   EXPECT_FALSE(matcher.next(at(0.0)));
   add("lidar", 0.1);
   const auto both = matcher.next(at(0.1));
@@ -106,7 +106,7 @@ TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
   EXPECT_EQ(matcher.next(at(0.2))->samples.size(), 1U) << "once";
 }
 
-TEST(LateSource, WhatIsTooLateIsInNoSet) {
+TEST(LateSource, LateSamplesAreInNoSet) {
   Matcher matcher({}, {"lidar", "mono"}, Serving::kOnce, {{"mono", 0.3}});
   matcher.add("mono", at(-0.35), std::make_shared<const int>(0));
   matcher.add("lidar", at(0.0), std::make_shared<const int>(0));
@@ -114,7 +114,7 @@ TEST(LateSource, WhatIsTooLateIsInNoSet) {
   EXPECT_EQ(matcher.unserved("mono"), 1U);
 }
 
-TEST_F(SourceMatcherTest, ThePayloadIsHandedThrough) {
+TEST_F(SourceMatcherTest, ThePayloadIsPassedThrough) {
   const auto payload = std::make_shared<const int>(7);
   matcher_.add("lidar", at(0.0), payload);
   stereo(0.0);
@@ -123,7 +123,7 @@ TEST_F(SourceMatcherTest, ThePayloadIsHandedThrough) {
   EXPECT_EQ(matched->reference().payload, payload);
 }
 
-TEST_F(SourceMatcherTest, ASampleServesOnce) {
+TEST_F(SourceMatcherTest, ASampleIsUsedOnce) {
   stereo(0.04);
   lidar(0.0);
   EXPECT_EQ(next(0.04), "lidar 0, stereo 0.04");
@@ -149,7 +149,7 @@ TEST_F(SourceMatcherTest, OfEquallyNearOnesOfTheReferenceTheEarlierHasIt) {
   EXPECT_EQ(next(0.1), "lidar 0, stereo 0.05");
 }
 
-TEST_F(SourceMatcherTest, WhatHasLedToASetIsInNoOther) {
+TEST_F(SourceMatcherTest, ASampleThatLedASetIsInNoOther) {
   lidar(0.0);
   EXPECT_EQ(next(0.1), "lidar 0, stereo none near");
   stereo(0.02);
@@ -159,7 +159,7 @@ TEST_F(SourceMatcherTest, WhatHasLedToASetIsInNoOther) {
   EXPECT_EQ(next(0.5), "stereo 0.02, lidar silent") << "the lidar's last would have been near";
 }
 
-TEST_F(SourceMatcherTest, WhatHasServedDoesNotLead) {
+TEST_F(SourceMatcherTest, AUsedSampleDoesNotLead) {
   lidar(0.0);
   stereo(0.04);
   EXPECT_EQ(next(0.04), "lidar 0, stereo 0.04");
@@ -168,7 +168,7 @@ TEST_F(SourceMatcherTest, WhatHasServedDoesNotLead) {
   EXPECT_EQ(next(0.5), "stereo 0.3, lidar silent");
 }
 
-TEST_F(SourceMatcherTest, NoSampleIsOlderThanTheLastOfItsSourceThatServed) {
+TEST_F(SourceMatcherTest, NoSampleIsOlderThanTheLastUsedOneOfItsSource) {
   stereo(0.0);
   stereo(0.04);
   lidar(0.05);
@@ -210,7 +210,7 @@ TEST_F(SourceMatcherTest, ASlowerSourceIsMatchedOnceASample) {
   EXPECT_EQ(matcher_.unserved("stereo"), 0U);
 }
 
-TEST_F(SourceMatcherTest, WhatWasInNoSetIsCounted) {
+TEST_F(SourceMatcherTest, UnmatchedSamplesAreCounted) {
   for (const double seconds : {0.0, 0.03, 0.06, 0.09}) {
     stereo(seconds);
   }
@@ -223,7 +223,7 @@ TEST_F(SourceMatcherTest, WhatWasInNoSetIsCounted) {
   EXPECT_EQ(matcher_.unserved("lidar"), 0U);
 }
 
-TEST_F(SourceMatcherTest, WhatCameTooLateIsCounted) {
+TEST_F(SourceMatcherTest, LateSamplesAreCounted) {
   lidar(0.0);
   EXPECT_EQ(next(0.1), "lidar 0, stereo none near");
   lidar(0.1);
@@ -232,14 +232,14 @@ TEST_F(SourceMatcherTest, WhatCameTooLateIsCounted) {
   EXPECT_EQ(matcher_.unserved("stereo"), 1U);
 }
 
-TEST_F(SourceMatcherTest, WhatFillsTheMemoryIsCounted) {
+TEST_F(SourceMatcherTest, OverflowingSamplesAreCounted) {
   for (int i = 0; i < 1000; ++i) {
     lidar(0.001 * i);
   }
   EXPECT_GT(matcher_.unserved("lidar"), 900U);
 }
 
-TEST_F(SourceMatcherTest, AResetForgetsWhatWaitsAndKeepsTheCount) {
+TEST_F(SourceMatcherTest, AResetForgetsWaitingSamplesAndKeepsTheCount) {
   lidar(50.0);
   stereo(50.0);
   matcher_.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Our own tracks as CAM and CPM, and what others hear of it.
+// Our own tracks as CAM and CPM, and how others receive them.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -51,12 +51,12 @@ StationTrackList ownList(int others) {
 
 const LocalPlane kHere({degrees(45.19), degrees(5.72), 0.0});
 
-/// A point of a message's plane in ours.
+/// Transforms a point from a message's plane to ours.
 Point2 inOurs(const StationMessage& message, const Point2& point) {
   return kHere.toPlane(message.plane.toGeodetic(point));
 }
 
-TEST(OwnStation, ComesBackAsItWas) {
+TEST(OwnStation, IsUnchangedByARoundTrip) {
   const StationTrackList list = ownList(1);
   const std::vector<std::string> bytes = encodeStation(list, kHere, kMessageOptions, true);
   ASSERT_EQ(bytes.size(), 2U);
@@ -103,7 +103,7 @@ TEST(OwnStation, ManyTracksAreSentInSegmentsThatFitADatagram) {
   EXPECT_EQ(received, 80U);
 }
 
-TEST(OwnStation, LeavesOutWhatCannotBeTold) {
+TEST(OwnStation, LeavesOutUnencodableTracks) {
   StationTrackList list = ownList(3);
   list.tracks[1].position.x() = 2000.0;
   list.tracks[2].velocity.x() = std::nan("");
@@ -113,13 +113,13 @@ TEST(OwnStation, LeavesOutWhatCannotBeTold) {
   EXPECT_EQ(message.list.tracks[0].id, 3U);
 }
 
-TEST(OwnStation, WithoutOurselvesTellsNothing) {
+TEST(OwnStation, WithoutOurselvesSendsNothing) {
   StationTrackList list = ownList(2);
   list.tracks.erase(list.tracks.begin());
   EXPECT_THROW(encodeStation(list, kHere, kMessageOptions, false), WireError);
 }
 
-TEST(OwnStation, TellsExtremesWithinTheirRanges) {
+TEST(OwnStation, EncodesExtremesWithinTheirRanges) {
   StationTrackList list = ownList(1);
   for (StationTrack& track : list.tracks) {
     track.covariance *= 1e8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What CAM and CPM say, as tracks of a station, and back.
+// CAM and CPM converted to tracks of a station, and back.
 #include "datmo_fusion/fusion/wire/station_messages.h"
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(StationOfCam, IsATrackOfItself) {
   ASSERT_EQ(message.list.tracks.size(), 1U);
   const StationTrack& track = message.list.tracks[0];
   EXPECT_EQ(track.id, 0U);
-  // The position is that of the front's middle, and the car looks to the east.
+  // The position is that of the front's middle, and the car faces east.
   EXPECT_NEAR(track.position.x(), -2.15, 1e-9);
   EXPECT_NEAR(track.position.y(), 0.0, 1e-9);
   EXPECT_NEAR(track.velocity.x(), 20.0, 1e-9);
@@ -61,10 +61,10 @@ TEST(StationOfCam, IsATrackOfItself) {
   EXPECT_TRUE(isCovariance(track.covariance));
   // 0.5 m/s and 1 deg hold 95 %: 1.96 sigma.
   EXPECT_NEAR(std::sqrt(track.covariance(2, 2)), 0.5 / 1.96, 1e-9);
-  EXPECT_NEAR(std::sqrt(track.covariance(3, 3)), 0.5 / 1.96, 1e-9);  // no surer than along
+  EXPECT_NEAR(std::sqrt(track.covariance(3, 3)), 0.5 / 1.96, 1e-9);  // no more certain than along
 }
 
-TEST(StationOfCam, IsLessSureAcrossTheFasterItIs) {
+TEST(StationOfCam, LateralUncertaintyGrowsWithSpeed) {
   Cam cam = camOfWire();
   cam.speed.value = 4000;
   EXPECT_NEAR(std::sqrt(trackOf(cam).covariance(3, 3)), 40.0 * degrees(1.0) / 1.96, 1e-9);
@@ -132,7 +132,7 @@ TEST(StationOfCam, WithoutSpeedOrHeadingMayGoAnywhere) {
   EXPECT_TRUE(isCovariance(track.covariance));
 
   cam = camOfWire();
-  cam.speed.confidence = ItsSpeed::kOutOfRange;  // not to be trusted
+  cam.speed.confidence = ItsSpeed::kOutOfRange;  // not reliable
   EXPECT_EQ(trackOf(cam).velocity, Point2(0.0, 0.0));
 }
 
@@ -160,7 +160,7 @@ TEST(StationOfCam, WithoutPositionIsRefused) {
   EXPECT_EQ(reasonOf(samples::wireCamHead(0, 15).add(0b0100, 4).bytes()), "no_track");
 }
 
-TEST(StationOfCpm, HasWhatItPerceives) {
+TEST(StationOfCpm, HasItsPerceivedObjects) {
   const StationMessage message =
       decodeStation(samples::wireCpm().bytes(), samples::kWireNoon, kOptions);
   EXPECT_EQ(message.list.stamp, samples::kWireNoon);
@@ -170,7 +170,7 @@ TEST(StationOfCpm, HasWhatItPerceives) {
   ASSERT_EQ(message.list.tracks.size(), 1U);
   const StationTrack& track = message.list.tracks[0];
   EXPECT_EQ(track.id, 42U);
-  // 12.34 m east and 5.67 m south, 100 ms ago: it has gone on since.
+  // 12.34 m east and 5.67 m south, 100 ms ago: it has moved since then.
   EXPECT_NEAR(track.position.x(), 12.34 - 0.12, 1e-9);
   EXPECT_NEAR(track.position.y(), -5.67, 1e-9);
   EXPECT_NEAR(track.velocity.x(), -1.2, 1e-9);
@@ -189,7 +189,7 @@ TEST(StationOfCpm, HasWhatItPerceives) {
               1e-9);
 }
 
-TEST(StationOfCpm, LeavesOutWhatHasNoNumberOrPlace) {
+TEST(StationOfCpm, LeavesOutObjectsWithoutIdOrPosition) {
   Cpm cpm = decodeCpm(samples::wireCpm().bytes(), ItsDictionary::k221);
   cpm.objects.resize(4, cpm.objects[0]);
   cpm.objects[1].id.reset();

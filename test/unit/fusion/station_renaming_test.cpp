@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stations whose ids seldom come twice, and those that look like it at their start.
+// Stations whose ids rarely repeat, and those that look like it at their start.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ using station_samples::mapInPlane;
 using station_samples::numbered;
 using station_samples::pathAt;
 
-TEST(StationTracks, AStationThatRenamesItsTracksPlacesNoneAnywhere) {
+TEST(StationTracks, TracksOfARenamingStationAreIgnored) {
   StationTracks stations{StationTrackOptions()};
   std::size_t passed = 0;
   constexpr int kSteps = 100;
@@ -35,7 +35,7 @@ TEST(StationTracks, AStationThatRenamesItsTracksPlacesNoneAnywhere) {
   EXPECT_EQ(stations.counts().jumped, 0U);
 }
 
-TEST(StationTracks, NeitherDoesOneThatRenamesItsPartsToo) {
+TEST(StationTracks, TracksOfAStationThatAlsoRenamesItsPartsAreIgnored) {
   StationTracks stations{StationTrackOptions()};
   std::size_t passed = 0;
   for (int step = 0; step < 100; ++step) {
@@ -48,7 +48,7 @@ TEST(StationTracks, NeitherDoesOneThatRenamesItsPartsToo) {
   EXPECT_LE(passed, 10U) << "those before its first parts no longer serve";
 }
 
-TEST(StationTracks, AllPartsOfAFirstMessageAreTaken) {
+TEST(StationTracks, AllPartsOfAFirstMessageAreAccepted) {
   StationTracks stations{StationTrackOptions()};
   for (std::uint32_t part = 1; part <= 2; ++part) {
     std::vector<StationTrack> tracks;
@@ -62,7 +62,7 @@ TEST(StationTracks, AllPartsOfAFirstMessageAreTaken) {
   EXPECT_EQ(stations.counts().sudden, 0U);
 }
 
-TEST(StationTracks, WhatIsNewInASecondMessageIsTaken) {
+TEST(StationTracks, NewTracksInASecondMessageAreAccepted) {
   StationTracks stations{StationTrackOptions()};
   std::vector<StationTrack> tracks;
   for (std::uint32_t i = 0; i < 5; ++i) {
@@ -73,7 +73,7 @@ TEST(StationTracks, WhatIsNewInASecondMessageIsTaken) {
   EXPECT_EQ(stations.toMap(listAt(1, tracks), mapInPlane(), std::nullopt).tracks.size(), 6U);
 }
 
-TEST(StationTracks, OneThatRenamesWhatItTracksIsHeard) {
+TEST(StationTracks, ItsOwnPositionIsStillUsed) {
   StationTracks stations{StationTrackOptions()};
   for (int step = 0; step < 100; ++step) {
     const auto id = static_cast<std::uint32_t>(step);
@@ -85,7 +85,7 @@ TEST(StationTracks, OneThatRenamesWhatItTracksIsHeard) {
   EXPECT_EQ(stations.counts().sudden, 0U);
 }
 
-TEST(StationTracks, WhatComesIntoViewIsTakenAtOnceOfAStationWhoseTracksStay) {
+TEST(StationTracks, NewTracksOfAStableStationAreAcceptedImmediately) {
   StationTracks stations{StationTrackOptions()};
   for (int step = 0; step < 60; ++step) {
     std::vector<StationTrack> tracks{numbered(1000, pathAt(step)),
@@ -99,7 +99,7 @@ TEST(StationTracks, WhatComesIntoViewIsTakenAtOnceOfAStationWhoseTracksStay) {
   EXPECT_EQ(stations.counts().sudden, 0U);
 }
 
-TEST(StationTracks, OfAStationThatRenamesANewOneIsUsedWhenItComesAgain) {
+TEST(StationTracks, ARepeatedTrackOfARenamingStationIsUsed) {
   StationTracks stations{StationTrackOptions()};
   for (int step = 0; step < 10; ++step) {
     const Point2 anywhere = pathAt(0) + Point2(20.0 * step, 0.0);

@@ -17,7 +17,7 @@ inline PoseWithCovariance mapInPlane() {
   return map;
 }
 
-/// A pedestrian as a pole camera has it.
+/// A pedestrian as a pole camera reports it.
 inline StationTrack walker(const Point2& position) {
   StationTrack track;
   track.id = 7;
@@ -39,7 +39,7 @@ inline StationTrackList listAt(int step, const std::vector<StationTrack>& tracks
 
 inline Point2 pathAt(int step) { return Point2(60.0, -10.0) + kPeriod * step * Point2(1.2, 0.5); }
 
-/// A track at a point under a number of its own.
+/// A track at a point with this id.
 inline StationTrack numbered(std::uint32_t id, const Point2& position) {
   StationTrack track = walker(position);
   track.id = id;

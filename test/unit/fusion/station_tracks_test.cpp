@@ -20,7 +20,7 @@ using station_samples::mapInPlane;
 using station_samples::pathAt;
 using station_samples::walker;
 
-TEST(StationTracks, KeepTheirPlaceAndGetWhatIsNotKnownOfTheFrame) {
+TEST(StationTracks, KeepTheirPositionAndGetTheUncertaintyOfTheFrame) {
   StationTracks stations{StationTrackOptions()};
   const TrackList list = stations.toMap(listAt(0, {walker(pathAt(0))}), mapInPlane(), std::nullopt);
   ASSERT_EQ(list.tracks.size(), 1U);
@@ -33,7 +33,7 @@ TEST(StationTracks, KeepTheirPlaceAndGetWhatIsNotKnownOfTheFrame) {
   EXPECT_EQ(track.sensors, (std::vector<std::string>{"station 3"}));
 }
 
-TEST(StationTracks, PartsOfAStationStandBesideEachOther) {
+TEST(StationTracks, PartsOfAStationAreMerged) {
   StationTracks stations{StationTrackOptions()};
   StationTrackList first = listAt(0, {walker(pathAt(0))});
   first.part = 1;
@@ -63,7 +63,7 @@ TEST(StationTracks, ATrackThatMovesToAnotherPartIsInTheListOnce) {
   EXPECT_EQ(stations.merged(listAt(0, {}).stamp).tracks.size(), 1U);
 }
 
-TEST(StationTracks, CovarianceIsHonest) {
+TEST(StationTracks, CovarianceIsConsistent) {
   // Errors drawn as the covariances say: mean NEES of position and velocity, 4 degrees of freedom.
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -151,7 +151,7 @@ TEST(StationTracks, BadNumbersAreLeftOut) {
   EXPECT_EQ(stations.counts().invalid, 2U);
 }
 
-TEST(StationTracks, OwnVehicleIsTakenOutAndWhoWalksBesideItIsNot) {
+TEST(StationTracks, OwnVehicleIsRemovedAndAPedestrianBesideItIsNot) {
   StationTracks stations{StationTrackOptions()};
   OwnVehicle own;
   own.box = {Pose2(10.0, 5.0, 0.3), 4.6, 1.85};
@@ -171,7 +171,7 @@ TEST(StationTracks, OwnVehicleIsTakenOutAndWhoWalksBesideItIsNot) {
   EXPECT_EQ(stations.counts().own, 1U);
 }
 
-TEST(StationTracks, WhatTwoStationsHaveIsOneAtOneTime) {
+TEST(StationTracks, AnObjectOfTwoStationsIsMergedAtOneTime) {
   StationTracks stations{StationTrackOptions()};
   stations.toMap(listAt(0, {walker(pathAt(0))}), mapInPlane(), std::nullopt);
   StationTrackList other = listAt(2, {walker(pathAt(2)), walker(pathAt(2) + Point2(15.0, 0.0))});
@@ -187,7 +187,7 @@ TEST(StationTracks, WhatTwoStationsHaveIsOneAtOneTime) {
   EXPECT_EQ(stations.merged(theirs.stamp + 1.0).tracks.size(), 0U);  // too old by then
 }
 
-TEST(StationTracks, OursComeBackAsTheyWent) {
+TEST(StationTracks, OursAreUnchangedByARoundTrip) {
   StationTracks stations{StationTrackOptions()};
   const TrackList list = stations.toMap(listAt(0, {walker(pathAt(0))}), mapInPlane(), std::nullopt);
   const StationTrack ours = toStation(list.tracks.front(), mapInPlane());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three trackers of one object: what comes out does not depend on which is named first.
+// Three trackers of one object: the output does not depend on which is named first.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -19,13 +19,13 @@ using Names = std::vector<std::string>;  ///< of the sources, in the order of th
 TrackFuserOptions withThree(TrackCombinationMethod method) {
   TrackFuserOptions options;
   options.scheme = TrackScheme::kUnion;
-  options.sources["radar"].class_by_speed = true;  // as the others
+  options.sources["radar"].class_by_speed = true;  // like the others
   options.combination.method = method;
   return options;
 }
 
-/// Three tracks of one car, each surer of something else; they are alike but for the speed of the
-/// last one.
+/// Three tracks of one car, each more certain about something else; they are equal except for the
+/// speed of the last one.
 std::vector<Track> tracksAt(double seconds, const Names& names, double last_speed) {
   std::vector<Track> tracks = {driving(-20.0, seconds, names[0], 1),
                                driving(-19.6, seconds, names[1], 1),
@@ -41,7 +41,7 @@ std::vector<Track> tracksAt(double seconds, const Names& names, double last_spee
   return tracks;
 }
 
-/// One for 2 s; then the speed of the last one is said to be `last_speed`. The lists come in the
+/// One for 2 s; then the speed of the last one is reported as `last_speed`. The lists arrive in the
 /// order `order`.
 Track afterTwoSeconds(const TrackFuserOptions& options, const Names& names,
                       const std::vector<std::size_t>& order, double last_speed) {
@@ -76,7 +76,7 @@ class ThreeSourcesTest : public ::testing::TestWithParam<TrackCombinationMethod>
   TrackFuserOptions options_ = withThree(GetParam());
 };
 
-TEST_P(ThreeSourcesTest, WhatTheyAreTogetherDoesNotDependOnTheirOrderNorTheirNames) {
+TEST_P(ThreeSourcesTest, FusionDoesNotDependOnTheirOrderNorTheirNames) {
   for (const double last_speed : {5.0, 0.0}) {  // it agrees with the others, and contradicts them
     const Track expected =
         afterTwoSeconds(options_, {"lidar", "radar", "stereo"}, {0, 1, 2}, last_speed);
@@ -98,7 +98,7 @@ TEST_P(ThreeSourcesTest, WhereOneContradictsTheOthersEachIsAsLikely) {
   EXPECT_NEAR(together.covariance(2, 2), 50.0 / 9.0 + 0.175, 1e-6);
 }
 
-TEST_P(ThreeSourcesTest, ThreeAreNoLessSureThanTwo) {
+TEST_P(ThreeSourcesTest, ThreeAreNoLessCertainThanTwo) {
   const Track three = afterTwoSeconds(options_, {"lidar", "radar", "stereo"}, {0, 1, 2}, 5.0);
   TrackFuser fuser(options_);
   Track two;

@@ -19,7 +19,8 @@ Track of(double x, double y, double vx, std::uint32_t id) {
   return carTrack(x, y, vx, 0.0, "", id);
 }
 
-/// Whether track 0 of both sources is one object after steps of 0.1 s, by how they move apart.
+/// Returns whether track 0 of both sources is one object after steps of 0.1 s, with this offset and
+/// drift.
 bool areOne(const TrackAssociationOptions& options, double seconds, double offset, double drift) {
   TrackAssociation association(options);
   std::size_t groups = 2;
@@ -33,7 +34,7 @@ bool areOne(const TrackAssociationOptions& options, double seconds, double offse
   return groups == 1;
 }
 
-TEST(TrackAssociationTest, WhatAgreesIsOneAndAllElseStaysByItself) {
+TEST(TrackAssociationTest, TracksThatAgreeAreOneAndAllOthersStaySeparate) {
   TrackAssociation association({});
   const std::vector<TrackGroup> groups =
       association.associate(at(0.0), {lidar({of(0.0, 0.0, 10.0, 4), of(40.0, 0.0, 10.0, 2)}),
@@ -55,7 +56,7 @@ TEST(TrackAssociationTest, NoTracksAndOneSourceAreNoMatter) {
 }
 
 TEST(TrackAssociationTest, TheLikeliestOfAllPairingsNotTheNearestFirst) {
-  // Two abreast, and the camera sees both 1 m to the left: its right one is nearest to the left
+  // Two abreast, and the camera sees both 1 m too far left: its right one is nearest to the left
   // one.
   TrackAssociation association({});
   const std::vector<TrackGroup> groups =
@@ -66,8 +67,8 @@ TEST(TrackAssociationTest, TheLikeliestOfAllPairingsNotTheNearestFirst) {
   EXPECT_EQ(groups[1][1].track, 1U);
 }
 
-TEST(TrackAssociationTest, WhatIsNotSureTakesTime) {
-  // 1.5 m beside each other all the time: at first sight too little, after half a second enough.
+TEST(TrackAssociationTest, AmbiguousPairsTakeTime) {
+  // Always 1.5 m apart: at first the evidence is not sufficient, after half a second it is.
   TrackAssociationOptions options;
   options.required = 12.0;
   EXPECT_FALSE(areOne(options, 0.0, 0.5, 0.0));
@@ -81,13 +82,13 @@ TEST(TrackAssociationTest, TheParallelTestDoesNotWait) {
   EXPECT_FALSE(areOne(options, 0.0, 4.5, 0.0));
 }
 
-TEST(TrackAssociationTest, WhatDriftsApartPartsAgain) {
+TEST(TrackAssociationTest, TracksThatDriftApartAreSeparatedAgain) {
   EXPECT_TRUE(areOne({}, 1.0, 0.0, 0.0));
   EXPECT_FALSE(areOne({}, 5.0, 0.0, 2.0));
 }
 
-TEST(TrackAssociationTest, ThoseWhoWereOneAreFaithful) {
-  // A newcomer is nearer for a moment than the one that was it all the time.
+TEST(TrackAssociationTest, AssociatedPairsAreKept) {
+  // A new track is nearer for a moment than the one that was associated all the time.
   TrackAssociation association({});
   for (int i = 0; i < 20; ++i) {
     association.associate(at(0.1 * i),
@@ -118,7 +119,7 @@ TEST(TrackAssociationTest, PredictedTracksAreNoNewEvidence) {
   EXPECT_EQ(steps(false), 2U);
 }
 
-TEST(TrackAssociationTest, AThirdSourceJoinsWhatAgreesWithBoth) {
+TEST(TrackAssociationTest, AThirdSourceJoinsAPairThatItAgreesWith) {
   TrackAssociation association({});
   const PresentTracks radar{2, true, {of(0.4, 0.0, 10.0, 5)}};
   const std::vector<TrackGroup> groups = association.associate(
@@ -127,7 +128,7 @@ TEST(TrackAssociationTest, AThirdSourceJoinsWhatAgreesWithBoth) {
   EXPECT_EQ(groups[0].size(), 3U);
 }
 
-TEST(TrackAssociationTest, WhatIsForgottenHasToAgreeAgain) {
+TEST(TrackAssociationTest, ForgottenPairsHaveToAgreeAgain) {
   TrackAssociationOptions options;
   options.required = 12.0;
   TrackAssociation association(options);

@@ -34,7 +34,7 @@ double fusedHeading(const Track& a, const Track& b) {
   return heading;
 }
 
-TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
+TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxFollowsIt) {
   const Track fused = combined({lidarCar(), stereoCar()});
   EXPECT_NEAR(fused.state[0], 10.2, 1e-9);
   EXPECT_NEAR(fused.state[2], 5.1, 1e-9);
@@ -56,7 +56,7 @@ TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
   Track b = stereoCar();
   turnTo(b, 0.2);
   EXPECT_NEAR(fusedHeading(a, b), 0.1, 1e-9);
-  // No surer than one of them: both follow the same motion.
+  // No more certain than one of them: both track the same motion.
   EXPECT_NEAR(combined({a, b}).heading_variance, 0.01, 1e-9);
   // Weights 3/4 and 1/4 of the informations 100 and 100/3: 75 and 8.33.
   b.heading_variance = 0.03;
@@ -64,7 +64,7 @@ TEST(TrackCombinationTest, HeadingsAreFusedByTheirVariances) {
   EXPECT_NEAR(combined({a, b}).heading_variance, 0.012, 1e-9);
 }
 
-TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
+TEST(TrackCombinationTest, OfContradictoryHeadingsTheMoreCertainOneIsKept) {
   const Track a = lidarCar();
   Track b = stereoCar();
   b.heading_variance = 0.02;
@@ -74,7 +74,7 @@ TEST(TrackCombinationTest, OfHeadingsThatContradictEachOtherTheSurerOneHolds) {
   EXPECT_NEAR(fusedHeading(a, b), 1.0, 1e-9);
 }
 
-TEST(TrackCombinationTest, TheFrontIsWhereTheMotionSays) {
+TEST(TrackCombinationTest, TheFrontIsInTheDirectionOfMotion) {
   Track a = lidarCar();
   Track b = stereoCar();
   turnTo(b, kPi);
@@ -88,8 +88,8 @@ TEST(TrackCombinationTest, TheFrontIsWhereTheMotionSays) {
   EXPECT_NEAR(std::cos(fusedHeading(a, b)), -1.0, 1e-9);  // of the surer one
 }
 
-TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
-  // The lidar sees the rear: it knows the width, and not where the center lies along the car.
+TEST(TrackCombinationTest, TheSizeIsThatOfTheMoreCertainCenter) {
+  // The lidar sees the rear: it knows the width, but not where the center is along the car.
   Track a = lidarCar();
   a.box.length = 3.0;
   a.covariance(0, 0) = 1.0;
@@ -105,7 +105,7 @@ TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
 }
 
 TEST(TrackCombinationTest, SizesAreThoseAlongTheCommonAxes) {
-  // The surer one takes the width for the length.
+  // The more certain one takes the width for the length.
   Track a = lidarCar();
   a.box.length = 1.8;
   a.box.width = 4.5;
@@ -127,7 +127,7 @@ TEST(TrackCombinationTest, ClassesAreFusedByBayes) {
   // Products 0.01, 0.01, 0.04, 0.18, 0.01 of 0.25; 0.95 of them, and 0.01.
   EXPECT_NEAR(fused.class_probabilities[3], 0.95 * 0.72 + 0.01, 1e-9);
   EXPECT_NEAR(fused.class_probabilities[2], 0.95 * 0.16 + 0.01, 1e-9);
-  b.class_probabilities = {};  // who reports none takes nothing from the others
+  b.class_probabilities = {};  // a source without classes takes nothing from the others
   EXPECT_NEAR(combined({a, b}).class_probabilities[3], 0.95 * 0.3 + 0.01, 1e-9);
 }
 
@@ -202,7 +202,7 @@ TEST(TrackCombinationTest, OfThreeEachCountsAsMuchAsTheOthers) {
   }
 }
 
-TEST(TrackCombinationTest, OfThreeHeadingsOneThatContradictsTheSurestHasNoSay) {
+TEST(TrackCombinationTest, OfThreeHeadingsTheOneThatContradictsTheBestIsIgnored) {
   Track surest = lidarCar();
   surest.heading_variance = 0.005;
   Track near = stereoCar();

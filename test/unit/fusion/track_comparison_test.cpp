@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Without slack between the sensors.
+/// Without tolerance between the sensors.
 TrackComparisonOptions exact() {
   TrackComparisonOptions options;
   options.body_std = 0.0;
@@ -57,7 +57,7 @@ TEST(TrackComparisonTest, SensorsMayDifferAlongABodyMoreThanAcross) {
   EXPECT_NEAR(across, 1.0 / (0.08 + 2.0 * (0.2025 + 0.09)), kRounding);
 }
 
-TEST(TrackComparisonTest, IsSymmetricAndDoesNotHangOnTheAxes) {
+TEST(TrackComparisonTest, IsSymmetricAndDoesNotDependOnTheAxes) {
   const TrackComparisonOptions options;
   const Track a = carTrack(10.0, 0.0, 5.0, 1.0);
   const Track b = carTrack(10.8, 0.5, 4.0, 0.5, "stereo");
@@ -76,7 +76,7 @@ TEST(TrackComparisonTest, IsSymmetricAndDoesNotHangOnTheAxes) {
               kRounding);
 }
 
-TEST(TrackComparisonTest, OneClassSpeaksForOneObjectAndTwoAgainst) {
+TEST(TrackComparisonTest, EqualClassesSupportOneObjectAndDifferentOnesDoNot) {
   const auto of = [](ObjectClass object_class) {
     Track track = carTrack(10.0, 0.0, 1.5, 0.0);
     track.class_probabilities.fill(0.05);
@@ -99,12 +99,12 @@ TEST(TrackComparisonTest, OneClassSpeaksForOneObjectAndTwoAgainst) {
   EXPECT_NEAR(ratio(classless, person), nothing_known, kRounding);
 }
 
-TEST(TrackComparisonTest, WhatIsFarApartIsNotLookedAtAnyCloser) {
+TEST(TrackComparisonTest, DistantTracksAreNotEvaluatedFurther) {
   const TrackComparison far =
       compare(carTrack(0.0, 0.0, 5.0, 0.0), carTrack(80.0, 0.0, 5.0, 0.0), {});
   EXPECT_EQ(far.squared_distance, std::numeric_limits<double>::infinity());
   EXPECT_EQ(far.log_likelihood_ratio, -std::numeric_limits<double>::infinity());
-  // What is near the gate is.
+  // Whatever is near the gate is.
   TrackComparisonOptions options = exact();
   const double edge = std::sqrt(options.gate * 0.08);
   const auto at = [&](double x) {
@@ -128,17 +128,17 @@ TEST(ParallelTracksTest, MeansOverTheCommonHistoryDecide) {
       areParallel(a, withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0, 0.4), options));
 }
 
-TEST(ParallelTracksTest, WhatGoesTheOtherWayIsNotParallel) {
+TEST(ParallelTracksTest, OppositeDirectionsAreNotParallel) {
   const Track a = withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0);
   EXPECT_FALSE(areParallel(a, withHistory(carTrack(20.0, 0.0, -10.0, 0.0), 2.0, 20, 0.0, kPi), {}));
 }
 
 TEST(ParallelTracksTest, OtherTimesAreInterpolatedAndTheShorterHistoryCounts) {
   const Track a = withHistory(carTrack(20.0, 0.0, 10.0, 0.0), 2.0, 20, 0.0);
-  // Between the points of the other one: the same line, though no stamp is the same.
+  // Between the points of the other one: the same line, although no stamps are equal.
   const Track late = withHistory(carTrack(19.5, 0.0, 10.0, 0.0), 1.95, 10, 0.0);
   EXPECT_TRUE(areParallel(a, late, {}));
-  // Far off before they had anything in common: that does not count.
+  // Far off before they had any time in common: that does not count.
   Track wild = a;
   for (int i = 0; i < 10; ++i) {
     wild.history[static_cast<std::size_t>(i)].pose = Pose2(0.0, 500.0, 0.0);
@@ -148,7 +148,7 @@ TEST(ParallelTracksTest, OtherTimesAreInterpolatedAndTheShorterHistoryCounts) {
   EXPECT_FALSE(areParallel(a, wild, {}));
 }
 
-TEST(ParallelTracksTest, WithoutHistoryThePresentCounts) {
+TEST(ParallelTracksTest, WithoutHistoryTheCurrentStateCounts) {
   const Track a = carTrack(20.0, 0.0, 10.0, 0.0);
   EXPECT_TRUE(areParallel(a, carTrack(20.5, 0.5, 10.0, 0.0), {}));
   EXPECT_FALSE(areParallel(a, carTrack(20.5, 2.5, 10.0, 0.0), {}));

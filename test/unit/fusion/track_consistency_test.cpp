@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two Kalman filters follow one object by measurements of their own: is the fused state as sure as
-// it says? By the normalized estimation error squared (NEES) of many seeded runs (Bar-Shalom, Li,
-// Kirubarajan 2001, 5.4.2).
+// Two Kalman filters track one object with separate measurements: is the fused state as certain as
+// it claims? Evaluated by the normalized estimation error squared (NEES) of many seeded runs
+// (Bar-Shalom, Li, Kirubarajan 2001, 5.4.2).
 
 #include <cmath>
 #include <string>
@@ -26,15 +26,15 @@ struct TrackerSetting {
   int every = 1;  ///< step it measures
 };
 
-/// How the errors of all runs were in the last step.
+/// Errors of all runs in the last step.
 struct Consistency {
   double nees = 0.0;          ///< mean over all runs; of an honest filter kTrackState
   double position_rms = 0.0;  ///< m
   double velocity_rms = 0.0;  ///< m/s
 };
 
-/// Chi-square of kTrackState * kRuns degrees of freedom, nearly normal: three sigma and a bit, so
-/// that one test in a thousand would fail by chance.
+/// Chi-square of kTrackState * kRuns degrees of freedom, nearly normal: slightly more than three
+/// sigma, so that one test in a thousand would fail by chance.
 const double kBound = 3.3 * std::sqrt(2.0 * kTrackState / kRuns);
 const double kMinNees = kTrackState - kBound;
 const double kMaxNees = kTrackState + kBound;
@@ -147,7 +147,7 @@ class TrackConsistencyTest : public ::testing::TestWithParam<ConsistencyCase> {
   TwoTrackers trackers_;
 };
 
-TEST_P(TrackConsistencyTest, EachTrackerIsHonest) {
+TEST_P(TrackConsistencyTest, EachTrackerIsConsistent) {
   for (const Consistency& alone : {trackers_.ofA(), trackers_.ofB()}) {
     EXPECT_GT(alone.nees, kMinNees);
     EXPECT_LT(alone.nees, kMaxNees);
@@ -162,14 +162,14 @@ TEST_P(TrackConsistencyTest, CovarianceIntersectionIsNot) {
   EXPECT_LT(trackers_.fusedBy(TrackCombinationMethod::kCovarianceIntersection).nees, kMaxNees);
 }
 
-TEST_P(TrackConsistencyTest, BarShalomCampoIsAsSureAsItSays) {
+TEST_P(TrackConsistencyTest, BarShalomCampoIsConsistent) {
   const Consistency fused = trackers_.fusedBy(TrackCombinationMethod::kBarShalomCampo);
   EXPECT_GT(fused.nees, kMinNees);
   EXPECT_LT(fused.nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, FusedStatesAreNoWorseThanTheBetterTracker) {
-  // What one of them has by chance in so many runs.
+  // Random error of one of them in this many runs.
   constexpr double kChance = 1.02;
   const Consistency a = trackers_.ofA();
   const Consistency b = trackers_.ofB();

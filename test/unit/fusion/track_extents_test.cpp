@@ -10,7 +10,7 @@ namespace {
 constexpr double kRounding = 1e-9;
 const Point2 kSensor(0.0, 0.0);
 
-/// A lorry ahead, of which the rear is at x = 20 m, taken to be so long.
+/// A lorry ahead, with its rear at x = 20 m, assumed to be this long.
 Track lorry(double length) {
   Track track = carTrack(20.0 + 0.5 * length, 0.0, 10.0, 0.0);
   track.box.length = length;
@@ -20,8 +20,8 @@ Track lorry(double length) {
   return track;
 }
 
-TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
-  // 7 m more; half of it where two standard deviations of the extent, four of the center, are that.
+TEST(TrackExtentsTest, AGuessedExtentCountsByTheCertaintyOfItsCenter) {
+  // 7 m more; half of it if two standard deviations of the extent, four of the center, equal that.
   Track guessed = lorry(9.0);
   guessed.covariance(0, 0) = 1.75 * 1.75;
   Track rear = lorry(2.0);
@@ -30,7 +30,7 @@ TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
   EXPECT_NEAR(rear.state.x(), 22.75, kRounding);
 }
 
-TEST(TrackExtentsTest, WhoSawJustTheRearIsExtendedAwayFromTheSensor) {
+TEST(TrackExtentsTest, AViewOfTheRearIsExtendedAwayFromTheSensor) {
   Track whole = lorry(9.0);
   Track rear = lorry(2.0);
   reconcileExtents(whole, kSensor, rear, kSensor);
@@ -65,7 +65,7 @@ TEST(TrackExtentsTest, FromTheOtherSideItGrowsTheOtherWay) {
   EXPECT_NEAR(front.state.x(), 24.5, kRounding);
 }
 
-TEST(TrackExtentsTest, AHeadingThatIsOffByAQuarterTurnIsNoMatter) {
+TEST(TrackExtentsTest, AHeadingErrorOfAQuarterTurnDoesNotMatter) {
   Track whole = lorry(9.0);
   Track rear = lorry(2.0);
   rear.box = {Pose2(21.0, 0.0, 0.5 * kPi), 2.5, 2.0};
@@ -76,7 +76,7 @@ TEST(TrackExtentsTest, AHeadingThatIsOffByAQuarterTurnIsNoMatter) {
   EXPECT_NEAR(rear.state.x(), 24.5, kRounding);
 }
 
-TEST(TrackExtentsTest, AbreastTheCenterStaysAndIsLessSure) {
+TEST(TrackExtentsTest, AbreastTheCenterIsKeptAndLessCertain) {
   Track whole = lorry(9.0);
   Track part = lorry(9.0);
   part.box.length = 3.0;

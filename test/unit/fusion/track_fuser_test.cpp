@@ -18,7 +18,7 @@
 namespace datmo::track_fuser_test {
 namespace {
 
-/// Published at each of these steps of 0.1 s, when both sources see a car at 20 m, the scanner one
+/// Returns the output after steps of 0.1 s, if both sources see a car at 20 m, the scanner sees one
 /// at 60 m and a ghost at 15 m, and the camera a ghost at 30 m.
 TrackFusionResult afterTwoSeconds(TrackScheme scheme) {
   TrackFuser fuser(withScheme(scheme));
@@ -51,7 +51,7 @@ TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
   EXPECT_EQ(result.list.views.size(), 2U);
 }
 
-TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
+TEST(TrackFuserTest, ASuddenStopInOneSourceLeavesTheVelocityUncertain) {
   // They were one for two seconds, at 5 m/s; now one of them is wrong.
   TrackFuser fuser(withScheme(TrackScheme::kByExistence));
   const auto step = [&](double t, double speed_of_stereo) {
@@ -70,7 +70,7 @@ TEST(TrackFuserTest, WhatOneSourceSuddenlyHasStandingHasNoSureVelocity) {
   EXPECT_GT(both.covariance(2, 2), 2.0 * 2.0) << "either 5 m/s or none";
 }
 
-TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain) {
+TEST(TrackFuserTest, TheBodysCenterBetweenSensorsIsUncertain) {
   const TrackFuserOptions options = withScheme(TrackScheme::kByExistence);
   const double body_variance = square(options.association.comparison.body_std);
   TrackFuser fuser(options);
@@ -87,7 +87,7 @@ TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain
       ASSERT_EQ(result.list.tracks.size(), 1U);
       const Track& track = result.list.tracks[0];
       ASSERT_EQ(track.sources.size(), alone ? 1U : 2U);
-      // Intersection of two that are alike is as sure as either.
+      // The intersection of two equal ones is as certain as either.
       EXPECT_NEAR(track.covariance(0, 0), by_lidar.covariance(0, 0) + (alone ? 0.0 : body_variance),
                   1e-6)
           << t;
@@ -95,14 +95,14 @@ TEST(TrackFuserTest, WhereEachOfSeveralSensorsTakesTheBodysCenterToBeIsUncertain
   }
 }
 
-TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
+TEST(TrackFuserTest, ConfirmedByAllIsSeenByBoth) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kConfirmedByAll);
   ASSERT_EQ(result.list.tracks.size(), 1U);
   EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
 }
 
-TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
-  // With fusion of objects besides, the first tracker hears the camera, too.
+TEST(TrackFuserTest, TwoSourcesOfOneSensorCountOnce) {
+  // With object fusion enabled, the first tracker receives the camera's objects, too.
   const auto published = [](const std::vector<std::string>& sensors) {
     TrackFuser fuser(withScheme(TrackScheme::kConfirmedByAll));
     Track from_lidar = driving(0.0, 0.0, "lidar");
@@ -116,7 +116,7 @@ TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
   EXPECT_EQ(published({}), 1U);
 }
 
-/// The camera's track of what is surely of a class, where the scanner could see it for long.
+/// The camera's track of a certain class, where the scanner could have seen it for long.
 double existenceOf(ObjectClass object_class, double existence = 0.99,
                    const TrackFuserOptions& options = {}) {
   TrackFuser fuser{options};
@@ -138,9 +138,9 @@ TEST(TrackFuserTest, ASourceThatReportsNoClassesLeavesThemOpen) {
   EXPECT_TRUE(isValid(result.list.tracks[0])) << "no probability is 0/0";
 }
 
-TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
+TEST(TrackFuserTest, TracksOfOneSourceArePublishedWhereTheOtherIsBlind) {
   // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3, by the default at
-  // this range, of what is looked at.
+  // this range, for the observed part.
   const double pedestrian = existenceOf(ObjectClass::kPedestrian);
   EXPECT_GT(pedestrian, 6.3 / 7.3 - 1e-3);
   EXPECT_LT(pedestrian, 0.9);
@@ -148,7 +148,7 @@ TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
   EXPECT_EQ(existenceOf(ObjectClass::kPedestrian, 0.8), 0.0) << "its tracker is not sure";
 }
 
-TEST(TrackFuserTest, ASourceIsBelievedAsMuchAsTheClassThatItClaims) {
+TEST(TrackFuserTest, ASourceIsTrustedByTheClassThatItReports) {
   const auto existenceOfPerson = [](double share) {
     TrackFuserOptions options;
     options.sources["stereo"].true_share.pedestrian = share;
@@ -164,7 +164,7 @@ TEST(TrueShare, IsTheMeanOverTheClassesItMayBeOf) {
   EXPECT_NEAR(share.of({0.1, 0.0, 0.5, 0.3, 0.1}), 0.5 * 0.8 + 0.3 * 0.7 + 0.2 * 0.4, 1e-12);
 }
 
-TEST(TrackFuserTest, WhatASourceLacksFarAwayCountsLess) {
+TEST(TrackFuserTest, MissesFarAwayCountLess) {
   TrackFuserOptions options;
   options.scheme = TrackScheme::kUnion;
   options.published_existence = 0.5;
@@ -175,7 +175,7 @@ TEST(TrackFuserTest, WhatASourceLacksFarAwayCountsLess) {
         fuser.fuse(at(0.0), {lidar(0.0, {}), stereo(0.0, {driving(range, 0.0, "stereo")})});
     return result.list.tracks.at(0).existence_probability;
   };
-  // Odds of 9, times 1 - 0.5 / 2 of what is looked at where that is half, and nearly 1 far away.
+  // Odds of 9, times 1 - 0.5 / 2 of the observed part, if that is half, and nearly 1 far away.
   EXPECT_NEAR(existenceAt(20.0), 9.0 * 0.75 / (9.0 * 0.75 + 1.0), 0.02);
   EXPECT_GT(existenceAt(38.0), 0.895);
   EXPECT_LT(existenceAt(5.0), 9.0 * 0.6 / (9.0 * 0.6 + 1.0));
@@ -198,7 +198,7 @@ TEST(TrackDetection, FallsWithRange) {
   EXPECT_LT(detection.probability(50.0), 0.001);
 }
 
-TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
+TEST(TrackFuserTest, UnionHasAllTracksWithTheirSources) {
   const TrackFusionResult result = afterTwoSeconds(TrackScheme::kUnion);
   ASSERT_EQ(result.list.tracks.size(), 4U);
   std::multiset<std::string> tags;
@@ -208,7 +208,7 @@ TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
       tag += sensor;
     }
     tags.insert(tag);
-    // What the other one would have seen is less likely, what both see likelier.
+    // What the other one would have seen is less likely, what both see is more likely.
     const bool contested = tag == "stereo" || track.state.y() > 10.0;
     EXPECT_EQ(track.existence_probability < 0.89, contested) << tag;
   }
@@ -247,11 +247,11 @@ TEST(TrackFuserTest, ASilentSourceIsNotMissed) {
   }
 }
 
-TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
+TEST(TrackFuserTest, ListsOfOtherTimesArePredictedToTheTimeOfFusion) {
   TrackFuser fuser{TrackFuserOptions()};
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
-    // Each list of the camera comes half a second late, and just every second time.
+    // Each list of the camera arrives half a second late, and only every second time.
     const double received_at = 0.2 * static_cast<int>(i / 2) - 0.5;
     const TrackFusionResult result =
         fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")}),
@@ -262,7 +262,7 @@ TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
   }
 }
 
-TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
+TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersAreFused) {
   TrackFuserOptions options = withScheme(TrackScheme::kUnion);
   options.max_tracks = 2;
   TrackFuser fuser(options);

@@ -51,7 +51,7 @@ TEST(TrackPredictionTest, TurnsAtItsYawRate) {
   EXPECT_NEAR((turned.box.center.position() - turned.state.head<2>()).norm(), 0.0, 1e-12);
 }
 
-TEST(TrackPredictionTest, ThereAndBackIsTheSamePositionButLessSure) {
+TEST(TrackPredictionTest, ForthAndBackIsTheSamePositionButLessCertain) {
   Track track = carTrack(3.0, 4.0, 5.0, -2.0);
   track.yaw_rate = -0.4;
   track.state.tail<2>() << -0.8, -2.0;  // the centripetal one
@@ -73,14 +73,13 @@ TEST(TrackPredictionTest, TheProcessNoiseIsThatOfTheTimeToEitherSide) {
   const LinearMotion back = motionOf(track, -0.4, kOptions);
   EXPECT_NEAR(ahead.noise(0, 0), back.noise(0, 0), 1e-12);
   EXPECT_NEAR(ahead.noise(0, 2), -back.noise(0, 2), 1e-12);
-  // Whoever gains speed was farther behind: position and velocity of the past vary against each
-  // other.
+  // If it accelerates, it was farther behind: past position and velocity are negatively correlated.
   EXPECT_LT(back.noise(0, 2), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<TrackCovariance>(back.noise).eigenvalues().minCoeff(),
             0.0);
 }
 
-TEST(TrackPredictionTest, WhatStandsStaysAndMayStart) {
+TEST(TrackPredictionTest, StationaryObjectsStayAndMayStart) {
   Track track = carTrack(3.0, 4.0, 0.2, 0.1);
   track.moving = false;
   track.yaw_rate = 0.4;
@@ -102,7 +101,7 @@ TEST(TrackPredictionTest, MovesAsItsClassDoes) {
             predicted(car, 0.5, kOptions).covariance(2, 2));
 }
 
-TEST(TrackPredictionTest, TheHeadingBecomesLessSureButNoLessThanUnknown) {
+TEST(TrackPredictionTest, TheHeadingBecomesLessCertainUpToUnknown) {
   const Track track = carTrack(0.0, 0.0, 5.0, 0.0);
   const double drift = kOptions.heading_drift;
   EXPECT_NEAR(predicted(track, 0.4, kOptions).heading_variance, 0.01 + 0.4 * drift, 1e-12);
@@ -110,7 +109,7 @@ TEST(TrackPredictionTest, TheHeadingBecomesLessSureButNoLessThanUnknown) {
   EXPECT_EQ(predicted(track, 1e3, kOptions).heading_variance, kUnknownHeadingVariance);
 }
 
-TEST(TrackPredictionTest, TheRestStays) {
+TEST(TrackPredictionTest, TheRestIsUnchanged) {
   Track track = carTrack(0.0, 0.0, 5.0, 0.0);
   track.since_update = 0.1;
   track.history = {{Stamp{1}, Pose2(1.0, 2.0, 0.0)}};

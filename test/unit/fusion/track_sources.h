@@ -14,10 +14,10 @@
 
 namespace datmo {
 
-/// A time of the tests of TrackFuser, s since they began.
+/// A time in the tests of TrackFuser, s since they began.
 inline Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
 
-/// All around the sensor in the origin, to this range.
+/// All around a sensor at the origin, to this range.
 inline ViewFan allAround(double range) {
   ViewFan fan;
   fan.first_bearing = -kPi;
@@ -45,7 +45,7 @@ inline SourceTracks stereo(double seconds, std::vector<Track> tracks) {
   return received("stereo", seconds, std::move(tracks), {allAround(40.0)});
 }
 
-/// Drives along y = 0 and is at x when it is 0 s.
+/// Drives along y = 0 and is at x at 0 s.
 inline Track driving(double x, double seconds, const std::string& source, std::uint32_t id = 1) {
   return carTrack(x + 5.0 * seconds, 0.0, 5.0, 0.0, source, id);
 }

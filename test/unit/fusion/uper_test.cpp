@@ -35,7 +35,7 @@ TEST(Uper, IntegersTakeTheBitsOfTheirRange) {
   EXPECT_EQ(value, 5);
 }
 
-TEST(Uper, WhatIsBeyondARangeIsRefused) {
+TEST(Uper, ValuesOutOfRangeAreRefused) {
   UperReader reader("\xff\xff");
   std::int64_t value = 0;
   EXPECT_EQ(refusalOf([&] { reader.integer(value, 0, 3601); }),
@@ -50,11 +50,11 @@ TEST(Uper, NothingIsReadBeyondTheEnd) {
   std::int64_t value = 0;
   reader.integer(value, 0, 4095);
   EXPECT_EQ(refusalOf([&] { reader.integer(value, 0, 31); }), "truncated_message");
-  reader.integer(value, 0, 15);  // what is left
+  reader.integer(value, 0, 15);  // the remaining bits
   EXPECT_EQ(value, 2);
 }
 
-TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
+TEST(Uper, OpenTypesAreWholeOctetsAfterTheirLength) {
   UperWriter writer;
   writer.present(true);
   std::int64_t value = 5;
@@ -62,7 +62,7 @@ TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
   // 1, 0000 0001, 101 0 0000
   EXPECT_EQ(writer.bytes(), WireBits().add(1, 1).add(1, 8).add(0xA0, 8).bytes());
 
-  // Of 200 octets the number takes two: 10, and 14 bits.
+  // The length of 200 octets takes two octets: 10, and 14 bits.
   UperWriter longer;
   longer.openType([&](Uper& inner) {
     for (int i = 0; i < 200; ++i) {
@@ -78,7 +78,7 @@ TEST(Uper, OpenTypesAreWholeOctetsBehindTheirNumber) {
   EXPECT_EQ(value, 7);
 }
 
-TEST(Uper, AnOpenTypeEndsWhereItsNumberSays) {
+TEST(Uper, AnOpenTypeEndsAtItsLength) {
   const std::string bytes = WireBits().add(1, 8).add(0xFF, 8).add(0x11, 8).bytes();
   UperReader reader(bytes);
   std::int64_t value = 0;
@@ -87,7 +87,7 @@ TEST(Uper, AnOpenTypeEndsWhereItsNumberSays) {
       "truncated_message");
 }
 
-TEST(Uper, AdditionsArePassedOver) {
+TEST(Uper, AdditionsAreSkipped) {
   // Three additions (the number less one in seven bits), the first and the third are there.
   const std::string bytes = WireBits()
                                 .add(2, 7)
@@ -103,9 +103,9 @@ TEST(Uper, AdditionsArePassedOver) {
   EXPECT_EQ(value, 42);
 }
 
-TEST(Uper, ManyAdditionsArePassedOver) {
+TEST(Uper, ManyAdditionsAreSkipped) {
   WireBits bits;
-  bits.add(1, 1).add(70, 8);  // more than 64: a length by itself
+  bits.add(1, 1).add(70, 8);  // more than 64: with a length determinant
   for (int i = 0; i < 70; ++i) {
     bits.add(i == 69 ? 1 : 0, 1);
   }
@@ -117,7 +117,7 @@ TEST(Uper, ManyAdditionsArePassedOver) {
   EXPECT_EQ(value, 42);
 }
 
-TEST(Uper, AddedChoicesArePassedOver) {
+TEST(Uper, AddedChoicesAreSkipped) {
   const std::string bytes =
       WireBits().add(0, 1).add(3, 6).addOpen(WireBits().add(9, 8)).add(42, 8).bytes();
   UperReader reader(bytes);

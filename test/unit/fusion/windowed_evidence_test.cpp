@@ -18,7 +18,7 @@ WindowedEvidenceOptions options() {
   return options;
 }
 
-/// Of looks at this rate (Hz) that all say the same, for as long.
+/// The evidence of equal observations at this rate (Hz), for this long.
 double sumAtRate(double rate, double seconds, double each) {
   WindowedEvidence evidence;
   for (int i = 0; i <= static_cast<int>(seconds * rate); ++i) {
@@ -27,7 +27,7 @@ double sumAtRate(double rate, double seconds, double each) {
   return evidence.sum();
 }
 
-TEST(WindowedEvidenceTest, TheFirstLookCountsInFullAndLaterOnesByTheTimeBetween) {
+TEST(WindowedEvidenceTest, TheFirstObservationCountsInFullAndLaterOnesByTheInterval) {
   WindowedEvidence evidence;
   evidence.look(at(0.0), 4.0, options());
   EXPECT_NEAR(evidence.sum(), 4.0, kRounding);
@@ -35,11 +35,11 @@ TEST(WindowedEvidenceTest, TheFirstLookCountsInFullAndLaterOnesByTheTimeBetween)
   EXPECT_NEAR(evidence.sum(), 5.0, kRounding);
   evidence.look(at(1.1), -3.0, options());  // longer than it: in full, not twice
   EXPECT_NEAR(evidence.sum(), 2.0, kRounding);
-  evidence.look(at(1.1), 7.0, options());  // no time, no news
+  evidence.look(at(1.1), 7.0, options());  // no time, no new information
   EXPECT_NEAR(evidence.sum(), 2.0, kRounding);
 }
 
-TEST(WindowedEvidenceTest, DoesNotHangOnTheRateOfLooks) {
+TEST(WindowedEvidenceTest, DoesNotDependOnTheRateOfObservations) {
   EXPECT_NEAR(sumAtRate(10.0, 1.5, 2.0), 2.0 + 1.5 / 0.5 * 2.0, kRounding);
   EXPECT_NEAR(sumAtRate(10.0, 1.5, 2.0), sumAtRate(40.0, 1.5, 2.0), kRounding);
 }
@@ -52,7 +52,7 @@ TEST(WindowedEvidenceTest, OneObservationIsLimitedInBothDirections) {
   EXPECT_NEAR(evidence.sum(), 0.0, kRounding);
 }
 
-TEST(WindowedEvidenceTest, ForgetsWhatIsOlderThanTheWindow) {
+TEST(WindowedEvidenceTest, ForgetsEvidenceOlderThanTheWindow) {
   WindowedEvidence evidence;
   evidence.look(at(0.0), 3.0, options());
   evidence.look(at(1.0), 2.0, options());

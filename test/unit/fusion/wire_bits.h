@@ -9,8 +9,8 @@
 
 namespace datmo::samples {
 
-/// Bits of a message, field by field: what a field has above its minimum, and the bits that its
-/// range takes, both as the test says.
+/// Bits of a message, field by field: the value above the field's minimum, and the number of bits
+/// of its range, both given by the test.
 class WireBits {
  public:
   WireBits& add(std::uint64_t above_minimum, int width) {
@@ -25,7 +25,7 @@ class WireBits {
     return *this;
   }
 
-  /// An open type: the number of octets, below 128, and the bits with zeros up to whole octets.
+  /// An open type: the number of octets, below 128, and the bits padded with zeros to whole octets.
   WireBits& addOpen(const WireBits& content) {
     const std::string octets = content.bytes();
     add(octets.size(), 8);
@@ -55,7 +55,7 @@ class WireBits {
   std::string bits_;
 };
 
-/// The reason of the WireError that it throws; empty: none.
+/// Returns the reason of the WireError that it throws; empty: none.
 inline std::string refusalOf(const std::function<void()>& action) {
   try {
     action();

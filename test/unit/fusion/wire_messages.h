@@ -9,8 +9,8 @@
 
 namespace datmo::samples {
 
-// A CAM and CPMs by the bits of their fields: ETSI EN 302 637-2 V1.4.1, TS 103 324 V2.1.1, TS
-// 102 894-2. Of each: what the value has above its minimum, and the bits of the range.
+// A CAM and CPMs by the bits of their fields: ETSI EN 302 637-2 V1.4.1, TS 103 324 V2.1.1, TS 102
+// 894-2. For each field: the value above its minimum, and the bits of the range.
 
 /// 45.19 deg north (minimum -90), 5.72 deg east (minimum -180); ellipse of 1.5 m and 1.0 m, its
 /// major axis 30 deg from north; 212.5 m high (minimum -1000), within 0.5 m.
@@ -131,8 +131,8 @@ inline WireBits wireCpm() {
                    .add(wirePedestrian()));
 }
 
-/// Two objects in a vehicle's CPM: the first one has all that is optional, and all of it extended
-/// where it can be. `is_old`: by the data dictionary of version 2.1.1.
+/// Two objects in a vehicle's CPM: the first one has all optional fields, all of them extended
+/// where possible. `is_old`: by the data dictionary of version 2.1.1.
 inline WireBits wireRichCpm(bool is_old) {
   WireBits object;
   object.add(1, 1).add(0x3FFF, 14);  // extended, all there
@@ -173,7 +173,7 @@ inline WireBits wireRichCpm(bool is_old) {
   object.add(0, 1).add(2, 2).add(0, 1).add(0b101, 3).add(9, 8).add(4, 8).add(0xA, 4).add(5 - 1, 7);
   object.add(0, 1).add(3, 2).add(1, 8).add(5 - 1, 7);                        // other
   object.add(1, 1).add(0, 7).addOpen(WireBits().add(3, 8)).add(101 - 1, 7);  // not known
-  object.add(0, 1).add(0b1111, 4);                                           // place in a map
+  object.add(0, 1).add(0b1111, 4);                                           // position in a map
   object.add(1, 1).add(1, 1).add(300, 16).add(400, 16).add(5, 8).add(6, 8).add(7, 15).add(8, 10);
   object.add(0, 7).add(1, 1).addOpen(WireBits().add(0xFF, 8));  // an addition
 

@@ -26,7 +26,7 @@ void expectPosition(const ItsPosition& position) {
   EXPECT_EQ(position.altitude_confidence, 5);
 }
 
-TEST(CamBits, AreReadAsTheyStand) {
+TEST(CamBits, AreDecoded) {
   ASSERT_EQ(samples::wireCam().size(), 322U);
   const Cam cam = decodeCam(samples::wireCam().bytes());
   EXPECT_EQ(cam.header.station, 0xCAFE1234);
@@ -43,7 +43,7 @@ TEST(CamBits, AreReadAsTheyStand) {
   EXPECT_EQ(cam.width, 18);
 }
 
-TEST(CamBits, AreWrittenAsTheyStand) {
+TEST(CamBits, AreEncoded) {
   const std::string bytes = samples::wireCam().bytes();
   EXPECT_EQ(encode(decodeCam(bytes)), bytes);
 }
@@ -61,9 +61,9 @@ TEST(CamBits, OfTheLowFrequencyContainerFollow) {
   EXPECT_EQ(decodeCam(written).width, 18);
 }
 
-TEST(CamBits, OfWhatIsNotUsedArePassedOver) {
-  // The basic container has an addition; the vehicle's has all that is optional, whose bits stand
-  // behind what is read.
+TEST(CamBits, OfUnusedFieldsAreSkipped) {
+  // The basic container has an addition; the vehicle's has all optional fields, whose bits follow
+  // what is read.
   const std::string bytes = samples::wireCamHead(0b11, 5).bytes();
   std::string extended = bytes;
   extended[8] = static_cast<char>(static_cast<unsigned char>(extended[8]) | 0x10U);  // bit 67
@@ -83,7 +83,7 @@ TEST(CamBits, OfWhatIsNotUsedArePassedOver) {
   EXPECT_EQ(cam.width, 20);
 }
 
-TEST(CamBits, OfAUnitBesideTheRoadEndBehindItsPosition) {
+TEST(CamBits, OfARoadsideUnitEndAfterItsPosition) {
   EXPECT_FALSE(decodeCam(samples::wireCamHead(0, 15).add(0b0100, 4).bytes()).is_vehicle);
   // A container that is not known.
   WireBits added = samples::wireCamHead(0, 15);
@@ -91,7 +91,7 @@ TEST(CamBits, OfAUnitBesideTheRoadEndBehindItsPosition) {
   EXPECT_FALSE(decodeCam(added.bytes()).is_vehicle);
 }
 
-TEST(CpmBits, AreReadAsTheyStand) {
+TEST(CpmBits, AreDecoded) {
   const Cpm cpm = decodeCpm(samples::wireCpm().bytes(), ItsDictionary::k221);
   EXPECT_EQ(cpm.header.station, 77);
   EXPECT_EQ(cpm.reference_time, 699451205000);
@@ -124,8 +124,9 @@ TEST(CpmBits, AreReadAsTheyStand) {
   EXPECT_EQ(object.classes[0].confidence, 80);
 }
 
-TEST(CpmBits, AreWrittenAsTheyStand) {
-  // But for the subclass of a pedestrian, which we do not tell: 0 for 1, 8 bits before the end.
+TEST(CpmBits, AreEncoded) {
+  // Except for the subclass of a pedestrian, which we do not report: 0 for 1, 8 bits before the
+  // end.
   const std::string read = samples::wireCpm().bytes();
   const Cpm cpm = decodeCpm(read, ItsDictionary::k221);
   const std::string written = encode(cpm, ItsDictionary::k221);
@@ -141,7 +142,7 @@ TEST(CpmBits, AreWrittenAsTheyStand) {
 
 class CpmOfDictionary : public testing::TestWithParam<ItsDictionary> {};
 
-TEST_P(CpmOfDictionary, WhatIsNotUsedIsPassedOver) {
+TEST_P(CpmOfDictionary, UnusedFieldsAreSkipped) {
   const Cpm cpm =
       decodeCpm(samples::wireRichCpm(GetParam() == ItsDictionary::k211).bytes(), GetParam());
   EXPECT_EQ(cpm.segments, 3);

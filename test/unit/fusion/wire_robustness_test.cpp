@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages that are cut off, changed, or anything.
+// Messages that are truncated, changed, or random.
 #include <random>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@
 namespace datmo {
 namespace {
 
-TEST(WireRobustness, EveryPartOfOneIsRefused) {
+TEST(WireRobustness, EveryTruncationIsRefused) {
   const std::string cam = samples::wireCam().bytes();
   for (std::size_t size = 0; size < cam.size(); ++size) {
     const std::string part = cam.substr(0, size);
@@ -32,7 +32,7 @@ TEST(WireRobustness, EveryPartOfOneIsRefused) {
 
 /// Whatever it is: read, or refused as a message.
 void takeAnything(const std::string& bytes) {
-  const std::string copy(bytes);  // of its own size, so that a sanitizer sees what is beyond it
+  const std::string copy(bytes);  // of its own size, so that a sanitizer detects reads beyond it
   try {
     UperReader head(copy);
     ItsHeader header;

@@ -31,7 +31,7 @@ TEST(DistanceFieldTest, LeadsToTheNearestCell) {
   EXPECT_EQ(field.at({40.0, 0.0}), 7.0);
 }
 
-TEST(DistanceFieldTest, WithoutSuchCellsNothingIsNear) {
+TEST(DistanceFieldTest, WithoutSuchCellsAllDistancesAreLarge) {
   const OccupancyMap map{OccupancyMapOptions{}};
   const DistanceField field = toStaticCells(map);
   EXPECT_GE(field.at({0.0, 0.0}), 7.0);

@@ -54,7 +54,7 @@ TEST(Resample, ByAQuarterTurnRowsBecomeColumns) {
   EXPECT_EQ(cells.at({1, -3}), 0);
 }
 
-TEST(Resample, EachCellTakesWhatTheGridKnowsOfItsCenter) {
+TEST(Resample, EachCellTakesTheValueAtItsCenter) {
   const SensorGrid grid = numbered();
   const Pose2 pose(2.3, -1.1, 0.7);
   const Cells cells = resampled(grid, pose, kTarget);
@@ -65,7 +65,7 @@ TEST(Resample, EachCellTakesWhatTheGridKnowsOfItsCenter) {
   }
 }
 
-TEST(Resample, WhatLiesBesideTheWindowIsNotVisited) {
+TEST(Resample, CellsOutsideTheWindowAreNotVisited) {
   EXPECT_TRUE(resampled(numbered(), Pose2(100.0, 0.0, 0.3), kTarget).empty());
   EXPECT_EQ(resampled(numbered(), Pose2(10.0, 0.0, 0.0), kTarget).size(), 12U);
 }

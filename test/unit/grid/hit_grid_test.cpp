@@ -61,7 +61,7 @@ TEST(HitGridTest, AHitCountsInItsCellAndInTheSumsAround) {
   EXPECT_TRUE(grid.meanHit({0, 0}).isApprox(Point2(0.175, 0.125), 1e-6));
 }
 
-TEST(HitGridTest, WhatIsBelowATenthOfTheHighestIsCut) {
+TEST(HitGridTest, ValuesBelowATenthOfTheHighestAreCut) {
   HitGrid grid(smallOptions(0));
   for (int i = 0; i < 20; ++i) {
     grid.add({-2.0, 0.1}, kAnyTime);
@@ -75,7 +75,7 @@ TEST(HitGridTest, WhatIsBelowATenthOfTheHighestIsCut) {
   EXPECT_EQ(grid.cutSmoothed({0, 0}), 0);
 }
 
-TEST(HitGridTest, WhatPassesIsCutAndWhatLastsIsNot) {
+TEST(HitGridTest, TransientHitsAreCutAndLastingOnesAreNot) {
   HitGridOptions options = smallOptions(0);
   options.min_age = 1.0;
   HitGrid grid(options);
@@ -111,7 +111,7 @@ TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
     Point2 center = Point2::Zero();
     for (int i = 0; i < 150; ++i) {
       for (int hit = 0; hit < 60; ++hit) {
-        // Some points are hit more than others; some hits are outside.
+        // Some points are hit more often than others; some hits are outside.
         grid.add(center + Point2(random.normal(1.5), random.normal(1.5)), kAnyTime);
       }
       expectSumsOf(grid);
@@ -146,7 +146,7 @@ TEST(HitGridTest, AScanCountsFromItsPoseWhateverTheMapSays) {
   EXPECT_TRUE(grid.window().contains(grid.window().cellAt({100.0, 50.0})));
 }
 
-TEST(HitGridTest, StartsAgain) {
+TEST(HitGridTest, StartsOver) {
   HitGrid grid(smallOptions(0));
   grid.centerOn({10.0, 0.0});
   grid.add({10.0, 0.0}, kAnyTime);

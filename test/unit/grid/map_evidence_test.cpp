@@ -36,7 +36,7 @@ TEST(MapEvidenceTest, ARestoredMapKnowsTheSame) {
   EXPECT_EQ(restored.occupancyImage(), map.occupancyImage());
 }
 
-TEST(MapEvidenceTest, WhatLeftTheWindowIsInTheEvidence) {
+TEST(MapEvidenceTest, CellsThatLeftTheWindowAreInTheEvidence) {
   OccupancyMap map = mapWithSurface();
   map.centerOn({100.0, 0.0});
   EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
@@ -45,7 +45,7 @@ TEST(MapEvidenceTest, WhatLeftTheWindowIsInTheEvidence) {
   EXPECT_EQ(map.extent().columns, 5);
 }
 
-TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
+TEST(MapEvidenceTest, ItIsReloadedOnlyIntoARestoredMap) {
   OccupancyMap map = mapWithSurface();
   OccupancyMap restored = OccupancyMap::restored(smallMap(), map.evidence());
   for (OccupancyMap* moved : {&map, &restored}) {
@@ -56,7 +56,7 @@ TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
   expectSurface(restored);
 }
 
-TEST(MapEvidenceTest, WhatTheWindowCameBackToIsInTheEvidence) {
+TEST(MapEvidenceTest, RevisitedCellsAreInTheEvidence) {
   OccupancyMap map = mapWithSurface();
   const std::size_t known = map.evidence().cells.size();
   map.centerOn({100.0, 50.0});
@@ -74,15 +74,15 @@ TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
+TEST(MapEvidenceTest, ChangingWindowsRepeatedlyDoesNotMakeItGrow) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 4;
   options.tile_file.folder.clear();
   OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
   const std::size_t restored = map.evidence().cells.size();
   std::size_t max_known = 0;
-  // A vehicle that gets lost in ever new parts: each time all of the map is searched, and then it
-  // goes on in a part.
+  // A vehicle that is repeatedly lost in new areas: each time the whole map is searched, and then
+  // mapping continues in one part.
   const GridWindow part = map.window();
   for (int i = 1; i <= 40; ++i) {
     map.setWindow(map.extent());
@@ -92,14 +92,14 @@ TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
     updateWith(map, scanTo({{4.3, 0.4}}, 0.1 * i), PointState::kUnknown, pose);
     max_known = std::max(max_known, map.evidence().cells.size());
   }
-  // A scan makes five cells known, which lie in two tiles at the most.
+  // A scan makes five cells known, which lie in at most two tiles.
   EXPECT_LE(max_known, restored + 5U * (4U + 1U));
   EXPECT_GT(map.forgottenTiles(), 30U);
   map.centerOn({0.0, 0.0});
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
+TEST(MapEvidenceTest, TheNewWindowHoldsCellsThatFitNowhereElse) {
   OccupancyMapOptions options = smallMap();
   options.max_tiles = 1;
   options.tile_file.folder.clear();
@@ -115,7 +115,7 @@ TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
   expectSurface(map);
 }
 
-TEST(MapEvidenceTest, WhatMemoryHasNoRoomForIsInTheFile) {
+TEST(MapEvidenceTest, TilesBeyondTheMemoryLimitAreInTheFile) {
   OccupancyMapOptions options = smallMap();
   const auto drive = [](OccupancyMap& map) {
     for (int i = 0; i <= 20; ++i) {

@@ -40,7 +40,7 @@ TEST(MapSurfaceTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
               1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
 }
 
-TEST(MapSurfaceTest, ABeamSeesThroughAStaticSurfaceThatLiesWellInFrontOfItsEnd) {
+TEST(MapSurfaceTest, ABeamPassesThroughAStaticSurfaceWellInFrontOfItsEnd) {
   OccupancyMapOptions options = smallMap();
   options.surface_sigma = 0.1;
   OccupancyMap map(options);
@@ -66,13 +66,13 @@ TEST(MapSurfaceTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   EXPECT_NEAR(map.occupancy({6, 0}), 0.4, 1e-6);
   EXPECT_DOUBLE_EQ(map.occupancy({7, 0}), 0.5) << "1 m before the end";
   EXPECT_NEAR(map.occupancy({8, 0}), 0.8, 1e-6);
-  // Nearer than that to the scanner it frees nothing at all.
+  // Nearer than that to the scanner it frees nothing.
   updateWith(map, scanTo({{0.5, 1.2}}, 0.1));
   EXPECT_NEAR(map.occupancy({0, 0}), 0.4, 1e-6);
 }
 
-/// m, by how much the surface of a wall, hit by a beam at right angles with noise of one cell, is
-/// mapped too far away.
+/// Offset (m) at which the surface of a wall, hit by a beam at right angles with noise of one cell,
+/// is mapped too far away.
 double biasOfANoisyWall(double end_margin) {
   constexpr double kNoise = 0.2;
   constexpr double kWall = 8.1;

@@ -9,7 +9,7 @@ namespace {
 
 using samples::smallMap;
 
-/// What an instantaneous grid of 20 x 20 cells about the vehicle shows, second by second.
+/// Contents of an instantaneous grid of 20 x 20 cells around the vehicle, second by second.
 class MapUpdateTest : public testing::Test {
  protected:
   void show(const GridUpdate& grid_update, double seconds, const Pose2& base_in_map = Pose2()) {
@@ -63,7 +63,7 @@ TEST_F(MapUpdateTest, ASurfaceInACellOfOthersAgesFromItsOwnFirstHit) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kStatic);
 }
 
-TEST_F(MapUpdateTest, WhereTheScannerWasRefutedOftenNothingMoves) {
+TEST_F(MapUpdateTest, WhereTheScannerWasOftenRefutedNothingMoves) {
   free_ = {{4, 0}, {8, 0}};
   for (int i = 0; i < 5; ++i) {
     show({}, 0.1 * i);
@@ -100,7 +100,7 @@ TEST_F(MapUpdateTest, RefutedEndsMayBeForgotten) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving);
 }
 
-TEST_F(MapUpdateTest, WhatLiesBesideTheWindowIsLeftOut) {
+TEST_F(MapUpdateTest, CellsOutsideTheWindowAreLeftOut) {
   GridUpdate grid_update = surfaceAt({400.0, 0.0});
   grid_update.cells = {{0.0, -400.0}};
   grid_update.refuted = {{-400.0, 0.0}};

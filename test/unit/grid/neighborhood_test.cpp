@@ -27,7 +27,7 @@ TEST(AnyNeighbor, StopsAtTheFirst) {
   EXPECT_EQ(tested, 2);
 }
 
-TEST(AnyNeighbor, LooksNoFurtherThanItsReach) {
+TEST(AnyNeighbor, SearchesNoFurtherThanItsReach) {
   const auto is_far = [](CellIndex cell) { return cell == CellIndex{2, 0}; };
   EXPECT_FALSE(anyNeighbor({0, 0}, 1, is_far));
   EXPECT_TRUE(anyNeighbor({0, 0}, 2, is_far));

@@ -16,7 +16,7 @@ using samples::scanTo;
 using samples::smallMap;
 using samples::updateWith;
 
-TEST(OccupancyMapTest, NothingIsKnownAtFirst) {
+TEST(OccupancyMapTest, IsUnknownInitially) {
   const OccupancyMap map(smallMap());
   EXPECT_DOUBLE_EQ(map.occupancy({3, 3}), 0.5);
   EXPECT_DOUBLE_EQ(map.occupancy({3000, 3}), 0.5);
@@ -132,7 +132,7 @@ TEST(OccupancyMapTest, AWideBeamIsMovingOnlyIfItsWholeFootprintWasFree) {
   EXPECT_EQ(map.judge({4.5, 2.0}, {0.0, 1.6}), PointState::kStatic) << "row 3 is within reach";
 }
 
-TEST(OccupancyMapTest, WhatWasHitForAShortTimeIsNotStatic) {
+TEST(OccupancyMapTest, CellsHitForAShortTimeAreNotStatic) {
   OccupancyMap map(smallMap());
   for (int i = 0; i <= 7; ++i) {
     updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
@@ -180,7 +180,7 @@ TEST(OccupancyMapTest, TheNearestCellsHitsAreThoseWhoseMeanIsNearest) {
   EXPECT_FALSE(map.nearestHits({5.2, 8.5}));
 }
 
-TEST(OccupancyMapTest, ASurfaceIsAsOldAsItsHitsInTheMean) {
+TEST(OccupancyMapTest, ASurfaceHasTheMeanAgeOfItsHits) {
   OccupancyMap map(smallMap());
   for (const double seconds : {0.0, 1.0, 3.5, 5.0}) {
     const bool seen = seconds < 4.0;
@@ -199,10 +199,10 @@ TEST(OccupancyMapTest, HitsMatureInTheTimeOfStaticAfter) {
   EXPECT_DOUBLE_EQ(maturity(), 0.0);
   updateWith(map, scanTo({{4.5, 0.5}}, 0.2));
   EXPECT_NEAR(maturity(), 0.25, 1e-6);
-  // Two hits of a cell that is new, beside two of 0.25.
+  // Two hits of a new cell, beside two of 0.25.
   updateWith(map, scanTo({{5.5, 0.5}, {5.5, 0.5}}, 0.9));
   EXPECT_NEAR(maturity(), 0.125, 1e-6);
-  // Three hits that are mature, two that are not.
+  // Three mature hits, two others.
   updateWith(map, scanTo({{4.5, 0.5}}, 1.0));
   EXPECT_NEAR(maturity(), 0.6, 1e-6);
 }

@@ -19,7 +19,7 @@ std::vector<CellIndex> walk(const Rectangle& rectangle) {
   return cells;
 }
 
-/// Asks of each cell of the window whether it is one, row by row.
+/// Tests each cell of the window, row by row.
 std::vector<CellIndex> bruteForce(const Rectangle& rectangle) {
   std::vector<CellIndex> cells;
   const Pose2 map_in_rectangle = rectangle.center.inverse();

@@ -9,7 +9,7 @@
 namespace datmo::rolling_grid_test {
 namespace {
 
-/// Every cell of the window holds its own index, so that a cell can be told from any other.
+/// Every cell of the window holds its own index, so that it is distinguishable from any other.
 int tag(CellIndex cell) { return 1000 * cell.column + cell.row; }
 
 constexpr int kEmpty = -999999;
@@ -57,7 +57,7 @@ TEST_F(RollingGridTest, ACellHoldsItsLowerLeftBorder) {
   EXPECT_TRUE(window.centerOf({-1, 2}).isApprox(Point2(-0.25, 1.25)));
 }
 
-TEST_F(RollingGridTest, MovesInEveryDirectionKeepWhatStaysInside) {
+TEST_F(RollingGridTest, MovesInEveryDirectionKeepTheOverlap) {
   for (int x = -9; x <= 9; ++x) {
     for (int y = -7; y <= 7; ++y) {
       expectMoved(Point2(0.5 * x, 0.5 * y));
@@ -78,7 +78,7 @@ TEST_F(RollingGridTest, AFarMoveEmptiesAll) {
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
 }
 
-TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
+TEST_F(RollingGridTest, DistantPositionsAreClampedToTheIndexLimit) {
   constexpr int kLimit = GridWindow::kMaxCell;
   const GridWindow& window = grid_.window();
   EXPECT_EQ(window.cellAt({1.0e300, -1.0e300}), (CellIndex{kLimit, -kLimit}));
@@ -91,7 +91,7 @@ TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
 }
 
-TEST_F(RollingGridTest, WhatLeavesIsShownOnceWhileAllIsStillThere) {
+TEST_F(RollingGridTest, LeavingCellsAreVisitedOnceBeforeTheMove) {
   for (const Point2& center : {Point2(0.1, 0.1), Point2(1.0, -0.5), Point2(-2.0, 7.0)}) {
     grid_.centerOn({0.0, 0.0});
     fill();

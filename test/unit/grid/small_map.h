@@ -37,8 +37,8 @@ inline void updateWith(OccupancyMap& map, const Scan& scan, PointState state = P
   map.update(scan, std::vector<PointState>(scan.rays.size(), state), pose);
 }
 
-/// A map of 10 m x 10 m in cells of 1 m about the origin, with a beam along x through the row above
-/// the x axis that ends in the cell of x = 4.5 m, three times in 2 s.
+/// A map of 10 m x 10 m in cells of 1 m around the origin, with a beam along x through the row
+/// above the x axis that ends in the cell of x = 4.5 m, three times in 2 s.
 inline OccupancyMap mapWithABeam() {
   OccupancyMapOptions options;
   options.window = {10.0, 10.0, 1.0};

@@ -20,7 +20,7 @@ TileFileOptions noFile() { return {"", 0.0}; }
 
 TileFileOptions fileOf(double tiles) { return {testing::TempDir(), tiles * kTileSize}; }
 
-/// A tile each, of which two are in memory.
+/// One tile each; two fit in memory.
 TileStore<int> storeWithTiles(int tiles, const TileFileOptions& file) {
   TileStore<int> store(2, kEmpty, file);
   for (int i = 0; i < tiles; ++i) {
@@ -80,7 +80,7 @@ TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
   EXPECT_EQ(store.at({200, 0}), 3);
 }
 
-TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
+TEST(TileStoreTest, PermanentTilesAreNotForgotten) {
   TileStore<int> store(2, 0, noFile());
   store.putPermanently({0, 0}, 1);
   for (int i = 1; i <= 5; ++i) {
@@ -94,7 +94,7 @@ TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
   EXPECT_EQ(store.at({500, 0}), 5);
 }
 
-TEST(TileStoreTest, WhatMemoryHasNoRoomForIsInTheFile) {
+TEST(TileStoreTest, TilesBeyondTheMemoryLimitAreInTheFile) {
   const TileStore<int> store = storeWithTiles(6, fileOf(100.0));
   expectTiles(store, 0, 6);
   EXPECT_EQ(store.size(), 6U);
@@ -107,7 +107,7 @@ TEST(TileStoreTest, ATileComesBackFromTheFileWithAllThatItHeld) {
   store.put({1, 0}, 77);
   EXPECT_EQ(store.at({0, 0}), 0);
   EXPECT_EQ(store.at({1, 0}), 77);
-  for (int i = 4; i < 8; ++i) {  // and goes there again, changed
+  for (int i = 4; i < 8; ++i) {  // and is written there again, changed
     store.put({100 * i, 0}, i);
   }
   EXPECT_EQ(store.at({0, 0}), 0);
@@ -119,7 +119,7 @@ TEST(TileStoreTest, ACopySharesTheFileAndNotItsChanges) {
   TileStore<int> store = storeWithTiles(4, fileOf(100.0));
   TileStore<int> copy = store;
   copy.put({0, 0}, 50);
-  for (int i = 1; i < 4; ++i) {  // the first tile goes into the file again
+  for (int i = 1; i < 4; ++i) {  // the first tile is written to the file again
     copy.put({100 * i, 0}, 50 + i);
   }
   expectTiles(store, 0, 4);
@@ -127,7 +127,7 @@ TEST(TileStoreTest, ACopySharesTheFileAndNotItsChanges) {
   EXPECT_EQ(copy.at({100, 0}), 51);
 }
 
-TEST(TileStoreTest, AFullFileForgetsAndSaysWhy) {
+TEST(TileStoreTest, AFullFileForgetsAndReportsWhy) {
   const TileStore<int> store = storeWithTiles(6, fileOf(1.5));
   EXPECT_EQ(store.forgotten(), 3U) << "two in memory, one in the file";
   EXPECT_EQ(store.at({0, 0}), 0);
@@ -136,14 +136,14 @@ TEST(TileStoreTest, AFullFileForgetsAndSaysWhy) {
   EXPECT_NE(store.fileError().find("max_size"), std::string::npos) << store.fileError();
 }
 
-TEST(TileStoreTest, AFolderThatIsNotThereForgetsAndSaysWhy) {
+TEST(TileStoreTest, AMissingFolderForgetsAndReportsWhy) {
   const TileStore<int> store = storeWithTiles(4, {"/nowhere/at/all", 100.0});
   EXPECT_EQ(store.forgotten(), 2U);
   EXPECT_NE(store.fileError().find("'/nowhere/at/all'"), std::string::npos) << store.fileError();
 }
 
-/// The system refuses to let a file grow beyond a limit as it does on a full disk.
-TEST(TileStoreTest, AFullDiskForgetsAndSaysWhy) {
+/// The system refuses to let a file grow beyond a limit, as on a full disk.
+TEST(TileStoreTest, AFullDiskForgetsAndReportsWhy) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -180,11 +180,11 @@ TEST(TileStoreTest, LapsOfTheSameStreetDoNotMakeTheFileGrow) {
   expectTiles(store, 0, 6);
 }
 
-TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
+TEST(TileStoreTest, SpaceIsReusedWhenNoCopyHasTheTile) {
   TileStore<int> store = storeWithTiles(4, fileOf(3.0));
   {
     TileStore<int> copy = store;
-    copy.put({0, 0}, 10);  // its room stays, as the other one has it
+    copy.put({0, 0}, 10);  // its slot stays allocated, as the other one has it
     EXPECT_EQ(copy.forgotten(), 0U) << "the third tile of the file";
     copy.put({100, 0}, 11);
     EXPECT_EQ(copy.forgotten(), 1U) << "full";
@@ -194,8 +194,8 @@ TEST(TileStoreTest, RoomIsFreeAgainWhenNoCopyHasTheTile) {
   expectTiles(store, 0, 5);
 }
 
-/// As of a disk that fails.
-TEST(TileStoreTest, WhatCannotBeReadIsLeftOutAndSaid) {
+/// As on a failing disk.
+TEST(TileStoreTest, UnreadableTilesAreLeftOutAndReported) {
   TileStore<int> store = storeWithTiles(4, fileOf(100.0));
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     std::error_code none;

@@ -47,7 +47,7 @@ TEST(Overlap3d, StackedBoxesOnlyTouch) {
 
 TEST(Overlap3d, DisjointBoxes) {
   EXPECT_EQ(overlap3d(car(), car(10.0)), 0.0);
-  EXPECT_EQ(overlap3d(car(), car(0.0, 2.5)), 0.0);  // circles around them meet
+  EXPECT_EQ(overlap3d(car(), car(0.0, 2.5)), 0.0);  // circles around them intersect
 }
 
 TEST(Overlap3d, OneInsideTheOther) {
@@ -94,7 +94,7 @@ TEST(Overlap3d, IsSymmetricAndAFraction) {
   }
 }
 
-/// Two boxes carried and turned together overlap as before.
+/// Two boxes moved and turned together overlap as before.
 TEST(Overlap3d, DoesNotDependOnTheFrame) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> any(-1.5, 1.5);
@@ -110,7 +110,7 @@ TEST(Overlap3d, DoesNotDependOnTheFrame) {
   }
 }
 
-/// Where the sides lie on each other, rounding decides what is inside.
+/// For coincident sides, rounding decides what is inside.
 TEST(Overlap3d, NearlyTheSameBox) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> tiny(-1e-15, 1e-15);

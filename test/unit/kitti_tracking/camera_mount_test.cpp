@@ -7,7 +7,7 @@
 namespace datmo::kitti::camera_mount_test {
 namespace {
 
-TEST(CameraMountTest, TheCameraStandsWhereTheCalibrationSays) {
+TEST(CameraMountTest, TheCameraIsWhereTheCalibrationSays) {
   const Pose2 camera = madeCamera().cameraInBase();
   EXPECT_NEAR(camera.x(), 1.0, 1e-12);
   EXPECT_NEAR(camera.y(), -0.3, 1e-12);
@@ -32,7 +32,7 @@ TEST(CameraMountTest, RotationTurnsToTheRight) {
       << "away from it";
 }
 
-TEST(CameraMountTest, ThereAndBack) {
+TEST(CameraMountTest, RoundTrip) {
   Calibration calibration = madeCalibration();
   // Turned by 3 degrees and moved.
   const double turn = degrees(3.0);

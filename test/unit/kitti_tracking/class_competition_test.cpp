@@ -24,14 +24,14 @@ TEST(ClassCompetition, AtOnePositionTheOddsAreDivided) {
   EXPECT_NEAR(lists[1].objects[0].log_odds, 2.0 - std::log(1.0 + std::exp(1.0)), 1e-12);
 }
 
-TEST(ClassCompetition, WhatIsHardlyThereTakesHardlyAnything) {
+TEST(ClassCompetition, ImprobableObjectsHaveLittleEffect) {
   std::vector<ObjectList> lists = {listOf({objectAt(10.0, 5.0)}), listOf({objectAt(10.0, -9.0)})};
   compete(lists);
   EXPECT_NEAR(lists[0].objects[0].log_odds, 5.0, 1e-3);
   EXPECT_NEAR(lists[1].objects[0].log_odds, -14.0, 0.01);
 }
 
-TEST(ClassCompetition, OthersAreLeftAlone) {
+TEST(ClassCompetition, OthersAreUnchanged) {
   std::vector<ObjectList> lists = {listOf({objectAt(10.0, 1.0), objectAt(10.2, 3.0)}),
                                    listOf({objectAt(13.0, 2.0)}), listOf({})};
   compete(lists);

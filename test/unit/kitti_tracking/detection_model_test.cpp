@@ -61,7 +61,7 @@ TEST(DetectionModelTest, ClassesHaveTheirNames) {
   EXPECT_EQ(classOf(ObjectType::kMisc), ObjectClass::kUnknown);
 }
 
-TEST(DetectionModelTest, LooksAtWhatIsInTheImage) {
+TEST(DetectionModelTest, CoversTheImage) {
   DetectionModelOptions options;
   options.sure_range = 30.0;
   options.range = 60.0;

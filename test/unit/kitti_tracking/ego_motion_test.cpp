@@ -15,7 +15,7 @@ namespace {
 constexpr double kPeriod = 0.1;  // s
 const Eigen::Matrix2d kCovariance = 0.01 * Eigen::Matrix2d::Identity();
 
-/// Cars parked every 6 m on both sides of a road.
+/// Parked cars every 6 m on both sides of a road.
 std::vector<Point2> parkedCars() {
   std::vector<Point2> cars;
   for (int i = 0; i < 30; ++i) {
@@ -45,7 +45,7 @@ std::vector<Landmark> seenFrom(const Pose2& base, const std::vector<Point2>& pos
   return seen;
 }
 
-/// Drives along; what was seen in a frame is what is expected in the next one, where it was found.
+/// Drives on; what was seen in a frame is expected in the next one, where it was found.
 class Drive {
  public:
   explicit Drive(const EgoMotionOptions& options = {}) : ego(options) {}
@@ -75,7 +75,7 @@ TEST(EgoMotionTest, FindsSpeedAndYawRateFromParkedCars) {
   }
   EXPECT_NEAR(drive.ego.twist().forward_speed, 8.0, 0.05);
   EXPECT_NEAR(drive.ego.twist().yaw_rate, 0.1, 0.005);
-  // Nothing told of the first step, and of the second one hardly how fast the vehicle turns.
+  // There is no information about the first step, and little about the turn rate in the second one.
   const Pose2 distance = drive.ego.baseInFixed();
   EXPECT_NEAR(std::abs(angleBetween(distance.heading(), drive.truth.heading())), 0.0, 0.05);
   EXPECT_NEAR(distance.position().norm(), drive.truth.position().norm(), 1.5);
@@ -114,7 +114,7 @@ TEST(EgoMotionTest, CarsThatMoveDoNotDecide) {
   EXPECT_NEAR(drive.ego.twist().yaw_rate, 0.0, 0.005);
 }
 
-TEST(EgoMotionTest, GoesOnAsItDidWithTooFewMatches) {
+TEST(EgoMotionTest, ContinuesItsMotionWithTooFewMatches) {
   Drive drive;
   for (int i = 0; i < 10; ++i) {
     drive.frame({6.0, 0.0}, parkedCars());
@@ -139,7 +139,7 @@ TEST(EgoMotionTest, NothingSeenIsNoMotion) {
   EXPECT_EQ(ego.twist().forward_speed, 0.0);
 }
 
-TEST(EgoMotionTest, TheErrorsAreAsLargeAsItSays) {
+TEST(EgoMotionTest, TheErrorsAreConsistentWithTheCovariance) {
   // NEES of speed and yaw rate over noise of the measurements; the expected positions are exact.
   Random random(7);
   const Eigen::Matrix2d exact = 1e-6 * Eigen::Matrix2d::Identity();
@@ -161,7 +161,7 @@ TEST(EgoMotionTest, TheErrorsAreAsLargeAsItSays) {
     const Eigen::Vector2d error(ego.twist().forward_speed - 7.0, ego.twist().yaw_rate - 0.05);
     sum += error.dot(ego.covariance().inverse() * error);
   }
-  // Two degrees of freedom; the weights make it a bit too careful.
+  // Two degrees of freedom; the weights make it slightly conservative.
   EXPECT_LT(sum / kRuns, 2.5);
   EXPECT_GT(sum / kRuns, 0.8);
 }

@@ -21,7 +21,7 @@ bool isOptional(const TrackedObject& result, const std::vector<TrackedObject>& l
   return evaluated(labels, {result}).frames.at(result.frame).tracks.at(0).optional;
 }
 
-TEST(EvaluatedSequence, OtherClassesAreNotLookedAt) {
+TEST(EvaluatedSequence, OtherClassesAreIgnored) {
   const EvaluatedSequence sequence = evaluated({rowAt(0, 1, 0.0, ObjectType::kTruck)},
                                                {rowAt(0, 1, 0.0, ObjectType::kPedestrian)});
   EXPECT_TRUE(sequence.frames.empty());

@@ -30,7 +30,7 @@ TEST(KittiCalibration, NamesOfTheTrackingBenchmark) {
   EXPECT_EQ(calibration.rectification(2, 2), 9.0);
 }
 
-TEST(KittiCalibration, SaysWhatIsWrong) {
+TEST(KittiCalibration, NamesTheError) {
   const TextFolder folder("kitti_calibration_test");
   const std::string missing = folder.write("a.txt", "P2:" + kTwelve);
   EXPECT_EQ(messageOf([&] { readCalibration(missing); }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sequences of KITTI tracking, where they are; skipped where they are not.
+// Sequences of KITTI tracking; skipped if they are not installed.
 #include <filesystem>
 
 #include "kitti_tracking/kitti_calibration.h"
@@ -32,7 +32,7 @@ std::vector<std::string> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// The labels, and the labeled objects as results.
+/// Returns the labels, and the labeled objects as results.
 std::vector<Sequence> perfectRuns() {
   std::vector<Sequence> sequences;
   for (const std::string& file : filesIn(kFolder / "label_02")) {

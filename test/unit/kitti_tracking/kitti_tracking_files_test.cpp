@@ -150,7 +150,8 @@ TEST_F(KittiTrackingFiles, EveryTypeOfLabel) {
 }
 
 TEST_F(KittiTrackingFiles, DetectionsWithoutAlpha) {
-  // 45 degrees to the right, heading right: seen from the camera it goes 45 degrees off its line.
+  // 45 degrees to the right, heading right: seen from the camera it moves at 45 degrees to the line
+  // of sight.
   const Detection detection = readDetections(file("0,2,1,2,3,4,0.5,1.5,1.6,4,10,1,10,0\n")).at(0);
   EXPECT_DOUBLE_EQ(detection.alpha, -0.25 * kPi);
   EXPECT_EQ(detection.box.rotation_y, 0.0);

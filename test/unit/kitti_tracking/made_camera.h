@@ -5,8 +5,8 @@
 
 namespace datmo::kitti {
 
-/// A camera 1 m ahead of the vehicle's origin and 0.3 m to its right, which looks ahead: 700 px of
-/// focal length, center at 600, 180.
+/// A forward-looking camera 1 m ahead of the vehicle's origin and 0.3 m to its right: 700 px focal
+/// length, center at 600, 180.
 inline Calibration madeCalibration() {
   Calibration calibration;
   calibration.image_from_camera << 700, 0, 600, 0, 0, 700, 180, 0, 0, 0, 1, 0;

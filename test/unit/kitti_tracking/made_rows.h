@@ -7,7 +7,7 @@
 
 namespace datmo::kitti {
 
-/// A cube of 1 m that stands on y = 0, with an image high enough to count.
+/// A cube of 1 m that is placed at y = 0, with an image high enough to count.
 inline TrackedObject rowAt(int frame, int id, double x, ObjectType type = ObjectType::kCar) {
   TrackedObject row;
   row.frame = frame;

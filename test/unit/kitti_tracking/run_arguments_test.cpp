@@ -25,7 +25,7 @@ TEST(RunArgumentsTest, TheShippedConfigurationIsRead) {
   EXPECT_NE(options.classes[0].detections.score_even, options.classes[1].detections.score_even);
 }
 
-TEST(RunArgumentsTest, OptionsStandAboveTheConfiguration) {
+TEST(RunArgumentsTest, OptionsOverrideTheConfiguration) {
   const RunOptions options =
       parseRunArguments({"--set", "car/tracker/require_motion=true", "d", "c", "r", "--config",
                          kShipped, "--set", "ego_motion/gate=2"})
@@ -34,7 +34,7 @@ TEST(RunArgumentsTest, OptionsStandAboveTheConfiguration) {
   EXPECT_EQ(options.ego_motion.gate, 2.0);
 }
 
-TEST(RunArgumentsTest, WhatIsWrongIsNamed) {
+TEST(RunArgumentsTest, ErrorsAreNamed) {
   const auto message = [](const std::vector<std::string>& words) {
     return messageOf([&] { parseRunArguments(words); });
   };

@@ -37,7 +37,7 @@ TEST(ScoreArguments, OneClassAndOverlap) {
   EXPECT_EQ(arguments.output, "report.json");
 }
 
-TEST(ScoreArguments, SaysWhatIsWrong) {
+TEST(ScoreArguments, NamesTheError) {
   EXPECT_THROW(parseScoreArguments({}), OptionError);
   EXPECT_EQ(errorOf({"labels"}), "1 folders are given: expected LABELS_DIR RESULTS_DIR");
   EXPECT_EQ(errorOf({"a", "b", "--class", "van"}),

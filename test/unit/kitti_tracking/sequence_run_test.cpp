@@ -13,7 +13,7 @@
 namespace datmo::kitti::sequence_run_test {
 namespace {
 
-/// As in config/kitti_tracking: all that is detected is published.
+/// As in config/kitti_tracking: everything that is detected is published.
 RunOptions runOptions() {
   RunOptions options;
   for (ClassTrackingOptions& one : options.classes) {
@@ -35,7 +35,7 @@ Detection detection(int frame, const Box3& box, double score = 8.0) {
   return result;
 }
 
-/// A car that drives ahead of a vehicle at rest, parked cars, and a pedestrian that stands.
+/// A car that drives ahead of a stationary vehicle, parked cars, and a stationary pedestrian.
 DetectedSequence street(int frames) {
   DetectedSequence sequence;
   sequence.calibration = madeCalibration();
@@ -84,7 +84,7 @@ TEST(SequenceRun, BoxesAreThoseOfTheDetections) {
   EXPECT_EQ(cars, 4);
 }
 
-TEST(SequenceRun, ATrackThatIsMissedGoesOn) {
+TEST(SequenceRun, AMissedTrackContinues) {
   DetectedSequence sequence = street(20);
   auto& cars = sequence.detections[0];
   cars.erase(std::remove_if(cars.begin(), cars.end(),
@@ -99,7 +99,7 @@ TEST(SequenceRun, ATrackThatIsMissedGoesOn) {
   }
 }
 
-TEST(SequenceRun, LongAndSureTracksScoreHigher) {
+TEST(SequenceRun, LongAndCertainTracksScoreHigher) {
   DetectedSequence sequence = street(20);
   sequence.detections[0].push_back(detection(10, boxAt(-12.0, 40.0), 0.0));
   std::map<int, double> best;
@@ -112,7 +112,7 @@ TEST(SequenceRun, LongAndSureTracksScoreHigher) {
   for (const auto& [id, score] : best) {
     scores.insert(score);
   }
-  // By default the logarithm of the odds is 0.9 (score - 2.5), and eight times -4 come on top.
+  // By default the log odds are 0.9 (score - 2.5), to which eight times -4 is added.
   EXPECT_NEAR(*scores.begin(), (-2.25 - 32.0) / 9.0, 1e-9);
   EXPECT_NEAR(*std::next(scores.begin()), (20.0 * 4.95 - 32.0) / 28.0, 1e-9);
 }
@@ -126,7 +126,7 @@ TEST(SequenceRun, FramesWithoutDetectionsAndNoDetectionsAtAll) {
   EXPECT_EQ(runSequence(nothing, runOptions()).frames, 0U);
 }
 
-TEST(SequenceRun, WithoutEgoMotionTheVehicleStands) {
+TEST(SequenceRun, WithoutEgoMotionTheVehicleIsStationary) {
   RunOptions options = runOptions();
   options.estimate_ego_motion = false;
   const SequenceRun run = runSequence(street(20), options);

@@ -11,7 +11,7 @@
 
 namespace datmo::kitti {
 
-/// A folder of text files that is gone with it.
+/// A folder of text files that is deleted with this object.
 class TextFolder {
  public:
   explicit TextFolder(const std::string& name)
@@ -36,7 +36,7 @@ class TextFolder {
   std::filesystem::path folder_;
 };
 
-/// The message of the std::exception that `run` must throw.
+/// Returns the message of the std::exception that `run` must throw.
 inline std::string messageOf(const std::function<void()>& run) {
   try {
     run();

@@ -36,7 +36,8 @@ TEST(ThresholdScore, MotpIsTheMeanOverlap) {
   EXPECT_NEAR(score.motp(), (1.0 + 1.0 / 3.0) / 2.0, kTiny);
 }
 
-/// The track between two truths overlaps the left one more, but the other track only has that one.
+/// The track between two truths overlaps the left one more, but the other track overlaps only that
+/// one.
 TEST(ThresholdScore, AsManyMatchesAsPossibleComeFirst) {
   const ThresholdScore score =
       scoreOf({rowAt(0, 1, 0.0), rowAt(0, 2, 0.5)}, {resultAt(0, 1, 0.2), resultAt(0, 2, -0.5)});
@@ -44,13 +45,13 @@ TEST(ThresholdScore, AsManyMatchesAsPossibleComeFirst) {
   EXPECT_NEAR(score.overlap, 0.7 / 1.3 + 1.0 / 3.0, kTiny);
 }
 
-TEST(ThresholdScore, OfEqualManyMatchesTheGreatestOverlap) {
+TEST(ThresholdScore, OfEquallyManyMatchesTheGreatestOverlap) {
   const ThresholdScore score =
       scoreOf({rowAt(0, 1, 0.0), rowAt(0, 2, 0.3)}, {resultAt(0, 1, 0.3), resultAt(0, 2, 0.0)});
   EXPECT_NEAR(score.overlap, 2.0, kTiny);
 }
 
-TEST(ThresholdScore, WhatNeedNotBeFoundIsNoErrorEitherWay) {
+TEST(ThresholdScore, OptionalObjectsAreNoErrorEitherWay) {
   const TrackedObject van = rowAt(0, 1, 0.0, ObjectType::kVan);
   const ThresholdScore found = scoreOf({van}, {resultAt(0, 1, 0.0)});
   EXPECT_EQ(found.matches, 1U);

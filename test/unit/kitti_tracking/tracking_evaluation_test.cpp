@@ -129,7 +129,7 @@ TEST(TrackingEvaluation, WithoutResultsAllIsMissed) {
   EXPECT_EQ(score.best.mostly_lost, 10U);
 }
 
-/// The tenth parts of one, averaged over ten rows: a little less each time.
+/// One tenth, averaged over ten rows: rounded down slightly each time.
 TEST(TrackingEvaluation, RepeatedAveragingDropsTrajectoriesByRounding) {
   const auto sequence = tenObjects(kObjects, [](int id) { return 0.1 * (id + 1); });
   const TrackingScore once = evaluateTracking({sequence}, {});

@@ -41,7 +41,7 @@ TEST(TrackingReport, TableHasALineForEachScore) {
                                       "1", "1", "0", "0", "100.00", "0.00", "100.00", "2.00"}));
 }
 
-TEST(TrackingReport, WhatIsNotDefinedIsADash) {
+TEST(TrackingReport, UndefinedFiguresAreADash) {
   const std::string table = toTable({scoreOf({ObjectType::kCyclist, 0.5})});
   EXPECT_EQ(cellsOf(table.substr(table.find('\n') + 1)).at(2), "-");
 }

@@ -40,7 +40,7 @@ TEST(TruthHistory, AnotherTrackAfterAGapIsNoSwitch) {
   expectCounts(summaryOf({5, 5, kNone, 6, 6}), 0, 1);
 }
 
-TEST(TruthHistory, ThereAndBackIsTwoSwitches) { expectCounts(summaryOf({5, 5, 6, 5, 5}), 2, 2); }
+TEST(TruthHistory, ForthAndBackIsTwoSwitches) { expectCounts(summaryOf({5, 5, 6, 5, 5}), 2, 2); }
 
 TEST(TruthHistory, AMatchOfOneFrameIsNoFragmentation) {
   expectCounts(summaryOf({5, 5, kNone, 5, kNone, kNone}), 0, 0);
@@ -54,11 +54,11 @@ TEST(TruthHistory, ABeginningInTheLastFrameIsOne) {
   expectCounts(summaryOf({kNone, kNone, 5}), 0, 1);
 }
 
-TEST(TruthHistory, AnotherTrackWhereItNeedNotBeFoundIsNeither) {
+TEST(TruthHistory, AnotherTrackWhileOptionalIsNeither) {
   expectCounts(summarize({{5, true}, {5, true}, {5, false}, {6, true}, {6, true}}), 0, 0);
 }
 
-TEST(TruthHistory, WhatNeverMustBeFoundIsLeftOut) {
+TEST(TruthHistory, ObjectsNeverRequiredAreLeftOut) {
   EXPECT_EQ(summarize({{5, false}, {kNone, false}}).coverage, Coverage::kNotRequired);
   EXPECT_EQ(summarize({}).coverage, Coverage::kNotRequired);
 }

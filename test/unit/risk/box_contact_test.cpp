@@ -35,14 +35,14 @@ TEST(Separation, OfATurnedBoxIsMeasuredFromItsCorner) {
   EXPECT_NEAR(gap.gap, 4.0 - 2.0 - half_diagonal, 1e-12);
 }
 
-TEST(FirstContact, ComesWhenTheGapIsClosed) {
+TEST(FirstContact, IsWhenTheGapIsClosed) {
   const auto share =
       firstContact(moveFromTo({0, 0}, {0, 0}, kCar), moveFromTo({10, 0}, {0, 0}, kSquare));
   ASSERT_TRUE(share);
   EXPECT_NEAR(*share * 10.0, 7.5, kReached);
 }
 
-TEST(FirstContact, IsAtOnceWhereBoxesOverlap) {
+TEST(FirstContact, IsImmediateIfBoxesOverlap) {
   const auto share =
       firstContact(moveFromTo({0, 0}, {1, 0}, kCar), moveFromTo({1, 0}, {9, 0}, kSquare));
   ASSERT_TRUE(share);
@@ -50,7 +50,7 @@ TEST(FirstContact, IsAtOnceWhereBoxesOverlap) {
 }
 
 TEST(FirstContact, DoesNotTunnel) {
-  // In one move right through: at both ends they are far apart.
+  // One move right through the other: far apart at both ends.
   const auto share = firstContact(moveFromTo({-100, 0.3}, {100, 0.3}, kCar),
                                   moveFromTo({0, -80}, {0, 80}, kSquare));
   ASSERT_TRUE(share);

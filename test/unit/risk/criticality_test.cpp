@@ -13,7 +13,7 @@ constexpr BodySize kCar{2.0, 1.0};
 constexpr double kStep = 0.1;
 constexpr double kHorizon = 5.0;
 
-/// A body that goes straight along its velocity.
+/// A body that moves straight along its velocity.
 BodyPath straight(const Point2& start, const Point2& velocity) {
   BodyPath path{kStep, {}};
   const double heading = velocity.norm() > 0.0 ? std::atan2(velocity.y(), velocity.x()) : 0.0;
@@ -25,12 +25,12 @@ BodyPath straight(const Point2& start, const Point2& velocity) {
 
 TEST(Braked, StopsAfterItsBrakingDistance) {
   const BodyPath path = braked(straight({0, 0}, {10, 0}), 1.0, 5.0);
-  // 10 m until it brakes, and 10^2 / (2 5).
+  // 10 m until it brakes, and 10^2 / (2 * 5) of braking distance.
   EXPECT_NEAR(path.poses.back().center.x(), 20.0, 1e-9);
   EXPECT_NEAR(path.poses[5].center.x(), 5.0, 1e-9);
 }
 
-TEST(Braked, WithoutDecelerationGoesOn) {
+TEST(Braked, WithoutDecelerationContinues) {
   const BodyPath path = braked(straight({0, 0}, {10, 0}), 0.0, 0.0);
   EXPECT_NEAR(path.poses.back().center.x(), 50.0, 1e-9);
 }
@@ -39,12 +39,12 @@ TEST(TimeToBrake, EndsWhereTheBrakingDistanceBegins) {
   const BodyPath host = straight({0, 0}, {10, 0});
   const BodyPath wall = straight({34, 0}, {0, 0});
   const Encounter encounter{host, kCar, wall, kCar};
-  // A gap of 30 m, of which 10^2 / (2 5) are braking distance: 20 m at 10 m/s.
+  // A gap of 30 m, of which 10^2 / (2 * 5) are braking distance: 20 m at 10 m/s.
   EXPECT_NEAR(timeToBrake(encounter, 5.0), 2.0, 0.06);
   EXPECT_NEAR(brakeThreat(encounter, 5.0), 100.0 / 60.0 / 5.0, 0.07);
 }
 
-TEST(TimeToBrake, IsZeroWhereItIsTooLate) {
+TEST(TimeToBrake, IsZeroIfItIsTooLate) {
   const BodyPath host = straight({0, 0}, {10, 0});
   const BodyPath wall = straight({10, 0}, {0, 0});
   const Encounter encounter{host, kCar, wall, kCar};
@@ -61,7 +61,7 @@ TEST(TimeToBrake, IsTheHorizonWithoutContact) {
   EXPECT_EQ(steerThreat(encounter, 5.0), 0.0);
 }
 
-TEST(BrakeThreat, IsHopelessForWhoIsStruckFromBehind) {
+TEST(BrakeThreat, IsImpossibleWhenStruckFromBehind) {
   const BodyPath host = straight({0, 0}, {5, 0});
   const BodyPath follower = straight({-15, 0}, {15, 0});
   const Encounter encounter{host, kCar, follower, kCar};
@@ -76,7 +76,7 @@ TEST(SteerThreat, IsLessToTheNearerSide) {
   const double aside = steerThreat({host, kCar, left_of_middle, kCar}, 5.0);
   const double straight_ahead = steerThreat({host, kCar, middle, kCar}, 5.0);
   EXPECT_LT(aside, straight_ahead);
-  // 2 m aside within 2 s, and a little for the turned box: y = a t^2 / 2.
+  // 2 m to the side within 2 s, and a little for the turned box: y = a t^2 / 2.
   EXPECT_NEAR(straight_ahead, 1.0 / 5.0, 0.15);
 }
 

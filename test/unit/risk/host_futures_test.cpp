@@ -47,11 +47,11 @@ TEST(HostFutures, ADriverStaysInHisLaneHoweverFarAhead) {
   EXPECT_LT(spreadAt(20, options).along, 0.1);
 }
 
-TEST(HostFutures, WhatIsNotKnownOfTheCourseGrowsWithTheSquareOfTime) {
+TEST(HostFutures, CourseUncertaintyGrowsWithTheSquareOfTime) {
   HostFutureOptions options = onlyLane();
   options.lane_deviation = 0.0;
   options.steering_spread = 0.1;
-  // Half of it times t^2, less what the driver's hands take to get there.
+  // Half of it times t^2, less the delay of the driver's steering.
   EXPECT_NEAR(spreadAt(20, options).aside, 0.5 * 0.1 * 16.0, 0.2);
   EXPECT_GT(spreadAt(20, options).aside, 3.0 * spreadAt(10, options).aside);
 }
@@ -80,7 +80,7 @@ TEST(HostFutures, CurvatureIsThatOfTheCircleDriven) {
   }
 }
 
-TEST(HostFutures, WhoStandsDoesNotSway) {
+TEST(HostFutures, AStationaryHostDoesNotSway) {
   const Spread spread = spreadAt(20, onlyLane(), 0.0);
   EXPECT_EQ(spread.aside, 0.0);
   EXPECT_EQ(spread.along, 0.0);

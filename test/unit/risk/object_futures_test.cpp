@@ -14,7 +14,7 @@ namespace {
 const HorizonOptions kHorizon;
 const RandomDraws kDraws(1);
 
-/// Sojourn times so long that no mode is left.
+/// Sojourn times so long that no mode changes.
 ObjectFutureOptions withoutSwitching() {
   ObjectFutureOptions options;
   options.transitions.straight_sojourn = 1e6;
@@ -84,7 +84,7 @@ TEST(ObjectFutures, SpreadWithTheCovariance) {
   EXPECT_NEAR(std::sqrt(uncertain * uncertain - known * known), 8.0, 1.2);
 }
 
-TEST(ObjectFutures, WhatStandsStays) {
+TEST(ObjectFutures, StationaryObjectsStay) {
   const Track track = knownTrack(1, {5, 2}, {0, 0});
   const ObjectFutureOptions options = withoutSwitching();
   const Spread spread = endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws));
@@ -92,7 +92,7 @@ TEST(ObjectFutures, WhatStandsStays) {
   EXPECT_LT(spread.sigma, 0.05);
 }
 
-TEST(ObjectFutures, WhatBrakesComesToRest) {
+TEST(ObjectFutures, BrakingObjectsComeToRest) {
   Track track = knownTrack(1, {0, 0}, {6, 0});
   track.mode_probabilities = {0.0, 1.0, 0.0, 0.0, 0.0};
   track.state[4] = -3.0;
@@ -121,7 +121,7 @@ TEST(ObjectFutures, PedestriansTurnMoreFreely) {
             1.2 * endsOf(ObjectFutures(car, std::nullopt, options, kHorizon, kDraws)).sigma);
 }
 
-TEST(ObjectFutures, WhoDrivesComesBackToHisCourse) {
+TEST(ObjectFutures, DriversReturnToTheirCourse) {
   const Track car = knownTrack(1, {0, 0}, {14, 0});
   ObjectFutureOptions options = withoutSwitching();
   options.motion.motion.acceleration_density = 1e-6;
@@ -159,7 +159,7 @@ TEST(ObjectFutures, AlongTheRoadDoNotTurnOffLater) {
   EXPECT_LT(endsOf(ObjectFutures(car, kRoad, options, kHorizon, kDraws)).sigma, 0.8 * free);
 }
 
-TEST(ObjectFutures, WhoTurnsDoesNotFollowTheRoad) {
+TEST(ObjectFutures, TurningObjectsDoNotFollowTheRoad) {
   Track track = vagueOncoming(0.0);
   track.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
   const ObjectFutureOptions options = withoutSwitching();
@@ -180,7 +180,7 @@ TEST(ObjectFutures, AlongTheRoadStayInTheirLane) {
   EXPECT_NEAR(along, 3.5, 1.5);
 }
 
-TEST(ObjectFutures, WhoJoinsTheRoadEndsItsTurnAlongIt) {
+TEST(ObjectFutures, ObjectsThatJoinTheRoadEndTheirTurnAlongIt) {
   const Track track = joiningCar(0.45);
   ObjectFutureOptions options = withoutSwitching();
   options.road_following.turning = 1.0;
@@ -192,8 +192,8 @@ TEST(ObjectFutures, WhoJoinsTheRoadEndsItsTurnAlongIt) {
   EXPECT_GT(along, 70);
 }
 
-// On an arc of 100 m: after 4 s at 10 m/s 0.4 rad, whichever way it goes.
-TEST(ObjectFutures, WhoFollowsTheRoadBendsWithIt) {
+// On an arc of 100 m radius: after 4 s at 10 m/s 0.4 rad, in either direction.
+TEST(ObjectFutures, RoadFollowersBendWithIt) {
   ObjectFutureOptions options = withoutSwitching();
   options.road_following.probability = 0.999;
   const RoadCourse bend{0.0, 0.01};

@@ -15,31 +15,31 @@ namespace {
 /// rad; the road is along x.
 constexpr double kRoad = 0.0;
 
-/// Turns among the modes of an object of which nothing is known.
+/// Share of turns among the modes of an object about which nothing is known.
 constexpr double kTurnShare = 0.2;
 
 std::optional<RoadFollower> followerOf(const Track& track) {
   return roadFollower(track, startOf(track, 0.3), kRoad, kTurnShare, RoadFollowingOptions());
 }
 
-TEST(RoadFollower, WhoSeemsToLeaveTheRoadALittleProbablyDoesNot) {
+TEST(RoadFollower, ASlightDepartureFromTheRoadIsProbablyNoise) {
   const Track track = vagueOncoming(1.5);
   const auto follower = followerOf(track);
   ASSERT_TRUE(follower);
   EXPECT_GT(follower->probability, 0.9);
-  // Kalman: of 1.5 m/s with a variance of 1, and (0.05 10.1)^2 of the road's.
+  // Kalman: of 1.5 m/s with a variance of 1, and (0.05 * 10.1)^2 of the road's.
   const double variance = std::pow(0.05 * std::hypot(10.0, 1.5), 2);
   EXPECT_NEAR(follower->start.state[3], -1.5 * variance / (1.0 + variance), 1e-9);
   EXPECT_EQ(follower->start.state[2], -10.0);
-  // The box's heading has a standard deviation of 0.2 rad: its share of the way to the road is
-  // 0.04 / (0.04 + 0.0025), whose other end it points to.
+  // The box's heading has a standard deviation of 0.2 rad: it is corrected by the share 0.04 /
+  // (0.04 + 0.0025) toward the road, in whose other direction (pi) it points.
   const double share = 0.04 / 0.0425;
   const double off = angleBetween(kPi, track.box.center.heading());
   EXPECT_NEAR(angleBetween(kPi, follower->start.heading), (1.0 - share) * off, 1e-9);
   EXPECT_NEAR(follower->start.heading_sigma, 0.2 * std::sqrt(1.0 - share), 1e-9);
 }
 
-TEST(RoadFollower, WhoLeavesItForSureDoes) {
+TEST(RoadFollower, AClearDepartureIsReal) {
   Track track = vagueOncoming(4.0);
   track.covariance(3, 3) = 0.04;
   const auto follower = followerOf(track);
@@ -47,14 +47,14 @@ TEST(RoadFollower, WhoLeavesItForSureDoes) {
   EXPECT_LT(follower->probability, 1e-6);
 }
 
-TEST(RoadFollower, PedestriansAndWhoStandsHaveNoRoad) {
+TEST(RoadFollower, PedestriansAndStationaryObjectsHaveNoRoad) {
   const Track walks = knownTrack(1, {20, 3}, {-1.2, 0}, ObjectClass::kPedestrian);
   EXPECT_FALSE(followerOf(walks));
   const Track stands = knownTrack(2, {20, 3}, {0, 0});
   EXPECT_FALSE(followerOf(stands));
 }
 
-TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
+TEST(RoadFollower, AnUnknownClassFollowsItLessProbably) {
   Track track = vagueOncoming(1.5);
   const double driver = followerOf(track)->probability;
   track.class_probabilities.fill(1.0);  // each a share of 1: more than all
@@ -63,8 +63,8 @@ TEST(RoadFollower, WhatMayBeAnythingFollowsItLessProbably) {
   EXPECT_LT(followerOf(track)->probability, driver);
 }
 
-// Bayes: that the track turns is as likely by the wrong velocity as by a turn; the odds change by
-// no more than the modes' own evidence.
+// Bayes: the track's turn is as likely due to a wrong velocity as to an actual turn; the odds
+// change by no more than the modes' own evidence.
 TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
   Track track = vagueOncoming(1.5);
   const double straight = followerOf(track)->probability;
@@ -74,7 +74,7 @@ TEST(RoadFollower, ModesOfATurnAreEvidenceAndNoProof) {
   EXPECT_NEAR(turns / (1.0 - turns), 0.3 * straight / (1.0 - straight), 1e-9);
 }
 
-TEST(RoadFollower, ModesThatAreNotKnownAreNoEvidence) {
+TEST(RoadFollower, UnknownModesAreNoEvidence) {
   Track track = vagueOncoming(1.5);
   track.mode_probabilities = {1.0 - kTurnShare, 0.0, kTurnShare, 0.0, 0.0};  // as of any object
   const double usual = followerOf(track)->probability;
@@ -82,7 +82,7 @@ TEST(RoadFollower, ModesThatAreNotKnownAreNoEvidence) {
   EXPECT_NEAR(followerOf(track)->probability, usual, 1e-12);
 }
 
-// What moves is no pole, and what may be anything that moves drives as often as what is known.
+// A moving object is no pole, and one of any moving class drives as often as one of a known class.
 TEST(RoadFollower, AnUnknownClassAndAPoleAreNoEvidenceAgainstADriver) {
   Track track = vagueOncoming(1.5);
   const double driver = followerOf(track)->probability;
@@ -90,20 +90,20 @@ TEST(RoadFollower, AnUnknownClassAndAPoleAreNoEvidenceAgainstADriver) {
   EXPECT_NEAR(followerOf(track)->probability, driver, 1e-12);
 }
 
-TEST(RoadFollower, WhoIsAlmostAlongTheRoadAndTurnsTowardItJoins) {
+TEST(RoadFollower, ObjectsAlmostAlongTheRoadThatTurnTowardItJoin) {
   EXPECT_GT(followerOf(joiningCar(0.45))->joining, 0.6);
   Track leaves = joiningCar(0.45);
   leaves.mode_probabilities = {0.4, 0.4, 0.18, 0.02, 0.0};
   EXPECT_LT(followerOf(leaves)->joining, 0.2);
 }
 
-TEST(RoadFollower, WhoCrossesItStraightOnDoesNotJoin) {
+TEST(RoadFollower, ObjectsThatCrossItStraightDoNotJoin) {
   Track crosses = joiningCar(1.5);
   crosses.mode_probabilities = {0.96, 0.0, 0.02, 0.02, 0.0};
   EXPECT_LT(followerOf(crosses)->joining, 0.15);
 }
 
-TEST(TurnIntoRoad, IsTheNearerWay) {
+TEST(TurnIntoRoad, IsTheNearerDirection) {
   EXPECT_NEAR(turnIntoRoad(0.3, 0.0), -0.3, 1e-12);
   EXPECT_NEAR(turnIntoRoad(kPi - 0.3, 0.0), 0.3, 1e-12);
   EXPECT_NEAR(turnIntoRoad(-kPi + 0.3, 0.0), -0.3, 1e-12);

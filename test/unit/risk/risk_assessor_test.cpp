@@ -15,8 +15,8 @@ ObjectRisk riskOfFirst(const RiskInput& input, const RiskOptions& options = {}) 
   return riskOf(RiskAssessor(options).assess(input), input.tracks.tracks.front().id);
 }
 
-TEST(RiskAssessor, TimeToContactOfAStandingCarAhead) {
-  // Front bumper 3.7 m ahead of base_link, its rear 28 m: 24.3 m at 10 m/s.
+TEST(RiskAssessor, TimeToContactOfAStationaryCarAhead) {
+  // Front bumper 3.7 m ahead of base_link, the car's rear at 28 m: 24.3 m at 10 m/s.
   const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})}));
   EXPECT_GT(risk.contact_probability[2], 0.8);
   EXPECT_EQ(risk.contact_probability[0], 0.0);
@@ -37,8 +37,8 @@ TEST(RiskAssessor, OncomingTrafficInItsLaneIsNoRisk) {
   EXPECT_EQ(report.level, RiskLevel::kNone);
 }
 
-// Where no border tells of the road, the host still drives along one.
-TEST(RiskAssessor, OncomingTrafficOfVagueVelocityKeepsToTheRoadOfTheHost) {
+// Without borders as evidence of the road, the host still drives along one.
+TEST(RiskAssessor, OncomingTrafficOfUncertainVelocityKeepsToTheRoadOfTheHost) {
   Track track = knownTrack(1, {45, 4.0}, {-10.0, -1.3});
   track.covariance.diagonal() << 0.25, 0.04, 0.25, 0.64, 1e-4, 1e-4;
   track.heading_variance = 0.04;
@@ -51,8 +51,8 @@ TEST(RiskAssessor, OncomingTrafficOfVagueVelocityKeepsToTheRoadOfTheHost) {
   EXPECT_LT(of(RoadFollowingOptions().probability), 0.5 * of(0.0));
 }
 
-// Both on a bend of 150 m of radius, their lanes 3.5 m apart: straight on, the other one would
-// cross.
+// Both on a bend of 150 m radius, their lanes 3.5 m apart: if it went straight on, the other one
+// would cross.
 TEST(RiskAssessor, OncomingTrafficInABendKeepsToTheBend) {
   constexpr double kRadius = 150.0;
   constexpr double kAngle = 0.24;
@@ -138,7 +138,7 @@ TEST(RiskAssessor, WarnsWithAReason) {
   EXPECT_NE(report.reason.find("vehicle 5 at the front"), std::string::npos) << report.reason;
 }
 
-TEST(RiskAssessor, AStandingHostIsInformedOnly) {
+TEST(RiskAssessor, AStationaryHostIsInformedOnly) {
   RiskInput input = inputAt(0.0, {knownTrack(1, {20, 0}, {-10, 0})});
   RiskAssessor assessor{RiskOptions()};
   assessor.assess(input);
@@ -148,28 +148,28 @@ TEST(RiskAssessor, AStandingHostIsInformedOnly) {
   EXPECT_EQ(report.level, RiskLevel::kInformation);
 }
 
-TEST(RiskAssessor, AReversingHostMeetsWhatIsBehind) {
+TEST(RiskAssessor, AReversingHostMeetsObjectsBehind) {
   const ObjectRisk risk = riskOfFirst(inputAt(-2.0, {knownTrack(1, {-8, 0}, {0, 0})}));
   // 8 m less 0.9 m and 2 m at 2 m/s.
   EXPECT_NEAR(risk.median_ttc, 2.55, 0.3);
   EXPECT_EQ(risk.side, StruckSide::kRear);
 }
 
-// A cyclist beside the host, so near that half of what may be true of him overlaps with it.
-TEST(RiskAssessor, WhatWouldHaveBeenStruckAlreadyIsNotTrue) {
+// A cyclist beside the host, so close that half of his possible positions overlap with it.
+TEST(RiskAssessor, StatesAlreadyInContactAreRejected) {
   Track beside = knownTrack(1, {1.4, -1.35}, {8, 0}, ObjectClass::kCyclist);
   beside.box.length = 1.8;
   beside.box.width = 0.6;
   beside.covariance(1, 1) = 0.09;
   EXPECT_LT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.35);
-  beside.state[3] = 1.5;  // it comes nearer
+  beside.state[3] = 1.5;  // it comes closer
   EXPECT_GT(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 0.9);
-  beside.state[1] = -0.5;  // no future is free of it
+  beside.state[1] = -0.5;  // every future has contact
   beside.covariance(1, 1) = 1e-4;
   EXPECT_EQ(riskOfFirst(inputAt(8.0, {beside})).contact_probability[0], 1.0);
 }
 
-// The needed deceleration is that which stops, and not one that puts contact off beyond 4 s.
+// The required deceleration is that which stops, not one that delays contact beyond 4 s.
 TEST(RiskAssessor, ThreatOfAContactFarAheadIsThatOfAStop) {
   const ObjectRisk slow = riskOfFirst(inputAt(10.0, {knownTrack(1, {35.7, 0}, {0, 0})}));
   EXPECT_NEAR(slow.brake_threat, 100.0 / (2.0 * 30.0) / 6.0, 0.04);
@@ -178,14 +178,14 @@ TEST(RiskAssessor, ThreatOfAContactFarAheadIsThatOfAStop) {
   EXPECT_NEAR(fast.time_to_brake, (120.0 - 108.0) / 36.0, 0.15);
 }
 
-// Who comes toward the host strikes it at rest, too: that is no reason to brake at once.
+// An oncoming object strikes the host at rest, too: that is no reason to brake at once.
 TEST(RiskAssessor, BrakingAgainstOncomingTrafficHasTime) {
   const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {81, 0}, {-10, 0})}));
   EXPECT_NEAR(risk.median_ttc, 3.76, 0.15);
   EXPECT_GT(risk.time_to_brake, 1.0);
 }
 
-TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
+TEST(RiskAssessor, LeavesOutInvalidAndOldTracks) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Track not_a_number = knownTrack(1, {20, 0}, {0, 0});
   not_a_number.covariance(0, 0) = nan;
@@ -200,7 +200,7 @@ TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
   EXPECT_EQ(report.objects.size(), 1U);
 }
 
-TEST(RiskAssessor, OfFiveHundredTracksTheSurest) {
+TEST(RiskAssessor, OfFiveHundredTracksTheMostCertain) {
   std::vector<Track> tracks;
   for (std::uint32_t i = 1; i <= 500; ++i) {
     tracks.push_back(knownTrack(i, {20.0 + i, 0}, {0, 0}));
@@ -212,7 +212,7 @@ TEST(RiskAssessor, OfFiveHundredTracksTheSurest) {
   EXPECT_GT(report.objects[1].id, 400U);
 }
 
-TEST(RiskAssessor, WhatIsFarAwayIsUnreachable) {
+TEST(RiskAssessor, DistantObjectsAreUnreachable) {
   const RiskReport report =
       RiskAssessor{RiskOptions()}.assess(inputAt(10.0, {knownTrack(1, {400, 0}, {-10, 0})}));
   EXPECT_EQ(report.counts.unreachable, 1U);
@@ -233,7 +233,7 @@ TEST(RiskAssessor, EveryMethodSeesACarAhead) {
   }
 }
 
-TEST(RiskAssessor, RefusesAMethodThatThereIsNot) {
+TEST(RiskAssessor, RefusesAnUnknownMethod) {
   EXPECT_THROW(readOptions<RiskOptions>({{"method", std::string("guess")}}), OptionError);
 }
 

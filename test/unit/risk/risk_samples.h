@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// A car that is known well and goes straight on at its velocity.
+/// A well-known car that drives straight along its velocity.
 inline Track knownTrack(std::uint32_t id, const Point2& position, const Point2& velocity,
                         ObjectClass object_class = ObjectClass::kVehicle) {
   Track track;
@@ -31,7 +31,7 @@ inline Track knownTrack(std::uint32_t id, const Point2& position, const Point2& 
   return track;
 }
 
-/// An oncoming car in its lane whose velocity is little known, and seems to lead across the road.
+/// An oncoming car in its lane whose velocity is poorly known, and appears to lead across the road.
 inline Track vagueOncoming(double across) {
   Track track = knownTrack(1, {40, 3.5}, {-10.0, -across});
   track.covariance.diagonal() << 1.0, 0.25, 1.0, 1.0, 1e-4, 1e-4;
@@ -47,7 +47,7 @@ inline Track joiningCar(double off) {
   return track;
 }
 
-/// A host at the origin that goes along x.
+/// A host at the origin that drives along x.
 inline RiskInput inputAt(double speed, const std::vector<Track>& tracks = {}) {
   RiskInput input;
   input.stamp = Stamp::fromSeconds(100.0);
@@ -57,7 +57,7 @@ inline RiskInput inputAt(double speed, const std::vector<Track>& tracks = {}) {
   return input;
 }
 
-/// The risk of a track in a report; fails the test without one.
+/// Returns the risk of a track in a report; fails the test if there is none.
 inline ObjectRisk riskOf(const RiskReport& report, std::uint32_t id) {
   for (const ObjectRisk& risk : report.objects) {
     if (risk.id == id) {

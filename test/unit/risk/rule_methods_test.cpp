@@ -10,7 +10,7 @@ namespace {
 const RuleOptions kRules;
 const BodySize kHost{2.3, 0.925};
 
-/// A host whose middle starts at the origin and goes along x.
+/// A host whose middle starts at the origin and moves along x.
 BodyPath hostAt(double speed) {
   BodyPath path{0.2, {}};
   for (int i = 0; i <= 20; ++i) {
@@ -30,12 +30,12 @@ TEST(BoxRisk, TimeToContactIsGapOverClosingSpeed) {
   EXPECT_EQ(risk.contact_probability[3], 1.0);
 }
 
-TEST(BoxRisk, IsNoneOfWhatPasses) {
+TEST(BoxRisk, IsInfiniteForPassingObjects) {
   const Track track = knownTrack(3, {40, 2.5}, {-10, 0});
   EXPECT_EQ(boxRisk(track, hostAt(15.0), kHost, kRules).probability(), 0.0);
 }
 
-TEST(ThesisRisk, CirclesWarnOfWhatPassesToo) {
+TEST(ThesisRisk, CirclesWarnOfPassingObjectsToo) {
   const Track track = knownTrack(3, {40, 2.5}, {-10, 0});
   const ObjectRisk risk = thesisRisk(track, hostAt(15.0), kRules);
   EXPECT_EQ(risk.probability(), 1.0);
@@ -47,12 +47,12 @@ TEST(ThesisRisk, FallsAfterTheReactionTime) {
   const Track far = knownTrack(3, {33, 0}, {0, 0});
   EXPECT_EQ(thesisRisk(near, hostAt(10.0), kRules).probability(), 1.0);
   const ObjectRisk risk = thesisRisk(far, hostAt(10.0), kRules);
-  // Circles of 1.5 m: 30 m at 10 m/s, half of the way from 2 s to the horizon of 4 s.
+  // Circles of 1.5 m: 30 m at 10 m/s, half of the interval from 2 s to the horizon of 4 s.
   EXPECT_NEAR(risk.median_ttc, 3.0, 0.01);
   EXPECT_NEAR(risk.probability(), 0.5, 0.01);
 }
 
-TEST(ThesisRisk, APedestrianGrowsAboutWhereHeIs) {
+TEST(ThesisRisk, APedestriansAreaGrowsAroundHim) {
   const Track away = knownTrack(3, {0, 6}, {0, 2}, ObjectClass::kPedestrian);
   // He walks away, but no direction is assumed: 0.5 m + 1.5 m + 2 m/s reach 6 m after 2 s.
   EXPECT_NEAR(thesisRisk(away, hostAt(0.0), kRules).median_ttc, 2.0, 0.01);

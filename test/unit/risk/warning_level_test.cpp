@@ -61,7 +61,7 @@ TEST(Level, InformsWhereBrakingDoesNotHelp) {
   EXPECT_EQ(levelOf(from_behind, kSpeed, options), RiskLevel::kInformation);
 }
 
-TEST(Level, InReverseBrakingHelpsAgainstWhatIsBehind) {
+TEST(Level, InReverseBrakingHelpsAgainstObjectsBehind) {
   const WarningOptions options;
   ObjectRisk behind = riskWith(0.9, 0.1);
   behind.side = StruckSide::kRear;
@@ -71,7 +71,7 @@ TEST(Level, InReverseBrakingHelpsAgainstWhatIsBehind) {
   EXPECT_EQ(levelOf(riskWith(0.9, 0.1), -2.0, options), RiskLevel::kInformation);
 }
 
-TEST_F(HeldLevel, ItsReasonIsThatOfWhatAskedForIt) {
+TEST_F(HeldLevel, ItsReasonIsThatOfItsCause) {
   at(0.0, riskWith(0.9, 1.0));
   ASSERT_EQ(at(0.1, riskWith(0.9, 1.0)).level, RiskLevel::kWarning);
   ObjectRisk other = riskWith(0.4, 3.0);
@@ -85,7 +85,7 @@ TEST_F(HeldLevel, ItsReasonIsThatOfWhatAskedForIt) {
   EXPECT_EQ(after.cause, 8U);
 }
 
-TEST_F(HeldLevel, RisesWhenItIsAskedForLongEnough) {
+TEST_F(HeldLevel, RisesWhenRequestedForLongEnough) {
   EXPECT_EQ(at(0.0, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
   EXPECT_EQ(at(0.05, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
   const RiskReport report = at(0.1, riskWith(0.9, 1.0));
@@ -99,7 +99,7 @@ TEST_F(HeldLevel, ASingleFrameRaisesNothing) {
   EXPECT_EQ(at(0.16, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
 }
 
-TEST_F(HeldLevel, StaysAboutItsThreshold) {
+TEST_F(HeldLevel, HasHysteresisAtItsThreshold) {
   at(0.0, riskWith(0.65, 1.3));
   ASSERT_EQ(at(0.2, riskWith(0.65, 1.3)).level, RiskLevel::kWarning);
   for (int i = 0; i < 20; ++i) {
@@ -132,7 +132,7 @@ TEST(Reason, SaysWhatWhereAndWhatToDo) {
             "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): braking no longer avoids it");
 }
 
-TEST(WarningOptions, RefuseWhatIsNoProbability) {
+TEST(WarningOptions, RefuseInvalidProbabilities) {
   WarningOptions options;
   options.warning_probability = 1.5;
   EXPECT_THROW(WarningLevel{options}, OptionError);

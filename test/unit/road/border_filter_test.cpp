@@ -31,14 +31,14 @@ Object movingAt(const Point2& position) {
 
 class BorderFilterTest : public testing::Test {
  protected:
-  /// The object as the filter passes it on.
+  /// Returns the object as the filter passes it on.
   Object passed(const Object& object) {
     list_.objects = {object};
     EXPECT_TRUE(filter_.filter(Pose2(), road_, list_).empty());
     return list_.objects.at(0);
   }
 
-  /// Whether the filter takes it for less likely to move than on the road.
+  /// Returns whether the filter considers it less likely to move than on the road.
   bool isOutside(const Object& object) {
     const Object result = passed(object);
     const bool weighed = result.motion_log_odds < 0.0;
@@ -64,25 +64,25 @@ TEST_F(BorderFilterTest, OnTheRoadNothingIsOutside) {
   EXPECT_FALSE(isOutside(movingAt({20.0, 3.0})));
 }
 
-TEST_F(BorderFilterTest, WhatReachesIntoTheRoadIsOnIt) {
+TEST_F(BorderFilterTest, ObjectsReachingIntoTheRoadAreOnIt) {
   Object car = movingAt({20.0, 4.2});
   car.points.emplace_back(20.0, 2.5);
   EXPECT_FALSE(isOutside(car));
 }
 
-TEST_F(BorderFilterTest, WhatIsNotYetSaidToMoveIsWeighedToo) {
+TEST_F(BorderFilterTest, UndecidedObjectsAreWeightedToo) {
   Object object = movingAt({20.0, 6.0});
   object.dynamic_state = DynamicState::kUnknown;
   EXPECT_TRUE(isOutside(object));
 }
 
-TEST_F(BorderFilterTest, WhatStandsStands) {
+TEST_F(BorderFilterTest, StaticObjectsStayStatic) {
   Object object = movingAt({20.0, 6.0});
   object.dynamic_state = DynamicState::kStatic;
   EXPECT_FALSE(isOutside(object));
 }
 
-TEST_F(BorderFilterTest, ABorderThatIsHardlyKnownSaysNothing) {
+TEST_F(BorderFilterTest, AnUncertainBorderIsUninformative) {
   for (RoadBorder& border : road_.borders) {
     for (BorderPoint& point : border.points) {
       point.sigma = 1.5;
@@ -99,11 +99,11 @@ TEST_F(BorderFilterTest, BeyondABorderOfASideStreetIsTheStreet) {
   EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
 }
 
-TEST_F(BorderFilterTest, WhatIsFarBeyondIsAnotherRoad) {
+TEST_F(BorderFilterTest, DistantObjectsAreOnAnotherRoad) {
   EXPECT_FALSE(isOutside(movingAt({20.0, 36.0})));
 }
 
-TEST_F(BorderFilterTest, WhereNoBorderIsKnownItGoesOn) {
+TEST_F(BorderFilterTest, WithoutAKnownBorderTheRoadContinues) {
   for (RoadBorder& border : road_.borders) {
     border.points.back().position.x() = 10.0;
   }
@@ -137,7 +137,7 @@ class ThesisBorderFilterTest : public BorderFilterTest {
   BorderFilter thesis_{asThesis()};
 };
 
-TEST_F(ThesisBorderFilterTest, DropsWhatLiesOnABorder) {
+TEST_F(ThesisBorderFilterTest, DropsObjectsOnABorder) {
   const auto on = dropped(movingAt({20.0, 4.2}));
   ASSERT_EQ(on.size(), 1U);
   EXPECT_EQ(on[0].reason, DropReason::kOnBorder);
@@ -146,7 +146,7 @@ TEST_F(ThesisBorderFilterTest, DropsWhatLiesOnABorder) {
   EXPECT_EQ(on[0].object.points.size(), 1U);
 }
 
-TEST_F(ThesisBorderFilterTest, DropsWhatLiesBeyond) {
+TEST_F(ThesisBorderFilterTest, DropsObjectsBeyond) {
   const auto beyond = dropped(movingAt({20.0, -6.0}));
   ASSERT_EQ(beyond.size(), 1U);
   EXPECT_EQ(beyond[0].reason, DropReason::kBeyondBorder);
@@ -160,7 +160,7 @@ TEST_F(ThesisBorderFilterTest, OneCornerIsEnough) {
   EXPECT_EQ(dropped(car).size(), 1U);
 }
 
-TEST_F(ThesisBorderFilterTest, KeepsWhatNobodySaysToMove) {
+TEST_F(ThesisBorderFilterTest, KeepsObjectsNotReportedAsMoving) {
   Object object = movingAt({20.0, 6.0});
   for (const DynamicState state : {DynamicState::kStatic, DynamicState::kUnknown}) {
     object.dynamic_state = state;

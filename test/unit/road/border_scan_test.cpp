@@ -27,7 +27,7 @@ TEST(BorderScanTest, OfAnUnknownFieldItHoldsTheHits) {
   EXPECT_TRUE(beams.beams[1].hit);
 }
 
-TEST(BorderScanTest, KnowsWhatLasts) {
+TEST(BorderScanTest, KnowsPersistentPoints) {
   HitGrid hits{HitGridOptions{}};
   const LabeledScan first = samples::scanOf({{20.0, 0.0}}, 0.0);
   hits.update(first);

@@ -11,7 +11,7 @@
 namespace datmo::border_search_test {
 namespace {
 
-/// Of hits whatever their age.
+/// Hits of any age.
 HitGridOptions ageless() {
   HitGridOptions options;
   options.min_age = 0.0;
@@ -36,7 +36,7 @@ void addLine(HitGrid& hits, const Pose2& begin, double length, double sigma = 0.
   }
 }
 
-/// Distance of a line from a point of the map, m; positive: the point is to the left.
+/// Signed distance of a line from a point of the map, m; positive: the point is to the left.
 double offsetTo(const FoundBorder& border, const Point2& point) {
   return (border.line.inverse() * point).y();
 }
@@ -71,7 +71,7 @@ TEST_F(BorderSearchTest, FindsABorderThatIsNotParallelOnEitherSide) {
   }
 }
 
-TEST_F(BorderSearchTest, ItsCovarianceSaysHowFarItIsOff) {
+TEST_F(BorderSearchTest, ItsCovarianceIsConsistent) {
   double sum = 0.0;
   const int trials = 100;
   Random random(2);
@@ -107,7 +107,7 @@ TEST_F(BorderSearchTest, TheNearestBorderIsTakenAndNotTheHousesBehindIt) {
   EXPECT_NEAR(highest->line.y(), 9.0, 0.1);
 }
 
-TEST_F(BorderSearchTest, CarsInARowAreOneBorderAndOneCarIsNone) {
+TEST_F(BorderSearchTest, CarsInARowAreOneBorderAndASingleCarIsNone) {
   addLine(hits_, Pose2(0.0, 4.0, 0.0), 4.5);
   EXPECT_FALSE(search_.search(hits_, Pose2(), RoadSide::kLeft));
   for (const double x : {7.0, 14.0}) {
@@ -118,7 +118,7 @@ TEST_F(BorderSearchTest, CarsInARowAreOneBorderAndOneCarIsNone) {
   EXPECT_NEAR(border->line.y(), 4.0, 0.1);
 }
 
-TEST_F(BorderSearchTest, ALineWithSomeThingsBesideItStaysWhereItIs) {
+TEST_F(BorderSearchTest, ALineWithObjectsBesideItIsNotPulled) {
   addLine(hits_, Pose2(0.0, 4.0, 0.0), 21.0);
   for (const double x : {3.0, 9.0, 15.0}) {  // rears of cars
     addLine(hits_, Pose2(x, 4.0, kQuarterTurn), 2.0);
@@ -129,7 +129,7 @@ TEST_F(BorderSearchTest, ALineWithSomeThingsBesideItStaysWhereItIs) {
 }
 
 TEST_F(BorderSearchTest, TheThesissFormSumsTheHitsUnderUprightWindows) {
-  // One hit counts in nine cells, all of which lie in the window at 4.6 m: from 4.1 to 5.1 m.
+  // One hit counts in nine cells, all of which are in the window at 4.6 m: from 4.1 to 5.1 m.
   hits_.add({10.0, 4.65}, Stamp());
   BorderSearchOptions options = thesisForm();
   options.min_hits = 9.0;
@@ -141,7 +141,7 @@ TEST_F(BorderSearchTest, TheThesissFormSumsTheHitsUnderUprightWindows) {
   EXPECT_FALSE(BorderSearch(options).search(hits_, Pose2(), RoadSide::kLeft));
 }
 
-TEST_F(BorderSearchTest, LooksAsFarAsItsWindowsReach) {
+TEST_F(BorderSearchTest, SearchesAsFarAsItsWindowsReach) {
   // The thesis's last windows: 1 + 24 * 0.9 = 22.6 m to the left, 1 + 14 * 0.9 = 13.6 m to the
   // right.
   addLine(hits_, Pose2(0.0, 22.6, 0.0), 21.0);

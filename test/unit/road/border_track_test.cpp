@@ -12,8 +12,8 @@
 namespace datmo::border_track_test {
 namespace {
 
-/// State of the line `estimate` seen from the true line at the estimate's anchor: by how much it is
-/// off in offset, heading, curvature and curvature rate.
+/// State of the line `estimate` relative to the true line at the estimate's anchor: its errors of
+/// offset, heading, curvature and curvature rate.
 Eigen::Vector4d errorOf(const BorderTrack& estimate, const BorderCurve& truth) {
   const CurveTable table(truth, -5.0, 60.0);
   const CurvePoint foot = table.locate(estimate.curve().anchor.position());
@@ -40,7 +40,7 @@ class BorderTrackTest : public testing::TestWithParam<BorderCurve> {
  protected:
   double normal(double sigma) { return sigma * distribution_(engine_); }
 
-  /// A start that is as wrong as its covariance says.
+  /// An initial state whose error is drawn from its covariance.
   BorderTrack started(const BorderTrackOptions& options, const BorderCurve& truth) {
     const Eigen::Matrix2d covariance = Eigen::Vector2d(0.09, 0.0025).asDiagonal();
     return {options, truth.anchor * Pose2(0.0, normal(0.3), normal(0.05)), covariance};
@@ -64,7 +64,7 @@ class BorderTrackTest : public testing::TestWithParam<BorderCurve> {
   std::normal_distribution<double> distribution_{0.0, 1.0};
 };
 
-TEST_P(BorderTrackTest, ComesToTheTruthAndItsErrorsAreNoLargerThanItSays) {
+TEST_P(BorderTrackTest, ConvergesToTheTruthWithConsistentErrors) {
   constexpr int kRuns = 200;
   constexpr int kSteps = 30;
   double squares = 0.0;
@@ -76,8 +76,8 @@ TEST_P(BorderTrackTest, ComesToTheTruthAndItsErrorsAreNoLargerThanItSays) {
       see(GetParam(), 0.2, track);
     }
     const Eigen::Vector4d error = errorOf(track, GetParam());
-    // Curvature and its rate start at 0, which is no draw of their distribution: the estimate must
-    // not be surer than it is right.
+    // Curvature and its rate start at 0, which is no draw from their distribution: the estimate
+    // must not be overconfident.
     const Eigen::Vector2d line = error.head<2>();
     squares += line.dot(track.covariance().topLeftCorner<2, 2>().ldlt().solve(line));
     offset += error[0] * error[0];
@@ -120,7 +120,7 @@ TEST(BorderTrack, OffsetByHand) {
   EXPECT_NEAR(track.covariance()(0, 0), 0.0225, 1e-9);
 }
 
-TEST(BorderTrack, LeavesOutWhatIsBeyondTheGate) {
+TEST(BorderTrack, LeavesOutHitsBeyondTheGate) {
   BorderTrackOptions options = withoutDrift();
   options.gate = 3.0;
   const Eigen::Matrix2d covariance = Eigen::Vector2d(0.01, 1e-6).asDiagonal();

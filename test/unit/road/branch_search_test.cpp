@@ -10,7 +10,7 @@
 namespace datmo::branch_search_test {
 namespace {
 
-/// Whether something stands at a point.
+/// Whether a point is occupied.
 using Blocks = std::function<bool(const Point2&)>;
 
 constexpr double kHalfStreet = 6.0;  ///< m
@@ -25,7 +25,7 @@ bool road(const Point2& point) { return !isInStreetAlongX(point); }
 
 class BranchSearchTest : public ::testing::Test {
  protected:
-  /// A scan of all around from the origin, twice, of a scene.
+  /// Scans a scene all around from the origin, twice.
   void see(const Blocks& blocks) {
     constexpr int kBeams = 1440;
     constexpr double kStep = 0.05;
@@ -105,11 +105,11 @@ TEST_F(BranchSearchTest, NoStreetLeadsAwayInAnOpenSpace) {
   EXPECT_TRUE(branches().empty());
 }
 
-TEST_F(BranchSearchTest, NoneLeadsWhereNothingWasSeen) { EXPECT_TRUE(branches().empty()); }
+TEST_F(BranchSearchTest, NoneLeadsIntoUnseenSpace) { EXPECT_TRUE(branches().empty()); }
 
 constexpr double kHalfGap = 4.0;  ///< m
 
-/// A road between rows of 1 m depth, with a gap in that to the left.
+/// A road between rows of 1 m depth, with a gap in the left one.
 bool roadWithGap(const Point2& point) {
   const bool in_gap = point.y() > 0.0 && std::abs(point.x()) < kHalfGap;
   return road(point) && std::abs(point.y()) < kHalfStreet + 1.0 && !in_gap;
@@ -131,7 +131,7 @@ TEST_F(BranchSearchTest, AStreetHasASideSomewhere) {
   EXPECT_TRUE(leadsTo(0.5 * kPi, degrees(20.0)));
 }
 
-TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
+TEST_F(BranchSearchTest, ReportsTheShareOfItsLengthWithObjectsBeside) {
   see(road);
   ASSERT_EQ(branches().size(), 2U);
   for (const RoadBranch& branch : branches()) {
@@ -139,7 +139,7 @@ TEST_F(BranchSearchTest, SaysBesideHowMuchOfItSomethingStands) {
   }
 }
 
-TEST_F(BranchSearchTest, WhatStandsInItIsNoSide) {
+TEST_F(BranchSearchTest, AnObjectInItIsNoSide) {
   see([](const Point2& point) {
     const bool on_post = (point - Point2(0.0, 16.0)).norm() < 0.3;
     return roadWithGap(point) || on_post;

@@ -13,7 +13,8 @@ constexpr int kCrossroads = 4;  ///< branches
 
 class IntersectionDetectorTest : public ::testing::Test {
  protected:
-  /// Drives to an arc length (m) and observes whenever it is due; times that it came to one.
+  /// Drives to an arc length (m) and observes whenever an observation is due; counts arrivals at an
+  /// intersection.
   int driveTo(double arc_length, int branches, bool bordered = true) {
     int found = 0;
     for (; arc_length_ < arc_length; arc_length_ += 0.25) {
@@ -76,7 +77,7 @@ TEST_F(IntersectionDetectorTest, OneOfThreeInBetweenEndsNone) {
   EXPECT_TRUE(detector_.atIntersection());
 }
 
-TEST_F(IntersectionDetectorTest, WhereNoBorderWasThereIsNoRoad) {
+TEST_F(IntersectionDetectorTest, WithoutBordersThereIsNoRoad) {
   EXPECT_EQ(driveTo(200.0, kCrossroads, false), 0);
 }
 
@@ -85,7 +86,7 @@ TEST_F(IntersectionDetectorTest, BehindAFewParkedCarsThereIsNone) {
   EXPECT_EQ(driveTo(100.0, kCrossroads, false), 0);
 }
 
-TEST_F(IntersectionDetectorTest, OneThatStandsKeepsItsState) {
+TEST_F(IntersectionDetectorTest, AStationaryVehicleKeepsItsState) {
   driveTo(50.0, kRoad);
   driveTo(60.25, kCrossroads);
   ASSERT_TRUE(detector_.atIntersection());

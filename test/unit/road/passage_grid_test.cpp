@@ -34,7 +34,7 @@ class PassageGridTest : public ::testing::Test {
   PassageGrid grid_{PassageGridOptions()};
 };
 
-TEST_F(PassageGridTest, WhatABeamPassesIsFreeAndWhereTwoEndedItIsOccupied) {
+TEST_F(PassageGridTest, CellsPassedAreFreeAndWhereTwoBeamsEndedOccupied) {
   repeat(1, beamTo(kEnd, true, {0.0, 0.25}));
   EXPECT_EQ(grid_.at(kBefore), State::kFree);
   EXPECT_EQ(grid_.at(kEnd), State::kUnknown);
@@ -49,7 +49,7 @@ TEST_F(PassageGridTest, ABeamWithoutReturnEndsOnNothing) {
   EXPECT_EQ(grid_.at(kEnd), State::kFree);
 }
 
-TEST_F(PassageGridTest, WhatFewOfTheBeamsEndedInIsFree) {
+TEST_F(PassageGridTest, CellsWithFewBeamEndsAreFree) {
   repeat(2, beamTo(kEnd, true, {0.0, 0.25}));
   repeat(11, beamTo(kBeyond, false, {0.0, 0.25}));
   EXPECT_EQ(grid_.at(kEnd), State::kOccupied);  // 2 of 13: 0.154
@@ -57,7 +57,7 @@ TEST_F(PassageGridTest, WhatFewOfTheBeamsEndedInIsFree) {
   EXPECT_EQ(grid_.at(kEnd), State::kFree);  // 2 of 14: 0.143
 }
 
-TEST_F(PassageGridTest, WhatStoodForLongAndLeftIsFreeBeforeAsManyBeamsPassed) {
+TEST_F(PassageGridTest, CellsOfALongStationaryObjectBecomeFreeSooner) {
   PassageGridOptions options;
   options.max_beams = 10;
   grid_ = PassageGrid(options);
@@ -67,7 +67,7 @@ TEST_F(PassageGridTest, WhatStoodForLongAndLeftIsFreeBeforeAsManyBeamsPassed) {
   EXPECT_EQ(grid_.at(kEnd), State::kFree);
 }
 
-TEST_F(PassageGridTest, WhatTheVehicleLeavesBehindIsForgotten) {
+TEST_F(PassageGridTest, CellsLeftBehindAreForgotten) {
   repeat(2, beamTo(kEnd, true, {0.0, 0.25}));
   repeat(1, beamTo({110.0, 0.25}, false, {100.0, 0.25}));
   EXPECT_EQ(grid_.at(kEnd), State::kUnknown);

@@ -33,7 +33,7 @@ TEST(PresenceHistoryTest, DrivingBackwardIsNotCounted) {
   EXPECT_DOUBLE_EQ(history.presence().arc_length, 0.0);
 }
 
-TEST(PresenceHistoryTest, WithoutBordersNothingIsKnown) {
+TEST(PresenceHistoryTest, WithoutBordersItIsUnknown) {
   PresenceHistory history{PresenceHistoryOptions{}};
   history.update({}, Pose2(), 0.06);
   for (const double probability : history.presence().left.probability) {

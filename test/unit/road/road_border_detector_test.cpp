@@ -55,7 +55,7 @@ class RoadBorderDetectorTest : public testing::Test {
     return scan;
   }
 
-  /// Drives so far along x, m; the road at its end.
+  /// Drives this far along x, m; returns the road at its end.
   RoadModel drive(double distance, double speed = 8.0) {
     RoadModel road;
     for (double driven = 0.0; driven < distance; driven += speed * kPeriod) {
@@ -65,7 +65,7 @@ class RoadBorderDetectorTest : public testing::Test {
     return road;
   }
 
-  /// m, largest distance of points up to 20 m ahead to the line at y; infinite without any.
+  /// Largest distance of points up to 20 m ahead to the line at y, m; infinite if there are none.
   double worstError(const RoadModel& road, RoadSide side, double y) const {
     double worst = -1.0;
     for (const RoadBorder& border : road.borders) {
@@ -126,7 +126,7 @@ TEST_F(RoadBorderDetectorTest, OneSideOnly) {
   EXPECT_TRUE(std::isinf(worstError(road, RoadSide::kLeft, 4.0)));
 }
 
-TEST_F(RoadBorderDetectorTest, BordersEndAtASideStreetAndGoOnBehindIt) {
+TEST_F(RoadBorderDetectorTest, BordersEndAtASideStreetAndContinueBehindIt) {
   walls_ = {{-3.0}, {4.0, -100.0, 45.0}, {4.0, 60.0, 300.0}};
   drive(30.0);
   bool before = false;
@@ -172,7 +172,7 @@ TEST_F(RoadBorderDetectorTest, IsAtAnIntersectionAtWhichItTurns) {
 
 TEST_F(RoadBorderDetectorTest, KeepsABorderThatIsHiddenForAShortTime) {
   drive(30.0);
-  walls_ = {{4.0}, {-2.0, x_ + 4.0, x_ + 16.0}};  // a lorry, as long as it goes along
+  walls_ = {{4.0}, {-2.0, x_ + 4.0, x_ + 16.0}};  // a lorry that keeps up with the vehicle
   const RoadModel road = drive(1.0);
   EXPECT_LT(worstError(road, RoadSide::kRight, -3.0), 1.2);
 }
@@ -184,7 +184,7 @@ TEST_F(RoadBorderDetectorTest, NothingReflects) {
   EXPECT_FALSE(road.at_intersection);
 }
 
-TEST_F(RoadBorderDetectorTest, AStandingVehicleSeesTheSameRoad) {
+TEST_F(RoadBorderDetectorTest, AStationaryVehicleSeesTheSameRoad) {
   drive(30.0);
   RoadModel road;
   for (int scan = 0; scan < 300; ++scan) {
@@ -195,7 +195,7 @@ TEST_F(RoadBorderDetectorTest, AStandingVehicleSeesTheSameRoad) {
   EXPECT_FALSE(road.at_intersection);
 }
 
-TEST_F(RoadBorderDetectorTest, AWaitingVehicleDoesNotBecomeSurerOfItsBorders) {
+TEST_F(RoadBorderDetectorTest, AWaitingVehicleDoesNotBecomeMoreCertainOfItsBorders) {
   const auto sigmaAhead = [this](const RoadModel& road) {
     double sigma = 0.0;
     for (const RoadBorder& border : road.borders) {
@@ -228,7 +228,7 @@ TEST_F(RoadBorderDetectorTest, ForgetsAllAfterAJumpAGapAndAReset) {
   EXPECT_TRUE(drive(0.1).borders.empty());
 }
 
-TEST_F(RoadBorderDetectorTest, SaysTheSameOfTheSameScans) {
+TEST_F(RoadBorderDetectorTest, TheSameScansGiveTheSameRoad) {
   std::vector<LabeledScan> scans;
   for (int i = 0; i < 60; ++i) {
     scans.push_back(scanFrom(Pose2(0.5 * i, 0.0, 0.0)));
@@ -269,7 +269,7 @@ TEST_F(RoadBorderDetectorTest, AWindowShorterThanTheSpacingHasBothItsEnds) {
   }
 }
 
-TEST_F(RoadBorderDetectorTest, RefusesAMethodThatThereIsNot) {
+TEST_F(RoadBorderDetectorTest, RefusesAnUnknownMethod) {
   EXPECT_THROW(readOptions<RoadBorderDetectorOptions>({{"method", std::string("guess")}}),
                OptionError);
 }

@@ -26,7 +26,7 @@ class RoadExtensionTest : public testing::Test {
   RoadExtension extension_{RoadExtensionOptions{}};
 };
 
-TEST_F(RoadExtensionTest, ABorderGoesStraightOnBeyondBothEnds) {
+TEST_F(RoadExtensionTest, ABorderContinuesStraightBeyondBothEnds) {
   update({leftBorder(-5.0, 10.0)});
   EXPECT_NEAR(extension_.offset(RoadSide::kLeft, {20.0, 6.0})->outward, 2.0, 1e-9);
   EXPECT_NEAR(extension_.offset(RoadSide::kLeft, {20.0, 1.0})->outward, -3.0, 1e-9);
@@ -60,7 +60,7 @@ TEST_F(RoadExtensionTest, OfSeveralTheNearestEndCounts) {
   EXPECT_NEAR(extension_.offset(RoadSide::kLeft, {25.0, 9.0})->outward, 1.0, 1e-9);
 }
 
-TEST_F(RoadExtensionTest, RemembersWhatWasBesideTheVehicle) {
+TEST_F(RoadExtensionTest, RemembersBordersBesideTheVehicle) {
   update({leftBorder(-5.0, 10.0)});
   update({}, Pose2(20.0, 0.0, 0.0));
   EXPECT_NEAR(extension_.offset(RoadSide::kLeft, {45.0, 6.0})->outward, 2.0, 1e-9);
@@ -80,7 +80,7 @@ TEST_F(RoadExtensionTest, ABorderAheadWasNotBesideTheVehicle) {
   EXPECT_FALSE(extension_.offset(RoadSide::kLeft, {20.0, 6.0}));
 }
 
-TEST_F(RoadExtensionTest, SideStreetsDoNotGoOn) {
+TEST_F(RoadExtensionTest, SideStreetsAreNotExtended) {
   RoadBorder street = leftBorder(-5.0, 10.0);
   street.side_street = true;
   update({street});

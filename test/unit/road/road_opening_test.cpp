@@ -48,7 +48,7 @@ class RoadOpeningTest : public testing::Test {
 
 TEST_F(RoadOpeningTest, ARoadBetweenBordersHasNone) { EXPECT_TRUE(openings().empty()); }
 
-TEST_F(RoadOpeningTest, LooksOutOfTheRoadFromTheMiddleOfTheOpening) {
+TEST_F(RoadOpeningTest, FacesOutOfTheRoadFromTheMiddleOfTheOpening) {
   open(presence_.right, 120.0, 132.0);
   const auto found = openings();
   ASSERT_EQ(found.size(), 1U);
@@ -59,7 +59,7 @@ TEST_F(RoadOpeningTest, LooksOutOfTheRoadFromTheMiddleOfTheOpening) {
   EXPECT_NEAR(found[0].middle.heading(), -0.5 * kPi, 1e-9);
 }
 
-TEST_F(RoadOpeningTest, WithoutABorderTheUsualDistanceServes) {
+TEST_F(RoadOpeningTest, WithoutABorderTheDefaultDistanceIsUsed) {
   open(presence_.left, 120.0, 132.0);
   const auto found = openings();
   ASSERT_EQ(found.size(), 1U);
@@ -68,7 +68,7 @@ TEST_F(RoadOpeningTest, WithoutABorderTheUsualDistanceServes) {
   EXPECT_NEAR(found[0].middle.heading(), 0.5 * kPi, 1e-9);
 }
 
-TEST_F(RoadOpeningTest, ALastRunThatGoesOnIsOneToo) {
+TEST_F(RoadOpeningTest, ALastRunThatContinuesIsOneToo) {
   open(presence_.left, 125.0, 200.0);
   ASSERT_EQ(openings().size(), 1U);
   EXPECT_NEAR(openings()[0].length, 15.0, 1e-9);
@@ -80,7 +80,7 @@ TEST_F(RoadOpeningTest, ShortOrEndlessOnesAreNone) {
   EXPECT_TRUE(openings().empty());
 }
 
-TEST_F(RoadOpeningTest, WhereNothingIsKnownThereIsNone) {
+TEST_F(RoadOpeningTest, InUnknownSpaceThereIsNone) {
   open(presence_.left, 120.0, 132.0, 0.5);
   EXPECT_TRUE(openings().empty());
 }

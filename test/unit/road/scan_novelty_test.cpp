@@ -26,7 +26,7 @@ TEST(ScanNoveltyTest, ByHand) {
   EXPECT_NEAR(novelty.update({0.3, 0.4}, 1.0), 1.0 - std::exp(-2.5), 1e-12);
 }
 
-TEST(ScanNoveltyTest, AWaitingVehicleLearnsAsMuchInAnyNumberOfScans) {
+TEST(ScanNoveltyTest, WhileWaitingTheNumberOfScansDoesNotMatter) {
   const auto inTwoSeconds = [](int scans) {
     ScanNovelty novelty{ScanNoveltyOptions()};
     novelty.update({0.0, 0.0}, 0.0);

@@ -50,7 +50,7 @@ TEST_F(SideStreetsTest, FindsBothBordersOfAStreet) {
   }
 }
 
-TEST_F(SideStreetsTest, KnowsThemForATime) {
+TEST_F(SideStreetsTest, KeepsThemForATime) {
   streets_.update(hits_, {opening_}, at(0.0));
   const HitGrid empty{HitGridOptions{}};
   streets_.update(empty, {opening_}, at(2.0));
@@ -67,8 +67,8 @@ TEST_F(SideStreetsTest, FindsNoneTwice) {
   EXPECT_EQ(streets_.borders(at(1.2)).size(), 2U);
 }
 
-TEST_F(SideStreetsTest, WhatIsFoundLastTakesThePlaceOfWhatContradictsIt) {
-  // From a turning vehicle: the opening seems to lie elsewhere, and another line is found.
+TEST_F(SideStreetsTest, TheLatestOneReplacesContradictoryOnes) {
+  // From a turning vehicle: the opening appears elsewhere, and another line is found.
   HitGrid slanted{HitGridOptions{}};
   for (int i = 0; i < 60; ++i) {
     for (int hits = 0; hits < 4; ++hits) {
@@ -99,7 +99,7 @@ TEST_F(SideStreetsTest, TwoStreetsSideBySideHaveFourBorders) {
   EXPECT_EQ(streets_.borders(at(0.0)).size(), 4U);
 }
 
-TEST_F(SideStreetsTest, LooksFromTimeToTime) {
+TEST_F(SideStreetsTest, SearchesPeriodically) {
   streets_.update(hits_, {}, at(0.0));
   streets_.update(hits_, {opening_}, at(0.1));
   EXPECT_TRUE(streets_.borders(at(0.1)).empty());

@@ -26,7 +26,7 @@ class StationEvidenceTest : public testing::Test {
   StationEvidence evidence_{options_};
 };
 
-TEST_F(StationEvidenceTest, NothingIsKnownAtFirst) {
+TEST_F(StationEvidenceTest, IsUnknownInitially) {
   EXPECT_EQ(evidence_.logOdds(5.0), 0.0);
   EXPECT_TRUE(evidence_.pieces().empty());
 }
@@ -60,7 +60,7 @@ TEST_F(StationEvidenceTest, ShortGapsAreBridgedLongOnesEndAPiece) {
   EXPECT_EQ(evidence_.pieces().size(), 2U);
 }
 
-TEST_F(StationEvidenceTest, PassagesTakeABorderAwayAgain) {
+TEST_F(StationEvidenceTest, PassagesRemoveABorderAgain) {
   hit(2.0, 3.0);
   ASSERT_EQ(evidence_.seenStations(), 1);
   for (int scan = 0; scan < 200; ++scan) {
@@ -70,7 +70,7 @@ TEST_F(StationEvidenceTest, PassagesTakeABorderAwayAgain) {
   EXPECT_EQ(evidence_.seenStations(), 0);
 }
 
-TEST_F(StationEvidenceTest, IsForgottenOutsideOfWhatIsKept) {
+TEST_F(StationEvidenceTest, IsForgottenOutsideTheKeptRange) {
   hit(2.0, 20.0);
   evidence_.keepWithin({10.0, 40.0});
   EXPECT_EQ(evidence_.logOdds(5.0), 0.0);

@@ -43,7 +43,7 @@ TEST_F(ArrivalCheckTest, AGapInTheNumbersIsLostMessages) {
   EXPECT_NE(monitor_.lastDrop().find("1 messages on scan from /driver"), std::string::npos);
 }
 
-TEST_F(ArrivalCheckTest, WhatWasLostWhileAStageStoodStillCountsHoweverMuchItWas) {
+TEST_F(ArrivalCheckTest, LossesDuringAStandstillAreAllCounted) {
   take("/driver", 7);
   take("/driver", 1000007);
   EXPECT_EQ(dropped("lost_message"), 999999U);
@@ -75,7 +75,7 @@ TEST_F(ArrivalCheckTest, PublishersWithANewNameEachTimeAreForgotten) {
   EXPECT_EQ(dropped("lost_message"), 1U) << "the last one is still known";
 }
 
-TEST_F(ArrivalCheckTest, WhatHasWaitedForTooLongMakesWayForNewerOnes) {
+TEST_F(ArrivalCheckTest, StaleMessagesGiveWayToNewerOnes) {
   EXPECT_TRUE(take("/driver", 1, kNow - ros::Duration(0.4)));
   EXPECT_FALSE(take("/driver", 2, kNow - ros::Duration(0.6)));
   EXPECT_EQ(dropped("stale_message"), 1U);
@@ -84,7 +84,7 @@ TEST_F(ArrivalCheckTest, WhatHasWaitedForTooLongMakesWayForNewerOnes) {
   EXPECT_EQ(dropped("lost_message"), 0U) << "what is dropped here has come";
 }
 
-TEST_F(ArrivalCheckTest, AClockThatIsNotThereYetOrWasSetBackMakesNothingOld) {
+TEST_F(ArrivalCheckTest, AMissingOrResetClockMakesNothingStale) {
   EXPECT_TRUE(take("/driver", 1, ros::Time()));
   EXPECT_TRUE(take("/driver", 2, kNow + ros::Duration(10.0)));
 }

@@ -10,7 +10,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-/// Messages of a camera without distortion, in the frame `camera`, looking along its parent's x.
+/// Messages of a camera without distortion, in the frame `camera`, facing along its parent's x.
 namespace datmo::samples {
 
 struct CameraSample {

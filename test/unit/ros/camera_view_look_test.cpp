@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a track looks like in the camera's picture: how sure it is, and its class.
+// Drawing of a track in the camera's image: its existence probability, and its class.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace datmo::camera_view_test {
 namespace {
 
-TEST_F(CameraViewTest, AnUnsureTrackIsFainter) {
+TEST_F(CameraViewTest, AnUncertainTrackIsFainter) {
   view_.takeCameraInfo(cameraInfo());
   const auto strength = [this](double seconds, float existence) {
     mountCamera(seconds);

@@ -47,7 +47,7 @@ inline TrackArrayPtr tracks(double seconds, double ahead, double speed) {
 
 class CameraViewTest : public testing::Test {
  protected:
-  /// The camera at the map's origin, above the ground, looks along x.
+  /// The camera at the map's origin, above the ground, faces along x.
   void mountCamera(double seconds) {
     transforms_.add(samples::transforms({samples::cameraMount("map", kHeightOverGround, seconds)}));
   }
@@ -58,7 +58,7 @@ class CameraViewTest : public testing::Test {
     return view_.next(Stamp::fromSeconds(seconds + waited));
   }
 
-  /// Whether a pixel is not of the image any more.
+  /// Returns whether a pixel has been drawn over.
   static bool isDrawn(const sensor_msgs::Image& picture, int column, int row) {
     const std::size_t at =
         static_cast<std::size_t>(row) * picture.step + 3 * static_cast<std::size_t>(column);

@@ -14,7 +14,7 @@ namespace {
 using samples::drops;
 using samples::warnings;
 
-TEST_F(CameraViewTest, ATrackIsABoxWhereTheCameraSeesIt) {
+TEST_F(CameraViewTest, ATrackIsABoxAtItsImagePosition) {
   view_.takeCameraInfo(cameraInfo());
   mountCamera(kStart);
   view_.takeTracks(tracks(kStart, 12.0, 0.0));
@@ -32,7 +32,7 @@ TEST_F(CameraViewTest, ATrackIsABoxWhereTheCameraSeesIt) {
   EXPECT_EQ(monitor_.processedCount(), 1U);
 }
 
-TEST_F(CameraViewTest, ATrackIsWhereItIsWhenTheImageIsExposed) {
+TEST_F(CameraViewTest, ATrackIsPredictedToTheExposure) {
   view_.takeCameraInfo(cameraInfo());
   mountCamera(kStart);
   mountCamera(kStart + 0.5);
@@ -52,7 +52,7 @@ TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
     mountCamera(seconds);
     view_.takeTracks(list);
     const auto picture = show(image(seconds));
-    int rows = 0;  // above the box, where only labels are
+    int rows = 0;  // above the box, where there are only labels
     for (int row = 0; picture && row < 238; ++row) {
       rows += isDrawn(*picture, 300, row) ? 1 : 0;
     }
@@ -167,7 +167,7 @@ TEST_F(CameraViewTest, ImagesThatCannotBeReadAreRefused) {
   EXPECT_TRUE(show(image(kStart + 0.6))) << "the next one is shown";
 }
 
-TEST_F(CameraViewTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(CameraViewTest, AClockJumpBackStartsOver) {
   view_.takeCameraInfo(cameraInfo());
   mountCamera(kStart);
   view_.takeTracks(tracks(kStart, 12.0, 0.0));

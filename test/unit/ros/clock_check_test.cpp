@@ -18,12 +18,12 @@ constexpr int kSet = 60;         // the message from which on the clock is off
 
 class ClockCheckTest : public testing::Test {
  protected:
-  /// The stamp (s) that comes of one, of a message that was measured at this time (s).
+  /// Returns the stamp (s) after the check, for a message that was measured at this time (s).
   double corrected(double stamp, double measured) {
     return check_.corrected(ros::Time(stamp), Stamp::fromSeconds(measured + kDelay)).toSec();
   }
 
-  /// A drive of 100 messages, at made-up times, whose scanner's clock is set by `step` (s).
+  /// A drive of 100 messages, at simulated times, whose scanner's clock is set by `step` (s).
   void drive(double step, double start = 0.0) {
     for (int i = 1; i <= 100; ++i) {
       const double measured = start + kPeriod * i;
@@ -41,13 +41,13 @@ class ClockCheckTest : public testing::Test {
   ClockCheck check_{"scan", monitor_};
 };
 
-TEST_F(ClockCheckTest, AStampIsPutRightAndSaid) {
+TEST_F(ClockCheckTest, AStampIsCorrectedAndReported) {
   drive(0.1);
   EXPECT_EQ(samples::warnings(monitor_, "clock_off"), 41U);
   EXPECT_NEAR(figure(), 0.1, 1e-6);
 }
 
-TEST_F(ClockCheckTest, AStampThatIsNoneStaysNone) {
+TEST_F(ClockCheckTest, AnInvalidStampStaysInvalid) {
   drive(0.1);
   EXPECT_EQ(corrected(0.0, 10.1), 0.0);
   EXPECT_EQ(corrected(0.05, 10.1), 0.05) << "would be before the beginning of time";
@@ -59,7 +59,7 @@ TEST_F(ClockCheckTest, AStampAtTheEndOfTimeIsNotMovedBeyondIt) {
   EXPECT_EQ(check_.corrected(ros::TIME_MAX, Stamp::fromSeconds(10.1 + kDelay)), ros::TIME_MAX);
 }
 
-TEST_F(ClockCheckTest, ALoopedBagBeginsAnewAndTheFigureSaysSo) {
+TEST_F(ClockCheckTest, ALoopedBagStartsOverAsDoesItsFigure) {
   drive(0.1);
   for (int i = 1; i <= 40; ++i) {
     const double measured = kPeriod * i;
@@ -69,7 +69,7 @@ TEST_F(ClockCheckTest, ALoopedBagBeginsAnewAndTheFigureSaysSo) {
   EXPECT_EQ(figure(), 0.0);
 }
 
-TEST_F(ClockCheckTest, AClockThatIsSetRightIsSaidOnceAndServedAsItIs) {
+TEST_F(ClockCheckTest, ACorrectedClockIsReportedOnceAndUsedUnchanged) {
   for (int i = 1; i <= 200; ++i) {
     const double measured = kPeriod * i;
     const double stamp = measured + (i < kSet ? 0.1 : 0.0);
@@ -82,7 +82,7 @@ TEST_F(ClockCheckTest, AClockThatIsSetRightIsSaidOnceAndServedAsItIs) {
   EXPECT_EQ(figure(), 0.0);
 }
 
-/// Ports of a host that only says what its time is.
+/// Ports of a host that only provides its time.
 class TimedPorts : public StagePorts {
  public:
   explicit TimedPorts(bool is_simulated) : is_simulated_(is_simulated) {}
@@ -96,7 +96,7 @@ class TimedPorts : public StagePorts {
   bool is_simulated_;
 };
 
-TEST_F(ClockCheckTest, InSimulatedTimeStampsStayAsTheyAre) {
+TEST_F(ClockCheckTest, InSimulatedTimeStampsAreUnchanged) {
   for (const bool is_simulated : {true, false}) {
     ros::Time last;
     const auto take = withClockCheck<sensor_msgs::LaserScan>(

@@ -45,7 +45,7 @@ std::string reasonOfCloud(const std::function<void(sensor_msgs::PointCloud2&)>& 
   return reasonOf([&message] { CloudPoints{message}; });
 }
 
-TEST(CloudConversion, PointsAreReadWhereTheyLie) {
+TEST(CloudConversion, PointsAreReadAtTheirOffsets) {
   const sensor_msgs::PointCloud2 message = cloud(kPoints);
   const CloudPoints points(message);
   EXPECT_EQ(points.view().data, message.data.data());
@@ -60,7 +60,7 @@ TEST(CloudConversion, FieldsAreFoundByTheirNamesAtAnyOffset) {
   EXPECT_EQ(points.view()[0], Eigen::Vector3f(2.0F, 3.0F, 1.0F));
 }
 
-TEST(CloudConversion, PointsWithoutColorMayLieClose) {
+TEST(CloudConversion, PointsWithoutColorMayBePacked) {
   sensor_msgs::PointCloud2 message = cloud({});
   message.fields.pop_back();
   message.width = 4;
@@ -112,7 +112,7 @@ TEST(CloudConversion, FieldsThatAreNotAsExpectedAreRefused) {
             "wrong_field_type");
 }
 
-TEST(CloudConversion, DataThatIsNotAsSaidIsRefused) {
+TEST(CloudConversion, DataOfTheWrongSizeIsRefused) {
   EXPECT_EQ(reasonOfCloud([](auto& message) { message.is_bigendian = 1; }), "big_endian");
   EXPECT_EQ(reasonOfCloud([](auto& message) { message.data.pop_back(); }), "wrong_size");
   EXPECT_EQ(reasonOfCloud([](auto& message) { message.width = 0xFFFFFFFF; }), "wrong_size");
@@ -130,7 +130,7 @@ TEST(CloudConversion, DataThatIsNotAsSaidIsRefused) {
   EXPECT_EQ(reasonOfCloud([](auto& message) { message.point_step = 0; }), "wrong_field_type");
 }
 
-TEST(CloudConversion, MessagesSayWhatIsWrong) {
+TEST(CloudConversion, MessagesNameTheError) {
   sensor_msgs::PointCloud2 message = cloud(kPoints);
   message.data.resize(100);
   try {
@@ -141,7 +141,7 @@ TEST(CloudConversion, MessagesSayWhatIsWrong) {
   }
 }
 
-TEST(CloudConversion, PointsAreBroughtToAnotherFrame) {
+TEST(CloudConversion, PointsAreTransformedToAnotherFrame) {
   const sensor_msgs::PointCloud2 message = cloud({{1.0F, 0.0F, 0.0F}, {kNan, 0.0F, 0.0F}});
   CloudPoints points(message);
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
@@ -179,7 +179,7 @@ TEST(StereoCamera, ARegionOfInterestMakesTheViewNarrower) {
   EXPECT_DOUBLE_EQ(camera.right_tangent, 0.0);
 }
 
-TEST(StereoCamera, WhatIsNoneIsRefused) {
+TEST(StereoCamera, InvalidInfosAreRefused) {
   const auto reason = [](const std::function<void(sensor_msgs::CameraInfo&)>& spoil) {
     sensor_msgs::CameraInfo info = samples::rightCameraInfo();
     spoil(info);
@@ -220,7 +220,7 @@ TEST(CloudPoints, DepthsOutOfRangeAreLeftOut) {
   EXPECT_EQ(reasonOf([&points] { points.keepDepths(4.0, 8.0); }), "no_valid_point");
 }
 
-TEST(CloudPoints, ABiasOfDisparitiesIsTakenOutAlongLinesOfSight) {
+TEST(CloudPoints, ABiasOfDisparitiesIsRemovedAlongLinesOfSight) {
   const sensor_msgs::PointCloud2 message =
       cloud({{2.0F, -1.0F, 10.0F}, {0.0F, 0.0F, 50.0F}, {1.0F, 1.0F, 200.0F}});
   CloudPoints points(message);

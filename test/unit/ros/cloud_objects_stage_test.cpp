@@ -40,7 +40,7 @@ TEST_F(CloudObjectsStageTest, BadCloudsAreDroppedAndCounted) {
   EXPECT_EQ(stage_.take(cloudAt(kStart)), nullptr) << "it was there already";
 }
 
-TEST_F(CloudObjectsStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(CloudObjectsStageTest, AClockJumpBackStartsOver) {
   mountLidar();
   EXPECT_NE(stage_.take(cloudAt(kStart + 10.0)), nullptr);
   EXPECT_NE(stage_.take(cloudAt(kStart)), nullptr);

@@ -12,7 +12,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
-/// Clouds of a stereo camera, from which tests make others.
+/// Clouds of a stereo camera, which tests modify.
 namespace datmo::samples {
 
 inline sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
@@ -24,7 +24,7 @@ inline sensor_msgs::PointField field(const std::string& name, std::uint32_t offs
   return field;
 }
 
-/// As stereo_image_proc lays its clouds out: x, y, z, 4 bytes of nothing, rgb, 12 bytes of nothing.
+/// The layout of stereo_image_proc's clouds: x, y, z, 4 bytes of padding, rgb, 12 bytes of padding.
 /// One row; the points are in the optical frame, m.
 inline sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points) {
   sensor_msgs::PointCloud2 message;
@@ -42,7 +42,7 @@ inline sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points
   return message;
 }
 
-/// Of a rectified camera of 500 px and 0.2 m; 640 x 480 px.
+/// A rectified camera with 500 px of focal length and 0.2 m of baseline; 640 x 480 px.
 inline sensor_msgs::CameraInfo rightCameraInfo() {
   sensor_msgs::CameraInfo message;
   message.width = 640;
@@ -54,7 +54,7 @@ inline sensor_msgs::CameraInfo rightCameraInfo() {
 inline constexpr double kCameraHeight = 1.2;  // m
 inline constexpr double kWallAhead = 10.0;    // m, of the camera
 
-/// The camera looks ahead from 2 m ahead of the vehicle's origin.
+/// A forward-looking camera 2 m ahead of the vehicle's origin.
 inline geometry_msgs::TransformStamped cameraMount() {
   geometry_msgs::TransformStamped mount = transform("base_link", "camera", 2.0);
   mount.transform.translation.z = kCameraHeight;
@@ -65,7 +65,7 @@ inline geometry_msgs::TransformStamped cameraMount() {
   return mount;
 }
 
-/// What that camera sees of a flat road and a wall on it, every few pixels; the wall reaches from
+/// That camera's view of a flat road and a wall on it, every few pixels; the wall extends from
 /// `right` to `left` (tangents) and up to `top` above the road, m.
 inline std::vector<Eigen::Vector3f> wallOnARoad(double left = -1.0, double right = 1.0,
                                                 double top = 100.0) {

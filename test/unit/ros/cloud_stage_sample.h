@@ -9,7 +9,7 @@
 
 namespace datmo::samples {
 
-/// A stage that takes the clouds of a lidar on flat ground, with a wall 10.5 m ahead.
+/// A stage that subscribes to the clouds of a lidar on flat ground, with a wall 10.5 m ahead.
 template <typename Stage>
 class CloudStageTest : public testing::Test {
  protected:

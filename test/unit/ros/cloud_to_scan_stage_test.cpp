@@ -43,7 +43,7 @@ TEST_F(CloudToScanStageTest, ACloudMakesAScanBelowTheLidar) {
   EXPECT_EQ(monitor_.figures().at("ground seen, 0 or 1"), 1.0);
 }
 
-TEST_F(CloudToScanStageTest, TheScanIsOneThatTheNextStagesTake) {
+TEST_F(CloudToScanStageTest, TheScanIsAcceptedByTheNextStages) {
   mountLidar();
   const auto output = stage_.takeCloud(cloudAt(kStart));
   ASSERT_TRUE(output);
@@ -59,7 +59,7 @@ TEST_F(CloudToScanStageTest, TheScanIsOneThatTheNextStagesTake) {
   EXPECT_NEAR(nearest, 10.5, 0.02);
 }
 
-TEST_F(CloudToScanStageTest, TheMountComesOnce) {
+TEST_F(CloudToScanStageTest, TheMountIsPublishedOnce) {
   mountLidar();
   EXPECT_TRUE(stage_.takeCloud(cloudAt(kStart))->mount);
   EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart + 0.1))->mount);
@@ -81,7 +81,7 @@ TEST_F(CloudToScanStageTest, TimesOfPointsBecomeTimesOfBeams) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
-TEST_F(CloudToScanStageTest, TimesThatAreNoTurnAreWarnedOf) {
+TEST_F(CloudToScanStageTest, ThereIsAWarningOfTimesThatAreNoTurn) {
   mountLidar();
   auto message = cloudAt(kStart);
   samples::addTimes(message, "time", sensor_msgs::PointField::FLOAT32,
@@ -90,7 +90,7 @@ TEST_F(CloudToScanStageTest, TimesThatAreNoTurnAreWarnedOf) {
   EXPECT_EQ(samples::warnings(monitor_, "uneven_point_times"), 1U);
 }
 
-TEST_F(CloudToScanStageTest, WithoutGroundItGoesOnAndSaysSo) {
+TEST_F(CloudToScanStageTest, WithoutGroundItContinuesAndReportsIt) {
   mountLidar();
   maker_ = samples::LidarCloudMaker();
   maker_.addWall(10.5);
@@ -113,7 +113,7 @@ TEST_F(CloudToScanStageTest, BadCloudsAreDropped) {
   EXPECT_EQ(samples::drops(monitor_, "repeated_stamp"), 1U);
 }
 
-TEST_F(CloudToScanStageTest, AScanInTheVehiclesFrameIsNone) {
+TEST_F(CloudToScanStageTest, AScanInTheVehiclesFrameIsRefused) {
   CloudToScanStageOptions options;
   options.scan_frame = "base_link";
   EXPECT_THROW((CloudToScanStage{options, buffer_, monitor_}), OptionError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What devices measure, as messages that the stages take.
+// Measurements of devices, as messages that the stages subscribe to.
 #include "datmo_fusion/ros/convert/device_conversion.h"
 
 #include <limits>
@@ -43,7 +43,7 @@ TEST(DeviceConversionTest, AScanHasItsLastBeamAtItsLastAngle) {
   EXPECT_TRUE(message->intensities.empty());
 }
 
-TEST(DeviceConversionTest, APositionIsTakenAndNoneIsRefused) {
+TEST(DeviceConversionTest, APositionIsConvertedAndAMissingOneRefused) {
   const SatelliteFix fix{SatelliteFix::Kind::kDifferential, 45.0, 5.0, 250.0, 1.5, 2.0, 9};
   const auto message = toMessage(fix, kStamp, "antenna");
   EXPECT_NEAR(positionOf(*message).altitude, 250.0, 1e-9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the status of a device says.
+// The diagnostic status of a device.
 #include "datmo_fusion/ros/device_diagnostics.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class DeviceDiagnosticsTest : public testing::Test {
   DeviceDiagnostics diagnostics_{monitor_};
 };
 
-TEST_F(DeviceDiagnosticsTest, NothingComesUntilItIsConnectedAndAfterAFault) {
+TEST_F(DeviceDiagnosticsTest, ItIsAnErrorUntilItIsConnectedAndAfterAFault) {
   EXPECT_EQ(monitor_.health(), HealthLevel::kNoOutput);
   diagnostics_.connected("a scanner", now_);
   EXPECT_EQ(monitor_.health(), HealthLevel::kOk);
@@ -28,7 +28,7 @@ TEST_F(DeviceDiagnosticsTest, NothingComesUntilItIsConnectedAndAfterAFault) {
   EXPECT_EQ(figure("connections"), 2.0);
 }
 
-TEST_F(DeviceDiagnosticsTest, WhatIsMissingIsCountedByItsKind) {
+TEST_F(DeviceDiagnosticsTest, LossesAreCountedByKind) {
   DeviceMeasurement cloud;
   cloud.data = DeviceCloud();
   cloud.missed = 7;

@@ -46,7 +46,7 @@ Eigen::Vector3f largest(const std::vector<DrawnVertex>& vertices) {
   return most;
 }
 
-/// m^2, of all triangles.
+/// Area of all triangles, m^2.
 float areaOf(const std::vector<DrawnVertex>& vertices) {
   float area = 0.0F;
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {
@@ -74,7 +74,7 @@ TEST(Drawing, TheTopIsBrighterThanTheSides) {
   EXPECT_LE(drawing.solid[0].color.r, 1.0F);
 }
 
-TEST(Drawing, WhatShinesThroughIsAListOfItsOwn) {
+TEST(Drawing, TransparentShapesAreASeparateList) {
   const Drawing drawing = drawn(makeShape(Marker::CUBE, 0.3));
   EXPECT_TRUE(drawing.solid.empty());
   EXPECT_EQ(drawing.translucent.size(), 36U);
@@ -145,7 +145,7 @@ TEST(Drawing, TextsAreLabels) {
   EXPECT_FLOAT_EQ(drawing.labels[0].height, 1.0F);
 }
 
-TEST(Drawing, WhatIsNotFiniteIsLeftOut) {
+TEST(Drawing, NonFiniteShapesAreLeftOut) {
   Marker box = makeShape(Marker::CUBE);
   box.pose.position.x = std::numeric_limits<double>::quiet_NaN();
   Marker line = makeShape(Marker::LINE_STRIP);

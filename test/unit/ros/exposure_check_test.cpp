@@ -14,7 +14,7 @@
 namespace datmo::exposure_check_test {
 namespace {
 
-/// Stripes, but from one row to another, in shares of the height, of one gray.
+/// Stripes, except for uniform gray from one row to another, in shares of the height.
 sensor_msgs::ImagePtr stripes(std::uint32_t height, double from, double to, std::uint8_t gray) {
   const samples::CameraSample camera{16, height, 10.0};
   auto image = boost::make_shared<sensor_msgs::Image>(camera.image(1.0, 40));
@@ -41,7 +41,7 @@ TEST(ExposureCheck, AClippedRoadOrHoodAtNightIsNoCutImage) {
   EXPECT_EQ(faultOf(stripes(40, 0.75, 1.0, 1)), "");
 }
 
-TEST(ExposureCheck, WhatIsOfOneGrayIsCut) {
+TEST(ExposureCheck, UniformGrayIsCut) {
   EXPECT_EQ(faultOf(stripes(40, 0.5, 1.0, 128)), "half_image");
   EXPECT_EQ(faultOf(stripes(40, 0.75, 1.0, 255)), "half_image");
   EXPECT_EQ(faultOf(stripes(40, 0.0, 0.5, 128)), "half_image");

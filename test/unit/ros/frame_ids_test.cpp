@@ -33,7 +33,7 @@ TEST(FrameIds, APlainMessageIsNotCopied) {
   EXPECT_EQ(monitor.warningCount(), 0U);
 }
 
-TEST(FrameIds, OneNoticeAnInputAndAllAreCounted) {
+TEST(FrameIds, OneNoticePerInputAndAllAreCounted) {
   StageMonitor monitor("stage");
   nav_msgs::Odometry odometry;
   odometry.header.frame_id = "/odom";

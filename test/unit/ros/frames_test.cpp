@@ -29,7 +29,7 @@ class MountTest : public testing::Test {
   }
 };
 
-TEST_F(MountTest, LevelScannerThatLooksLeft) {
+TEST_F(MountTest, LevelScannerFacingLeft) {
   const ScannerMount mount = mountOf(0.0, 0.0, kPi / 2.0);
   EXPECT_NEAR(mount.scanner_in_base.x(), 3.6, 1e-9);
   EXPECT_NEAR(mount.scanner_in_base.heading(), kPi / 2.0, 1e-9);

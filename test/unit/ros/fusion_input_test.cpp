@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the stages that fuse lists refuse alike.
+// What all stages that fuse lists refuse.
 #include <functional>
 #include <limits>
 #include <string>

@@ -12,7 +12,7 @@
 
 namespace datmo {
 
-/// A stage that fuses the lists of a scanner and a stereo camera, and what it tells of them.
+/// A stage that fuses the lists of a scanner and a stereo camera, and its reports about them.
 template <typename FusionStage>
 class FusionStageTest : public testing::Test {
  protected:

@@ -26,7 +26,7 @@ std::string reason(const std::function<void(nav_msgs::OccupancyGrid&)>& spoil) {
   return samples::reasonOf([&message] { fromMessage(message); });
 }
 
-TEST(GridConversion, AMessageSaysWhereTheCellsAre) {
+TEST(GridConversion, AMessageHasThePositionOfTheCells) {
   const nav_msgs::OccupancyGrid message = toMessage(smallGrid(), "base_link");
   EXPECT_EQ(message.header.frame_id, "base_link");
   EXPECT_EQ(message.header.stamp, ros::Time(samples::kStart));
@@ -39,14 +39,14 @@ TEST(GridConversion, AMessageSaysWhereTheCellsAre) {
   EXPECT_EQ(message.data, (std::vector<std::int8_t>{-1, 0, 20, 50, 80, 100}));
 }
 
-TEST(GridConversion, ThereAndBackIsTheSame) {
+TEST(GridConversion, RoundTripIsTheSame) {
   const SensorGrid grid = fromMessage(toMessage(smallGrid(), "base_link"));
   EXPECT_EQ(grid.stamp(), smallGrid().stamp());
   EXPECT_EQ(grid.window(), smallGrid().window());
   EXPECT_EQ(grid.cells(), smallGrid().cells());
 }
 
-TEST(GridConversion, WindowsOfAnyCellSizeAreTheSameThereAndBack) {
+TEST(GridConversion, WindowsOfAnyCellSizeSurviveARoundTrip) {
   for (int millimeters = 20; millimeters <= 5000; millimeters += 7) {
     GridWindowOptions options;
     options.length = 50.0;
@@ -79,7 +79,7 @@ TEST(GridConversion, OriginsThatAreNotOnTheLatticeAreRefused) {
   EXPECT_EQ(reason([](auto& message) { message.info.origin.orientation.w = 0.0; }), "bad_pose");
 }
 
-TEST(GridConversion, CellSizesThatAreNoneAreRefused) {
+TEST(GridConversion, InvalidCellSizesAreRefused) {
   for (const float size : {0.0F, -0.3F, 1e-6F, 1e6F, static_cast<float>(kNan)}) {
     EXPECT_EQ(reason([size](auto& message) { message.info.resolution = size; }), "bad_grid")
         << size;
@@ -98,12 +98,12 @@ TEST(GridConversion, AnotherNumberOfCellsIsRefused) {
   EXPECT_EQ(reason([](auto& message) { message.info.height = 0xFFFFFFFF; }), "bad_grid");
 }
 
-TEST(GridConversion, CellsThatArePercentOfNothingAreRefused) {
+TEST(GridConversion, InvalidPercentsAreRefused) {
   EXPECT_EQ(reason([](auto& message) { message.data[3] = 101; }), "bad_grid");
   EXPECT_EQ(reason([](auto& message) { message.data[0] = -2; }), "bad_grid");
 }
 
-TEST(GridConversion, MessagesSayWhatIsWrong) {
+TEST(GridConversion, MessagesNameTheError) {
   nav_msgs::OccupancyGrid message = toMessage(smallGrid(), "base_link");
   message.data.pop_back();
   try {

@@ -42,7 +42,7 @@ class GridFusionStageTest : public testing::Test {
     return stage_.next(Stamp::fromSeconds(seconds));
   }
 
-  /// Both sources at this time, fused.
+  /// Adds both sources at this time, and fuses them.
   std::optional<GridFusionOutput> bothAt(double seconds, Percent lidar, Percent stereo) {
     take("lidar", seconds, lidar);
     take("stereo", seconds, stereo);

@@ -34,7 +34,7 @@ TEST_F(GridFusionStageTest, TheRuleChangesWhileItRuns) {
   EXPECT_EQ(bothAt(100.2, kOccupied, kFree)->fused->data[0], kFree) << "the last one goes on";
 }
 
-TEST_F(GridFusionStageTest, AfterTheLongestWaitItGoesOnWithoutTheOther) {
+TEST_F(GridFusionStageTest, AfterTheLongestWaitItContinuesWithoutTheOther) {
   bothAt(99.9, kFree, kFree);
   take("lidar", 100.0, kOccupied);
   EXPECT_FALSE(nextAt(100.05));
@@ -51,7 +51,7 @@ TEST_F(GridFusionStageTest, TheCallersClockNeedNotBeTheStamps) {
   EXPECT_TRUE(stage_.next(now(0.11)));
 }
 
-TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersGoOn) {
+TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
   bothAt(100.0, kFree, kFree);
   stage_.change({{"rule", std::string("priority")}});
   int fused = 0;
@@ -109,7 +109,7 @@ TEST_F(GridFusionStageTest, WithoutTheReferenceTheOtherOneSetsTheStamps) {
   EXPECT_EQ(warnings("silent_source"), 1U);
 }
 
-/// An obstacle in one cell of the upper row, else free.
+/// An obstacle in one cell of the upper row, otherwise free.
 nav_msgs::OccupancyGrid obstacleAt(double seconds, int column) {
   SensorGrid grid(Stamp::fromSeconds(seconds), kWindow);
   std::fill(grid.cells().begin(), grid.cells().end(), kFree);
@@ -117,7 +117,7 @@ nav_msgs::OccupancyGrid obstacleAt(double seconds, int column) {
   return toMessage(grid, "base_link");
 }
 
-/// Column of the first cell of the upper row that is occupied; -1 if there is none.
+/// Returns the column of the first occupied cell of the upper row; -1 if there is none.
 int obstacleIn(const nav_msgs::OccupancyGrid& message) {
   const SensorGrid grid = fromMessage(message);
   for (int column = 0; column < kWindow.columns; ++column) {
@@ -158,7 +158,7 @@ TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   EXPECT_EQ(monitor_.droppedCount(), 0U) << "odometry is not read";
 }
 
-TEST_F(GridFusionStageTest, ASourceWhoseMotionIsNotKnownIsLeftOut) {
+TEST_F(GridFusionStageTest, ASourceOfUnknownMotionIsLeftOut) {
   stage_.change({{"rule", std::string("priority")}});
   take("stereo", obstacleAt(99.95, 8));
   take("lidar", 100.0, kFree);
@@ -177,7 +177,7 @@ TEST_F(GridFusionStageTest, ASourceWhoseMotionIsNotKnownIsLeftOut) {
   EXPECT_EQ(monitor_.warningCount(), 1U);
 }
 
-TEST_F(GridFusionStageTest, AJumpBackStartsAnew) {
+TEST_F(GridFusionStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(bothAt(200.0, kFree, kFree));
   EXPECT_TRUE(bothAt(100.0, kFree, kFree));
   EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
@@ -188,7 +188,7 @@ TEST_F(GridFusionStageTest, AJumpBackStartsAnew) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(GridFusionStageTest, AThirdSourceIsOneMoreEntry) {
+TEST_F(GridFusionStageTest, AThirdSourceAddsAnEntry) {
   options_.fuser.sources["radar"].priority = 2;
   options_.fuser.rule = FusionRule::kPriority;
   GridFusionStage stage(options_, monitor_);

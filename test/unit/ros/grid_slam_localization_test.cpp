@@ -19,7 +19,7 @@ class GridSlamLocalizationTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// A vehicle that stands, ten scans a second, and around it a wall at `range` (m). Returns the
+  /// A stationary vehicle, ten scans per second, with a wall at `range` (m) around it. Returns the
   /// last output.
   GridSlamOutput stand(int scans, float range) {
     GridSlamOutput last;
@@ -43,7 +43,7 @@ class GridSlamLocalizationTest : public testing::Test {
   double now_ = 100.0;  // s
 };
 
-TEST_F(GridSlamLocalizationTest, LocatedIsSaidWithoutAReason) {
+TEST_F(GridSlamLocalizationTest, LocatedIsReportedWithoutAReason) {
   const GridSlamOutput output = stand(20, 20.0F);
   ASSERT_TRUE(output.localization && output.pose);
   EXPECT_EQ(output.localization->header.stamp, output.pose->header.stamp);

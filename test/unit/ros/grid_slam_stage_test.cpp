@@ -21,7 +21,7 @@ class GridSlamStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// Enough beams to know it again.
+  /// Enough beams to recognize it.
   static sensor_msgs::LaserScan scanOfAWall() {
     auto scan = samples::laserScan(std::vector<float>(21, 12.0F));
     scan.angle_increment = static_cast<float>(M_PI / 20.0);
@@ -39,7 +39,7 @@ class GridSlamStageTest : public testing::Test {
     return stage_.mapIfDue(Stamp::fromSeconds(seconds));
   }
 
-  /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
+  /// The vehicle drives ahead at 8 m/s; it is at x = 0 at the start.
   void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
 
   std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
@@ -106,14 +106,14 @@ TEST_F(GridSlamStageTest, FramesOfTheSameOrNoNameAreRefused) {
   EXPECT_NO_THROW(stageOf("wheels"));
 }
 
-TEST_F(GridSlamStageTest, AMapOnlyWhenItIsItsTurn) {
+TEST_F(GridSlamStageTest, TheMapIsPublishedPeriodically) {
   mountScanner();
   EXPECT_TRUE(mapAfterScanAt(100.0));
   EXPECT_FALSE(mapAfterScanAt(100.5));
   EXPECT_TRUE(mapAfterScanAt(101.0));
 }
 
-TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
+TEST_F(GridSlamStageTest, ThereIsAWarningOfSilentOdometryAndTheRestContinues) {
   mountScanner();
   odometryAt(100.0);
   EXPECT_EQ(scanAt(100.1)->transforms.size(), 1U);
@@ -137,7 +137,7 @@ TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
-TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
+TEST_F(GridSlamStageTest, UnavailableOdometryIsNotRead) {
   GridSlamStageOptions options;
   options.motion.source = MotionSource::kNone;
   GridSlamStage stage(options, buffer_, monitor_);
@@ -152,7 +152,7 @@ TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
   EXPECT_EQ(output->pose->pose.pose.position.x, 0.0) << "the odometry would say 0.8 m";
 }
 
-TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {
+TEST_F(GridSlamStageTest, AJumpBackStartsOver) {
   mountScanner();
   for (double t = 100.0; t < 101.95; t += 0.1) {
     odometryAt(t);
@@ -184,7 +184,7 @@ TEST_F(GridSlamStageTest, AScanWithoutAValidBeamMovesByOdometry) {
   EXPECT_EQ(warnings("no_valid_beam"), 1U);
 }
 
-TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
+TEST_F(GridSlamStageTest, BeamsAreCompensatedToTheStampOfTheScan) {
   mountScanner();
   odometryAt(100.0);
   auto scan = samples::laserScan();
@@ -200,7 +200,7 @@ TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
-TEST_F(GridSlamStageTest, OdometryPosesGiveTheMotionOnDemand) {
+TEST_F(GridSlamStageTest, OdometryPosesGiveTheMotionOnRequest) {
   options_.motion.odometry_pose = true;
   GridSlamStage stage(options_, buffer_, monitor_);
   mountScanner();
@@ -240,7 +240,7 @@ TEST_F(GridSlamStageTest, AnAbsurdTwistAfterAGapLeavesThePoseOfTheOdometry) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(GridSlamStageTest, BadBeamTimesAreWarnedOf) {
+TEST_F(GridSlamStageTest, ThereIsAWarningOfBadBeamTimes) {
   mountScanner();
   odometryAt(100.0);
   auto scan = samples::laserScan();
@@ -268,7 +268,7 @@ TEST_F(GridSlamStageTest, AScanThatIsRepeatedWhileTheVehicleMovesIsDropped) {
   EXPECT_EQ(monitor_.health(), HealthLevel::kOk);
 }
 
-TEST_F(GridSlamStageTest, WhileTheVehicleStandsScansMayBeTheSame) {
+TEST_F(GridSlamStageTest, AtRestScansMayBeTheSame) {
   mountScanner();
   auto scan = scanOfAWall();
   for (const double seconds : {100.0, 100.1, 100.2}) {

@@ -52,7 +52,7 @@ geometry_msgs::PoseWithCovarianceStampedConstPtr pose(const Pose2& base_in_map) 
   return result;
 }
 
-/// Of a point of the vehicle's frame (m) in the panel of this number.
+/// Returns the pixel of a point of the vehicle's frame (m) in the panel of this number.
 Pixel pixelAt(const sensor_msgs::Image& image, int panel, double x, double y) {
   const int column = panel * (kPanelWidth + GridViews::kGap) + static_cast<int>((5.0 - y) * 10.0);
   const int row = GridViews::kTitleHeight + static_cast<int>((10.0 - x) * 10.0);
@@ -61,7 +61,7 @@ Pixel pixelAt(const sensor_msgs::Image& image, int panel, double x, double y) {
   return {image.data.at(at), image.data.at(at + 1), image.data.at(at + 2)};
 }
 
-TEST(GridViews, PanelsStandSideBySide) {
+TEST(GridViews, PanelsAreSideBySide) {
   const auto image = GridViews(smallViews()).draw();
   EXPECT_EQ(image->encoding, "rgb8");
   EXPECT_EQ(image->width, 5U * kPanelWidth + 4U * GridViews::kGap);
@@ -110,7 +110,7 @@ TEST(GridViews, ContradictionIsRed) {
   EXPECT_EQ(pixelAt(*views.draw(), 3, 6.25, 3.25), kContradiction);
 }
 
-TEST(GridViews, WhatLiesBeyondAGridIsUnknown) {
+TEST(GridViews, CellsBeyondAGridAreUnknown) {
   SensorGrid grid(Stamp::fromSeconds(samples::kStart), {0.5, 2, 2, {4, 0}});
   grid.cells().assign(4, 0);
   GridViews views(smallViews());
@@ -140,8 +140,8 @@ TEST(GridViews, MissingGridsLeaveATitledPanel) {
   }
 }
 
-TEST(GridViews, TheMapIsTurnedByThePose) {
-  // The vehicle is at (100, 50) m and looks along y: 6 m ahead and 3 m left is (97, 56) m.
+TEST(GridViews, TheMapIsRotatedByThePose) {
+  // The vehicle is at (100, 50) m and faces along y: 6 m ahead and 3 m left is (97, 56) m.
   SensorGrid map(Stamp::fromSeconds(samples::kStart), {0.5, 80, 80, {160, 60}});
   map.cells().assign(map.cells().size(), 0);
   map.at(map.window().cellAt({96.8, 56.2})) = 100;  // x 96.5 to 97, y 56 to 56.5
@@ -159,7 +159,7 @@ TEST(GridViews, TheMapIsTurnedByThePose) {
   EXPECT_EQ(pixelAt(*image, 4, 6.25, 2.95), kFree);
 }
 
-TEST(GridViews, GridsOfASilentSourceAreNotShownAsIfTheyWereNew) {
+TEST(GridViews, OldGridsOfASilentSourceAreNotShown) {
   GridViews views(smallViews());
   views.takeGrid("map", message(freeGrid(samples::kStart - 100.0), "map"));
   views.takePose(pose({}));
@@ -195,7 +195,7 @@ TEST(GridViews, BadInputLeavesAnEmptyPanel) {
   EXPECT_EQ(pixelAt(*image, 4, 5.0, 0.0), kNoGrid);
 }
 
-TEST(GridViews, PanelsAreThoseThatAreAskedFor) {
+TEST(GridViews, PanelsAreTheRequestedOnes) {
   GridViewsOptions options = smallViews();
   options.panels = "radar  map";
   EXPECT_EQ(GridViews(options).panels(), (std::vector<std::string>{"radar", "map"}));

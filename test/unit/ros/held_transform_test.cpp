@@ -15,7 +15,7 @@ geometry_msgs::TransformStamped at(double seconds, double x) {
   return transform;
 }
 
-/// After scans that came at these times, each with the stamp of 0.5 s before.
+/// After scans that arrived at these times, each with a stamp 0.5 s earlier.
 HeldTransform after(const std::vector<double>& times) {
   HeldTransform held;
   for (const double time : times) {
@@ -29,7 +29,7 @@ bool holds(const HeldTransform& held, double seconds) {
   return held.at(Stamp::fromSeconds(seconds), Stamp::fromSeconds(seconds)).has_value();
 }
 
-TEST(HeldTransform, ComesUnderTheMotionsStampsWhileScansAreSilent) {
+TEST(HeldTransform, IsPublishedAtTheMotionsStampsWhileScansAreSilent) {
   EXPECT_FALSE(holds(HeldTransform(), 100.0)) << "no scan yet";
   const HeldTransform held = after({100.0, 100.1});
   EXPECT_FALSE(holds(held, 100.3)) << "the next scan may be late";
@@ -60,7 +60,7 @@ TEST(HeldTransform, OneGapDoesNotMakeAScannerSlow) {
   EXPECT_TRUE(holds(after({100.0, 100.1, 103.0}), 103.5));
 }
 
-TEST(HeldTransform, AMapThatStartsOverAndOdometryThatBeginsAnewHaveNone) {
+TEST(HeldTransform, ARestartOfTheMapOrOfOdometryClearsIt) {
   HeldTransform held = after({100.0, 100.1});
   held.drop();
   EXPECT_FALSE(holds(held, 100.6));

@@ -16,7 +16,7 @@ InputProgress scanAndOdometry() {
       {{"scan", {{"/front/scan", "a type"}}}, {"odometry", {{"/odom", "a type"}}}});
 }
 
-TEST(InputProgress, TheFirstMessageSaysWhatItIsAndWhatIsWaitedFor) {
+TEST(InputProgress, TheFirstMessageIsReportedWithTheMissingInputs) {
   StageMonitor monitor("grid_slam");
   InputProgress progress = scanAndOdometry();
   EXPECT_TRUE(progress.news(monitor, 0.0, nobody).empty());
@@ -43,7 +43,7 @@ TEST(InputProgress, EachInputIsReportedOnce) {
   EXPECT_TRUE(progress.news(monitor, 100.0, nobody).empty());
 }
 
-TEST(InputProgress, WhatNeverComesIsNamedOnceAfterAWhile) {
+TEST(InputProgress, MissingInputsAreNamedOnceAfterAWhile) {
   StageMonitor monitor("grid_slam");
   InputProgress progress = scanAndOdometry();
   monitor.received("scan", kNow);
@@ -66,7 +66,7 @@ TEST(InputProgress, ASilentPublisherIsNoWarning) {
             "waits for objects on /objects: it is published, but no message has been received");
 }
 
-TEST(InputProgress, AScanMayComeOnTwoTopics) {
+TEST(InputProgress, AScanMayArriveOnTwoTopics) {
   StageMonitor monitor("grid_slam");
   InputProgress progress({{"scan", {{"/front/scan", "a type"}, {"/echoes", "another"}}},
                           {"odometry", {{"/odom", "a type"}}}});

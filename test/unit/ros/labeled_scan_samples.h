@@ -24,8 +24,7 @@ inline ScanField wideField() {
   return field;
 }
 
-/// A scan in which something seems to move at one point (m, base frame = map), some time (s) after
-/// kStart.
+/// A scan with a moving point, some time (s) after kStart (m, base frame = map).
 inline LabeledScan scanWithMover(const Point2& position, double seconds) {
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(kStart + seconds);
@@ -37,9 +36,10 @@ inline LabeledScan scanWithMover(const Point2& position, double seconds) {
   return scan;
 }
 
-inline constexpr double kWallBeside = 5.0;  // m, from the vehicle's way to each wall
+inline constexpr double kWallBeside = 5.0;  // m, from the vehicle's path to each wall
 
-/// A scan between two walls along x, from a vehicle that drives between them at 5 m/s since kStart.
+/// A scan between two walls along x, from a vehicle that has driven between them at 5 m/s since
+/// kStart.
 inline LabeledScan scanBetweenWalls(double seconds) {
   constexpr double kSpeed = 5.0;  // m/s
   LabeledScan scan;

@@ -70,14 +70,14 @@ TEST(LidarCloudConversionTest, TimesFarFromTheStampDoNotCostTheCloud) {
   EXPECT_EQ(converted.cloud.points->size(), 2U);
 }
 
-TEST(LidarCloudConversionTest, ATimeBeyondThePointIsNone) {
+TEST(LidarCloudConversionTest, ATimeFieldBeyondThePointIsIgnored) {
   auto message = twoPoints();
   addTimes<float>(message, "time", PointField::FLOAT32, {0.0F, 0.0F});
   message.fields.back().offset = message.point_step - 1;
   EXPECT_EQ(toLidarCloud(message, kMaxSweep).time_field, "");
 }
 
-TEST(LidarCloudConversionTest, WhatIsNoCloudIsRefused) {
+TEST(LidarCloudConversionTest, InvalidCloudsAreRefused) {
   EXPECT_EQ(reasonOf([] { toLidarCloud(cloud({}), kMaxSweep); }), "empty_cloud");
   auto big_endian = twoPoints();
   big_endian.is_bigendian = 1;

@@ -38,7 +38,7 @@ class LidarGridStageTest : public testing::Test {
     stage_.takeOdometry(message);
   }
 
-  /// Whether a point in the vehicle's frame, m, is said to be occupied.
+  /// Returns whether a point in the vehicle's frame, m, is reported occupied.
   static bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, double x, double y) {
     const SensorGrid grid = fromMessage(message);
     return isOccupied(grid.at(grid.window().cellAt({x, y})));
@@ -63,7 +63,7 @@ TEST_F(LidarGridStageTest, AScanMakesAGridOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.figures().at("beams with a hit"), 3.0);
 }
 
-TEST_F(LidarGridStageTest, SeveralEchoesServeToo) {
+TEST_F(LidarGridStageTest, MultiEchoScansAreAcceptedToo) {
   mountScanner();
   sensor_msgs::MultiEchoLaserScan echoes;
   const auto scan = samples::laserScan();
@@ -80,7 +80,7 @@ TEST_F(LidarGridStageTest, SeveralEchoesServeToo) {
   EXPECT_TRUE(isOccupiedAt(*grid, 6.6, 0.0));
 }
 
-TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
+TEST_F(LidarGridStageTest, BeamsAreCompensatedToTheStampOfTheScanByOdometry) {
   mountScanner();
   odometryAt(kStart);
   auto scan = samples::laserScan();
@@ -90,7 +90,7 @@ TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
   EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0));
 }
 
-TEST_F(LidarGridStageTest, WithoutOdometryThePosesOfTheSlamBringBeamsToTheStamp) {
+TEST_F(LidarGridStageTest, WithoutOdometryBeamsAreCompensatedByThePosesOfTheSlam) {
   LidarGridStageOptions options;
   options.motion.source = MotionSource::kNone;
   LidarGridStage stage(options, buffer_, monitor_);
@@ -117,7 +117,7 @@ TEST_F(LidarGridStageTest, WithoutOdometryThePosesOfTheSlamBringBeamsToTheStamp)
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(LidarGridStageTest, AJumpBackStartsAnewWhicheverInputSeesItFirst) {
+TEST_F(LidarGridStageTest, AJumpBackStartsOverWhicheverInputSeesItFirst) {
   mountScanner();
   odometryAt(200.0);
   EXPECT_TRUE(scanAt(200.0));
@@ -130,7 +130,7 @@ TEST_F(LidarGridStageTest, AJumpBackStartsAnewWhicheverInputSeesItFirst) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(LidarGridStageTest, AScanWithoutAValidBeamSaysNothing) {
+TEST_F(LidarGridStageTest, AScanWithoutAValidBeamIsUninformative) {
   mountScanner();
   const auto grid = stage_.takeScan(
       samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::quiet_NaN())));

@@ -11,7 +11,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-/// Messages of a 3D lidar, from which tests make others.
+/// Messages of a 3D lidar, which tests modify.
 namespace datmo::samples {
 
 /// The points of a cloud in the frame `velodyne`.
@@ -25,7 +25,7 @@ inline sensor_msgs::PointCloud2 lidarMessage(const LidarCloud& lidar) {
   return message;
 }
 
-/// Writes one number for each point where cloud() leaves bytes free, and declares them as a field.
+/// Writes one number for each point where cloud() leaves padding, and declares them as a field.
 template <typename Number>
 void addTimes(sensor_msgs::PointCloud2& message, const std::string& name, std::uint8_t datatype,
               const std::vector<Number>& numbers) {

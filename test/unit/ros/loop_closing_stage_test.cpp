@@ -25,7 +25,7 @@ LoopClosingStageOptions stageOptions() {
   return options;
 }
 
-/// Laps round the yard with a live pose that drifts, through a stage.
+/// Drives laps around the yard with a drifting live pose, through a stage.
 class LoopClosingStageTest : public testing::Test {
  protected:
   static LabeledScanMessage message(const Pose2& truth, const Pose2& live, double seconds) {
@@ -78,7 +78,7 @@ class LoopClosingStageTest : public testing::Test {
   double now_ = 0.0;
 };
 
-TEST_F(LoopClosingStageTest, ADriveWithALoopComesOutWithoutItsDrift) {
+TEST_F(LoopClosingStageTest, TheDriftOfADriveWithALoopIsRemoved) {
   LoopClosingStage stage(stageOptions(), monitor_);
   drive(stage);
   const auto optimized = result(stage);
@@ -129,10 +129,10 @@ TEST_F(LoopClosingStageTest, TheGlobalFrameIsAChildOfTheMapAndMovesGradually) {
   EXPECT_GT(max_correction, 0.5);
 }
 
-TEST_F(LoopClosingStageTest, AThreadOfItsOwnDoesTheSame) {
+TEST_F(LoopClosingStageTest, ASeparateThreadGivesTheSame) {
   LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
   drive(stage, true);
-  result(stage);  // gives the thread what is left
+  result(stage);  // gives the thread the remaining input
   stage.waitUntilIdle();
   auto optimized = result(stage);
   for (int i = 0; i < 3 && !optimized; ++i) {
@@ -143,7 +143,7 @@ TEST_F(LoopClosingStageTest, AThreadOfItsOwnDoesTheSame) {
   EXPECT_LT(endError(*optimized->trajectory), 0.3);
 }
 
-TEST_F(LoopClosingStageTest, WhatWaitsForTheThreadIsDoneInParts) {
+TEST_F(LoopClosingStageTest, PendingWorkOfTheThreadIsDoneInParts) {
   LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
   drive(stage);  // faster than the thread
   std::optional<OptimizedDrive> last;
@@ -158,7 +158,7 @@ TEST_F(LoopClosingStageTest, WhatWaitsForTheThreadIsDoneInParts) {
   EXPECT_LT(endError(*last->trajectory), 0.3);
 }
 
-TEST_F(LoopClosingStageTest, ADriveThatBeginsWhileTheThreadWorksKnowsNothingOfTheOldOne) {
+TEST_F(LoopClosingStageTest, ADriveStartedWhileTheThreadWorksIgnoresTheOldOne) {
   LoopClosingStage stage(stageOptions(), monitor_, [] { return 0.0; });
   drive(stage);
   const auto transforms = take(stage, message(Pose2(), Pose2(), -500.0));
@@ -193,7 +193,7 @@ TEST_F(LoopClosingStageTest, ADriveTooWideForAMapHasItsTrajectory) {
   EXPECT_EQ(wide.keyframes, 2U) << "nothing is forgotten";
 }
 
-TEST_F(LoopClosingStageTest, AClockThatJumpsBackBeginsANewTrajectory) {
+TEST_F(LoopClosingStageTest, AClockJumpBackStartsANewTrajectory) {
   LoopClosingStage stage(stageOptions(), monitor_);
   drive(stage);
   const auto transforms = take(stage, message(Pose2(), Pose2(), -500.0));
@@ -204,7 +204,7 @@ TEST_F(LoopClosingStageTest, AClockThatJumpsBackBeginsANewTrajectory) {
   EXPECT_NE(monitor_.healthReason().find("new trajectory"), std::string::npos);
 }
 
-TEST_F(LoopClosingStageTest, ANewMapOfTheSlamBeginsANewTrajectory) {
+TEST_F(LoopClosingStageTest, ANewMapOfTheSlamStartsANewTrajectory) {
   LoopClosingStage stage(stageOptions(), monitor_);
   drive(stage);
   LabeledScan lost = labeled(Yard().scan(Pose2(), now_ + 1.0), Pose2());
@@ -241,7 +241,7 @@ TEST_F(LoopClosingStageTest, TheOptimizedMapIsSaved) {
   }
 }
 
-TEST_F(LoopClosingStageTest, TheGlobalFrameHasANameOfItsOwn) {
+TEST_F(LoopClosingStageTest, TheGlobalFramesNameIsAnOption) {
   LoopClosingStageOptions options;
   options.global_frame = "map";
   EXPECT_THROW(LoopClosingStage(options, monitor_), OptionError);

@@ -58,7 +58,7 @@ class MapFilesTest : public ::testing::Test {
     std::ofstream(file(name), std::ios::binary) << text;
   }
 
-  /// The message with which a file is refused.
+  /// Returns the message with which a file is refused.
   std::string refusal(const std::string& name,
                       const OccupancyMapOptions& options = smallMap()) const {
     try {
@@ -77,7 +77,7 @@ class MapFilesTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(MapFilesTest, WhatIsWrittenIsReadAsItWas) {
+TEST_F(MapFilesTest, FilesAreReadAsWritten) {
   const OccupancyMap map = mapWithWall();
   EXPECT_EQ(writeMap(file("a.map"), map).cells, 108U);
   const OccupancyMap read = readMap(file("a.map"), smallMap());
@@ -118,7 +118,7 @@ TEST_F(MapFilesTest, MapServersFilesShowTheSame) {
   }
 }
 
-TEST_F(MapFilesTest, FinerPixelsSayWhereInACellTheSurfaceIs) {
+TEST_F(MapFilesTest, FinerPixelsShowTheSurfaceWithinACell) {
   // 0.1 m, turned by a quarter: the image's x is the map's y.
   write("a.pgm", std::string("P5\n# a comment\n4 5\n255\n") + std::string(4, '\0') +
                      std::string(16, static_cast<char>(254)));
@@ -156,7 +156,7 @@ TEST_F(MapFilesTest, AnotherResolutionIsRefused) {
   expectIn("a resolution of 0.5 m, expected", refusal("a.yaml", finer));
 }
 
-TEST_F(MapFilesTest, WhatIsNoMapIsRefused) {
+TEST_F(MapFilesTest, FilesThatAreNotMapsAreRefused) {
   expectIn("no such file", refusal("none.map"));
   write("text.map", "hello\n");
   expectIn("not a map of this version", refusal("text.map"));
@@ -172,7 +172,7 @@ TEST_F(MapFilesTest, WhatIsNoMapIsRefused) {
   expectIn("has only unknown cells", refusal("empty.yaml"));
 }
 
-TEST_F(MapFilesTest, AllOfAFileIsKeptWhateverRoomThereIsForANewMap) {
+TEST_F(MapFilesTest, AFileIsKeptCompletelyWhateverTheLimitOfANewMap) {
   OccupancyMap map = mapWithWall();
   MapEvidence evidence = map.evidence();
   for (int i = 0; i < 5; ++i) {
@@ -207,7 +207,7 @@ TEST_F(MapFilesTest, ALargeMapHasAnImageOfLargerPixels) {
   EXPECT_EQ(pixels[0], static_cast<char>(205));
 }
 
-TEST_F(MapFilesTest, AYamlFileThatIsOfNoMapIsNotOverwritten) {
+TEST_F(MapFilesTest, AYamlFileThatIsNotAMapIsNotOverwritten) {
   write("street.yaml", "scanner:\n  range_sigma: 0.1\n");
   try {
     writeMap(file("street.map"), mapWithWall());
@@ -221,7 +221,7 @@ TEST_F(MapFilesTest, AYamlFileThatIsOfNoMapIsNotOverwritten) {
   EXPECT_NO_THROW(writeMap(file("hall.map"), mapWithWall())) << "of the map itself it is";
 }
 
-TEST_F(MapFilesTest, AMapOfMapServerHasStaticSurfacesWhateverAgeTheyNeed) {
+TEST_F(MapFilesTest, AMapOfMapServerHasStaticSurfacesWhateverTheRequiredAge) {
   writeMap(file("a.map"), mapWithWall());
   for (const double age : {0.5, 0.7, 0.8, 0.9, 1.0, 1.3, 1.9}) {
     OccupancyMapOptions options = smallMap();
@@ -247,13 +247,13 @@ TEST_F(MapFilesTest, AnImpossibleDescriptionIsRefused) {
   expectIn("no such file", refusal(std::string(5000, 'x') + ".map"));
 }
 
-TEST_F(MapFilesTest, NamesThatCannotBeWrittenAreRefused) {
+TEST_F(MapFilesTest, UnwritableNamesAreRefused) {
   for (const char* name : {"a.yaml", "a.yml", "a.pgm", ".", "none/a.map"}) {
     EXPECT_THROW(writeMap(file(name), mapWithWall()), MapFileError) << name;
   }
 }
 
-TEST_F(MapFilesTest, OnAFullDiskWhatWasThereStays) {
+TEST_F(MapFilesTest, OnAFullDiskOldFilesAreKept) {
   writeMap(file("a.map"), mapWithWall());
   const std::string before = content("a.map");
   // Writing beyond the limit fails as on a full disk.

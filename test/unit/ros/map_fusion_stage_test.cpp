@@ -50,7 +50,7 @@ Percent percentAt(const nav_msgs::OccupancyGrid& message, CellIndex cell) {
 class MapFusionStageTest : public testing::Test {
  protected:
   MapFusionStageTest() {
-    options_.fuser.map.free_probability = 0.2;  // a look at a free cell says as much as a hit
+    options_.fuser.map.free_probability = 0.2;  // a free cell is as informative as a hit
     options_.fuser.sources["lidar"].reliability = 0.8;
     options_.fuser.sources["stereo"].reliability = 0.9;
     start();
@@ -70,7 +70,7 @@ class MapFusionStageTest : public testing::Test {
     return stage_->next(Stamp::fromSeconds(seconds));
   }
 
-  /// Both sources and the pose at this time.
+  /// Adds both sources and the pose at this time.
   std::optional<MapFusionOutput> allAt(double seconds, Percent lidar, Percent stereo,
                                        const Pose2& pose = Pose2(), double variance = 1e-4) {
     take("lidar", gridMessage(seconds, lidar));
@@ -79,7 +79,7 @@ class MapFusionStageTest : public testing::Test {
     return nextAt(seconds);
   }
 
-  /// A map of free cells, with one that is occupied; its name.
+  /// A map of free cells with one occupied cell; returns its name.
   std::string priorMap(CellIndex occupied, double cell_size) {
     std::filesystem::create_directories(folder_);
     OccupancyMapOptions options;
@@ -126,7 +126,7 @@ TEST_F(MapFusionStageTest, GridsWaitForThePoseOfTheirStamp) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(MapFusionStageTest, AllIsTakenInAndMapsComeOncePerPeriod) {
+TEST_F(MapFusionStageTest, AllGridsAreUsedAndMapsPublishedOncePerPeriod) {
   EXPECT_TRUE(allAt(100.0, kOccupied, kOccupied)->fused);
   for (int i = 1; i < 10; ++i) {
     const auto output = allAt(100.0 + 0.1 * i, kOccupied, kOccupied);
@@ -139,7 +139,7 @@ TEST_F(MapFusionStageTest, AllIsTakenInAndMapsComeOncePerPeriod) {
   EXPECT_EQ(monitor_.processedCount(), 11U);
 }
 
-TEST_F(MapFusionStageTest, AGridOfAnotherStampIsSeenFromWhereTheVehicleWas) {
+TEST_F(MapFusionStageTest, AGridIsPlacedAtTheVehiclesPoseOfItsStamp) {
   for (int i = 0; i <= 10; ++i) {
     stage_->takeOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
   }
@@ -154,7 +154,7 @@ TEST_F(MapFusionStageTest, AGridOfAnotherStampIsSeenFromWhereTheVehicleWas) {
   EXPECT_EQ(percentAt(*output->conflicts, {7, 1}), 0);
 }
 
-TEST_F(MapFusionStageTest, ASourceThatIsSilentStaysInTheMap) {
+TEST_F(MapFusionStageTest, ASilentSourceStaysInTheMap) {
   allAt(100.0, kOccupied, kOccupied);
   std::optional<MapFusionOutput> output;
   for (int i = 1; i <= 20; ++i) {
@@ -171,7 +171,7 @@ TEST_F(MapFusionStageTest, ASourceThatIsSilentStaysInTheMap) {
   EXPECT_GT(monitor_.figures().at("fused without stereo"), 5.0);
 }
 
-TEST_F(MapFusionStageTest, WithoutPosesNothingComesAndItIsReported) {
+TEST_F(MapFusionStageTest, WithoutPosesNothingIsPublishedAndItIsReported) {
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
     take("lidar", gridMessage(t, kOccupied));
@@ -185,7 +185,7 @@ TEST_F(MapFusionStageTest, WithoutPosesNothingComesAndItIsReported) {
   EXPECT_EQ(monitor_.processedCount(), 0U);
 }
 
-TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
+TEST_F(MapFusionStageTest, InvalidGridsAreRefusedAndCounted) {
   allAt(100.0, kFree, kFree);
   take("stereo", gridMessage(100.1, kFree, {0.5, 20, 10, {-10, -5}}));
   EXPECT_EQ(drops("wrong_window"), 1U);
@@ -217,7 +217,7 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   EXPECT_TRUE(allAt(101.0, kFree, kFree)->fused) << "it goes on";
 }
 
-TEST_F(MapFusionStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(MapFusionStageTest, AClockJumpBackStartsOver) {
   allAt(100.0, kOccupied, kOccupied);
   const auto output = allAt(50.0, kFree, kFree);
   ASSERT_TRUE(output && output->fused);
@@ -225,7 +225,7 @@ TEST_F(MapFusionStageTest, AClockThatJumpsBackBeginsAnew) {
   EXPECT_EQ(warnings("clock_restart"), 1U);
 }
 
-TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
+TEST_F(MapFusionStageTest, APoseJumpAgainstTheMotionStartsOver) {
   for (int i = 0; i <= 20; ++i) {
     stage_->takeOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
   }
@@ -236,7 +236,7 @@ TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
   EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0);
 }
 
-TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
+TEST_F(MapFusionStageTest, ABrieflyUncertainPoseLeavesTheMapsUnchanged) {
   constexpr double kUncertain = 1e4;
   allAt(100.0, kOccupied, kOccupied);
   for (int i = 1; i < 10; ++i) {
@@ -252,7 +252,7 @@ TEST_F(MapFusionStageTest, AMomentOfAnUncertainPoseLeavesTheMapsAsTheyAre) {
   EXPECT_EQ(monitor_.figures().at("maps started over"), 1.0) << "it is in a new map";
 }
 
-TEST_F(MapFusionStageTest, GridsThatNoPoseTakesInAreCounted) {
+TEST_F(MapFusionStageTest, GridsWithoutAPoseAreCounted) {
   for (int i = 0; i < 3; ++i) {  // a camera that is three times as fast
     take("stereo", gridMessage(100.0 + 0.03 * i, kFree));
   }
@@ -262,7 +262,7 @@ TEST_F(MapFusionStageTest, GridsThatNoPoseTakesInAreCounted) {
   EXPECT_EQ(monitor_.figures().at("lists of stereo not fused"), 2.0);
 }
 
-TEST_F(MapFusionStageTest, ChangesSinceThePriorMapAreTold) {
+TEST_F(MapFusionStageTest, ChangesSinceThePriorMapArePublished) {
   options_.prior_map = priorMap({-4, 1}, 1.0);
   start();
   const auto output = allAt(100.0, kOccupied, kOccupied);
@@ -276,7 +276,7 @@ TEST_F(MapFusionStageTest, ChangesSinceThePriorMapAreTold) {
   EXPECT_TRUE(allAt(50.0, kFree, kFree)->changes) << "it outlives a restart";
 }
 
-TEST_F(MapFusionStageTest, WithoutTheWholePriorMapItGoesOn) {
+TEST_F(MapFusionStageTest, WithoutTheCompletePriorMapItContinues) {
   options_.prior_map = priorMap(kCell, 0.5);
   start();
   const auto output = allAt(100.0, kOccupied, kOccupied);
@@ -291,7 +291,7 @@ TEST_F(MapFusionStageTest, WithoutTheWholePriorMapItGoesOn) {
   EXPECT_EQ(warnings("bad_prior_map"), 2U);
 }
 
-TEST_F(MapFusionStageTest, ASourceMustNotHaveTheNameOfWhatIsNone) {
+TEST_F(MapFusionStageTest, ASourceMustNotHaveAReservedName) {
   options_.fuser.sources["fused"];
   EXPECT_THROW(start(), OptionError);
 }

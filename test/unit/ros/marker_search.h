@@ -7,8 +7,8 @@
 
 namespace datmo::samples {
 
-/// Null if there is none. Not inlined: a test that uses it without asking ends there, and the
-/// compiler would warn of each.
+/// Returns null if there is none. Not inlined: a test that dereferences it without a check crashes
+/// there, and the compiler would warn about each.
 [[gnu::noinline]] inline const visualization_msgs::Marker* find(
     const visualization_msgs::MarkerArray& markers, const std::string& name, int id) {
   for (const visualization_msgs::Marker& marker : markers.markers) {

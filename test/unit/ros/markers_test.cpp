@@ -18,7 +18,7 @@ using samples::find;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
+TEST(Markers, ObjectsNotSeenMovingArePaleInTheColorOfTheirClass) {
   ObjectArray objects;
   objects.objects.resize(2);
   objects.objects[1].dynamic_state = ObjectMessage::STATE_MOVING;
@@ -34,7 +34,7 @@ TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
   EXPECT_NE(find(markers, "object heads", 1), nullptr);
 }
 
-TEST(Markers, VehicleIsAsLargeAsConfiguredAndGoesWithItsFrame) {
+TEST(Markers, VehicleHasTheConfiguredSizeAndMovesWithItsFrame) {
   std_msgs::Header scan;
   scan.frame_id = "base_link";
   scan.stamp = ros::Time(5.0);
@@ -106,7 +106,7 @@ TEST(Markers, TruthIsDashed) {
   const Marker marker = markersOf(truth, options).markers[0];
   EXPECT_EQ(marker.type, Marker::LINE_LIST);
   EXPECT_LT(marker.scale.x, options.line_width);
-  // Dashes of 0.4 m begin each 0.8 m: 5 along 4 m, 3 along 2 m.
+  // Dashes of 0.4 m begin every 0.8 m: 5 along 4 m, 3 along 2 m.
   ASSERT_EQ(marker.points.size(), 2U * (5 + 3 + 5 + 3));
   EXPECT_DOUBLE_EQ(marker.points[0].x, 2.0);
   EXPECT_DOUBLE_EQ(marker.points[1].x, 1.6);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
 
-TEST(PoseConversion, ThereAndBack) {
+TEST(PoseConversion, RoundTrip) {
   for (const double heading : {0.0, 1.0, -2.5, kPi}) {
     const Pose2 back = fromMessage(toMessage(Pose2(3.0, -4.0, heading)));
     EXPECT_EQ(back.position(), Point2(3.0, -4.0));
@@ -21,7 +21,7 @@ TEST(PoseConversion, ThereAndBack) {
   }
 }
 
-TEST(PoseConversion, WhatIsNoPoseIsRefused) {
+TEST(PoseConversion, InvalidPosesAreRefused) {
   geometry_msgs::Pose pose = toMessage(Pose2());
   pose.orientation.w = 0.0;
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose") << "quaternion of zeros";
@@ -36,7 +36,7 @@ TEST(PoseConversion, WhatIsNoPoseIsRefused) {
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose") << "its square is none";
 }
 
-TEST(PoseConversion, WhatIsNoCovarianceIsRefused) {
+TEST(PoseConversion, InvalidCovariancesAreRefused) {
   const geometry_msgs::PoseWithCovariance good = toMessage(PoseWithCovariance());
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(good); }), "");
   for (const double bad : {kNan, -1.0, 1e308}) {
@@ -46,7 +46,7 @@ TEST(PoseConversion, WhatIsNoCovarianceIsRefused) {
   }
 }
 
-TEST(PoseConversion, CovarianceStandsAtXYAndYaw) {
+TEST(PoseConversion, CovarianceIsAtXYAndYaw) {
   PoseWithCovariance pose;
   pose.covariance << 1, 2, 3, 2, 4, 5, 3, 5, 6;
   const auto message = toMessage(pose);
@@ -59,7 +59,7 @@ TEST(PoseConversion, CovarianceStandsAtXYAndYaw) {
   EXPECT_EQ(message.covariance[14], 0.0) << "z";
 }
 
-TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNanAndTheImpossible) {
+TEST(OdometryConversion, AcceptsSpeedAndYawRateAndRefusesNanAndImpossibleValues) {
   nav_msgs::Odometry message;
   message.header.stamp = ros::Time(samples::kStart);
   message.twist.twist.linear.x = 8.0;
@@ -87,7 +87,7 @@ LabeledScan labeledScan() {
   return scan;
 }
 
-TEST(LabeledScanConversion, ThereAndBack) {
+TEST(LabeledScanConversion, RoundTrip) {
   const LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
   EXPECT_EQ(message.header.frame_id, "base_link");
   EXPECT_EQ(message.map_frame, "map");
@@ -140,7 +140,7 @@ TEST(LabeledScanConversion, AScannerNowhereIsRefused) {
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
 
-/// Percent of the cell that holds a point of the map frame, by the message alone.
+/// Percent of the cell that holds a point of the map frame, from the message alone.
 int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
   const auto& origin = grid.info.origin.position;
   const double size = grid.info.resolution;
@@ -149,7 +149,7 @@ int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
   return grid.data.at(row * grid.info.width + column);
 }
 
-TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
+TEST(MapConversion, IsRightAfterTheWindowHasMoved) {
   OccupancyMapOptions options;
   options.window.length = 30.0;
   options.window.width = 60.0;

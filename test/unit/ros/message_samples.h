@@ -16,7 +16,7 @@
 
 #include "datmo_fusion/ros/stage/input_error.h"
 
-/// Small valid messages, from which tests make others.
+/// Small valid messages, which tests modify.
 namespace datmo::samples {
 
 inline constexpr double kStart = 100.0;  // s
@@ -48,7 +48,8 @@ inline geometry_msgs::TransformStamped transform(const std::string& parent,
   return result;
 }
 
-/// Of a vehicle that drives ahead at this speed (m/s) since the start, odom -> base_link.
+/// Odometry of a vehicle that has driven ahead at this speed (m/s) since the start, odom ->
+/// base_link.
 inline nav_msgs::Odometry odometry(double seconds, double speed) {
   nav_msgs::Odometry message;
   message.header.stamp = ros::Time(seconds);
@@ -66,7 +67,7 @@ inline tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStampe
   return message;
 }
 
-/// Reason of the InputError that `call` throws; empty if it throws none.
+/// Returns the reason of the InputError that `call` throws; empty if it throws none.
 inline std::string reasonOf(const std::function<void()>& call) {
   try {
     call();

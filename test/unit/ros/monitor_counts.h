@@ -8,13 +8,13 @@
 
 namespace datmo::samples {
 
-/// How many messages were dropped for this reason.
+/// Returns how many messages were dropped for this reason.
 inline std::uint64_t drops(const StageMonitor& monitor, const std::string& reason) {
   const auto found = monitor.drops().find(reason);
   return found == monitor.drops().end() ? 0 : found->second;
 }
 
-/// How many were warned of.
+/// Returns how many warnings were issued for this reason.
 inline std::uint64_t warnings(const StageMonitor& monitor, const std::string& reason) {
   const auto found = monitor.warnings().find(reason);
   return found == monitor.warnings().end() ? 0 : found->second;

@@ -19,12 +19,12 @@ namespace datmo::mono_classifier_case {
 
 inline constexpr double kStart = 100.0;  // s
 
-/// As test::levelCamera.
+/// As in test::levelCamera.
 inline constexpr samples::CameraSample kCamera{1000, 400, 500.0};
 
 inline sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
 
-/// Stripes; of another gray each time.
+/// Stripes; a different gray each time.
 inline sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t gray = 0;
   auto message = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, ++gray));
@@ -41,7 +41,7 @@ inline ObjectArray objectsAt(double seconds) {
   return toMessage(list, "base_link");
 }
 
-/// A person 10 m ahead in each image.
+/// Detects a person 10 m ahead in each image.
 class MonoClassifierStageTest : public testing::Test {
  protected:
   static MonoClassifierStageOptions stageOptions() {
@@ -76,7 +76,7 @@ class MonoClassifierStageTest : public testing::Test {
     return stage_->next(stamp + waited);
   }
 
-  /// Whether an image like this is dropped for this reason, and the next good one is not.
+  /// Expects that an image like this is dropped for this reason, and the next good one is not.
   void expectDropped(const sensor_msgs::ImagePtr& image, const std::string& reason) {
     mountCamera();
     stage_->takeCameraInfo(cameraInfo());

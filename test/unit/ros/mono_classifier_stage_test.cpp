@@ -23,7 +23,7 @@ using mono_classifier_case::objectsAt;
 using samples::drops;
 using samples::warnings;
 
-TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
+TEST_F(MonoClassifierStageTest, ClassifiesObjectsAtTheExposuresStamp) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
   stage_->takeObjects(objectsAt(kStart));
@@ -37,7 +37,7 @@ TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
   EXPECT_EQ(monitor_.processedCount(), 1U);
 }
 
-TEST_F(MonoClassifierStageTest, ADetectorWithoutWeightIsWarnedOf) {
+TEST_F(MonoClassifierStageTest, ThereIsAWarningOfADetectorWithoutWeight) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
   EXPECT_NE(look(imageAt(kStart), 1.0), nullptr);
@@ -58,7 +58,7 @@ TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
   EXPECT_NEAR(named->objects.at(0).pose.position.x, 10.2, 1e-9);
 }
 
-TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsLookedAtByItself) {
+TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsUsedAlone) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
   const auto alone = look(imageAt(kStart), 1.0);
@@ -75,7 +75,7 @@ TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
   EXPECT_EQ(warnings(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
+TEST_F(MonoClassifierStageTest, InASeparateThreadTheResultIsTheSame) {
   stage_ = makeStage([] { return 0.0; });
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
@@ -89,7 +89,7 @@ TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
   EXPECT_EQ(late->objects.size(), 1U);
 }
 
-TEST_F(MonoClassifierStageTest, AHalfImageIsDroppedAndABurntOutSkyIsNot) {
+TEST_F(MonoClassifierStageTest, APartialImageIsDroppedAndASaturatedSkyIsNot) {
   const auto filled = [](double seconds, std::uint32_t from, std::uint32_t to, int gray) {
     const auto image = imageAt(seconds);
     std::fill(image->data.begin() + from * image->step, image->data.begin() + to * image->step,
@@ -100,7 +100,7 @@ TEST_F(MonoClassifierStageTest, AHalfImageIsDroppedAndABurntOutSkyIsNot) {
   EXPECT_NE(look(filled(kStart + 0.2, 0, kCamera.height / 3, 255), 1.0), nullptr);
 }
 
-TEST_F(MonoClassifierStageTest, OfImagesThatWaitTheNewestStays) {
+TEST_F(MonoClassifierStageTest, OfWaitingImagesTheNewestIsKept) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
@@ -141,7 +141,7 @@ TEST_F(MonoClassifierStageTest, BlackAndWhiteImagesAreRefused) {
   }
 }
 
-TEST_F(MonoClassifierStageTest, HalfImagesAndOtherEncodingsAreRefused) {
+TEST_F(MonoClassifierStageTest, PartialImagesAndOtherEncodingsAreRefused) {
   const auto half = imageAt(kStart);
   half->data.resize(half->data.size() / 2);
   expectDropped(half, "bad_encoding");
@@ -171,7 +171,7 @@ TEST_F(MonoClassifierStageTest, AnOldImageIsRefused) {
   EXPECT_EQ(drops(monitor_, "old_image"), 1U);
 }
 
-TEST_F(MonoClassifierStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(MonoClassifierStageTest, AClockJumpBackStartsOver) {
   mountCamera();
   stage_->takeCameraInfo(cameraInfo());
   stage_->takeObjects(objectsAt(kStart));
@@ -187,7 +187,7 @@ TEST_F(MonoClassifierStageTest, ObjectsOfAnotherFrameAreRefused) {
   EXPECT_EQ(drops(monitor_, "wrong_frame"), 1U);
 }
 
-TEST(MonoClassifierStageModel, OneThatIsMissingStopsItWithAMessage) {
+TEST(MonoClassifierStageModel, AMissingOneStopsItWithAMessage) {
   TransformBuffer transforms(1.0);
   StageMonitor monitor("mono_classifier");
   MonoClassifierStageOptions options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thread of the detector of MonoClassifierStage.
+// The detector thread of MonoClassifierStage.
 #include <functional>
 #include <future>
 #include <memory>
@@ -24,7 +24,7 @@ using samples::drops;
 
 class MonoClassifierThread : public mono_classifier_case::MonoClassifierStageTest {};
 
-/// Does what it is told in place of looking, and sees nothing.
+/// Runs a given function instead of looking, and detects nothing.
 class ToldDetector : public ImageDetector {
  public:
   explicit ToldDetector(std::function<void()> told) : told_(std::move(told)) {}
@@ -39,7 +39,7 @@ class ToldDetector : public ImageDetector {
   std::function<void()> told_;
 };
 
-TEST_F(MonoClassifierThread, TheDetectorGivesWayToAllOtherThreads) {
+TEST_F(MonoClassifierThread, TheDetectorYieldsToAllOtherThreads) {
   const int threads_before = cv::getNumThreads();
   int nice = 0;
   stage_ = makeStage([] { return 0.0; }, std::make_unique<ToldDetector>([&] {

@@ -23,7 +23,7 @@ constexpr double kHeight = 1.5;   // m
 constexpr samples::CameraSample kCamera{1000, 400, 500.0};
 constexpr std::size_t kBeams = 81;
 
-/// A road below the horizon, with a sensor's noise; its first pixel is another one in each image.
+/// A road below the horizon, with a sensor's noise; its first pixel is different in each image.
 sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t number = 0;
   auto image = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, 110));
@@ -35,7 +35,7 @@ sensor_msgs::ImagePtr imageAt(double seconds) {
   return image;
 }
 
-/// Nothing in 160 degrees ahead.
+/// A scan without returns in 160 degrees ahead.
 sensor_msgs::LaserScan scanAt(double seconds) {
   sensor_msgs::LaserScan scan =
       samples::laserScan(std::vector<float>(kBeams, std::numeric_limits<float>::infinity()));
@@ -97,21 +97,21 @@ TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
   EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
 }
 
-TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsOfNoUse) {
+TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsNotUsed) {
   mount();
   stage_.takeScan(scanAt(kStart - 0.05));
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(MonoGridStageTest, OfImagesThatWaitTheNewestStays) {
+TEST_F(MonoGridStageTest, OfWaitingImagesTheNewestIsKept) {
   mount();
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
   EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
 }
 
-TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneServes) {
+TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneIsUsed) {
   mount();
   const auto black = imageAt(kStart);
   black->data.assign(black->data.size(), 0);
@@ -138,7 +138,7 @@ TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U) << "of the scanner";
 }
 
-TEST_F(MonoGridStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(MonoGridStageTest, AClockJumpBackStartsOver) {
   mount();
   stage_.takeScan(scanAt(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);

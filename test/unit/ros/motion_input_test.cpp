@@ -15,7 +15,7 @@ using samples::reasonOf;
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
 
-/// Of a vehicle that drives ahead at 10 m/s, whose wheels count 11 m in a second.
+/// Odometry of a vehicle that drives ahead at 10 m/s, whose wheels measure 11 m per second.
 nav_msgs::Odometry odometry(double seconds) {
   nav_msgs::Odometry message;
   message.header.stamp = ros::Time(seconds);
@@ -26,7 +26,7 @@ nav_msgs::Odometry odometry(double seconds) {
   return message;
 }
 
-/// Of a vehicle that drives ahead at 12 m/s, where the SLAM sees it.
+/// Pose of a vehicle that drives ahead at 12 m/s according to the SLAM.
 geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
   geometry_msgs::PoseWithCovarianceStamped message;
   message.header.stamp = ros::Time(seconds);
@@ -42,7 +42,7 @@ MotionOptions optionsWith(bool with_odometry, bool use_poses) {
   return options;
 }
 
-/// A stage that has nothing but its motion.
+/// A stage whose only input is its motion.
 class MovingStage {
  public:
   explicit MovingStage(bool with_odometry, bool use_poses = false)
@@ -74,7 +74,7 @@ TEST(MotionInput, OdometryGivesTheMotionBySpeedOrByPose) {
   EXPECT_FALSE(by_speed.between(at(100.2), at(101.0))) << "longer than hold";
 }
 
-TEST(MotionInput, OdometryThatRepeatsItselfServesAsLongAsItsLastMeasurement) {
+TEST(MotionInput, RepeatedOdometryIsUsedAsLongAsItsLastMeasurement) {
   for (const bool use_poses : {false, true}) {
     MovingStage stage(true, use_poses);
     stage.input.take(odometry(100.0));
@@ -90,7 +90,7 @@ TEST(MotionInput, OdometryThatRepeatsItselfServesAsLongAsItsLastMeasurement) {
   }
 }
 
-TEST(MotionInput, OdometryThatStandsOrHasNoPoseMayRepeatItself) {
+TEST(MotionInput, OdometryAtRestOrWithoutAPoseMayRepeatItself) {
   MovingStage standing(true);
   MovingStage without_pose(true);
   for (const double t : {100.0, 101.0, 102.0, 103.0}) {
@@ -104,7 +104,7 @@ TEST(MotionInput, OdometryThatStandsOrHasNoPoseMayRepeatItself) {
   EXPECT_EQ(standing.warningCount() + without_pose.warningCount(), 0U);
 }
 
-TEST(MotionInput, WithoutOdometryThePosesOfTheSlamDo) {
+TEST(MotionInput, WithoutOdometryThePosesOfTheSlamAreUsed) {
   MovingStage stage(false);
   MotionInput& input = stage.input;
   input.take(odometry(100.0));  // not read
@@ -131,7 +131,7 @@ TEST(MotionInput, BadOdometryIsRefused) {
   EXPECT_EQ(reasonOf([&] { input.take(odometry(100.0)); }), "repeated_stamp");
 }
 
-TEST(MotionInput, APoseServesWithoutItsAbsurdTwist) {
+TEST(MotionInput, APoseIsUsedWithoutItsAbsurdTwist) {
   MovingStage stage(true, true);
   stage.input.take(odometry(100.0));
   nav_msgs::Odometry spinning = odometry(103.0);
@@ -145,7 +145,7 @@ TEST(MotionInput, APoseServesWithoutItsAbsurdTwist) {
   EXPECT_EQ(reasonOf([&] { stage.input.take(spinning); }), "bad_pose");
 }
 
-TEST(MotionInput, PosesThatJumpAreRefusedAndTheNextOnesServe) {
+TEST(MotionInput, PoseJumpsAreRefusedAndTheNextPosesUsed) {
   MovingStage stage(false);
   MotionInput& input = stage.input;
   geometry_msgs::PoseWithCovarianceStamped bad = pose(100.0);
@@ -160,7 +160,7 @@ TEST(MotionInput, PosesThatJumpAreRefusedAndTheNextOnesServe) {
   EXPECT_NEAR(input.between(at(100.3), at(100.4))->x(), 1.2, 1e-9);
 }
 
-TEST(MotionInput, AJumpBackStartsAnew) {
+TEST(MotionInput, AJumpBackStartsOver) {
   MovingStage stage(true);
   MotionInput& input = stage.input;
   input.take(odometry(200.0));

@@ -98,7 +98,7 @@ TEST_F(MotionStageTest, WheelsGiveTheSpeedByTheirRadius) {
   EXPECT_EQ(drops(monitor_, "no_wheel_speed"), 1U);
 }
 
-TEST_F(MotionStageTest, OfAnImuAloneTheSpeedIsNotKnown) {
+TEST_F(MotionStageTest, WithAnImuAloneTheSpeedIsUnknown) {
   MotionStage stage = stageOf(MotionSource::kImu);
   const auto odometry = stage.takeImu(imu(100.0, 0.3));
   ASSERT_TRUE(odometry);
@@ -107,7 +107,7 @@ TEST_F(MotionStageTest, OfAnImuAloneTheSpeedIsNotKnown) {
   EXPECT_GT(odometry->twist.covariance[0], 1e4);
 }
 
-TEST_F(MotionStageTest, TheImuIsTurnedByItsMount) {
+TEST_F(MotionStageTest, TheImuIsRotatedByItsMount) {
   MotionStage stage = stageOf(MotionSource::kImu);
   EXPECT_NEAR(stage.takeImu(imu(100.0, 0.3, "imu_link"))->twist.twist.angular.z, -0.3, 1e-9)
       << "it hangs upside down";
@@ -131,7 +131,7 @@ TEST_F(MotionStageTest, BadMotionIsRefused) {
   EXPECT_EQ(drops(monitor_, "repeated_stamp"), 1U);
 }
 
-TEST_F(MotionStageTest, AJumpBackStartsAnew) {
+TEST_F(MotionStageTest, AJumpBackStartsOver) {
   MotionStage stage = stageOf(MotionSource::kTwist);
   stage.takeTwist(twist(200.0, 10.0));
   stage.takeTwist(twist(200.5, 10.0));

@@ -34,7 +34,7 @@ class MovingObjectsStageTest : public testing::Test {
     stage_.takeRoadBorders(toMessage(road, frame));
   }
 
-  /// Of the one object that is seen then.
+  /// Returns the log odds of motion of the only object seen then.
   double motionLogOdds(const Point2& position, double seconds) {
     const auto output = take(scanWithMover(position, seconds));
     EXPECT_TRUE(output->dropped->objects.empty());
@@ -46,7 +46,7 @@ class MovingObjectsStageTest : public testing::Test {
   Point2 on_border_{10.0, 3.1};
 };
 
-TEST(MovingObjectsStageWithoutBordersTest, ServesALabeledScanOnceAndDropsBadOnes) {
+TEST(MovingObjectsStageWithoutBordersTest, ProcessesALabeledScanOnceAndDropsBadOnes) {
   StageMonitor monitor("moving_objects");
   MovingObjectsStage stage({}, monitor);
   LabeledScan scan;
@@ -65,7 +65,7 @@ TEST(MovingObjectsStageWithoutBordersTest, ServesALabeledScanOnceAndDropsBadOnes
   EXPECT_EQ(monitor.drops().at("bad_pose"), 1U);
 }
 
-TEST_F(MovingObjectsStageTest, WhatLiesOnABorderIsLessLikelyToMove) {
+TEST_F(MovingObjectsStageTest, ObjectsOnABorderAreLessLikelyToMove) {
   takeRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_TRUE(monitor_.warnings().empty());
@@ -90,25 +90,25 @@ TEST_F(MovingObjectsStageTest, ByTheThesisItIsDropped) {
   EXPECT_EQ(output->dropped->objects[0].side, RoadBorderMessage::LEFT);
 }
 
-TEST_F(MovingObjectsStageTest, WithoutBordersNothingIsKnownAndItIsReported) {
+TEST_F(MovingObjectsStageTest, WithoutBordersTheRoadIsUnknownAndItIsReported) {
   EXPECT_EQ(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_EQ(monitor_.warnings().at("no_borders"), 1U);
 }
 
-TEST_F(MovingObjectsStageTest, OldBordersSayNothing) {
+TEST_F(MovingObjectsStageTest, OldBordersAreNotUsed) {
   takeRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.4), 0.0);
   EXPECT_EQ(motionLogOdds(on_border_, 0.6), 0.0);
   EXPECT_EQ(monitor_.warnings().at("old_borders"), 1U);
 }
 
-TEST_F(MovingObjectsStageTest, BordersOfAnotherFrameSayNothing) {
+TEST_F(MovingObjectsStageTest, BordersOfAnotherFrameAreNotUsed) {
   takeRoad(0.0, "odom");
   EXPECT_EQ(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_EQ(monitor_.warnings().at("wrong_frame"), 1U);
 }
 
-TEST_F(MovingObjectsStageTest, BadBordersAreDroppedAndTheLastOnesServe) {
+TEST_F(MovingObjectsStageTest, BadBordersAreDroppedAndTheLastOnesAreUsed) {
   takeRoad(0.0);
   RoadBorders bad = toMessage(samples::straightRoad(), "map");
   bad.borders[0].points[0].x = std::numeric_limits<float>::quiet_NaN();
@@ -117,7 +117,7 @@ TEST_F(MovingObjectsStageTest, BadBordersAreDroppedAndTheLastOnesServe) {
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
 }
 
-TEST_F(MovingObjectsStageTest, LiveOptionsServeFromTheNextScanAndTheRoadIsKept) {
+TEST_F(MovingObjectsStageTest, LiveOptionsApplyFromTheNextScanAndTheRoadIsKept) {
   takeRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
   stage_.change({{"min_points", 1000}});

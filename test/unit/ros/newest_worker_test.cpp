@@ -9,7 +9,7 @@
 namespace datmo::newest_worker_test {
 namespace {
 
-TEST(NewestWorker, WithoutAThreadEachJobIsDoneAtOnce) {
+TEST(NewestWorker, WithoutAThreadEachJobIsDoneImmediately) {
   NewestWorker<int, int> worker([](int job) { return 10 * job; }, false);
   EXPECT_FALSE(worker.start(1));
   EXPECT_FALSE(worker.start(2));
@@ -17,7 +17,7 @@ TEST(NewestWorker, WithoutAThreadEachJobIsDoneAtOnce) {
   EXPECT_TRUE(worker.take().empty());
 }
 
-TEST(NewestWorker, OfTheJobsThatWaitTheNewestIsDone) {
+TEST(NewestWorker, OfWaitingJobsTheNewestIsDone) {
   std::promise<void> begun;
   std::promise<void> may_end;
   auto end = may_end.get_future();
@@ -39,7 +39,7 @@ TEST(NewestWorker, OfTheJobsThatWaitTheNewestIsDone) {
   EXPECT_EQ(worker.take(), (std::vector<int>{1, 3}));
 }
 
-TEST(NewestWorker, EndsWithAJobThatWaits) {
+TEST(NewestWorker, EndsWithAWaitingJob) {
   std::promise<void> begun;
   std::promise<void> may_end;
   auto end = may_end.get_future();

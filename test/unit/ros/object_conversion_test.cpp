@@ -10,7 +10,7 @@ namespace {
 
 const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
 
-TEST(ObjectConversion, ThereAndBack) {
+TEST(ObjectConversion, RoundTrip) {
   Object object;
   object.box = {{5.0, 6.0, 0.5}, 4.0, 2.0};
   object.position_covariance << 0.5, 0.1, 0.1, 0.25;

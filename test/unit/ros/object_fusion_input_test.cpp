@@ -34,7 +34,7 @@ TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
   EXPECT_EQ(figure("bad objects"), 5.0);
 }
 
-TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndSaid) {
+TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndReported) {
   ObjectArray objects = list(100.0, {car("stereo", 20.0, 0.0)});
   objects.views.resize(2);
   objects.views[0].min_bearing = -30.0F;  // degrees
@@ -76,7 +76,7 @@ TEST_F(ObjectFusionStageTest, ObjectsWithoutSensorAreTheSources) {
   EXPECT_EQ(sensorsOf(*nextAt(100.0)), (std::vector<Sensors>{{"lidar", "stereo"}}));
 }
 
-TEST_F(ObjectFusionStageTest, AJumpBackStartsAnew) {
+TEST_F(ObjectFusionStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(bothAt(200.0));
   EXPECT_TRUE(bothAt(100.0));
   EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
@@ -87,8 +87,8 @@ TEST_F(ObjectFusionStageTest, AJumpBackStartsAnew) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-/// Beams one degree apart, straight ahead in the middle; all that look at the car's place end there
-/// on what the map knows.
+/// Beams one degree apart, the middle one straight ahead; all beams toward the car end there on
+/// what is in the map.
 LabeledScanMessage wallAt(double ahead, double seconds) {
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(seconds);
@@ -108,7 +108,7 @@ LabeledScanMessage wallAt(double ahead, double seconds) {
 
 class ObjectFusionScanSupportTest : public ObjectFusionStageTest {
  protected:
-  /// State of the one object that stereo sees and the scanner does not list.
+  /// State of the object that stereo sees and the scanner does not list.
   std::uint8_t stateAt(double seconds) {
     take("lidar", list(seconds, {}));
     take("stereo", seconds, 20.0);
@@ -125,7 +125,7 @@ TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
   EXPECT_EQ(figure("fused without a labeled scan"), 2.0);
 }
 
-TEST_F(ObjectFusionScanSupportTest, AScanMayComeBeforeOthers) {
+TEST_F(ObjectFusionScanSupportTest, AScanMayArriveBeforeOthers) {
   for (int i = 0; i < 40; ++i) {
     stage_.takeLabeledScan(wallAt(18.0, 100.0 + 0.02 * i));
   }

@@ -60,7 +60,7 @@ class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {
 
 using Sensors = std::vector<std::string>;
 
-/// The sensors of all objects of a list, in no order.
+/// Returns the sensors of all objects of a list, in no particular order.
 inline std::vector<Sensors> sensorsOf(const ObjectArray& list) {
   std::vector<Sensors> result;
   for (const ObjectMessage& object : list.objects) {

@@ -38,7 +38,7 @@ class RetroactiveFusionTest : public ObjectFusionStageTest {
   }
 };
 
-TEST_F(RetroactiveFusionTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
+TEST_F(RetroactiveFusionTest, WaitingListsArePublishedEarlyOnce) {
   take("lidar", 100.0, 20.0);
   const auto early = stage_.nextEarly(Stamp::fromSeconds(100.0));
   ASSERT_TRUE(early);
@@ -55,7 +55,7 @@ TEST_F(RetroactiveFusionTest, WhatWaitsForTheOtherOneIsThereEarlyOnce) {
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.1))) << "it did not have to wait";
 }
 
-TEST_F(RetroactiveFusionTest, WhatIsFusedIsTheSameAfterEarlyLists) {
+TEST_F(RetroactiveFusionTest, EarlyListsDoNotChangeTheFusedOnes) {
   StageMonitor other_monitor("object_fusion");
   ObjectFusionStage other(options_, other_monitor);
   for (int i = 0; i < 20; ++i) {
@@ -79,13 +79,13 @@ TEST_F(RetroactiveFusionTest, WhatIsFusedIsTheSameAfterEarlyLists) {
   EXPECT_EQ(figure("fused without a labeled scan"), 0.0) << "the early one has not used it up";
 }
 
-TEST_F(ObjectFusionStageTest, WhereAllWaitNoneIsEarly) {
+TEST_F(ObjectFusionStageTest, IfAllWaitNoneIsEarly) {
   take("lidar", 100.0, 20.0);
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.0)));
   EXPECT_TRUE(nextAt(100.2));
 }
 
-TEST_F(ObjectFusionStageTest, WhatOneSourceSeesIsKept) {
+TEST_F(ObjectFusionStageTest, ObjectsOfOneSourceAreKept) {
   take("lidar", 100.0, 20.0, 0.0);
   take("stereo", 100.0, 20.0, 15.0);
   const auto fused = nextAt(100.0);
@@ -157,7 +157,7 @@ TEST_F(ObjectFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   EXPECT_EQ(monitor_.droppedCount(), 0U) << "odometry is not read";
 }
 
-TEST_F(ObjectFusionStageTest, AListWhoseMotionIsNotKnownIsLeftOut) {
+TEST_F(ObjectFusionStageTest, AListOfUnknownMotionIsLeftOut) {
   for (int i = 0; i <= 10; ++i) {
     const double t = 100.0 + 0.1 * i;
     take("stereo", t - 0.05);
@@ -174,7 +174,7 @@ TEST_F(ObjectFusionStageTest, AListWhoseMotionIsNotKnownIsLeftOut) {
   EXPECT_EQ(monitor_.warningCount(), 1U);
 }
 
-TEST_F(ObjectFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersGoOn) {
+TEST_F(ObjectFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
   for (const std::string source : {"lidar", "stereo"}) {
     const double start = source == "lidar" ? 100.0 : 200.0;
     EXPECT_TRUE(bothAt(start));

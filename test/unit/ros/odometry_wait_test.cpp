@@ -57,7 +57,7 @@ TEST_F(OdometryWaitTest, OdometryInBurstsIsDueAfterTheLongestOfItsLastIntervals)
   EXPECT_FALSE(wait_.serveNext(at(500.0)));
 }
 
-TEST_F(OdometryWaitTest, NotForEver) {
+TEST_F(OdometryWaitTest, NotForever) {
   know(10.00);
   add(wait_, 10.02, 500.0);
   EXPECT_FALSE(wait_.serveNext(at(500.09)));

@@ -50,7 +50,7 @@ TEST(ContentFault, InfinityStaysWhereItHasAMeaning) {
   EXPECT_EQ(contentFault(scan), "") << "no measurement, by the message's definition";
 }
 
-TEST(ContentFault, WhereTheBeamsOfAScanLieIsANumber) {
+TEST(ContentFault, TheAnglesOfAScanAreFinite) {
   for (float sensor_msgs::LaserScan::*const field :
        {&sensor_msgs::LaserScan::angle_min, &sensor_msgs::LaserScan::angle_max,
         &sensor_msgs::LaserScan::angle_increment, &sensor_msgs::LaserScan::time_increment,
@@ -80,7 +80,7 @@ TEST(ContentFault, ACovarianceIsPositiveSemidefinite) {
   EXPECT_NE(contentFault(tracks), "");
 }
 
-TEST(OutputCheck, WhatNobodyCanUseIsCountedAndTheStageBeginsAnew) {
+TEST(OutputCheck, InvalidOutputIsCountedAndTheStageStartsOver) {
   StageMonitor monitor("tracker");
   OutputCheck check("tracks", monitor);
   EXPECT_TRUE(check.passes(at(10.0)));
@@ -104,7 +104,7 @@ TEST(OutputCheck, TimeGoesBackOnlyAfterAReset) {
   EXPECT_TRUE(check.passes(at(5.0)));
 }
 
-TEST(OutputCheck, NoResultIsOfATimeThatIsStillToCome) {
+TEST(OutputCheck, NoResultIsOfAFutureTime) {
   StageMonitor monitor("tracker");
   OutputCheck check("tracks", monitor);
   EXPECT_TRUE(check.passes(at(10.0))) << "of inputs nothing is known";

@@ -40,7 +40,7 @@ TEST(Parameters, OtherListsAreRefusedByName) {
   }
 }
 
-TEST(Parameters, AValueInPlaceOfTheNamespaceIsRefused) {
+TEST(Parameters, AValueInsteadOfTheNamespaceIsRefused) {
   EXPECT_THROW(flattenParameters(XmlRpcValue(3), "/node"), OptionError);
 }
 

@@ -43,7 +43,7 @@ TEST(PartClocks, OneThatMayAgreeIsFine) {
   EXPECT_EQ(judgedNow(with("/perception_stereo", 0.0109), good).level, HealthLevel::kOk);
 }
 
-TEST(PartClocks, OneThatIsSurelyOffIsNamed) {
+TEST(PartClocks, OneThatIsClearlyOffIsNamed) {
   const StackHealth health =
       judgedNow(with("/perception_stereo", -0.0115), {HealthLevel::kOk, "tracks are published"});
   EXPECT_EQ(health.level, HealthLevel::kDegraded);
@@ -52,7 +52,7 @@ TEST(PartClocks, OneThatIsSurelyOffIsNamed) {
             "10.0 ms; synchronize the machines' clocks (chrony)");
 }
 
-TEST(PartClocks, WhatIsKnownAlreadyStays) {
+TEST(PartClocks, KnownOffsetsAreKept) {
   const StackHealth health = judgedNow(with("/perception_stereo", 1.0),
                                        {HealthLevel::kNoOutput, "no tracks: tracker: no pose yet"});
   EXPECT_EQ(health.level, HealthLevel::kNoOutput);
@@ -60,7 +60,7 @@ TEST(PartClocks, WhatIsKnownAlreadyStays) {
             0U);
 }
 
-TEST(PartClocks, APartThatDoesNotAnswerAnyMoreIsNamed) {
+TEST(PartClocks, APartThatStopsAnsweringIsNamed) {
   const PartClocks clocks = with("/perception_risk", 0.0);
   const StackHealth good{HealthLevel::kOk, "tracks are published"};
   EXPECT_EQ(clocks.judged(good, Stamp::fromSeconds(kNow + 9.0)).level, HealthLevel::kOk);

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// What another system says: a pedestrian 8 m ahead of the vehicle, wherever that is.
+/// Another system's report: a pedestrian 8 m ahead of the vehicle, wherever that is.
 inline ObjectArray pedestrianAt(Stamp stamp) {
   ObjectMessage pedestrian;
   pedestrian.pose.position.x = 8.0;

@@ -38,12 +38,12 @@ std::uint8_t texture(int row, int column, unsigned seed) {
   return static_cast<std::uint8_t>(random() >> 8U);
 }
 
-/// px; of the wall: nearer from row to row, for of a single plane and a board before it nobody
-/// could tell whether the board or the camera has moved.
+/// Disparity of the wall, px: it increases from row to row, as with a single plane and a board in
+/// front of it, motion of the board and of the camera would be indistinguishable.
 int wallDisparity(int row) { return 3 + 2 * (row / 40); }
 
-/// A wall, and a board before it that has moved by `shift`; as the camera sees them that is
-/// `right`.
+/// A wall, and a board in front of it that has moved by `shift`; seen by the `right` or the left
+/// camera.
 sensor_msgs::ImagePtr image(double seconds, int shift, bool right, const std::string& frame) {
   auto message = boost::make_shared<sensor_msgs::Image>();
   message->header.stamp = ros::Time(seconds);
@@ -103,7 +103,7 @@ class PointVelocityStageTest : public testing::Test {
     return nullptr;
   }
 
-  /// Of what is as near as the board, to the left, m/s; the median.
+  /// Returns the median velocity to the left, m/s, of points as near as the board.
   static double boardSpeed(const sensor_msgs::PointCloud2& message) {
     std::vector<double> speeds;
     for (const PointVelocity& point : pointVelocities(message)) {
@@ -133,7 +133,7 @@ TEST_F(PointVelocityStageTest, PairsOfImagesGivePointsWithVelocity) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-/// The time between the images that are compared is the one that velocities are divided by.
+/// The interval between the compared images is the one by which velocities are divided.
 TEST_F(PointVelocityStageTest, APairThatIsDroppedDoesNotScaleTheNextVelocities) {
   takePair(0);
   takePair(1);
@@ -144,7 +144,7 @@ TEST_F(PointVelocityStageTest, APairThatIsDroppedDoesNotScaleTheNextVelocities) 
   EXPECT_NEAR(boardSpeed(*next), -kBoardSpeed, 0.1 * kBoardSpeed);
 }
 
-TEST_F(PointVelocityStageTest, AnImageThatIsNoneDoesNotTakeTheStampOfAGoodOne) {
+TEST_F(PointVelocityStageTest, AnInvalidImageDoesNotBlockTheStampOfAGoodOne) {
   takePair(0);
   auto broken = image(kStart + kPeriod, 0, false, "camera");
   broken->data.pop_back();
@@ -161,7 +161,7 @@ TEST_F(PointVelocityStageTest, ALongGapGivesNoPoints) {
   EXPECT_TRUE(pointVelocities(*late).empty());
 }
 
-TEST_F(PointVelocityStageTest, AJumpBackStartsAnew) {
+TEST_F(PointVelocityStageTest, AJumpBackStartsOver) {
   takePair(1000);
   takePair(1001);
   const auto first = takePair(0);

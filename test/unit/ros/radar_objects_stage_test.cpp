@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detections of a radar between messages: what passes, and what is left out and counted.
+// Detections of a radar through the stage: what is accepted, and what is dropped and counted.
 #include "datmo_fusion/ros/stage/radar_objects_stage.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ class RadarObjectsStageTest : public testing::Test {
     return one;
   }
 
-  /// Something that stands, and something 5 m/s faster than the vehicle.
+  /// A stationary object, and one that is 5 m/s faster than the vehicle.
   static RadarScanMessage scanAt(double seconds) {
     RadarScanMessage scan;
     scan.header.stamp = ros::Time(seconds);
@@ -76,11 +76,11 @@ TEST_F(RadarObjectsStageTest, WithoutMountOrMotionACycleIsDropped) {
   EXPECT_FALSE(stage_.take(scanAt(kStart)));
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
   drive(kStart, kStart + 1.0);
-  EXPECT_FALSE(stage_.take(scanAt(kStart + 3.0)));  // the odometry has ended long before
+  EXPECT_FALSE(stage_.take(scanAt(kStart + 3.0)));  // the odometry ended long before
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 2U);
 }
 
-TEST_F(RadarObjectsStageTest, ReturnsThatAreNoneAreLeftOutAndCounted) {
+TEST_F(RadarObjectsStageTest, InvalidReturnsAreLeftOutAndCounted) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
@@ -98,7 +98,7 @@ TEST_F(RadarObjectsStageTest, ReturnsThatAreNoneAreLeftOutAndCounted) {
   EXPECT_EQ(monitor_.figures().at("bad returns"), 6.0);
 }
 
-TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreTaken) {
+TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreUsed) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
@@ -107,14 +107,14 @@ TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreTaken) {
   EXPECT_EQ(monitor_.figures().at("bad returns"), 200.0);
 }
 
-TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreTakenFromAbove) {
+TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreProjectedToThePlane) {
   mountRadar();
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
   scan.returns = {returnAt(40.0F, 2.5F)};
   scan.returns[0].elevation = static_cast<float>(kPi / 3.0);  // of which the cosine is a half
   EXPECT_EQ(samples::warnings(monitor_, "bad_returns"), 0U);
-  EXPECT_TRUE(stage_.take(scan)->objects.empty());  // steeper than is taken
+  EXPECT_TRUE(stage_.take(scan)->objects.empty());  // steeper than accepted
   scan.header.stamp += ros::Duration(0.01);
   scan.returns[0].elevation = 0.5F;
   const ObjectArrayPtr objects = stage_.take(scan);

@@ -42,7 +42,7 @@ TEST(RepeatFilter, MessagesThatShareAnErrorCountEachByItself) {
             "2 on /odom (lost: 10 so far)");
 }
 
-TEST(RepeatFilter, WhatComesBackAfterALongQuietIsReportedAgain) {
+TEST(RepeatFilter, ACauseThatReturnsAfterALongPauseIsReportedAgain) {
   RepeatFilter filter;
   EXPECT_TRUE(filter.lineOf(InputError("late", "too late"), 0.0));
   EXPECT_FALSE(filter.lineOf(InputError("late", "too late"), 50.0));
@@ -50,7 +50,7 @@ TEST(RepeatFilter, WhatComesBackAfterALongQuietIsReportedAgain) {
   EXPECT_EQ(filter.lineOf(InputError("late", "too late"), 161.0), "too late (late: 4 so far)");
 }
 
-TEST(RepeatFilter, CausesWithoutEndDoNotFillTheConsole) {
+TEST(RepeatFilter, EndlessCausesDoNotFillTheConsole) {
   RepeatFilter filter;
   int lines = 0;
   for (char first = 'a'; first <= 'z'; ++first) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of risks and of tracks beside them: markers, the driver's picture, the tracks'
-// style.
+// Drawing of risks and of the tracks beside them: markers, the driver's image, the tracks' style.
 #include <cmath>
 #include <limits>
 
@@ -28,7 +27,7 @@ geometry_msgs::Pose2D pose2d(double x, double y, double heading) {
   return pose;
 }
 
-/// The host goes north from (10, 0) by 10 m/s; track 7 is struck at (10, 20) in 1.8 s.
+/// The host drives north from (10, 0) at 10 m/s; track 7 is struck at (10, 20) in 1.8 s.
 RiskArray northward() {
   RiskArray risks;
   risks.header.frame_id = "map";
@@ -134,7 +133,7 @@ TEST(DriverView, LevelNoneHasNoCause) {
   EXPECT_FALSE(view.icons.at(0).is_cause);
 }
 
-TEST(DriverView, DoesWithoutTracksAndWithoutPath) {
+TEST(DriverView, IsDrawnWithoutTracksAndWithoutPath) {
   TrackArray elsewhere = oneTrack();
   elsewhere.header.frame_id = "odom";
   EXPECT_TRUE(driverViewOf(northward(), nullptr).icons.empty());
@@ -154,7 +153,7 @@ std_msgs::ColorRGBA bodyColor(const MarkerArray& markers, int id) {
   return body ? body->color : std_msgs::ColorRGBA();
 }
 
-TEST(TrackStyle, ColorsStandForWhatIsChosen) {
+TEST(TrackStyle, ColorsShowTheChosenProperty) {
   TrackArray tracks = oneTrack();
   tracks.tracks.push_back(tracks.tracks[0]);
   tracks.tracks[1].id = 8;
@@ -174,7 +173,7 @@ TEST(TrackStyle, ColorsStandForWhatIsChosen) {
   EXPECT_EQ(bodies().first, bodies().second);
 }
 
-TEST(TrackStyle, UnsureTracksFadeAndAreLeftOut) {
+TEST(TrackStyle, UncertainTracksFadeAndAreLeftOut) {
   TrackStyle style;
   const float faded = bodyColor(markersOf(oneTrack(), style), 7).a;
   style.fade_by_existence = false;

@@ -6,13 +6,13 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-/// What a host meets that drives along x between walls.
+/// Encounters of a host that drives along x between walls.
 namespace datmo::samples {
 
 /// m/s, of scanBetweenWalls.
 inline constexpr double kHostSpeed = 5.0;
 
-/// The list of tracks at so many seconds after kStart: a car, number 7, that stands on the x axis
+/// The list of tracks at this many seconds after kStart: a stationary car, with id 7, on the x axis
 /// of the map.
 inline TrackArray standingCar(double seconds, double x) {
   TrackList list;

@@ -24,7 +24,7 @@ class RiskStageTest : public testing::Test {
     stage_.takeOdometry(samples::odometry(samples::kStart + seconds, speed));
   }
 
-  /// A car that stands so far ahead of base_link, between the walls.
+  /// A stationary car this far ahead of base_link, between the walls.
   static TrackArray carAhead(double seconds, double ahead) {
     return samples::standingCar(seconds, samples::kHostSpeed * seconds + ahead);
   }
@@ -73,8 +73,8 @@ TEST_F(RiskStageTest, WarnsAndSaysWhy) {
   EXPECT_NE(risks->reason.find("vehicle 7"), std::string::npos) << risks->reason;
 }
 
-// What comes into view is a road user as likely as a wall, until it is a track or map.
-TEST_F(RiskStageTest, PointsThatTheMapDoesNotKnowWarnOfNothing) {
+// A newly visible object is a road user as likely as a wall, until it is a track or in the map.
+TEST_F(RiskStageTest, UnmappedPointsCauseNoWarning) {
   const auto levelWith = [&](PointState state, double start) {
     RiskArrayPtr risks;
     for (const double seconds : {start, start + 0.2, start + 0.4}) {
@@ -111,7 +111,7 @@ TEST_F(RiskStageTest, WithoutPoseOrMotionThereIsNoRisk) {
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
 }
 
-TEST_F(RiskStageTest, TracksThatAreNoneAreReported) {
+TEST_F(RiskStageTest, InvalidTracksAreReported) {
   odometryAt(0.0);
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
@@ -131,7 +131,7 @@ TEST_F(RiskStageTest, TracksNotSeenForLongAreCounted) {
   EXPECT_EQ(monitor_.figures().at("objects not seen for max_silence"), 1.0);
 }
 
-TEST_F(RiskStageTest, ManyTracksAreLimitedAndSaid) {
+TEST_F(RiskStageTest, ManyTracksAreLimitedAndReported) {
   odometryAt(0.0);
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
@@ -154,7 +154,7 @@ TEST_F(RiskStageTest, AnotherFrameIsRefused) {
   EXPECT_EQ(samples::drops(monitor_, "wrong_frame"), 1U);
 }
 
-TEST_F(RiskStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(RiskStageTest, AClockJumpBackStartsOver) {
   const auto first = step(0.0, 17.0);
   step(20.0, 17.0);
   const auto again = step(0.0, 17.0);

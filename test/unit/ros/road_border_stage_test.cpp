@@ -24,7 +24,7 @@ class RoadBorderStageTest : public testing::Test {
         toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
   }
 
-  /// The road after some seconds of scans.
+  /// Returns the road after some seconds of scans.
   RoadBordersPtr drive(double from, double seconds = 2.0) {
     RoadBordersPtr last;
     for (int i = 0; i * 0.06 < seconds; ++i) {

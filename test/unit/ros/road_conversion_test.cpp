@@ -19,7 +19,8 @@ using samples::straightRoad;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Reason for which the straight road's message is refused after `spoil`; empty if it is not.
+/// Returns the reason for which the straight road's message is refused after `spoil`; empty if it
+/// is not.
 std::string reasonAfter(const std::function<void(RoadBorders&)>& spoil) {
   RoadBorders message = toMessage(straightRoad(), "map");
   spoil(message);
@@ -31,14 +32,14 @@ std::string reasonAfterBorder(const std::function<void(RoadBorderMessage&)>& spo
   return reasonAfter([&](RoadBorders& message) { spoil(message.borders.at(0)); });
 }
 
-/// Reason for which a road is not published.
+/// Returns the reason for which a road is not published.
 std::string reasonToPublish(const std::function<void(RoadModel&)>& spoil) {
   RoadModel road = straightRoad();
   spoil(road);
   return reasonOf([&] { toMessage(road, "map"); });
 }
 
-TEST(RoadConversion, ThereAndBack) {
+TEST(RoadConversion, RoundTrip) {
   RoadModel road = straightRoad();
   road.at_intersection = true;
   road.borders[1].side_street = true;
@@ -116,7 +117,7 @@ TEST(RoadConversion, PointsAreBoundedOverAllBorders) {
   EXPECT_EQ(reasonAfter(filled(kMaxBorderPoints + 4)), "many_points");
 }
 
-TEST(RoadConversion, WhatIsWrongIsReportedWithItsValue) {
+TEST(RoadConversion, ErrorsAreReportedWithTheValue) {
   RoadModel road = straightRoad();
   road.borders[0].points.pop_back();
   road.borders[0].points.pop_back();

@@ -20,7 +20,7 @@ MarkerArray markersOfRoad(const RoadModel& road) {
   return markersOf(toMessage(road, "map"), MarkersOptions());
 }
 
-/// The marker, or an empty one and a failure.
+/// Returns the marker, or an empty one and a failure.
 Marker get(const MarkerArray& markers, const std::string& name, int id) {
   const Marker* found = find(markers, name, id);
   EXPECT_NE(found, nullptr) << name << ' ' << id;
@@ -46,7 +46,7 @@ TEST(RoadMarkers, EachStretchIsALineInTheColorOfItsSide) {
   EXPECT_NE(left.color.b, right.color.b);
 }
 
-TEST(RoadMarkers, WhatIsLikelyIsWideAndLessTransparent) {
+TEST(RoadMarkers, LikelyBordersAreWideAndLessTransparent) {
   const MarkerArray markers = markersOfRoad(samples::straightRoad());  // 0.75 and 0.5
   const Marker likely = get(markers, "road borders", 0);
   const Marker doubtful = get(markers, "road borders", 1);

@@ -26,7 +26,7 @@ class SaveMapTest : public ::testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Of a stage that has seen some scans.
+  /// Returns the answer of a stage that has processed some scans.
   datmo_fusion::SaveMap::Response answer(const std::string& name,
                                          const std::string& prior_map = "") {
     GridSlamStageOptions options;
@@ -55,8 +55,9 @@ TEST_F(SaveMapTest, TheMapIsWrittenAndCanBeReadAgain) {
   EXPECT_FALSE(readMap(file("hall.map"), GridSlamStageOptions().slam.map).evidence().cells.empty());
 }
 
-/// Of a drive of 40 m with hardly any room for the map, in memory and in a file in this folder.
-TEST_F(SaveMapTest, TilesThatAreForgottenAreWarnedOfAndSaid) {
+/// After a drive of 40 m with very little space for the map, in memory and in a file in this
+/// folder.
+TEST_F(SaveMapTest, ThereIsAWarningOfForgottenTiles) {
   const auto answerAfterDrive = [this](const std::string& folder) {
     GridSlamStageOptions options;
     options.slam.map.window = {20.0, 20.0, 0.2};
@@ -86,7 +87,7 @@ TEST_F(SaveMapTest, ARelativePathIsRefused) {
   EXPECT_NE(response.message.find("expected an absolute path"), std::string::npos);
 }
 
-TEST_F(SaveMapTest, WhereItCannotBeWrittenIsReportedAndCounted) {
+TEST_F(SaveMapTest, WriteErrorsAreReportedAndCounted) {
   const auto response = answer(file("none/hall.map"));
   EXPECT_FALSE(response.success);
   EXPECT_EQ(samples::warnings(monitor_, "map_not_saved"), 1U);

@@ -12,7 +12,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// One meter ahead of the vehicle's origin, looking ahead.
+/// 1 m ahead of the vehicle's origin, facing ahead.
 ScannerMount bumper() {
   ScannerMount mount;
   mount.scanner_in_base = Pose2(1.0, 0.0, 0.0);
@@ -42,7 +42,7 @@ TEST(ScanConversion, BeamsEndWhereTheScannerPoints) {
   EXPECT_EQ(scan.rays[0].origin, Point2(1.0, 0.0));
 }
 
-/// Of the beams that have a ray, as the field tells them and as they are.
+/// Beams that have a ray: as the field reports them and as they are.
 void expectFieldMatchesBearings(const Scan& scan) {
   for (const Ray& ray : scan.rays) {
     EXPECT_NEAR(

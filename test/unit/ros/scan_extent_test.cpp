@@ -14,7 +14,7 @@ Scan scanOf(double range, double reach) {
   return scan;
 }
 
-/// The warnings of a hundred such scans.
+/// Returns the warnings after a hundred such scans.
 std::vector<InputError> warningsOf(const Scan& scan, double length, double width) {
   GridWindowOptions window;
   window.length = length;

@@ -25,7 +25,7 @@ constexpr std::size_t kAhead = 31;
 
 class ScanMergeStageTest : public testing::Test {
  protected:
-  /// One scanner 3 m ahead of the vehicle's origin, one 1 m behind it that looks back.
+  /// One scanner 3 m ahead of the vehicle's origin, one 1 m behind it that faces backward.
   ScanMergeStageTest() {
     auto front = samples::transform("base_link", "front_laser", 3.0);
     front.transform.translation.z = 0.4;
@@ -35,7 +35,7 @@ class ScanMergeStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({front, rear}));
   }
 
-  /// `ahead`: m, what the scanner's middle beam hits; the others hit 2 m beside it.
+  /// `ahead`: range of the scanner's middle beam, m; the others hit 2 m beside it.
   static sensor_msgs::LaserScan scanOf(const std::string& source, double seconds, float ahead) {
     auto scan = samples::laserScan({2.0F, ahead, 2.0F});
     scan.header.frame_id = source + "_laser";
@@ -58,13 +58,13 @@ class ScanMergeStageTest : public testing::Test {
   ScanMergeStage stage_{options(), buffer_, monitor_};
 };
 
-TEST_F(ScanMergeStageTest, TheRearScanIsBroughtToTheFrontsStamp) {
+TEST_F(ScanMergeStageTest, TheRearScanIsCompensatedToTheFrontsStamp) {
   drive(0.0);
   drive(0.1);
   take("rear", 0.10, 5.0F);  // the wall is at x = -6 m
   EXPECT_FALSE(next(0.10));
   take("front", 0.15, 7.0F);
-  const auto scan = next(0.21);  // no newer one of the rear scanner comes in time
+  const auto scan = next(0.21);  // no newer scan of the rear scanner arrives in time
   ASSERT_TRUE(scan);
   EXPECT_EQ(scan->header.stamp, ros::Time(kStart + 0.15));
   EXPECT_EQ(scan->header.frame_id, "merged_scan");
@@ -89,7 +89,7 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   EXPECT_NEAR(merged->ranges[kBehind], 6.0, 1e-5);
 }
 
-TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherGoesOn) {
+TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherContinues) {
   drive(0.0);
   take("rear", 0.0, 5.0F);
   take("front", 0.0, 7.0F);
@@ -125,7 +125,7 @@ TEST_F(ScanMergeStageTest, AFrozenScannerIsLeftOut) {
   for (int i = 0; i <= 8; ++i) {
     drive(0.1 * i);
     auto frozen = scanOf("rear", 0.1 * i, 5.0F);
-    frozen.ranges.assign(31, 5.0F);  // so many are not the same by chance
+    frozen.ranges.assign(31, 5.0F);  // this many are not equal by chance
     frozen.angle_increment = static_cast<float>(M_PI / 30.0);
     stage_.takeScan("rear", frozen, Stamp::fromSeconds(kStart + 0.1 * i));
     take("front", 0.1 * i, 7.0F + 0.01F * static_cast<float>(i));

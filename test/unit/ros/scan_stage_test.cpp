@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the stages that take a scanner's scans have in common.
+// Common to all stages that process a scanner's scans.
 #include "message_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ class ScanStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
-  /// Whether a scan of this stamp was taken.
+  /// Returns whether a scan with this stamp was accepted.
   bool scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);
@@ -34,7 +34,7 @@ class ScanStageTest : public testing::Test {
 using ScanStages = testing::Types<GridSlamStage, LidarGridStage>;
 TYPED_TEST_SUITE(ScanStageTest, ScanStages);
 
-TYPED_TEST(ScanStageTest, AMissingMountIsCountedUntilItComes) {
+TYPED_TEST(ScanStageTest, AMissingMountIsCountedUntilItArrives) {
   EXPECT_FALSE(this->scanAt(100.0));
   EXPECT_EQ(this->drops("missing_transform"), 1U);
   this->mountScanner();

@@ -37,7 +37,7 @@ TEST(ScanViewsTest, ThePoseOfTheSameStampAndFrames) {
   EXPECT_FALSE(views.pose(other, "map"));
 }
 
-TEST(ScanViewsTest, ClearedTheyBeginAnew) {
+TEST(ScanViewsTest, AfterAClearTheyStartOver) {
   ScanViews views{VisibilityOptions()};
   add(views, scanAt(1.0, 10.0));
   add(views, scanAt(2.0, 20.0));
@@ -58,7 +58,7 @@ TEST(ScanViewsTest, ABoundedNumberIsKept) {
   EXPECT_FALSE(views.pose(baseAt(900.0), "map"));
 }
 
-TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
+TEST(ScanViewsTest, TheVisibilityOfTheScanOfThatStamp) {
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(1.0);
   scan.field = {degrees(-90.0), degrees(1.0), 181, 0.1, 40.0, 80.0};

@@ -24,7 +24,7 @@
 namespace datmo::shared_options_test {
 namespace {
 
-/// The message of the OptionError that `read` throws; empty if it throws none.
+/// Returns the message of the OptionError that `read` throws; empty if it throws none.
 template <typename Read>
 std::string errorOf(const Read& read) {
   try {
@@ -41,7 +41,7 @@ void expectMentions(const std::string& message, const std::vector<std::string>& 
   }
 }
 
-/// Reads sections from what stands here.
+/// Reads the options from these sections.
 SharedOptions sharedOf(const std::map<std::string, OptionValues>& sections) {
   return readSharedOptions([&sections](const std::string& name) {
     const auto found = sections.find(name);
@@ -49,7 +49,7 @@ SharedOptions sharedOf(const std::map<std::string, OptionValues>& sections) {
   });
 }
 
-TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
+TEST(SharedOptions, FramesAreSetOnceAndUsedByEachStage) {
   const SharedOptions shared =
       sharedOf({{"frames", {{"odom", std::string("/wheels")}, {"base", std::string("robot")}}}});
   const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
@@ -59,7 +59,7 @@ TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
   EXPECT_EQ(readStageOptions<TrackerStageOptions>({}, shared).frames.base, "robot");
 }
 
-TEST(SharedOptions, APrefixStandsBeforeAllFrames) {
+TEST(SharedOptions, APrefixIsAddedToAllFrames) {
   const SharedOptions shared =
       sharedOf({{"frames", {{"prefix", std::string("/car1/")}}}, {"mounts", {{"laser/x", 2.0}}}});
   EXPECT_EQ(shared.frames.map, "car1/map");
@@ -155,7 +155,7 @@ TEST(SharedOptions, VehicleIsDeclaredOnce) {
   EXPECT_EQ(readStageOptions<MarkersOptions>({}, shared).vehicle.height, 2.0);
 }
 
-TEST(SharedOptions, WhatIsNotKnownIsLeftToTheStages) {
+TEST(SharedOptions, UnsetValuesAreLeftToTheStages) {
   const auto stages = [](const std::map<std::string, OptionValues>& sections) {
     const SharedOptions shared = sharedOf(sections);
     const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
@@ -168,7 +168,7 @@ TEST(SharedOptions, WhatIsNotKnownIsLeftToTheStages) {
   EXPECT_EQ(known, (std::vector<double>{0.2, 0.5})) << "as the sections' descriptions say";
 }
 
-/// What a struct of options says of each key as a line of a table.
+/// Returns what a struct of options reports about each key as a line of a table.
 template <typename Options>
 std::map<std::string, std::string> defaultsOf() {
   std::map<std::string, std::string> defaults;
@@ -196,7 +196,7 @@ void expectSharedDefaults(
     ASSERT_EQ(own.count(key.own), 1U) << key.own;
     const auto section = sections.find(key.shared.substr(0, slash));
     if (section == sections.end() || name == "range_sigma" || name == "min_depth") {
-      continue;  // of another package; not known unless somebody says it
+      continue;  // from another package; unknown unless it is given
     }
     ASSERT_EQ(section->second.count(name), 1U) << key.shared;
     EXPECT_EQ(own.at(key.own), section->second.at(name)) << key.own << ", " << key.shared;
@@ -257,7 +257,7 @@ TEST(Mounts, BadOnesAreNamed) {
 }
 
 TEST(Mounts, TurnAsRollPitchYawAboutFixedAxes) {
-  MountOptions optical;  // of a camera that looks ahead
+  MountOptions optical;  // of a forward-looking camera
   optical.roll = -kPi / 2.0;
   optical.yaw = -kPi / 2.0;
   const auto message = toMessage({{"camera", optical}}, "base_link");

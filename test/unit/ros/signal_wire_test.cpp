@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SPATEM and MAPEM with our own position to advice; what is old, repeated or broken is counted.
+// SPATEM, MAPEM and our own position to advice; stale, repeated or broken messages are counted.
 #include "datmo_fusion/ros/signal_wire.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ class SignalWireTest : public testing::Test {
   /// 20 m from there to the east.
   static std::string mapem() { return encode(samples::mapem()); }
 
-  /// We drive west on it at 10 m/s, the front 20 m before the line; 4 m long.
+  /// We drive west on it at 10 m/s, with the front 20 m before the line; 4 m long.
   static StationTracksMessage ownAt(double seconds) {
     const LocalPlane plane({degrees(45.19), degrees(5.72), 0.0});
     StationTrackList list;
@@ -85,7 +85,7 @@ TEST_F(SignalWireTest, LightsAndAMapGiveAdvice) {
   EXPECT_EQ(monitor_.figures().at("intersections with a map"), 1.0);
 }
 
-TEST_F(SignalWireTest, ALaneThatCannotBeUsedLeavesNoVerdict) {
+TEST_F(SignalWireTest, AnUnusableLaneLeavesNoVerdict) {
   Mapem map = samples::mapem();
   map.intersections[0].lanes[1].computed->reference = 99;  // there is none
   wire_.received(encode(map), kNewYear + 99.0);
@@ -106,7 +106,7 @@ TEST_F(SignalWireTest, AnUncertainSpeedLeavesNoVerdict) {
   EXPECT_EQ(wire_.advise(own)->reason, "not_known_on_arrival");
 }
 
-TEST_F(SignalWireTest, WhatIsOldAheadRepeatedOrBrokenIsCounted) {
+TEST_F(SignalWireTest, StaleFutureRepeatedAndBrokenMessagesAreCounted) {
   wire_.received(spatem(100.0, 130.0), kNewYear + 102.5);
   EXPECT_EQ(samples::drops(monitor_, "old_signals"), 1U);
   wire_.received(spatem(103.5, 130.0), kNewYear + 102.6);
@@ -124,14 +124,14 @@ TEST_F(SignalWireTest, WhatIsOldAheadRepeatedOrBrokenIsCounted) {
   EXPECT_FALSE(wire_.advise(ownAt(103.5)));
 }
 
-TEST_F(SignalWireTest, LightsThatAreNotReceivedAnyMoreSayNothingAndMapsAreForgotten) {
+TEST_F(SignalWireTest, LostLightsGiveNoAdviceAndMapsAreForgotten) {
   wire_.received(mapem(), kNewYear + 100.0);
   wire_.received(spatem(100.0, 130.0), kNewYear + 100.0);
   EXPECT_EQ(wire_.advise(ownAt(102.1))->reason, "old_signals");
   EXPECT_FALSE(wire_.advise(ownAt(160.1)));
 }
 
-TEST_F(SignalWireTest, ATimeThatJumpsBackBeginsAnew) {
+TEST_F(SignalWireTest, ATimeJumpBackStartsOver) {
   wire_.received(mapem(), kNewYear + 200.0);
   wire_.received(spatem(200.0, 230.0), kNewYear + 200.0);
   wire_.received(spatem(100.0, 130.0), kNewYear + 100.0);

@@ -36,7 +36,7 @@ DiagnosticArray slamReport() {
   return message;
 }
 
-TEST(SourceTable, EachInputIsALineAndTheFirstHasTheStagesCells) {
+TEST(SourceTable, EachInputIsARowAndTheFirstHasTheStagesCells) {
   SourceTable table;
   table.take(slamReport(), 10.0);
   const auto rows = table.rows(10.0);
@@ -55,7 +55,7 @@ TEST(SourceTable, EachInputIsALineAndTheFirstHasTheStagesCells) {
   EXPECT_EQ(rows[1].dropped, "");
 }
 
-TEST(SourceTable, ANodeOfOtherPeopleIsALineToo) {
+TEST(SourceTable, AThirdPartyNodeIsARowToo) {
   DiagnosticArray message;
   message.status.resize(1);
   message.status[0].name = "/drivers: lidar";
@@ -69,7 +69,7 @@ TEST(SourceTable, ANodeOfOtherPeopleIsALineToo) {
   EXPECT_EQ(rows[0].state, "rotor too slow");
 }
 
-TEST(SourceTable, WhoIsSilentIsStaleUntilItSpeaksAgain) {
+TEST(SourceTable, ASilentSourceIsStaleUntilItReturns) {
   SourceTable table;
   table.take(slamReport(), 10.0);
   EXPECT_EQ(table.rows(16.0)[1].level, DiagnosticStatus::STALE);
@@ -79,7 +79,7 @@ TEST(SourceTable, WhoIsSilentIsStaleUntilItSpeaksAgain) {
   EXPECT_EQ(table.rows(17.0)[0].level, DiagnosticStatus::WARN);
 }
 
-TEST(SourceTable, AnEmptyReportIsNoLine) {
+TEST(SourceTable, AnEmptyReportIsNoRow) {
   SourceTable table;
   table.take(DiagnosticArray(), 1.0);
   EXPECT_TRUE(table.rows(1.0).empty());

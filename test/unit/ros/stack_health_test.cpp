@@ -11,7 +11,7 @@ StageState stage(const std::string& name, HealthLevel level, const StageTopics& 
   return {name, level, {fault}, topics};
 }
 
-TEST(StackHealth, TheStageFarthestUpTheChainIsNamed) {
+TEST(StackHealth, TheMostUpstreamStageIsNamed) {
   const StackHealth health = stackHealth(
       {stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"),
        stage("tracker", HealthLevel::kNoOutput, {{"/pose"}, {"/tracks"}}, "no pose yet")},
@@ -19,7 +19,7 @@ TEST(StackHealth, TheStageFarthestUpTheChainIsNamed) {
   EXPECT_EQ(health.sentence, "no tracks: slam: no scan yet");
 }
 
-TEST(ReportingStages, OneThatDoesNotReportAnyMoreIsForgotten) {
+TEST(ReportingStages, AStageThatStopsReportingIsForgotten) {
   ReportingStages stages;
   stages.take(stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
   stages.take(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 10.0);

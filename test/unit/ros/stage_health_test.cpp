@@ -12,7 +12,7 @@ namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
 
-/// A stage that takes scans or echoes, and odometry.
+/// A stage that subscribes to scans or echoes, and to odometry.
 class StageHealthTest : public testing::Test {
  protected:
   StageState judge(double seconds) {
@@ -38,7 +38,7 @@ class StageHealthTest : public testing::Test {
       1.0};
 };
 
-TEST_F(StageHealthTest, OneThatRunsHasNoFaults) {
+TEST_F(StageHealthTest, ARunningOneHasNoFaults) {
   receiveAll(100.0);
   process(100.0);
   const StageState state = judge(100.5);
@@ -46,7 +46,7 @@ TEST_F(StageHealthTest, OneThatRunsHasNoFaults) {
   EXPECT_TRUE(state.faults.empty());
 }
 
-TEST_F(StageHealthTest, NothingPublishedIsNothingMade) {
+TEST_F(StageHealthTest, AnUnpublishedInputMeansNoOutput) {
   const StageState state = judge(100.0);
   EXPECT_EQ(state.level, HealthLevel::kNoOutput);
   ASSERT_EQ(state.faults.size(), 2U);
@@ -73,7 +73,7 @@ TEST_F(StageHealthTest, ASilentPublisherIsNotMissing) {
       "no scan yet: it is published, but no message has been received (scan on /scan or /echoes)");
 }
 
-TEST_F(StageHealthTest, WhatStillMakesResultsGivesLess) {
+TEST_F(StageHealthTest, AFaultWithResultsIsDegraded) {
   receiveAll(100.0);
   monitor_.received("scan", at(102.0));
   process(102.0);
@@ -83,7 +83,7 @@ TEST_F(StageHealthTest, WhatStillMakesResultsGivesLess) {
   EXPECT_EQ(judge(104.0).level, HealthLevel::kNoOutput) << "no result for longer than a second";
 }
 
-TEST_F(StageHealthTest, ADropThatLeavesNothingComesFirst) {
+TEST_F(StageHealthTest, ATotalDropComesFirst) {
   monitor_.received("scan", at(100.0));
   monitor_.dropped(InputError("missing_transform", "no tf base_link -> laser"));
   monitor_.warned(InputError("tilt", "tilted"));
@@ -116,7 +116,7 @@ TEST(StackHealth, TheFirstCauseInTheChainIsReported) {
   EXPECT_EQ(health.sentence, "no tracks: grid_slam: no tf base_link -> laser");
 }
 
-TEST(StackHealth, AStageThatGivesLessIsNoCauseOfNothing) {
+TEST(StackHealth, ADegradedStageDoesNotCauseMissingOutput) {
   const std::vector<StageState> stages{
       stage("grid_slam", HealthLevel::kDegraded, "no odometry for 1.1 s", {"/odom"},
             {"/labeled_scan"}),
@@ -133,18 +133,18 @@ TEST(StackHealth, LessThanAllNamesTheFirstFault) {
   EXPECT_EQ(health.sentence, "degraded: stereo_grid: no points2 for 3.0 s");
 }
 
-TEST(StackHealth, GoodOnesAreReportedInTwoWords) {
+TEST(StackHealth, HealthyOnesAreReportedInTwoWords) {
   EXPECT_EQ(
       stackHealth({stage("tracker", HealthLevel::kOk, "", {}, {"/tracks"})}, "/tracks").sentence,
       "tracks are published");
 }
 
-TEST(StackHealth, AStageThatHasNotReportedIsNamedByWhatItMakes) {
+TEST(StackHealth, AStageThatHasNotReportedIsNamedByItsOutput) {
   EXPECT_EQ(stackHealth({}, "/tracks").sentence,
             "no tracks: no stage that publishes them has reported");
 }
 
-TEST(StackHealth, ACircleEnds) {
+TEST(StackHealth, ACycleEnds) {
   const std::vector<StageState> stages{
       stage("one", HealthLevel::kNoOutput, "no b", {"/b"}, {"/a"}),
       stage("other", HealthLevel::kNoOutput, "no a", {"/a"}, {"/b"})};

@@ -30,7 +30,7 @@ TEST(StageMonitor, RateAndSilenceOfAnInput) {
   EXPECT_NEAR(*status.silence, 2.0, 1e-9);
 }
 
-TEST(StageMonitor, AClockSetBackStartsTheRateAnew) {
+TEST(StageMonitor, AClockSetBackRestartsTheRate) {
   StageMonitor monitor("stage");
   monitor.received("scan", Stamp::fromSeconds(20.0));
   monitor.received("scan", Stamp::fromSeconds(10.0));

@@ -9,10 +9,10 @@
 namespace datmo::stage_runner_test {
 namespace {
 
-/// A stage with two inputs that remembers how often it was reset.
+/// A stage with two inputs that counts its resets.
 class StageRunnerTest : public testing::Test {
  protected:
-  /// Null if the message was dropped.
+  /// Returns null if the message was dropped.
   std::unique_ptr<int> take(const std::string& input, double seconds) {
     return runner_.serve([&] {
       runner_.check(input, ros::Time(seconds));
@@ -47,7 +47,7 @@ TEST_F(StageRunnerTest, BadMessagesAreDroppedAndCounted) {
   EXPECT_EQ(resets_, 0);
 }
 
-TEST_F(StageRunnerTest, OtherErrorsAreTheCallers) {
+TEST_F(StageRunnerTest, OtherErrorsAreLeftToTheCaller) {
   EXPECT_THROW(runner_.serve([] { throw std::logic_error("a fault of the code"); }),
                std::logic_error);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
@@ -61,7 +61,7 @@ TEST_F(StageRunnerTest, EachInputHasItsOwnTime) {
 }
 
 TEST_F(StageRunnerTest, AClockThatJumpsBackOnAllInputsResetsThemOnce) {
-  monitor_.setTime(Stamp::fromSeconds(100.0));  // it stands still
+  monitor_.setTime(Stamp::fromSeconds(100.0));  // it does not advance
   take("scan", 100.0);
   take("odometry", 100.0);
   EXPECT_FALSE(take("odometry", 49.9)) << "not confirmed yet";
@@ -90,7 +90,7 @@ TEST_F(StageRunnerTest, AClockThatJumpsOnOneInputAloneIsNotFollowed) {
   EXPECT_EQ(monitor_.drops().at("stray_stamp"), 20U);
 }
 
-TEST_F(StageRunnerTest, WhoSendsNoStampsContradictsNobody) {
+TEST_F(StageRunnerTest, AnInputWithoutStampsContradictsNoOther) {
   monitor_.setTime(Stamp::fromSeconds(100.0));
   take("scan", 100.0);
   EXPECT_FALSE(take("odometry", 0.0));
@@ -99,7 +99,7 @@ TEST_F(StageRunnerTest, WhoSendsNoStampsContradictsNobody) {
   EXPECT_TRUE(take("scan", 160.1));
 }
 
-TEST_F(StageRunnerTest, AResetSaysWhyAndWhatItDoes) {
+TEST_F(StageRunnerTest, AResetReportsWhyAndWhatItDoes) {
   runner_.reset("other_map", "the map is 'b', it was 'a' before");
   EXPECT_EQ(resets_, 1);
   EXPECT_EQ(monitor_.lastError(), "the map is 'b', it was 'a' before: forgets the road");

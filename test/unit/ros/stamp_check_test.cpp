@@ -11,7 +11,7 @@ std::string reasonAt(StampCheck& check, double seconds) {
   return samples::reasonOf([&] { check.check(ros::Time(seconds)); });
 }
 
-TEST(StampCheck, NamesWhatIsWrong) {
+TEST(StampCheck, NamesTheError) {
   StampCheck check(1.0);
   EXPECT_EQ(reasonAt(check, 0.0), "zero_stamp");
   EXPECT_EQ(reasonAt(check, 10.0), "");
@@ -22,7 +22,7 @@ TEST(StampCheck, NamesWhatIsWrong) {
   EXPECT_EQ(check.check(ros::Time(5.1)), Arrival::kNext);
 }
 
-TEST(StampCheck, AJumpThatNothingConfirmsIsNamed) {
+TEST(StampCheck, AnUnconfirmedJumpIsNamed) {
   StampCheck check(1.0);
   check.check(ros::Time(10.0), Stamp::fromSeconds(10.0));
   EXPECT_EQ(samples::reasonOf([&] { check.check(ros::Time(15.0), Stamp::fromSeconds(10.1)); }),
@@ -38,7 +38,7 @@ TEST(StampCheck, AStampBeyondReasonIsRefusedByItself) {
   EXPECT_EQ(check.check(ros::Time(10.1)), Arrival::kNext);
 }
 
-TEST(StampCheck, TimesGoThereAndBackToTheNanosecond) {
+TEST(StampCheck, TimesSurviveARoundTripToTheNanosecond) {
   const ros::Time time(1700000000, 123456789);
   EXPECT_EQ(toTime(toStamp(time)), time);
 }

@@ -25,7 +25,7 @@ class StaticPointsStageTest : public testing::Test {
   StaticPointsStage stage_{StaticPointsStageOptions(), monitor_};
 };
 
-TEST_F(StaticPointsStageTest, WallsComeOutAsCloudAndScan) {
+TEST_F(StaticPointsStageTest, WallsArePublishedAsCloudAndScan) {
   const LabeledScan scan = samples::scanBetweenWalls(0.0);
   const auto output = take(scan);
   ASSERT_TRUE(output);
@@ -46,7 +46,7 @@ TEST_F(StaticPointsStageTest, WallsComeOutAsCloudAndScan) {
   }
 }
 
-TEST_F(StaticPointsStageTest, WhatMovesIsNotInThem) {
+TEST_F(StaticPointsStageTest, MovingPointsAreNotInThem) {
   const auto output = take(samples::scanWithMover(Point2(10.0, 0.0), 0.0));
   ASSERT_TRUE(output);
   EXPECT_EQ(output->points->width, 0U);
@@ -54,7 +54,7 @@ TEST_F(StaticPointsStageTest, WhatMovesIsNotInThem) {
   EXPECT_TRUE(std::isinf(output->scan->ranges[0]));
 }
 
-TEST_F(StaticPointsStageTest, TheScannersMountComesOnceAndWhenItChanges) {
+TEST_F(StaticPointsStageTest, TheScannersMountIsPublishedOnceAndWhenItChanges) {
   LabeledScan scan = samples::scanBetweenWalls(0.0);
   scan.scanner_in_base = Pose2(3.5, 0.0, 0.1);
   const auto first = take(scan);
@@ -88,13 +88,13 @@ TEST_F(StaticPointsStageTest, BadScansAreDroppedAndCounted) {
   EXPECT_FALSE(take(samples::scanBetweenWalls(0.9))) << "its stamp is old";
 }
 
-TEST_F(StaticPointsStageTest, AClockThatJumpsBackBeginsAnew) {
+TEST_F(StaticPointsStageTest, AClockJumpBackStartsOver) {
   EXPECT_TRUE(take(samples::scanBetweenWalls(10.0)));
   EXPECT_TRUE(take(samples::scanBetweenWalls(0.0)));
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }
 
-TEST(StaticPointsStageOptions, TheScansFrameIsItsOwn) {
+TEST(StaticPointsStageOptions, TheScanHasASeparateFrame) {
   StageMonitor monitor("static_points");
   StaticPointsStageOptions options;
   options.scan_frame = "base_link";

@@ -49,7 +49,7 @@ TEST_F(StationWireTest, ADatagramIsAListOfTracksOnTheEarth) {
   EXPECT_NEAR(cpm->tracks[0].velocity_east, -1.2, 1e-9);
 }
 
-TEST_F(StationWireTest, WhatCannotBeUsedIsCountedByReason) {
+TEST_F(StationWireTest, UnusableMessagesAreCountedByReason) {
   EXPECT_FALSE(wire_.received("", kNoon));
   EXPECT_FALSE(wire_.received(samples::wireCam().bytes().substr(0, 20), kNoon));
   EXPECT_EQ(samples::drops(monitor_, "truncated_message"), 2U);
@@ -58,12 +58,12 @@ TEST_F(StationWireTest, WhatCannotBeUsedIsCountedByReason) {
   std::string spatem = samples::wireCam().bytes();
   spatem[1] = 4;
   EXPECT_FALSE(wire_.received(spatem, kNoon));
-  EXPECT_EQ(monitor_.droppedCount(), 3U);  // as before: others may talk of other things
+  EXPECT_EQ(monitor_.droppedCount(), 3U);  // as before: others may send other messages
   EXPECT_EQ(monitor_.figures().at("messages of other kinds"), 1.0);
 }
 
-TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
-  // A CAM's time is sent modulo 65.536 s: when a clock begins at 0, half of them lie before it.
+TEST_F(StationWireTest, TimesOutsideTheRangeOfRosAreCounted) {
+  // A CAM's time is sent modulo 65.536 s: if a clock starts at 0, half of the values are before it.
   for (int high_byte = 0; high_byte < 256; high_byte += 16) {
     std::string cam = samples::wireCam().bytes();
     cam[6] = static_cast<char>(high_byte);  // of the generation time, after a header of 48 bits
@@ -72,7 +72,7 @@ TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
   EXPECT_EQ(samples::drops(monitor_, "stamp_out_of_range"), 8U);
 }
 
-TEST_F(StationWireTest, OursGoOutAtMostAsOftenAsTheyMay) {
+TEST_F(StationWireTest, OursAreSentAtMostAtTheirRate) {
   std::size_t sent = 0;
   for (int step = 0; step <= 16; ++step) {
     sent += wire_.toSend(ownAt(0.0625 * step)).size();
@@ -81,7 +81,7 @@ TEST_F(StationWireTest, OursGoOutAtMostAsOftenAsTheyMay) {
   EXPECT_EQ(wire_.toSend(ownAt(-100.0)).size(), 2U);  // a clock that was set
 }
 
-TEST_F(StationWireTest, TheLowFrequencyContainerComesTwiceASecond) {
+TEST_F(StationWireTest, TheLowFrequencyContainerIsSentTwiceASecond) {
   std::vector<bool> has_low;
   for (int step = 0; step <= 10; ++step) {
     const std::string cam = wire_.toSend(ownAt(0.1 * step)).at(0);
@@ -91,7 +91,7 @@ TEST_F(StationWireTest, TheLowFrequencyContainerComesTwiceASecond) {
                                         false, true}));
 }
 
-TEST_F(StationWireTest, WhatWeSentOurselvesIsNotTaken) {
+TEST_F(StationWireTest, OurOwnMessagesAreIgnored) {
   const std::vector<std::string> sent = wire_.toSend(ownAt(0.0));
   ASSERT_EQ(sent.size(), 2U);
   StageMonitor others_monitor{"other"};
@@ -123,7 +123,7 @@ TEST_F(StationWireTest, JitterLosesNoListAndFasterOnesAreThinned) {
   EXPECT_NEAR(static_cast<double>(sent), 2.0 * 200.0, 2.0);
 }
 
-TEST_F(StationWireTest, WithoutOurOwnPositionNothingGoesOut) {
+TEST_F(StationWireTest, WithoutOurOwnPositionNothingIsSent) {
   StationTracksMessage message = ownAt(0.0);
   message.tracks[0].id = 3;
   EXPECT_TRUE(wire_.toSend(message).empty());

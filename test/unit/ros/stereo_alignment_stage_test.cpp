@@ -49,7 +49,7 @@ class StereoAlignmentStageTest : public testing::Test {
     return scan;
   }
 
-  /// The wall, as a camera whose disparities are too large by `bias` (px) sees it.
+  /// The wall, as seen by a camera whose disparities are too large by `bias` (px).
   static sensor_msgs::PointCloud2 cloudAt(double seconds, double bias) {
     std::vector<Eigen::Vector3f> points = samples::wallOnARoad(-0.2, 0.2, 1.5);
     for (Eigen::Vector3f& point : points) {
@@ -88,7 +88,7 @@ class StereoAlignmentStageTest : public testing::Test {
   StereoAlignmentStage stage_{options_, buffer_, monitor_};
 };
 
-/// The wall alone does not tell disparities from mount or surface: the uncertainty of these stays.
+/// The wall alone cannot distinguish disparities from mount or surface: their uncertainty remains.
 TEST_F(StereoAlignmentStageTest, TheBiasOfACameraIsEstimatedAgainstTheScanner) {
   const auto alignment = run(200, 0.6);
   ASSERT_TRUE(alignment);
@@ -104,7 +104,7 @@ TEST_F(StereoAlignmentStageTest, TheBiasOfACameraIsEstimatedAgainstTheScanner) {
   EXPECT_EQ(samples::warnings(monitor_, "misaligned_camera"), 0U);
 }
 
-TEST_F(StereoAlignmentStageTest, AnUnusualBiasIsWarnedOfOnce) {
+TEST_F(StereoAlignmentStageTest, ThereIsOneWarningOfAnUnusualBias) {
   options_.alignment.disparity.sigma = 1.0;
   StereoAlignmentStage stage(options_, buffer_, monitor_);
   stage.takeCameraInfo(samples::rightCameraInfo());
@@ -125,25 +125,25 @@ TEST_F(StereoAlignmentStageTest, WithoutAScanNearInTimeNothingIsCompared) {
   EXPECT_EQ(monitor_.processedCount(), 0U);
 }
 
-TEST_F(StereoAlignmentStageTest, StandingStillTheSameCloudMayComeAgain) {
+TEST_F(StereoAlignmentStageTest, AtRestTheSameCloudMayBeRepeated) {
   EXPECT_TRUE(run(10, 0.0, 0.0)->usable);
   EXPECT_EQ(samples::warnings(monitor_, "frozen_camera"), 0U);
 }
 
-TEST_F(StereoAlignmentStageTest, AFrozenPictureIsNotUsable) {
+TEST_F(StereoAlignmentStageTest, AFrozenImageIsNotUsable) {
   const auto alignment = run(10, 0.0, 8.0);
   ASSERT_TRUE(alignment);
   EXPECT_FALSE(alignment->usable);
   EXPECT_GT(samples::warnings(monitor_, "frozen_camera"), 0U);
 }
 
-TEST_F(StereoAlignmentStageTest, APictureStaysFrozenForLongerThanOdometryIsKept) {
+TEST_F(StereoAlignmentStageTest, AnImageStaysFrozenForLongerThanOdometryIsKept) {
   const auto alignment = run(300, 0.0, 8.0);
   ASSERT_TRUE(alignment);
   EXPECT_FALSE(alignment->usable);
 }
 
-TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerHasThem) {
+TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerSeesThem) {
   StereoObjectsStageOptions options;
   StageMonitor monitor("stereo_objects");
   StereoObjectsStage objects(options, buffer_, monitor);
@@ -165,7 +165,7 @@ TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerHasThem) {
   EXPECT_NEAR(after - before, alignment->disparity_offset, 0.15) << "1 px is 1 m at 10 m";
 }
 
-TEST_F(StereoAlignmentStageTest, CloudsThatAreNotUsableMakeNoObjects) {
+TEST_F(StereoAlignmentStageTest, UnusableCloudsMakeNoObjects) {
   StereoObjectsStageOptions options;
   StageMonitor monitor("stereo_objects");
   StereoObjectsStage objects(options, buffer_, monitor);
@@ -178,7 +178,7 @@ TEST_F(StereoAlignmentStageTest, CloudsThatAreNotUsableMakeNoObjects) {
   EXPECT_TRUE(objects.takeCloud(cloudAt(kStart + 5.1, 0.0))) << "the scanner is silent by now";
 }
 
-TEST(StereoAlignmentMessage, WithNumbersThatAreNoneIsRefused) {
+TEST(StereoAlignmentMessage, WithInvalidNumbersIsRefused) {
   StereoAlignmentMessage message = *toMessage(StereoAlignment(), "base_link");
   EXPECT_NO_THROW(fromMessage(message));
   message.time_variance = -1.0;

@@ -23,7 +23,7 @@ class StereoGridStageTest : public testing::Test {
  protected:
   StereoGridStageTest() { stage_.takeCameraInfo(samples::rightCameraInfo()); }
 
-  /// The camera looks ahead from 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
+  /// A forward-looking camera 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
   void mountSensors() {
     tf2_msgs::TFMessage message;
     message.transforms = {samples::cameraMount(), samples::transform("base_link", "scanner", 3.6)};
@@ -71,7 +71,7 @@ TEST_F(StereoGridStageTest, ACloudMakesAGridOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoGridStageTest, DiagnosticsReportWhatWasSeen) {
+TEST_F(StereoGridStageTest, DiagnosticsReportTheCloudsContent) {
   mountSensors();
   takeAt(kStart);
   const auto& figures = monitor_.figures();
@@ -82,7 +82,7 @@ TEST_F(StereoGridStageTest, DiagnosticsReportWhatWasSeen) {
   EXPECT_NEAR(figures.at("road's slope ahead [m/m]"), 0.0, 0.02);
 }
 
-TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
+TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreTransformedToTheCamera) {
   mountSensors();
   options_.frames.camera = "camera";
   StereoGridStage stage(options_, buffer_, monitor_);
@@ -96,7 +96,7 @@ TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
   expectWall(stage.takeCloud(message));
 }
 
-TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsServe) {
+TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsAreUsed) {
   mountSensors();
   options_.camera.focal_length = 500.0;
   options_.camera.baseline = 0.2;
@@ -104,7 +104,7 @@ TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsServe) {
   expectWall(stage.takeCloud(cloudAt(kStart)));
 }
 
-TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoComes) {
+TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoArrives) {
   mountSensors();
   StereoGridStage stage(options_, buffer_, monitor_);
   EXPECT_FALSE(stage.takeCloud(cloudAt(kStart)));
@@ -115,7 +115,7 @@ TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoComes) 
   expectWall(stage.takeCloud(cloudAt(kStart)));
 }
 
-TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItComes) {
+TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItArrives) {
   EXPECT_FALSE(takeAt(kStart));
   EXPECT_EQ(drops("missing_transform"), 1U);
   mountSensors();
@@ -130,7 +130,7 @@ TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   expectWall(stage.takeCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
   options_.frames.scanner = "";
-  options_.scanner_height = 2.5;  // above the wall, as far as the camera sees it
+  options_.scanner_height = 2.5;  // above the visible part of the wall
   StereoGridStage high(options_, buffer_, monitor_);
   high.takeCameraInfo(samples::rightCameraInfo());
   const auto grid = high.takeCloud(cloudAt(kStart));
@@ -139,7 +139,7 @@ TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
 }
 
-TEST_F(StereoGridStageTest, ACameraThatLooksStraightDownIsRefused) {
+TEST_F(StereoGridStageTest, ACameraFacingStraightDownIsRefused) {
   mountSensors();
   tf2_msgs::TFMessage message;
   message.transforms = {samples::transform("base_link", "camera", 2.0)};
@@ -151,7 +151,7 @@ TEST_F(StereoGridStageTest, ACameraThatLooksStraightDownIsRefused) {
   EXPECT_EQ(drops("bad_camera"), 1U);
 }
 
-TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneServed) {
+TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneProcessed) {
   mountSensors();
   const auto dropped = [this](const std::function<void(sensor_msgs::PointCloud2&)>& spoil,
                               const std::string& reason) {
@@ -174,7 +174,7 @@ TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneServed) {
   expectWall(takeAt(kStart + 0.1));
 }
 
-TEST_F(StereoGridStageTest, AJumpBackStartsAnew) {
+TEST_F(StereoGridStageTest, AJumpBackStartsOver) {
   mountSensors();
   EXPECT_TRUE(takeAt(200.0));
   expectWall(takeAt(100.0));
@@ -187,7 +187,7 @@ TEST_F(StereoGridStageTest, BadOptionsAreRefused) {
   EXPECT_THROW(StereoGridStage(options_, buffer_, monitor_), OptionError);
 }
 
-/// A depth image's: 120 x 160 points, holes as NaN; wallOnARoad() leaves them out.
+/// A depth image's cloud: 120 x 160 points, holes as NaN; wallOnARoad() leaves them out.
 sensor_msgs::PointCloud2 organizedCloud() {
   const auto nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Eigen::Vector3f> points = wallOnARoad();
@@ -226,7 +226,7 @@ TEST_F(StereoGridStageTest, OrganizedCloudsOfDepthCamerasMakeGrids) {
   EXPECT_EQ(drops("bad_camera_info"), 0U);
 }
 
-TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNoneOfAPair) {
+TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNotThatOfAPair) {
   stage_.takeCameraInfo(depthImageInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
 }

@@ -34,7 +34,7 @@ class StereoObjectsStageTest : public testing::Test {
     return message;
   }
 
-  /// Of the car, which goes ahead.
+  /// Of the car, which drives ahead.
   static std::vector<PointVelocity> velocities() {
     PointVelocity point;
     point.position = {2.0 + samples::kWallAhead, 0.0, 1.0};
@@ -84,7 +84,7 @@ TEST_F(StereoObjectsStageTest, ACloudMakesObjectsOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoObjectsStageTest, DiagnosticsReportWhatWasSeen) {
+TEST_F(StereoObjectsStageTest, DiagnosticsReportTheCloudsContent) {
   const sensor_msgs::PointCloud2 cloud = carAt(kStart);
   stage_.takeCloud(cloud);
   const auto& figures = monitor_.figures();
@@ -94,7 +94,7 @@ TEST_F(StereoObjectsStageTest, DiagnosticsReportWhatWasSeen) {
   EXPECT_NEAR(figures.at("road's height [m]"), 0.0, 0.1);
 }
 
-TEST_F(StereoObjectsStageTest, WithoutCameraInfoTheOptionsServe) {
+TEST_F(StereoObjectsStageTest, WithoutCameraInfoTheOptionsAreUsed) {
   StereoObjectsStage ignorant(options_, buffer_, monitor_);
   EXPECT_FALSE(ignorant.takeCloud(carAt(kStart)));
   EXPECT_EQ(drops("missing_camera_info"), 1U);
@@ -112,7 +112,7 @@ TEST_F(StereoObjectsStageTest, ACameraWithoutAMountIsRefused) {
   EXPECT_EQ(drops("missing_transform"), 1U);
 }
 
-TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
+TEST_F(StereoObjectsStageTest, ACameraFacingStraightDownIsRefused) {
   tf2_msgs::TFMessage message;
   message.transforms = {samples::cameraMount()};
   message.transforms[0].transform.rotation.x = 1.0;  // z down
@@ -124,7 +124,7 @@ TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
   EXPECT_EQ(drops("bad_camera"), 1U);
 }
 
-/// Over a road with scattered points, which are not of anything.
+/// Over a road with scattered points that belong to no object.
 TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
   std::mt19937 random(1);
   const auto between = [&](double min, double max) {
@@ -150,7 +150,7 @@ TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
   EXPECT_GT(objects, 100U);
 }
 
-TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextServed) {
+TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextProcessed) {
   stage_.takeCameraInfo(sensor_msgs::CameraInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
   EXPECT_FALSE(stage_.takeCloud(samples::cloud({})));
@@ -163,7 +163,7 @@ TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextServed) {
   expectCar(stage_.takeCloud(carAt(kStart + 0.1)));
 }
 
-TEST_F(StereoObjectsStageTest, AJumpBackStartsAnew) {
+TEST_F(StereoObjectsStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(stage_.takeCloud(carAt(200.0)));
   expectCar(stage_.takeCloud(carAt(100.0)));
   EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
@@ -183,7 +183,7 @@ TEST_F(StereoObjectsStageTest, PointsWithVelocityGiveObjectsTheirsInEitherOrder)
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoObjectsStageTest, ACloudWhoseVelocitiesDoNotComeGoesOnWithout) {
+TEST_F(StereoObjectsStageTest, ACloudWithoutVelocitiesIsProcessedWithoutThem) {
   stage_.takeVelocities(velocitiesAt(kStart));
   expectCar(stage_.takeCloud(carAt(kStart)));
   EXPECT_FALSE(stage_.takeCloud(carAt(kStart + 0.1)));

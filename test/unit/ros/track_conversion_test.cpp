@@ -17,7 +17,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
 
-/// Numbers that single precision holds.
+/// Numbers that are exact in single precision.
 Track sampleTrack() {
   Track track;
   track.id = 5;
@@ -85,7 +85,7 @@ TEST(TrackConversion, FillsEveryField) {
   EXPECT_EQ(message.views[0].reach, (std::vector<float>{10.5F, 0.0F, 80.0F}));
 }
 
-TEST(TrackConversion, ThereAndBack) {
+TEST(TrackConversion, RoundTrip) {
   const Track track = sampleTrack();
   const TrackList back = fromMessage(toMessage(sampleList(), "map"));
   EXPECT_EQ(back.stamp, kStamp);
@@ -119,7 +119,7 @@ TEST(TrackConversion, ThereAndBack) {
   EXPECT_EQ(got.sources[1].id, 9U);
 }
 
-TEST(TrackConversion, ViewsThereAndBack) {
+TEST(TrackConversion, RoundTripOfViews) {
   const TrackList list = sampleList();
   const TrackList back = fromMessage(toMessage(list, "map"));
   ASSERT_EQ(back.views.size(), 1U);
@@ -136,7 +136,7 @@ TEST(TrackConversion, ViewsThereAndBack) {
   EXPECT_EQ(got.reach, view.reach);
 }
 
-TEST(TrackConversion, BackAndThereItIsTheSameMessage) {
+TEST(TrackConversion, ReverseRoundTripIsTheSameMessage) {
   const TrackArray message = toMessage(sampleList(), "map");
   TrackArray again = toMessage(fromMessage(message), "map");
   EXPECT_NEAR(again.tracks.at(0).pose.orientation.z, message.tracks[0].pose.orientation.z, 1e-15);
@@ -145,7 +145,7 @@ TEST(TrackConversion, BackAndThereItIsTheSameMessage) {
   EXPECT_EQ(again.views, message.views);
 }
 
-TEST(TrackConversion, BadTracksAreThereAndNotValid) {
+TEST(TrackConversion, BadTracksAreKeptAsInvalid) {
   TrackList valid = sampleList();
   valid.tracks[0].covariance(1, 0) = valid.tracks[0].covariance(0, 1);
   const TrackArray good = toMessage(valid, "map");
@@ -172,7 +172,7 @@ TEST(TrackConversion, BadTracksAreThereAndNotValid) {
   }
 }
 
-TEST(TrackConversion, ViewsThatAreNoneAreLeftOut) {
+TEST(TrackConversion, InvalidViewsAreLeftOut) {
   TrackArray message = toMessage(sampleList(), "map");
   const ViewFanMessage good = message.views.at(0);
   message.views.assign(5, good);

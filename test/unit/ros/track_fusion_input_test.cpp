@@ -27,7 +27,7 @@ TEST_F(TrackFusionStageTest, BadTracksAreLeftOutAndTheirSourceIsNamed) {
       [](TrackMessage& track) { track.class_probabilities[0] = 2.0F; },
       [](TrackMessage& track) { track.existence_probability = -0.5F; },
       [](TrackMessage& track) { track.id = 0; },
-      [](TrackMessage& track) { track.id = kStereosId; },  // it is there twice
+      [](TrackMessage& track) { track.id = kStereosId; },  // a duplicate
   };
   for (std::size_t i = 0; i < spoils.size(); ++i) {
     const double t = 100.0 + 0.1 * static_cast<double>(i);
@@ -73,7 +73,7 @@ TEST_F(TrackFusionStageTest, TracksWithoutHistoryAreFusedToo) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
-TEST_F(TrackFusionStageTest, BadViewsAreLeftOutAndSaid) {
+TEST_F(TrackFusionStageTest, BadViewsAreLeftOutAndReported) {
   ViewFan good;
   good.beam_spacing = 0.1;
   good.sure_range = 20.0;
@@ -93,7 +93,7 @@ TEST_F(TrackFusionStageTest, BadViewsAreLeftOutAndSaid) {
   EXPECT_EQ(fused->views.size(), 1U);
 }
 
-TEST_F(TrackFusionStageTest, OfAThousandTracksTheSurestAreTaken) {
+TEST_F(TrackFusionStageTest, OfAThousandTracksTheMostCertainAreUsed) {
   stage_.change({{"scheme", std::string("union")}});
   std::vector<Track> many;
   for (std::uint32_t i = 0; i < 1000; ++i) {
@@ -114,7 +114,7 @@ TEST_F(TrackFusionStageTest, OfAThousandTracksTheSurestAreTaken) {
   EXPECT_EQ(monitor_.warningCount(), 1U) << "said once for a list";
 }
 
-TEST(TrackFusionStageOptionsTest, DelaysToHalfASecondAreServedByDefault) {
+TEST(TrackFusionStageOptionsTest, DelaysUpToHalfASecondAreAcceptedByDefault) {
   const TrackFusionStageOptions options;
   EXPECT_GE(options.matcher.tolerance, 0.5 + options.matcher.max_wait);
   EXPECT_GT(options.matcher.silent_after, options.matcher.tolerance);

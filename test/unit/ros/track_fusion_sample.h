@@ -16,10 +16,10 @@ namespace datmo {
 
 inline constexpr double kTrackSpeed = 10.0;  // m/s, along x
 
-/// Where the car of these tests is at a time (s), m.
+/// Returns the position of the car of these tests at a time (s), m.
 inline double carAt(double seconds) { return kTrackSpeed * (seconds - 100.0); }
 
-/// A car that drives along x, as a tracker of this sensor knows it; `left`: m.
+/// A car that drives along x, as a tracker of this sensor reports it; `left`: m.
 inline Track carTrack(const std::string& sensor, std::uint32_t id, double seconds,
                       double left = 0.0) {
   Track track;
@@ -42,16 +42,16 @@ inline Track carTrack(const std::string& sensor, std::uint32_t id, double second
   return track;
 }
 
-/// A sensor's list on its way.
+/// A sensor's list in transit.
 struct Sent {
   std::string source;
   double stamp = 0.0;  ///< s
 };
 
-/// Lists in the order in which they arrive, by the time at which they do (s).
+/// Lists in the order of arrival, by arrival time (s).
 using Arrivals = std::multimap<double, Sent>;
 
-/// A sensor's lists from one time to before another (s), which arrive as much later.
+/// Returns a sensor's lists from one time to before another (s), which arrive this much later.
 inline Arrivals listsOf(const std::string& source, double from, double to, double period,
                         double delay = 0.0) {
   Arrivals lists;
@@ -79,7 +79,7 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
     return toMessage(TrackList{Stamp::fromSeconds(seconds), tracks, {}}, "map");
   }
 
-  /// The car as a source knows it.
+  /// Returns the car as a source tracks it.
   static TrackArray carOf(const std::string& source, double seconds) {
     return list(seconds, {carTrack(source, idOf(source), seconds)});
   }
@@ -98,7 +98,7 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
     return nextAt(seconds);
   }
 
-  /// All fused lists that these lead to, by the clock of their arrival.
+  /// Returns all fused lists that result from these, by the clock of their arrival.
   std::vector<TrackArrayPtr> play(Arrivals lists, const Arrivals& others = {}) {
     lists.insert(others.begin(), others.end());
     std::vector<TrackArrayPtr> fused;
@@ -118,7 +118,8 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
   }
 };
 
-/// The sources of the one track of a list, by name, and their ids; none if it has none or several.
+/// Returns the sources of the only track of a list, by name, and their ids; none if it has none or
+/// several.
 inline std::map<std::string, std::uint32_t> membersOf(const TrackArray& list) {
   std::map<std::string, std::uint32_t> members;
   if (list.tracks.size() == 1) {
@@ -129,7 +130,7 @@ inline std::map<std::string, std::uint32_t> membersOf(const TrackArray& list) {
   return members;
 }
 
-/// Of all tracks of these lists.
+/// Returns the ids of all tracks of these lists.
 inline std::set<std::uint32_t> idsOf(const std::vector<TrackArrayPtr>& lists) {
   std::set<std::uint32_t> ids;
   for (const TrackArrayPtr& list : lists) {

@@ -23,7 +23,7 @@ void expectCarThere(const TrackArray& list) {
   EXPECT_NEAR(list.tracks[0].pose.position.y, 0.0, 0.01);
 }
 
-TEST_F(TrackFusionStageTest, AListOfTheReferenceWaitsForNoOtherIfItIsTold) {
+TEST_F(TrackFusionStageTest, AListOfTheReferenceWaitsForNoOtherIfConfigured) {
   options_.matcher.max_wait = 0.0;
   TrackFusionStage impatient(options_, monitor_);
   const Stamp stamp = Stamp::fromSeconds(100.0);
@@ -47,7 +47,7 @@ TEST_F(TrackFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(TrackFusionStageTest, WhatBothFollowIsOneTrack) {
+TEST_F(TrackFusionStageTest, AnObjectTrackedByBothIsOneTrack) {
   const auto fused =
       play(listsOf("lidar", 100.0, 101.0, 0.1), listsOf("stereo", 100.0, 101.0, 0.1));
   ASSERT_EQ(fused.size(), 10U);
@@ -89,7 +89,7 @@ TEST_F(TrackFusionStageTest, ASlowerSourceIsPredicted) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(TrackFusionStageTest, OfAFasterSourceTheNearestListServes) {
+TEST_F(TrackFusionStageTest, OfAFasterSourceTheNearestListIsUsed) {
   const auto fused =
       play(listsOf("lidar", 100.0, 102.0, 0.2), listsOf("stereo", 100.0, 102.0, 0.05));
   EXPECT_EQ(fused.size(), 10U);
@@ -101,7 +101,7 @@ TEST_F(TrackFusionStageTest, OfAFasterSourceTheNearestListServes) {
 
 class TrackFusionDelayTest : public TrackFusionStageTest {
  protected:
-  /// Three seconds of both, of which each comes as much too late (s).
+  /// Three seconds of both, each of which arrives this much too late (s).
   void expectBridged(double lidars_delay, double stereos_delay) {
     const auto fused = play(listsOf("lidar", 100.0, 103.0, 0.1, lidars_delay),
                             listsOf("stereo", 100.0, 103.0, 0.1, stereos_delay));
@@ -135,7 +135,7 @@ TEST_F(TrackFusionStageTest, ADelayedSourceIsWaitedForNoLongerThanItMay) {
 
 class TrackFusionGapTest : public TrackFusionStageTest {
  protected:
-  /// Ten seconds of both, in the midst of which this one is silent for three.
+  /// Ten seconds of both, in the middle of which this one is silent for three.
   std::vector<TrackArrayPtr> playWithout(const std::string& silent) {
     Arrivals lists = listsOf(silent, 100.0, 103.05, 0.1);
     lists.merge(listsOf(silent, 106.0, 110.0, 0.1));
@@ -143,7 +143,7 @@ class TrackFusionGapTest : public TrackFusionStageTest {
   }
 };
 
-TEST_F(TrackFusionGapTest, ASourceThatStopsAndComesBackFindsItsFusedTrack) {
+TEST_F(TrackFusionGapTest, ASourceThatReturnsFindsItsFusedTrack) {
   stage_.change({{"scheme", std::string("union")}});
   const auto fused = playWithout("stereo");
   EXPECT_GE(fused.size(), 99U) << "the other one goes on";
@@ -161,7 +161,7 @@ TEST_F(TrackFusionGapTest, ASourceThatStopsAndComesBackFindsItsFusedTrack) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(TrackFusionGapTest, WithoutTheReferenceTheOthersGoOn) {
+TEST_F(TrackFusionGapTest, WithoutTheReferenceTheOthersContinue) {
   stage_.change({{"scheme", std::string("union")}});
   const auto fused = playWithout("lidar");
   EXPECT_GE(fused.size(), 99U);
@@ -181,7 +181,7 @@ TEST_F(TrackFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnce) {
   EXPECT_EQ(monitor_.warningCount(), 1U);
 }
 
-TEST_F(TrackFusionStageTest, AClockThatJumpsBackStartsAnewAndIdsGoOn) {
+TEST_F(TrackFusionStageTest, AClockJumpBackStartsOverAndIdsContinue) {
   const auto before =
       play(listsOf("lidar", 200.0, 201.0, 0.1), listsOf("stereo", 200.0, 201.0, 0.1));
   const auto after =

@@ -55,7 +55,7 @@ TEST(TrackMarkers, TrackHasBoxArrowAndLabel) {
   EXPECT_EQ(label->text, "#7 5.0 m/s");
 }
 
-TEST(TrackMarkers, WhatStandsHasNoArrowAndNoSpeedAndIsPale) {
+TEST(TrackMarkers, StationaryTracksHaveNoArrowAndNoSpeedAndArePale) {
   TrackArray tracks;
   tracks.tracks = {makeTrack(7), makeTrack(8)};
   tracks.tracks[1].moving = false;
@@ -76,8 +76,8 @@ TEST(TrackMarkers, ALabelIsClearOfItsBoxSeenFrom45DegreesAbove) {
   const MarkerArray markers = markersOf(tracks, options);
   const Marker* label = find(markers, "track labels", 7);
   ASSERT_NE(label, nullptr);
-  // Seen along the box, its far upper edge is 2 m away from the middle, and as high as a point 2 m
-  // above the roof's middle.
+  // Seen along the box, its far upper edge is 2 m away from the middle, and at the same height in
+  // the image as a point 2 m above the roof's middle.
   EXPECT_DOUBLE_EQ(label->pose.position.z - 0.5 * options.text_height, 2.5 + 2.0);
   EXPECT_DOUBLE_EQ(label->pose.position.y, 5.0);
 }
@@ -111,7 +111,7 @@ TEST(TrackMarkers, ClassesAreShapes) {
   EXPECT_LT(body(ObjectMessage::CLASS_CYCLIST).scale.y, body(ObjectMessage::CLASS_VEHICLE).scale.y);
 }
 
-TEST(TrackMarkers, PeopleHaveHeadsAndAreAsTallAsTheyAre) {
+TEST(TrackMarkers, PeopleHaveHeadsAndRealisticHeights) {
   for (const std::uint8_t person :
        {ObjectMessage::CLASS_PEDESTRIAN, ObjectMessage::CLASS_CYCLIST}) {
     const MarkerArray markers = tracksOfClass(person);
@@ -214,7 +214,7 @@ TEST(TrackMarkers, ABoxIsTheFainterTheLessLikelyItExists) {
   EXPECT_FLOAT_EQ(find(markers, "track labels", 7)->color.a, 1.0F);
 }
 
-TEST(StaleMarkers, WhatIsNotDrawnAgainIsDeletedOnce) {
+TEST(StaleMarkers, MarkersNotDrawnAgainAreDeletedOnce) {
   TrackArray both;
   both.tracks = {makeTrack(1), makeTrack(2)};
   TrackArray one;

@@ -60,7 +60,7 @@ TEST_F(TrackerStageTest, ObjectsWaitForTheirTransform) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
-TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
+TEST_F(TrackerStageTest, ThePoseOfTheirScanIsUsedBeforeTf) {
   poseAt(99.9);
   objectsAt(100.0);
   scanPoseAt(99.94);
@@ -71,7 +71,7 @@ TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
   EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
 }
 
-TEST_F(TrackerStageTest, ThePoseOfTheirScanServesOnlyInTheFrameOfTheTracks) {
+TEST_F(TrackerStageTest, ThePoseOfTheirScanIsUsedOnlyInTheFrameOfTheTracks) {
   poseAt(99.9);
   objectsAt(100.0);
   scanPoseAt(100.0, "world");
@@ -89,7 +89,7 @@ TEST_F(TrackerStageTest, AScanOfARestartedClockForgetsAllTracksOnce) {
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }
 
-TEST_F(TrackerStageTest, ThoseThatWaitedTooLongMakeRoomForTheNext) {
+TEST_F(TrackerStageTest, StaleOnesMakeRoomForTheNext) {
   objectsAt(100.0);
   objectsAt(100.1);
   scanPoseAt(100.1);
@@ -120,7 +120,7 @@ TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
   EXPECT_EQ(monitor_.drops().at("bad_pose"), 1U);
 }
 
-TEST_F(TrackerStageTest, AfterTheLongestWaitTheyAreDroppedAndTheNextServed) {
+TEST_F(TrackerStageTest, AfterTheLongestWaitTheyAreDroppedAndTheNextProcessed) {
   objectsAt(100.0);
   objectsAt(101.0);
   poseAt(100.9);
@@ -138,7 +138,7 @@ TEST_F(TrackerStageTest, TheQueueIsBounded) {
   EXPECT_EQ(monitor_.drops().at("queue_full"), 150U);
 }
 
-TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
+TEST_F(TrackerStageTest, AJumpBackForgetsWaitingObjects) {
   objectsAt(110.0);
   objectsAt(100.0);
   poseAt(100.0);
@@ -148,7 +148,7 @@ TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }
 
-TEST_F(TrackerStageTest, OfEarlyAndCompleteObjectsTracksComeOnce) {
+TEST_F(TrackerStageTest, TracksOfEarlyAndCompleteObjectsArePublishedOnce) {
   poseAt(99.9);
   poseAt(100.3);
   earlyObjectsAt(100.0);
@@ -169,7 +169,7 @@ TEST_F(TrackerStageTest, OfEarlyAndCompleteObjectsTracksComeOnce) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(TrackerStageTest, AJumpBackForgetsWhichTracksAreOut) {
+TEST_F(TrackerStageTest, AJumpBackForgetsWhichTracksArePublished) {
   poseAt(109.9);
   poseAt(110.1);
   earlyObjectsAt(110.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tracker makes of where several sensors looked: a car that drives ahead of the vehicle is
-// lost by its scanner, or by its camera too.
+// How the tracker uses the fields of view of several sensors: a car ahead of the vehicle is lost by
+// its scanner, or by its camera too.
 #include <cmath>
 
 #include "message_samples.h"
@@ -24,11 +24,11 @@ class TrackerViewsTest : public testing::Test {
   explicit TrackerViewsTest(const TrackerStageOptions& options = TrackerStageOptions())
       : stage_(options, buffer_, monitor_) {}
 
-  /// One scan ahead, with a wall near by or none, or with a field that is not known.
+  /// One scan ahead, with or without a wall nearby, or with an unknown field of view.
   enum class Scanner { kFree, kBlocked, kSilent };
   enum class Camera { kNone, kFree, kBlocked };
 
-  /// One step; returns how many tracks are published.
+  /// Runs one step; returns how many tracks are published.
   std::size_t step(Scanner scanner, Camera camera, const std::vector<std::string>& car_seen_by) {
     time_ += kPeriod;
     ObjectList list;
@@ -59,7 +59,7 @@ class TrackerViewsTest : public testing::Test {
     ASSERT_EQ(step(Scanner::kFree, Camera::kFree, seen_by), 1U);
   }
 
-  /// Steps until no track is published, of 40 at most.
+  /// Returns the number of steps until no track is published, at most 40.
   int lifeWithout(Scanner scanner, Camera camera) {
     int steps = 0;
     while (steps < 40 && step(scanner, camera, {}) > 0) {
@@ -79,7 +79,7 @@ class TrackerViewsTest : public testing::Test {
     return object;
   }
 
-  /// It stands so near that nothing behind it is seen.
+  /// It is so near that nothing behind it is visible.
   static Object van() {
     Object object;
     object.box = {Pose2(6.0, 0.0, 0.0), 2.0, 8.0};
@@ -120,17 +120,17 @@ TEST_F(TrackerViewsTest, HiddenFromTheScannerAndSeenByTheCameraItIsKept) {
   }
 }
 
-TEST_F(TrackerViewsTest, WhatBothWouldSeeAndNoneDoesEnds) {
+TEST_F(TrackerViewsTest, TracksMissedByBothEnd) {
   follow();
   EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
 }
 
-TEST_F(TrackerViewsTest, WhatTheCameraWouldSeeEndsThoughTheScannerIsBlocked) {
+TEST_F(TrackerViewsTest, TracksMissedByTheCameraEndThoughTheScannerIsBlocked) {
   follow();
   EXPECT_LE(lifeWithout(Scanner::kBlocked, Camera::kFree), 10);
 }
 
-TEST_F(TrackerViewsTest, HiddenFromBothItGoesOnUnseen) {
+TEST_F(TrackerViewsTest, HiddenFromBothItContinuesUnseen) {
   follow();
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kBlocked, Camera::kBlocked), silence, kPeriod);
@@ -148,7 +148,7 @@ TEST_F(TrackerViewsTest, AScanWithoutFieldIsNoEvidenceAgainstWhatTheCameraCannot
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kSilent, Camera::kBlocked), silence, kPeriod);
 }
 
-TEST_F(TrackerViewsTest, TheTracksHaveWhatTheirSensorsCouldSee) {
+TEST_F(TrackerViewsTest, TheTracksHaveTheirSensorsViews) {
   step(Scanner::kFree, Camera::kFree, {});
   EXPECT_EQ(views(), 2U);
   step(Scanner::kFree, Camera::kNone, {});
@@ -157,7 +157,7 @@ TEST_F(TrackerViewsTest, TheTracksHaveWhatTheirSensorsCouldSee) {
   EXPECT_EQ(views(), 0U);
 }
 
-/// It follows the camera's objects alone.
+/// It tracks only the camera's objects.
 class CameraTrackerTest : public TrackerViewsTest {
  protected:
   CameraTrackerTest() : TrackerViewsTest(options()) {}
@@ -170,13 +170,13 @@ class CameraTrackerTest : public TrackerViewsTest {
   }
 };
 
-TEST_F(CameraTrackerTest, HiddenFromTheCameraItGoesOnWhateverTheScannerSees) {
+TEST_F(CameraTrackerTest, HiddenFromTheCameraItContinuesWhateverTheScannerSees) {
   follow({"camera"});
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kFree, Camera::kBlocked), silence, kPeriod);
 }
 
-TEST_F(CameraTrackerTest, WhatTheCameraWouldSeeEnds) {
+TEST_F(CameraTrackerTest, TracksMissedByTheCameraEnd) {
   follow({"camera"});
   EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
 }

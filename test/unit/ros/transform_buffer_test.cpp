@@ -36,9 +36,9 @@ class MountedBufferTest : public testing::Test {
   TransformBuffer buffer_{1.0, shared(), monitor_};
 };
 
-TEST_F(MountedBufferTest, AMountServesWithoutTf) { EXPECT_EQ(laserX(), 1.5); }
+TEST_F(MountedBufferTest, AMountIsUsedWithoutTf) { EXPECT_EQ(laserX(), 1.5); }
 
-TEST_F(MountedBufferTest, TfHoldsWhereBothAreThere) {
+TEST_F(MountedBufferTest, TfHasPriorityOverAMount) {
   buffer_.addStatic(tf("base_link", 0.7));
   EXPECT_EQ(laserX(), 0.7);
   EXPECT_EQ(notices(), 1U);
@@ -46,7 +46,7 @@ TEST_F(MountedBufferTest, TfHoldsWhereBothAreThere) {
   EXPECT_EQ(notices(), 1U) << "said once";
 }
 
-TEST_F(MountedBufferTest, TfThatMovesHoldsToo) {
+TEST_F(MountedBufferTest, MovingTfHasPriorityToo) {
   buffer_.add(tf("base_link", 0.7, 100.0));
   EXPECT_EQ(laserX(), 0.7);
   EXPECT_EQ(notices(), 1U);
@@ -79,7 +79,7 @@ TEST_F(MountedBufferTest, AMountOutlivesAJumpOfTheClock) {
   EXPECT_EQ(samples::warnings(monitor_, "stray_stamp"), 0U);
 }
 
-TEST_F(MountedBufferTest, OneTransformFarOffIsOneTransform) {
+TEST_F(MountedBufferTest, ATransformFarOffCostsOneTransform) {
   tf2_msgs::TFMessage wheels;
   for (int message = 0; message < 20; ++message) {
     const double seconds = 100.0 + 0.1 * message;
@@ -93,7 +93,7 @@ TEST_F(MountedBufferTest, OneTransformFarOffIsOneTransform) {
   EXPECT_NEAR(planarPose(buffer_.core(), "odom", "base_link", ros::Time(101.9)).x(), 19.0, 1e-6);
 }
 
-/// What was published before it stays, and the stage is warned.
+/// Transforms published before remain, and the stage is warned.
 class BadTransformTest : public MountedBufferTest {
  protected:
   void expectRefused(const tf2_msgs::TFMessage& bad, const std::string& reason) {
@@ -119,7 +119,7 @@ TEST_F(BadTransformTest, AMountBeyondTheEarth) {
   expectRefused(tf("base_link", 1e9), "bad_transform");
 }
 
-TEST_F(BadTransformTest, ARotationThatIsNone) {
+TEST_F(BadTransformTest, AnInvalidRotation) {
   tf2_msgs::TFMessage bad = tf("base_link", 0.1);
   bad.transforms[0].transform.rotation.w = 0.5;
   expectRefused(bad, "bad_transform");
@@ -128,7 +128,7 @@ TEST_F(BadTransformTest, ARotationThatIsNone) {
   EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 3U);
 }
 
-TEST_F(BadTransformTest, FramesThatAreNone) {
+TEST_F(BadTransformTest, InvalidFrames) {
   tf2_msgs::TFMessage bad = tf("base_link", 0.1);
   bad.transforms[0].child_frame_id = "";
   expectRefused(bad, "bad_transform");

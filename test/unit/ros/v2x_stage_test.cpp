@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A receiver, poses, and another station: what passes, and what is left out and counted.
+// A receiver, poses, and another station: what is accepted, and what is dropped and counted.
 #include "datmo_fusion/ros/stage/v2x_stage.h"
 
 #include <cmath>
@@ -31,7 +31,7 @@ class V2xStageTest : public testing::Test {
     transforms_.addStatic(mount);
   }
 
-  /// The vehicle at a step, and the receiver's position at it, if it has one.
+  /// Sends the vehicle's pose at a step, and the receiver's fix at it, if it has one.
   void drive(int from, int to, bool has_fix = true) {
     for (int step = from; step < to; ++step) {
       const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
@@ -81,7 +81,7 @@ class V2xStageTest : public testing::Test {
   V2xStage stage_{V2xStageOptions(), monitor_};
 };
 
-TEST_F(V2xStageTest, WithoutReceiverNothingPassesAndThatIsReported) {
+TEST_F(V2xStageTest, WithoutReceiverNothingIsPublishedAndThatIsReported) {
   EXPECT_EQ(stage_.takeStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
   EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
@@ -98,7 +98,7 @@ TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {
   EXPECT_NEAR(tracks->tracks[0].pose.position.y, there.y(), 0.1);
 }
 
-TEST_F(V2xStageTest, WhatTheMapDriftsWithoutReceiverIsInTheCovariance) {
+TEST_F(V2xStageTest, TheMapsDriftWithoutReceiverIsInTheCovariance) {
   drive(0, kSteps);
   const int end = kSteps + 40;  // 4 s
   const auto variance = [&](int step) {
@@ -116,7 +116,7 @@ TEST_F(V2xStageTest, WhatTheMapDriftsWithoutReceiverIsInTheCovariance) {
   EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
 }
 
-TEST_F(V2xStageTest, ListsThatDoNotServeAreDroppedByReason) {
+TEST_F(V2xStageTest, UnusableListsAreDroppedByReason) {
   drive(0, kSteps);
   const StationTracksMessage list = listAt(kSteps, {120.0, 5.0});
   ASSERT_TRUE(stage_.takeStation(list, stampAt(kSteps)));
@@ -132,7 +132,7 @@ TEST_F(V2xStageTest, ListsThatDoNotServeAreDroppedByReason) {
   EXPECT_EQ(samples::drops(monitor_, "own_number"), 1U);
 }
 
-TEST_F(V2xStageTest, StationsThatSpeakInTurnMakeOneListWithStampsThatRise) {
+TEST_F(V2xStageTest, AlternatingStationsMakeOneListWithIncreasingStamps) {
   drive(0, kSteps);
   ASSERT_TRUE(stage_.takeStation(listAt(kSteps, {120.0, 5.0}), stampAt(kSteps)));
   StationTracksMessage late = listAt(kSteps - 1, {140.0, -5.0});
@@ -145,7 +145,7 @@ TEST_F(V2xStageTest, StationsThatSpeakInTurnMakeOneListWithStampsThatRise) {
   EXPECT_EQ(both->tracks.size(), 2U);
 }
 
-TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
+TEST_F(V2xStageTest, OursAreSentWithTheVehicleItself) {
   drive(0, kSteps);
   TrackArray tracks;
   tracks.header.frame_id = "map";
@@ -156,13 +156,13 @@ TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
   EXPECT_EQ(ours->tracks[0].id, 0U);
   EXPECT_NEAR(std::hypot(ours->tracks[0].velocity_east, ours->tracks[0].velocity_north), kSpeed,
               0.1);
-  // A station that hears it has it where the vehicle is: middleAhead of base_link.
+  // A station that receives it locates the vehicle correctly: middleAhead of base_link.
   const StationTrackList received = fromMessage(*ours, plane_);
   const Point2 middle(kSpeed * kPeriod * (kSteps - 1) + HostVehicleOptions().middleAhead(), 0.0);
   EXPECT_LT((received.tracks[0].position - kMap * middle).norm(), 0.1);
 }
 
-TEST_F(V2xStageTest, OfOursThoseThatAreNoneDoNotGoOut) {
+TEST_F(V2xStageTest, InvalidTracksOfOursAreNotSent) {
   drive(0, kSteps);
   Track track;
   track.id = 4;
@@ -195,7 +195,7 @@ TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
 }
 
-TEST(NavSatFixCovariance, ThatNoReceiverCanHaveIsNotTaken) {
+TEST(NavSatFixCovariance, OfAnImpossibleFixIsNotAccepted) {
   sensor_msgs::NavSatFix fix;
   fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
   const Eigen::Matrix2d assumed = 9.0 * Eigen::Matrix2d::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes between the topics and the socket of `v2x_wire`: which wire it is for, and what is
-// said.
+// Traffic between the topics and the socket of `v2x_wire`: which wire it is for, and what is
+// reported.
 #include "datmo_fusion/ros/v2x_wire.h"
 
 #include "../fusion/wire_messages.h"
@@ -31,7 +31,7 @@ TEST_F(V2xWireTest, DatagramsGoToTheWireOfTheirKind) {
   const StationTracksMessagePtr tracks = wire_.received(samples::wireCpm().bytes(), kNoon);
   ASSERT_TRUE(tracks);
   EXPECT_EQ(tracks->tracks.size(), 1U);
-  // Of a message of lights all but its header is missing.
+  // Of a traffic light message all but the header is missing.
   std::string lights = samples::wireCpm().bytes().substr(0, 8);
   lights[1] = 4;
   ASSERT_TRUE(SignalWire::takes(lights));

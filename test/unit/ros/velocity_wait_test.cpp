@@ -25,7 +25,7 @@ class VelocityWaitTest : public testing::Test {
     wait_.addObjects(std::move(list), 0.01);
   }
 
-  /// Somebody publishes points, and they are of some use.
+  /// Points are published, and they are of some use.
   void begin() {
     addPoints(kFirst);
     addObjects(kFirst);
@@ -48,7 +48,7 @@ class VelocityWaitTest : public testing::Test {
   VelocityWait wait_{options_, monitor_};
 };
 
-TEST_F(VelocityWaitTest, WhereNobodyPublishesPointsThereIsNoWait) {
+TEST_F(VelocityWaitTest, WithoutAPublisherOfPointsThereIsNoWait) {
   for (int i = 0; i < 3; ++i) {
     addObjects(kFirst + i * kPeriod);
     expect(wait_.next(), kFirst + i * kPeriod, false);
@@ -101,7 +101,7 @@ TEST_F(VelocityWaitTest, TheWaitEndsByTheStampsOfLaterClouds) {
   expect(wait_.next(), kFirst + 2.0 * kPeriod, true);
 }
 
-TEST_F(VelocityWaitTest, PointsOfALaterStampTellThatThereAreNone) {
+TEST_F(VelocityWaitTest, PointsOfALaterStampShowThatThereAreNone) {
   begin();
   addObjects(kFirst + kPeriod);
   addPoints(kFirst + 2.0 * kPeriod);
@@ -111,14 +111,14 @@ TEST_F(VelocityWaitTest, PointsOfALaterStampTellThatThereAreNone) {
   expect(wait_.next(), kFirst + 2.0 * kPeriod, true);
 }
 
-TEST_F(VelocityWaitTest, WhoFallsSilentIsNotWaitedFor) {
+TEST_F(VelocityWaitTest, ASilentPublisherIsNotWaitedFor) {
   begin();
   addObjects(kFirst + 1.1 * options_.silent_after);
   expect(wait_.next(), kFirst + 1.1 * options_.silent_after, false);
   EXPECT_EQ(warnings(), 0U);
 }
 
-TEST_F(VelocityWaitTest, TheFirstPointsMayBeLateForNobodyKnewOfThem) {
+TEST_F(VelocityWaitTest, TheFirstPointsMayBeLate) {
   addObjects(kFirst);
   expect(wait_.next(), kFirst, false);
   addPoints(kFirst);

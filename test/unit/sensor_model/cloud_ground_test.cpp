@@ -48,7 +48,7 @@ TEST(CloudGroundTest, ATiltedMountDoesNotTiltTheRoad) {
   EXPECT_NEAR(ground.plane.slope_x, 0.0, 1e-4);
 }
 
-TEST(CloudGroundTest, WhatIsTooSteepIsNoRoad) {
+TEST(CloudGroundTest, SteepSurfacesAreNoRoad) {
   LidarCloudMaker maker;
   maker.addGround(0.0, 0.3, 0.0);
   const CloudGround ground = groundOf(maker);
@@ -57,7 +57,7 @@ TEST(CloudGroundTest, WhatIsTooSteepIsNoRoad) {
   EXPECT_EQ(ground.plane.slope_x, 0.0);
 }
 
-TEST(CloudGroundTest, WhatIsTooHighIsNoRoad) {
+TEST(CloudGroundTest, HighSurfacesAreNoRoad) {
   LidarCloudMaker maker;
   maker.addGround(0.8);
   EXPECT_FALSE(groundOf(maker).seen);
@@ -69,7 +69,7 @@ TEST(CloudGroundTest, TooFewPointsAreNoRoad) {
   EXPECT_FALSE(groundOf(maker).seen);
 }
 
-TEST(CloudGroundTest, OnDemandTheRoadIsNotLookedFor) {
+TEST(CloudGroundTest, RoadEstimationCanBeDisabled) {
   LidarCloudMaker maker;
   maker.addGround(0.1);
   CloudGroundOptions options;

@@ -18,7 +18,7 @@ CloudToScanOptions oneDegree() {
   return options;
 }
 
-/// The range of the beam that looks to `bearing` (rad).
+/// The range of the beam that faces `bearing` (rad).
 float rangeAt(const PlanarScan& scan, double bearing) {
   const auto count = static_cast<double>(scan.ranges.size());
   double steps = std::round((bearing - scan.first_bearing) / scan.beam_spacing);
@@ -26,7 +26,7 @@ float rangeAt(const PlanarScan& scan, double bearing) {
   return scan.ranges.at(static_cast<std::size_t>(steps));
 }
 
-TEST(CloudToScanTest, AWallOnAFlatRoadIsWhereItIs) {
+TEST(CloudToScanTest, AWallOnAFlatRoadIsAtItsDistance) {
   LidarCloudMaker maker;
   maker.addGround();
   maker.addWall(10.5);
@@ -69,7 +69,7 @@ TEST(CloudToScanTest, ATiltedLidarSeesTheSame) {
   EXPECT_NEAR(rangeAt(scan, 0.0), 10.0F, 0.01F);
 }
 
-TEST(CloudToScanTest, WithoutRoadTheMountsPlaneServes) {
+TEST(CloudToScanTest, WithoutRoadTheMountsPlaneIsUsed) {
   LidarCloudMaker maker;
   maker.addWall(10.5);
   const PlanarScan scan = CloudToScan(oneDegree()).scan(maker.cloud);
@@ -90,7 +90,7 @@ TEST(CloudToScanTest, TheOwnVehicleIsLeftOut) {
   EXPECT_EQ(scan.own_points, 1U);
 }
 
-TEST(CloudToScanTest, WhereTheLidarSeesNothingTheBeamIsBlind) {
+TEST(CloudToScanTest, BeamsWithoutPointsAreBlind) {
   LidarCloudMaker maker;
   maker.addWall(5.5);  // 11.3 degrees to either side of the lidar
   CloudToScanOptions options = oneDegree();
@@ -129,7 +129,7 @@ TEST(CloudToScanTest, APartOfATurnIsSymmetricAboutAhead) {
   EXPECT_NEAR(scan.ranges[80], 10.0F, 0.01F);
 }
 
-TEST(CloudToScanTest, ThinBeamsMissWhatIsBetweenThem) {
+TEST(CloudToScanTest, ThinBeamsMissPointsBetweenThem) {
   LidarCloudMaker maker;
   maker.addGround();
   maker.add(0.5 + 10.0 * std::cos(degrees(0.4)), 10.0 * std::sin(degrees(0.4)), 0.6);
@@ -152,7 +152,7 @@ TEST(CloudToScanTest, ATurnFromTheManualTimesTheBeams) {
   EXPECT_NEAR(scan.first_time, -80.0 * 0.1 / 360.0, 1e-9) << "ahead at the stamp";
 }
 
-TEST(CloudToScanTest, AWholeTurnBeginsWhereTheLidarsDoes) {
+TEST(CloudToScanTest, AWholeTurnBeginsAtTheLidarsSeam) {
   LidarCloudMaker maker;
   maker.addGround();
   CloudToScanOptions options = oneDegree();

@@ -11,10 +11,10 @@ namespace {
 
 using stereo_grids::at;
 
-/// m; the floor is seen from 2 m on.
+/// m; the floor is visible from 2 m on.
 constexpr double kLow = 0.6;
 
-/// A room as a depth camera sees it: 6 m far, of cells of 0.1 m.
+/// A room as a depth camera sees it: 6 m long, in cells of 0.1 m.
 StereoGridOptions inARoom() {
   StereoGridOptions options;
   options.window.length = 16.0;
@@ -50,7 +50,7 @@ TEST(DepthCameraGrid, DepthCamerasSeeAWallWhereItIs) {
     result.grid.forEach([&](CellIndex cell, Percent percent) {
       const Point2 position = result.grid.window().centerOf(cell);
       if (isOccupied(percent)) {
-        // A cell to either side: the wall is on the border of two, and its noise below a cell.
+        // One cell to either side: the wall is on the border of two, and its noise below a cell.
         ++(std::abs(position.x() - 5.0) < 0.2 && std::abs(position.y()) < 1.6 ? on_wall
                                                                               : elsewhere);
       }
@@ -62,7 +62,7 @@ TEST(DepthCameraGrid, DepthCamerasSeeAWallWhereItIs) {
   }
 }
 
-/// m ahead of the vehicle up to which cells are free before a wall at 5 m.
+/// Distance ahead of the vehicle, m, up to which cells are free in front of a wall at 5 m.
 double freeUpToAWall(const DepthNoise& noise) {
   MadeScene scene;
   scene.camera_height = kLow;

@@ -47,7 +47,7 @@ std::size_t count(const SensorGrid& grid, Percent percent) {
   return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
 }
 
-TEST(LidarGridTest, AScanWithoutRaysSaysNothing) {
+TEST(LidarGridTest, AScanWithoutRaysIsUninformative) {
   const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanOf({}));
   EXPECT_EQ(grid.stamp(), Stamp::fromSeconds(12.0));
   EXPECT_EQ(grid.window(), smallGrid().window.window());
@@ -76,10 +76,10 @@ TEST(LidarGridTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   EXPECT_EQ(nearer.at({3, 0}), kFree);
   EXPECT_EQ(nearer.at({4, 0}), kUnknownPercent);
   EXPECT_EQ(nearer.at({5, 0}), kOccupied);
-  // Nearer than that to the scanner it frees nothing at all, and without a return all of it.
+  // Nearer than that to the scanner it frees nothing, and without a return all of it.
   EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {1.6, 0.5})})), kFree), 0U);
   EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5}, false)})), kFree), 6U);
-  // Of an end beyond the window only what of the margin lies within it counts.
+  // Of an end beyond the window only the part of the margin inside it counts.
   EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {10.3, 0.5})})), kFree), 9U);
   EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {30.5, 0.5})})), kFree), 10U);
 }
@@ -127,7 +127,7 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   EXPECT_EQ(grid.at({2, 1}), kUnknownPercent);  // the wedge is narrow there
 }
 
-TEST(LidarGridTest, BesideItsAxisABeamIsFreeAsFarAsAFlatSurfaceLetsIt) {
+TEST(LidarGridTest, BesideItsAxisABeamIsFreeUpToAFlatSurface) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
   options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
@@ -138,7 +138,7 @@ TEST(LidarGridTest, BesideItsAxisABeamIsFreeAsFarAsAFlatSurfaceLetsIt) {
   EXPECT_EQ(hit.at({8, 1}), kOccupied);
 }
 
-/// So that nothing that is free touches what is unknown through the end of a beam.
+/// Free cells must not touch unknown ones through the end of a beam.
 TEST(LidarGridTest, TheEndOfAWideBeamHasNoGaps) {
   LidarGridOptions options = smallGrid();
   options.window.cell_size = 0.1;
@@ -194,14 +194,14 @@ TEST(LidarGridTest, AnEndOutsideOfTheWindowLeavesItFreeUpToItsBorder) {
   }
 }
 
-TEST(LidarGridTest, AScannerOutsideOfTheWindowIsServed) {
+TEST(LidarGridTest, AScannerOutsideTheWindowIsSupported) {
   const SensorGrid grid =
       LidarGridModel(smallGrid()).grid(scanOf({rayTo({-20.5, 0.5}, {5.5, 0.5})}));
   EXPECT_EQ(count(grid, kFree), 15U);
   EXPECT_EQ(grid.at({5, 0}), kOccupied);
 }
 
-/// Eq. 3.2.1 cell by cell: the nearest beam in bearing tells.
+/// Eq. 3.2.1 cell by cell: the beam nearest in bearing decides.
 TEST(LidarGridTest, AgreesWithTheThesisAwayFromTheEndsOfTheBeams) {
   LidarGridOptions options;
   options.window.length = 60.0;

@@ -40,7 +40,7 @@ TEST(RoadPlaneTest, APitchIsFoundInBothDirectionsAndWithNoise) {
   }
 }
 
-TEST(RoadPlaneTest, WhatStandsBesideTheRoadDoesNotTiltIt) {
+TEST(RoadPlaneTest, ObjectsBesideTheRoadDoNotTiltIt) {
   MadeScene scene;
   scene.boxes = {{{6.0, 2.5, 0.0}, {30.0, 4.5, 1.5}}, {{10.0, -6.0, 0.0}, {14.0, -3.0, 0.15}}};
   const auto plane = planeOf(scene);
@@ -66,8 +66,8 @@ TEST(RoadPlaneTest, AnIncredibleSlopeIsNoRoad) {
   EXPECT_FALSE(RoadPlaneEstimator(options).update(made.cloud()));
 }
 
-TEST(RoadPlaneTest, TheLastPlaneIsWhatTheNextOneStartsFrom) {
-  // 60 mm a meter in one step is too far from flat; in two it is not.
+TEST(RoadPlaneTest, TheLastPlaneInitializesTheNextOne) {
+  // 60 mm per meter in one step is too far from flat; in two steps it is not.
   RoadPlaneEstimator estimator((RoadPlaneOptions()));
   for (const double pitch : {0.03, 0.06}) {
     MadeScene scene;

@@ -8,7 +8,7 @@
 namespace datmo::scan_merger_test {
 namespace {
 
-/// 62 beams, 0.10134 rad apart; beam 31 looks ahead, beam 0 behind.
+/// 62 beams, 0.10134 rad apart; beam 31 faces ahead, beam 0 backward.
 constexpr std::size_t kBeams = 62;
 constexpr std::size_t kAhead = 31;
 constexpr double kSpacing = kTurn / static_cast<double>(kBeams);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kDisparityAtMeter = 200.0;  // px m
 const Twist2 kTwist{8.0, 0.2};
 
-/// 1 = a z + b x of a wall on the ground, as seen from where a camera is thought to be.
+/// 1 = a z + b x of a wall on the ground, as seen from the assumed position of a camera.
 struct Wall {
   double a = 0.1;
   double b = 0.0;
@@ -24,7 +24,7 @@ struct Wall {
 
   double inverse() const { return a + b * tangent; }
 
-  /// Of a camera that is `back` (m) farther back and turned to the left by `turn` (rad).
+  /// Seen by a camera that is `back` (m) farther back and turned to the left by `turn` (rad).
   Wall seenFrom(double back, double turn) const {
     // z = z' cos + x' sin - back, x = x' cos - z' sin
     const double scale = 1.0 + a * back;
@@ -32,7 +32,7 @@ struct Wall {
             (a * std::sin(turn) + b * std::cos(turn)) / scale, tangent};
   }
 
-  /// Pushed away by this along its normal, m.
+  /// The wall moved away by this along its normal, m.
   Wall pushed(double by) const {
     const double scale = 1.0 + by * std::hypot(a, b);
     return {a / scale, b / scale, tangent};
@@ -68,7 +68,7 @@ TEST(StereoAlignment, RatesAreThoseOfAWallSeenFromElsewhere) {
   }
 }
 
-/// Walls ahead and beside, with what a camera with these errors measures of them.
+/// Walls ahead and to the side, as measured by a camera with these errors.
 class Street {
  public:
   Street(const AlignmentVector& errors, const StereoAlignmentOptions& options, std::uint64_t seed)
@@ -120,7 +120,7 @@ void run(StereoAlignmentFilter& filter, Street& street, int images) {
 }
 
 /// Chi squared of five terms in 40 runs: 5, between 4.1 and 6.1 with 95 %; drift widens it.
-TEST(StereoAlignment, ErrorsAreWhatTheCovarianceSays) {
+TEST(StereoAlignment, ErrorsAreConsistentWithTheCovariance) {
   const StereoAlignmentOptions options = independent();
   constexpr int kRuns = 40;
   double nees = 0.0;
@@ -153,7 +153,7 @@ TEST(StereoAlignment, AWrongMountIsNotTakenForABiasOfDisparities) {
   EXPECT_FALSE(filter.isFault(AlignmentTerm::kTime));
 }
 
-TEST(StereoAlignment, WhatIsOfAnotherSurfaceIsLeftOut) {
+TEST(StereoAlignment, PointsOfOtherSurfacesAreLeftOut) {
   const StereoAlignmentOptions options = independent();
   Street street(AlignmentVector::Zero(), options, 1);
   StereoAlignmentFilter filter(options);
@@ -168,7 +168,7 @@ TEST(StereoAlignment, WhatIsOfAnotherSurfaceIsLeftOut) {
   EXPECT_GT(filter.alignment().surfaces, 350U);
 }
 
-/// What stands before the vehicle is one surface, however often it is seen.
+/// An object in front of the vehicle is one surface, however often it is seen.
 TEST(StereoAlignment, ASurfaceThatStaysInViewCountsOnce) {
   StereoAlignmentOptions options;
   StereoAlignmentFilter filter(options);
@@ -186,7 +186,7 @@ TEST(StereoAlignment, ASurfaceThatStaysInViewCountsOnce) {
   EXPECT_LT(expected.alignment().sigma(AlignmentTerm::kDisparity), 0.28);
 }
 
-TEST(StereoAlignment, OptionsThatAreNoneAreRefused) {
+TEST(StereoAlignment, InvalidOptionsAreRefused) {
   StereoAlignmentOptions options;
   options.disparity.sigma = -1.0;
   EXPECT_THROW(StereoAlignmentFilter{options}, OptionError);

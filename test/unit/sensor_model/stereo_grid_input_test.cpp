@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stereo camera's grid says of clouds, cameras and options that are not as they should be.
+// What a stereo camera's grid reports about invalid clouds, cameras and options.
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace stereo_grids;
 
-TEST(StereoGridInputTest, AnEmptyCloudSaysNothing) {
+TEST(StereoGridInputTest, AnEmptyCloudIsUninformative) {
   MadeCloud made;
   const StereoGridResult result = StereoGridModel(StereoGridOptions()).grid(made.cloud());
   EXPECT_EQ(count(result.grid, kUnknownPercent), result.grid.cells().size());
@@ -20,7 +20,7 @@ TEST(StereoGridInputTest, AnEmptyCloudSaysNothing) {
   EXPECT_EQ(result.in_layer, 0U);
 }
 
-TEST(StereoGridInputTest, PointsThatAreNoneChangeNothing) {
+TEST(StereoGridInputTest, InvalidPointsChangeNothing) {
   MadeScene scene;
   scene.boxes = {wallAt(12.0, 5.0)};
   MadeCloud clean(scene);
@@ -47,7 +47,7 @@ TEST(StereoGridInputTest, PointsThatAreNoneChangeNothing) {
   EXPECT_TRUE(isOccupiedNear(gridOf(dirty), gridOf(dirty).window().cellAt({12.0, 0.0})));
 }
 
-TEST(StereoGridInputTest, FewLinesOfSightSayNothing) {
+TEST(StereoGridInputTest, FewLinesOfSightAreUninformative) {
   MadeScene scene;
   scene.step = 40;
   const SensorGrid grid = gridOf(scene, onFlatRoad());

@@ -15,7 +15,7 @@ namespace {
 
 using namespace stereo_grids;
 
-/// Share of the occupied cells of one grid that another one has within a cell.
+/// Share of the occupied cells of one grid that another one has within one cell.
 double shareFoundIn(const SensorGrid& other, const SensorGrid& grid) {
   int occupied = 0;
   int found = 0;
@@ -55,7 +55,7 @@ TEST(StereoGridTest, TheOpenRoadIsFreeInViewAndTheRestIsUnknown) {
   }
   EXPECT_EQ(at(grid, 37.0, 0.0), kUnknownPercent);
   EXPECT_EQ(at(grid, -10.0, 0.0), kUnknownPercent);
-  // The image begins 4 m ahead; lines of sight are too high before.
+  // The image begins 4 m ahead; lines of sight are too high before that.
   EXPECT_EQ(at(grid, 2.0, 0.0), kUnknownPercent);
 }
 
@@ -104,7 +104,7 @@ TEST(StereoGridTest, ALongHoleInTheTextureOfTheRoadIsNotFree) {
   EXPECT_EQ(at(grid, 21.0, 0.0), kFree);
 }
 
-TEST(StereoGridTest, AThinPoleIsFoundAndWhatIsBesideItStaysFree) {
+TEST(StereoGridTest, AThinPoleIsFoundAndCellsBesideItStayFree) {
   MadeScene scene;
   scene.boxes = {{{15.0, 1.0, 0.0}, {15.1, 1.1, 2.0}}};
   scene.disparity_noise = 0.25;
@@ -115,7 +115,7 @@ TEST(StereoGridTest, AThinPoleIsFoundAndWhatIsBesideItStaysFree) {
   EXPECT_EQ(at(grid, 15.0, 0.0), kFree);
 }
 
-TEST(StereoGridTest, WhatIsLowerThanTheScannerIsNoObstacle) {
+TEST(StereoGridTest, ObjectsBelowTheScannerAreNoObstacles) {
   MadeScene scene;
   scene.boxes = {{{10.0, -3.0, 0.0}, {14.0, 3.0, 0.15}}};
   scene.disparity_noise = 0.25;
@@ -124,7 +124,7 @@ TEST(StereoGridTest, WhatIsLowerThanTheScannerIsNoObstacle) {
   EXPECT_EQ(at(grid, 12.0, 0.0), kFree);
 }
 
-TEST(StereoGridTest, WhatHangsOverTheLayerIsNoObstacle) {
+TEST(StereoGridTest, OverhangingObjectsAreNoObstacles) {
   MadeScene scene;
   scene.boxes = {{{12.0, -3.0, 1.5}, {12.5, 3.0, 3.0}}};
   EXPECT_EQ(count(gridOf(scene), kOccupied), 0U);
@@ -159,7 +159,7 @@ TEST(StereoGridTest, TheLastRoadIsKeptUntilReset) {
   EXPECT_EQ(model.grid(nothing.cloud()).road.slope_x, 0.0);
 }
 
-TEST(StereoGridTest, ACameraMayLookAside) {
+TEST(StereoGridTest, ACameraMayFaceSideways) {
   MadeScene scene;
   scene.camera_yaw = 1.2;
   scene.boxes = {{{2.0, 9.0, 0.0}, {6.0, 9.5, 2.0}}};

@@ -9,7 +9,7 @@
 #include "datmo_fusion/grid/neighborhood.h"
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
-/// Grids of made clouds, and what is in them.
+/// Grids of simulated clouds, and their contents.
 namespace datmo::stereo_grids {
 
 inline constexpr Percent kOccupied = 80;
@@ -39,7 +39,7 @@ inline std::size_t count(const SensorGrid& grid, Percent percent) {
   return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
 }
 
-/// Whether a cell or one of its eight neighbors is occupied.
+/// Returns whether a cell or one of its eight neighbors is occupied.
 inline bool isOccupiedNear(const SensorGrid& grid, CellIndex cell) {
   return anyNeighbor(cell, 1, [&grid](CellIndex one) { return isOccupied(grid.atOrUnknown(one)); });
 }

@@ -12,7 +12,7 @@
 namespace datmo::surface_pairs_test {
 namespace {
 
-constexpr double kWall = 12.0;  // m, of what stands ahead
+constexpr double kWall = 12.0;  // m, of the object ahead
 
 /// The end of a wall across the road.
 MadeScene wallAhead(double from_y = -3.0, double to_y = 3.0) {
@@ -21,7 +21,7 @@ MadeScene wallAhead(double from_y = -3.0, double to_y = 3.0) {
   return scene;
 }
 
-/// A scanner at the bumper that sees what is at `x`, between two y.
+/// A scanner at the bumper that sees an object at `x`, between two y.
 std::vector<Ray> scanOf(double x, double from_y, double to_y, double spacing = degrees(0.5)) {
   std::vector<Ray> rays;
   for (int beam = 0; beam < 360; ++beam) {
@@ -73,8 +73,8 @@ TEST(SurfacePairs, ColumnsOfTwoSurfacesMakeNone) {
   EXPECT_TRUE(pairsOf(scene, scanOf(kWall, -3.0, 3.0)).empty());
 }
 
-/// The scanner sees through a gap what is hidden from the camera, and the other way round.
-TEST(SurfacePairs, WhatOneOfThemDoesNotSeeMakesNone) {
+/// Through a gap the scanner sees what is hidden from the camera, and vice versa.
+TEST(SurfacePairs, SurfacesHiddenFromOneMakeNone) {
   EXPECT_TRUE(pairsOf(wallAhead(), scanOf(5.0, -1.5, 1.5)).empty()) << "nothing there for one";
   EXPECT_TRUE(pairsOf(wallAhead(1.0, 3.0), scanOf(kWall, -3.0, 0.5)).empty());
 }
@@ -97,7 +97,7 @@ TEST(SurfacePairs, FewBeamsAndSlantedSurfacesMakeNone) {
   EXPECT_TRUE(pairsOf(side, rays).empty()) << "60 degrees and more from the normal";
 }
 
-TEST(SurfacePairs, OptionsThatAreNoneAreRefused) {
+TEST(SurfacePairs, InvalidOptionsAreRefused) {
   SurfacePairOptions options;
   options.min_beams = 1;
   EXPECT_THROW(SurfacePairFinder{options}, OptionError);

@@ -25,14 +25,14 @@ struct Ring {
   std::vector<float> times;
 };
 
-TEST(SweepTimingTest, ATurnToTheLeftComesToEachBearingInTurn) {
+TEST(SweepTimingTest, ATurnToTheLeftReachesTheBearingsInOrder) {
   const SweepTiming sweep{degrees(90.0), false, 0.1, -0.02};
   EXPECT_NEAR(sweep.timeAt(degrees(90.0)), -0.02, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(180.0)), -0.02 + 0.025, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(0.0)), -0.02 + 0.075, 1e-9);
 }
 
-TEST(SweepTimingTest, OneToTheRightComesToThemTheOtherWayRound) {
+TEST(SweepTimingTest, ATurnToTheRightReachesThemInReverseOrder) {
   const SweepTiming sweep{degrees(90.0), true, 0.1, 0.0};
   EXPECT_NEAR(sweep.timeAt(degrees(0.0)), 0.025, 1e-9);
   EXPECT_NEAR(sweep.timeAt(degrees(180.0)), 0.075, 1e-9);
@@ -46,7 +46,7 @@ TEST(SweepTimingTest, TheTimesOfPointsGiveTheTurn) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->clockwise, clockwise);
     EXPECT_NEAR(found->duration, 0.1, 1e-4);
-    // A sector of a degree holds both ends of the turn.
+    // A sector of one degree holds both ends of the turn.
     EXPECT_NEAR(normalizeAngle(found->first_bearing - truth.first_bearing), 0.0, degrees(1.0));
     EXPECT_NEAR(found->timeAt(degrees(-10.0)), truth.timeAt(degrees(-10.0)), 1e-4);
   }
@@ -68,7 +68,7 @@ TEST(SweepTimingTest, TimesThatDoNotFollowTheBearingGiveNone) {
 
 TEST(SweepTimingTest, NoPointsGiveNone) { EXPECT_FALSE(sweepOf({}, {}, {0.0, 0.0})); }
 
-TEST(SweepTimingTest, TheManualsTurnIsThere) {
+TEST(SweepTimingTest, TheManualsTurnIsReproduced) {
   SweepOptions options;
   EXPECT_FALSE(options.timing());
   options.duration = 0.1;

@@ -43,7 +43,7 @@ TEST(ClassCameraTest, ReportsAsTheMatrixSays) {
   EXPECT_TRUE(reportsOf("pole").empty());
 }
 
-TEST(ClassCameraTest, AReportIsAsProbableAsItIsRight) {
+TEST(ClassCameraTest, TheProbabilityOfAReportIsItsShareOfRightOnes) {
   ClassCamera camera = cameraOf();
   const World world = worldWith("cyclist", {20.0, 0.0, 0.0});
   ObjectList list;
@@ -54,7 +54,7 @@ TEST(ClassCameraTest, AReportIsAsProbableAsItIsRight) {
   EXPECT_EQ(list.objects[0].sensors, std::vector<std::string>{"mono"});
 }
 
-TEST(ClassCameraTest, PositionsAreAsUnsureAsTheirCovarianceSays) {
+TEST(ClassCameraTest, PositionErrorsAreConsistentWithTheCovariance) {
   ClassCamera camera = cameraOf();
   const World world = worldWith("car", {20.0, 5.0, 0.0});
   double sum = 0.0;
@@ -69,7 +69,7 @@ TEST(ClassCameraTest, PositionsAreAsUnsureAsTheirCovarianceSays) {
   EXPECT_NEAR(sum / reports, 2.0, 0.15) << "NEES";
 }
 
-TEST(ClassCameraTest, WhatIsHiddenOrFarOrAsideIsNotReported) {
+TEST(ClassCameraTest, HiddenDistantOrLateralObjectsAreNotReported) {
   ClassCamera camera = cameraOf();
   World hidden = worldWith("car", {20.0, 0.0, 0.0});
   hidden.addSolid(wallAt(10.0));
@@ -82,7 +82,7 @@ TEST(ClassCameraTest, WhatIsHiddenOrFarOrAsideIsNotReported) {
   }
 }
 
-TEST(ClassCameraTest, AMatrixThatIsNoneIsRefused) {
+TEST(ClassCameraTest, AnInvalidMatrixIsRefused) {
   ClassCameraOptions options;
   options.confusion = {1.0, 0.0, 0.0};
   EXPECT_THROW(cameraOf(options), OptionError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes that stand in for the data sets of thesis tables 3.1 and 3.5 hold what those say.
+// The scenes that stand in for the data sets of thesis tables 3.1 and 3.5 contain what those list.
 #include <cmath>
 #include <set>
 #include <string>
@@ -19,7 +19,7 @@ struct DataSet {
   bool light = false;  ///< the vehicle waits at one
 };
 
-/// What the scanner and the vehicle come across.
+/// What the scanner and the vehicle encounter.
 struct Seen {
   std::set<std::uint32_t> moving;  ///< ids of objects in the scanner's sight while they move
   std::set<std::string> labels;    ///< of these
@@ -54,7 +54,7 @@ Seen lookRound(const Scene& scene) {
 
 class DataSetScene : public testing::TestWithParam<DataSet> {};
 
-TEST_P(DataSetScene, HoldsWhatTheThesisSays) {
+TEST_P(DataSetScene, HoldsTheThesissContents) {
   const DataSet& expected = GetParam();
   const Scene scene =
       readScene(DATMO_FUSION_SCENES "/data_set_" + std::to_string(expected.number) + ".yaml");

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInterval = 1.0 / 12.0;  // s
 constexpr std::uint64_t kSeed = 3;
 
-/// A street between walls, with something that moves in it.
+/// A street between walls, with a moving object.
 World streetWith(const std::string& kind, const Pose2& start, double speed, double ego_speed) {
   World world(RoadNetwork(), egoAlongX(ego_speed));
   for (const double side : {-8.0, 8.0}) {
@@ -27,7 +27,7 @@ World streetWith(const std::string& kind, const Pose2& start, double speed, doub
   return world;
 }
 
-/// The points above the road on, or off, what lies within 1.5 m of a position.
+/// Returns the points above the road within 1.5 m of a position, or beyond.
 std::vector<PointVelocity> pointsNear(const std::vector<PointVelocity>& points,
                                       const Point2& position, bool near) {
   std::vector<PointVelocity> result;
@@ -46,7 +46,7 @@ TEST(FeatureFlow, TheFirstExposureHasNoPoints) {
   EXPECT_GT(flow.measure(world, kInterval).size(), 100U);
 }
 
-TEST(FeatureFlow, VelocitiesAreHonestWhileTheVehicleDrives) {
+TEST(FeatureFlow, VelocitiesAreConsistentWhileTheVehicleDrives) {
   const World world = streetWith("pedestrian", Pose2(12.0, -1.0, 0.5 * kPi), 1.4, 8.0);
   StereoCameraOptions options;
   options.wrong_feature_share = 0.0;

@@ -37,7 +37,7 @@ TEST(LookAt, WallHidesAllOrHalf) {
   EXPECT_NEAR(lookAtFirst(half).visible, 0.5, 0.03);
 }
 
-TEST(LookAt, LowThingsAndThingsBehindHideNothing) {
+TEST(LookAt, LowObjectsAndObjectsBehindHideNothing) {
   World world = worldWithCar({20.0, 0.0, kPi / 2.0});
   world.addSolid(wallAt(10.0, 0.3));
   world.addSolid({Segment{{11.0, -9.0}, {11.0, 9.0}}, 0.12, Surface::kCurb, kNoObject});
@@ -78,7 +78,7 @@ TEST(ObjectTruths, NamesEachSensorThatSeesEnough) {
   EXPECT_EQ(truths.at(0).visible_to, (std::vector<std::string>{"scanner", "camera"}));
 }
 
-TEST(ObjectTruths, LeavesOutWhatIsFarAway) {
+TEST(ObjectTruths, LeavesOutDistantObjects) {
   GroundTruthOptions options;
   options.radius = 30.0;
   World world = worldWithCar({31.0, 0.0, 0.0});

@@ -88,7 +88,7 @@ TEST(LaserScanner, WideBeamHitsTwoTargetsBesideEachOther) {
   EXPECT_EQ(middleBeam(scannerWith(options).measure(world, 0.0)).size(), 1U);
 }
 
-/// Share of many scans in which the beam ahead has an echo.
+/// Returns the share of many scans in which the beam ahead has an echo.
 double hitShare(const World& world, const LaserScannerOptions& options) {
   constexpr int kScans = 4000;
   LaserScanner scanner = scannerWith(options);
@@ -100,7 +100,8 @@ double hitShare(const World& world, const LaserScannerOptions& options) {
 }
 
 TEST(LaserScanner, DetectionFallsWithAngularWidth) {
-  // A pole as wide as a fifth of the beam, needed share 0.4: seen with probability 0.5 in a plane.
+  // A pole as wide as a fifth of the beam, required share 0.4: seen with probability 0.5 in a
+  // plane.
   LaserScannerOptions options = idealScanner();
   options.horizontal_opening = 1.0;
   options.sub_rays = 5;

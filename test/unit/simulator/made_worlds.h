@@ -14,7 +14,7 @@ inline Mover egoAlongX(double speed) {
           0.0};
 }
 
-/// No road, nothing on it, and the ego vehicle at rest in the origin.
+/// No road, nothing on it, and the ego vehicle at rest at the origin.
 inline World emptyWorld() { return {RoadNetwork(), egoAlongX(0.0)}; }
 
 /// A wall across x, wide enough for all beams ahead.
@@ -22,7 +22,7 @@ inline Solid wallAt(double x, double height = 3.0) {
   return {Segment{{x, -100.0}, {x, 100.0}}, height, Surface::kBody, kNoObject};
 }
 
-/// A scanner without faults in the origin.
+/// A scanner without faults at the origin.
 inline LaserScannerOptions idealScanner() {
   LaserScannerOptions options;
   options.mount_x = 0.0;

@@ -29,9 +29,9 @@ DisparityImage rowWithNearerThing() {
 
 RandomStream stream() { return {1, "stereo"}; }
 
-TEST(RemoveHidden, BandLeftOfTheNearerThing) {
-  // The thing is in columns 35 to 44 of the right image, where background of the left image's
-  // columns 40 to 49 would be. Columns 0 to 4 lie left of the right image.
+TEST(RemoveHidden, BandLeftOfTheNearerObject) {
+  // The object is in columns 35 to 44 of the right image, where the background of the left image's
+  // columns 40 to 49 would be. Columns 0 to 4 are left of the right image.
   DisparityImage image = rowWithNearerThing();
   removeHidden(image);
   for (std::size_t column = 0; column < 100; ++column) {
@@ -53,7 +53,7 @@ TEST(RemoveHidden, StepsCoverTheRowsBetweenThem) {
   }
 }
 
-TEST(MixEdges, OnlyBackgroundBesideTheNearerThing) {
+TEST(MixEdges, OnlyBackgroundBesideTheNearerObject) {
   DisparityImage image = rowWithNearerThing();
   RandomStream random = stream();
   mixEdges(image, 2, 1.0, random);

@@ -42,7 +42,7 @@ TEST(Path, ShortLegMakesTheArcSmaller) {
   EXPECT_NEAR(path.at(1.5).curvature, 1.0, 1e-12);
 }
 
-TEST(Path, GoesStraightOnBeyondItsEnds) {
+TEST(Path, ContinuesStraightBeyondItsEnds) {
   const Path path({{0.0, 0.0}, {10.0, 0.0}}, 0.0);
   EXPECT_DOUBLE_EQ(path.at(-3.0).pose.x(), -3.0);
   EXPECT_DOUBLE_EQ(path.at(12.0).pose.x(), 12.0);

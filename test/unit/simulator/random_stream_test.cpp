@@ -59,7 +59,7 @@ TEST(RandomStream, NormalHasItsSigmaAndItsTails) {
   EXPECT_NEAR(static_cast<double>(beyond_two_sigma) / kDraws, 0.0455, 0.004);
 }
 
-TEST(RandomStream, ChanceIsAsLikelyAsItSays) {
+TEST(RandomStream, ChanceHasItsProbability) {
   RandomStream stream(1, "test");
   int hits = 0;
   for (int i = 0; i < kDraws; ++i) {

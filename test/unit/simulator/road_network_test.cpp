@@ -9,7 +9,7 @@
 namespace datmo::simulator::road_network_test {
 namespace {
 
-/// A road of 10 m width along x, and one of 8 m along y that crosses it in the origin.
+/// A road of 10 m width along x, and one of 8 m along y that crosses it at the origin.
 RoadNetwork cross() {
   return {{{"main", Path({{-50.0, 0.0}, {50.0, 0.0}}, 5.0), 10.0, 4.0, 3.0, 6.0, 0.12},
            {"side", Path({{0.0, -50.0}, {0.0, 50.0}}, 5.0), 8.0, 4.0, 0.0, 6.0, 0.12}},
@@ -62,7 +62,7 @@ TEST(RoadNetwork, RoadThatEndsInAnotherOpensOneSideOnly) {
     return curb.front() == Point2(-50.0, 5.0) && curb.back() == Point2(50.0, 5.0);
   };
   EXPECT_EQ(std::count_if(network.curbs().begin(), network.curbs().end(), whole), 1);
-  // Left one whole, right one in two; two of the side road; two corners.
+  // Left one in one piece, right one in two; two of the side road; two corners.
   EXPECT_EQ(network.curbs().size(), 7U);
 }
 
@@ -77,8 +77,8 @@ TEST(RoadNetwork, KnowsItsIntersection) {
 TEST(RoadNetwork, PaintsDashesOutsideTheJunctionAndZebraStripes) {
   const std::vector<Box2> paint = cross().paint();
   const auto is_dash = [](const Box2& box) { return box.width < 0.2; };
-  // 10 m of stripes, half paint and half gap; 11 dashes but one on the zebra and one in the
-  // junction.
+  // 10 m of stripes, half paint and half gap; 11 dashes, less one on the zebra crossing and one in
+  // the junction.
   EXPECT_EQ(std::count_if(paint.begin(), paint.end(), is_dash), 9);
   EXPECT_EQ(paint.size(), 9U + 10U);
   for (const Box2& box : paint) {

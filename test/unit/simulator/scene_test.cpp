@@ -43,7 +43,7 @@ class SceneFile : public testing::Test {
     return readScene(write(text.replace(position, part.size(), replacement)));
   }
 
-  /// The message of the refusal; empty if the scene was taken.
+  /// Returns the message of the refusal; empty if the scene was accepted.
   std::string refusal(const std::string& part, const std::string& replacement) {
     try {
       readWith(part, replacement);
@@ -61,8 +61,8 @@ class SceneFile : public testing::Test {
   EXPECT_LT((message).find(first), (message).find(second)) << message; \
   EXPECT_NE((message).find(second), std::string::npos) << message
 
-TEST_F(SceneFile, ContactIsTrueWhereItIsAllowed) {
-  // A car that stands in the lane 20 m ahead: from bumper to bumper it is less.
+TEST_F(SceneFile, ContactIsReportedIfAllowed) {
+  // A car parked in the lane 20 m ahead: from bumper to bumper it is less.
   const std::string standing =
       "actors:\n  - {kind: car, path: [[20, -2], [80, -2]], speed: [[0, 0.0]]}\n";
   const std::string allowed = "duration: 5.0, contact: true,";
@@ -85,7 +85,7 @@ TEST_F(SceneFile, ContactIsTrueWhereItIsAllowed) {
   EXPECT_NE(scene.contact->object, kNoObject);
 }
 
-TEST_F(SceneFile, HasNoContactWhereNothingIsMet) {
+TEST_F(SceneFile, HasNoContactIfNothingIsHit) {
   std::string text = kSmallScene;
   text.replace(text.find("duration: 5.0,"), 14, "duration: 5.0, contact: true,");
   EXPECT_FALSE(readScene(write(text)).contact);
@@ -175,7 +175,7 @@ TEST_F(SceneFile, MissingOrBrokenFileIsNamed) {
   EXPECT_IN_ORDER(refusal("ego:", "# ego:"), "simulator_scene_test.yaml", "ego is missing");
 }
 
-/// The scene that is shipped.
+/// Returns the shipped scene.
 const std::string kIntersection = std::string(DATMO_FUSION_SCENES) + "/intersection.yaml";
 
 TEST(Intersection, NothingIsEverAtTheSamePosition) {

@@ -11,12 +11,12 @@ namespace {
 
 const HalfLine kAlongX = {{0.0, 0.0}, {1.0, 0.0}};
 
-TEST(RangeTo, BoxIsMetAtItsNearSide) {
+TEST(RangeTo, BoxIsHitAtItsNearSide) {
   const Box2 box{{10.0, 0.5, 0.0}, 4.0, 2.0};
   EXPECT_DOUBLE_EQ(*rangeTo(box, kAlongX), 8.0);
 }
 
-TEST(RangeTo, TurnedBoxIsMetAtItsCorner) {
+TEST(RangeTo, TurnedBoxIsHitAtItsCorner) {
   const Box2 box{{10.0, 0.0, kPi / 4.0}, 2.0, 2.0};
   EXPECT_NEAR(*rangeTo(box, kAlongX), 10.0 - std::sqrt(2.0), 1e-12);
 }
@@ -45,7 +45,7 @@ TEST(RangeTo, FromInsideItIsTheDistanceOut) {
   EXPECT_DOUBLE_EQ(*rangeTo(Circle{{0.0, 0.0}, 3.0}, kAlongX), 3.0);
 }
 
-TEST(RangeTo, HitPointLiesOnTheOutline) {
+TEST(RangeTo, HitPointIsOnTheOutline) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> position(-20.0, 20.0);
   std::uniform_real_distribution<double> heading(-kPi, kPi);

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kReach = 100.0;
 
-/// What a line of sight from 1.3 m above the origin ends on, along x.
+/// Returns the end of a line of sight from 1.3 m above the origin, along x.
 std::optional<RayEnd> endAlongX(const World& world, double fall) {
-  // The solids of the end live in the world, not in the state, because nothing moves here.
+  // The solids at the end belong to the world, not to the state, because nothing moves here.
   const RayCaster caster(world, world.at(0.0), Point2::Zero(), kReach);
   return endOf({1.3, fall, kReach}, caster.passages(0.0, kReach));
 }
@@ -26,7 +26,7 @@ TEST(SlopedRay, EndsOnTheRoadOrInTheSky) {
   EXPECT_FALSE(endAlongX(world, 0.01));  // 130 m away
 }
 
-TEST(SlopedRay, EndsOnTheFaceThatItMeets) {
+TEST(SlopedRay, EndsOnTheFaceThatItHits) {
   World world = emptyWorld();
   world.addSolid(wallAt(20.0));
   const auto end = endAlongX(world, 0.05);
@@ -38,7 +38,7 @@ TEST(SlopedRay, EndsOnTheFaceThatItMeets) {
   EXPECT_FALSE(endAlongX(world, -0.09));  // over it
 }
 
-TEST(SlopedRay, GoesOverALowThingToWhatIsBehind) {
+TEST(SlopedRay, PassesOverALowObjectToTheOneBehind) {
   World world = emptyWorld();
   world.addSolid(wallAt(10.0, 1.0));
   world.addSolid(wallAt(20.0));
@@ -46,7 +46,7 @@ TEST(SlopedRay, GoesOverALowThingToWhatIsBehind) {
   EXPECT_NEAR(endAlongX(world, 0.031)->range, 10.0, 1e-9);
 }
 
-TEST(SlopedRay, EndsOnTheTopOfALowThing) {
+TEST(SlopedRay, EndsOnTheTopOfALowObject) {
   World world = emptyWorld();
   world.addSolid({Box2{{10.0, 0.0, 0.0}, 4.0, 2.0}, 0.5, Surface::kBody, kNoObject});
   const auto end = endAlongX(world, 0.08);
@@ -56,7 +56,7 @@ TEST(SlopedRay, EndsOnTheTopOfALowThing) {
   EXPECT_NEAR(endAlongX(world, 0.06)->range, 1.3 / 0.06, 1e-9);  // behind it
 }
 
-TEST(SlopedRay, CurbsStandAndPaintDoesNot) {
+TEST(SlopedRay, CurbsHaveHeightAndPaintDoesNot) {
   World world = emptyWorld();
   world.addSolid({Segment{{10.0, -5.0}, {10.0, 5.0}}, 0.12, Surface::kCurb, kNoObject});
   world.addSolid({Box2{{6.0, 0.0, 0.0}, 3.0, 2.0}, 0.0, Surface::kPaint, kNoObject});

@@ -36,7 +36,7 @@ double heightOf(const Eigen::Vector3f& point, const StereoCameraOptions& options
   return options.mount_height - point.y();
 }
 
-/// Column of the image in which a point is seen.
+/// Returns the column of the image in which a point is seen.
 double columnOf(const Eigen::Vector3f& point, const StereoCameraOptions& options) {
   return options.middleColumn() + options.focal_length * point.x() / point.z();
 }
@@ -52,7 +52,8 @@ TEST(StereoCamera, SeesTheRoadAndTheFaceOfABox) {
       EXPECT_NEAR(height, 0.0, kTolerance);
       continue;
     }
-    // Its face ahead is at x = 10 m, from y = 0 to 2 m; its right side is seen from the right only.
+    // Its front face is at x = 10 m, from y = 0 to 2 m; its right side is visible only from the
+    // right.
     EXPECT_NEAR(point.z(), 10.0, kTolerance);
     EXPECT_GE(-point.x(), 0.0);
     EXPECT_LE(-point.x(), 2.0);
@@ -77,7 +78,7 @@ TEST(StereoCamera, SitsWhereItIsMounted) {
   }
 }
 
-TEST(StereoCamera, FenceHidesOnlyWhatIsBehindAndBelow) {
+TEST(StereoCamera, FenceHidesOnlyObjectsBehindAndBelow) {
   const StereoCameraOptions options = idealStereo();
   World world = emptyWorld();
   world.addSolid(wallAt(10.0, 1.0));
@@ -209,7 +210,7 @@ TEST(StereoCamera, SameSeedSamePoints) {
   EXPECT_NE(pointsIn(world, options, 3), pointsIn(world, options, 4));
 }
 
-TEST(StereoCamera, TruthNamesWhatItSees) {
+TEST(StereoCamera, TruthNamesItsVisibleObjects) {
   World world = emptyWorld();
   world.addStanding(objectKind("car"), {20.0, 0.0, kPi / 2.0});
   world.addStanding(objectKind("car"), {45.0, 10.0, kPi / 2.0});  // beyond its effective range

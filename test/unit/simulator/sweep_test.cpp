@@ -13,7 +13,7 @@ namespace datmo::simulator::sweep_test {
 namespace {
 
 /// A scanner that takes 40 ms for its field of view drives through turns at up to 10 m/s. Without
-/// odometry it starts slowly: at first nothing is known of its velocity.
+/// odometry it starts slowly: at first its velocity is unknown.
 constexpr double kSweep = 0.04;  // s
 constexpr double kStart = 1000.0;
 
@@ -109,7 +109,7 @@ DriveErrors drive(bool compensate, bool with_odometry) {
     const double time = 0.1 * i;
     const WorldState state = course.world().at(time);
     if (with_odometry) {
-      // The newest odometry that a scan meets is that of its first beam.
+      // The newest odometry available to a scan is that of its first beam.
       slam.addOdometry({Stamp::fromSeconds(kStart + time), state.twist});
     }
     const SlamResult result = slam.process(toScan(scanner.measure(course.world(), time), options));

@@ -36,13 +36,13 @@ TEST(Traffic, MeetsTheEgoVehicleWhereTheLaneSays) {
     EXPECT_GE(speed, 11.0);
     EXPECT_LE(speed, 13.0);
     EXPECT_DOUBLE_EQ(mover.axle(3.0).y(), 4.0);
-    // It gains on the ego vehicle: it is -5 m to 20 m ahead at some time in between.
+    // It catches up with the ego vehicle: it is -5 m to 20 m ahead at some time in between.
     EXPECT_LE(mover.axle(0.0).x(), 20.0 + 0.5);
     EXPECT_GE(mover.axle(kDuration).x(), kEgoSpeed * kDuration - 5.0 - 0.5);
   }
 }
 
-TEST(Traffic, MoreOfItLeavesTheFirstMoversAsTheyAre) {
+TEST(Traffic, MoreOfItLeavesTheFirstMoversUnchanged) {
   const World few = worldWith(2, 7);
   const World many = worldWith(5, 7);
   ASSERT_EQ(many.movers().size(), 5U);

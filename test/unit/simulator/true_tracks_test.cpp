@@ -8,7 +8,7 @@
 namespace datmo::simulator::true_tracks_test {
 namespace {
 
-/// The host goes at 10 m/s along x; a car before it brakes by 2 m/s^2 from 1 s on.
+/// The host drives at 10 m/s along x; a car ahead of it brakes at 2 m/s^2 from 1 s on.
 World braking() {
   World world(RoadNetwork(),
               {objectKind("car"), Path({{0, 0}, {200, 0}}, 0.0), SpeedProfile({{0.0, 10.0}}), 0.0});
@@ -31,7 +31,7 @@ std::vector<ObjectTruth> truthsAt(const World& world, double time, bool visible 
   return truths;
 }
 
-TEST(IdealTracker, KnowsStateAndModeOfWhatMoves) {
+TEST(IdealTracker, KnowsStateAndModeOfMovingObjects) {
   const World world = braking();
   IdealTracker tracker(world);
   const TruePerception perception = tracker.at(3.0, truthsAt(world, 3.0));
@@ -44,7 +44,7 @@ TEST(IdealTracker, KnowsStateAndModeOfWhatMoves) {
             0.9);
 }
 
-TEST(IdealTracker, WhatStandsIsPoints) {
+TEST(IdealTracker, StationaryObjectsArePoints) {
   const World world = braking();
   IdealTracker tracker(world);
   const TruePerception perception = tracker.at(0.0, truthsAt(world, 0.0));
@@ -54,7 +54,7 @@ TEST(IdealTracker, WhatStandsIsPoints) {
   }
 }
 
-TEST(IdealTracker, KeepsWhatHasMovedAndWhatItHasSeen) {
+TEST(IdealTracker, KeepsObjectsThatHaveMovedAndHaveBeenSeen) {
   const World world = braking();
   IdealTracker tracker(world);
   EXPECT_TRUE(tracker.at(0.0, truthsAt(world, 0.0, false)).tracks.empty());

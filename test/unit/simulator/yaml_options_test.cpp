@@ -12,7 +12,7 @@ namespace {
 
 OptionValues valuesOf(const std::string& text) { return optionValues(YAML::Load(text)); }
 
-/// What is said of a file with this text, behind its name; empty: nothing.
+/// Returns the error message for a file with this text, after its name; empty: no error.
 std::string refusalOf(const std::string& text) {
   const std::string file = testing::TempDir() + "yaml_options_test.yaml";
   std::ofstream(file) << text;
@@ -55,7 +55,7 @@ TEST(OptionValues, EmptySectionHasNone) {
   EXPECT_TRUE(optionValues(YAML::Load("{a: 1}")["b"]).empty());
 }
 
-TEST(OptionValues, WhatIsNoOptionIsRefused) {
+TEST(OptionValues, NonOptionsAreRefused) {
   EXPECT_THROW(valuesOf("[1, 2]"), OptionError);
   EXPECT_THROW(valuesOf("5"), OptionError);
   EXPECT_THROW(valuesOf("{a: [1, none]}"), OptionError);
@@ -80,13 +80,13 @@ TEST(LoadYaml, SectionsAndKeysOfOneNameAreRefused) {
   }
 }
 
-TEST(LoadYaml, AnAliasOfWhatItStandsInIsRefused) {
+TEST(LoadYaml, ARecursiveAliasIsRefused) {
   const std::string said = ":2: expected yaml, but an alias stands for what it stands in";
   EXPECT_EQ(refusalOf("b: 1\na: &a [*a]\n"), said);
   EXPECT_EQ(refusalOf("b: 1\na: &a {b: {c: *a}}\n"), said);
 }
 
-TEST(LoadYaml, AliasesMayStandForSoMuch) {
+TEST(LoadYaml, AliasExpansionIsBounded) {
   std::string text = "a0: &a0 [1, 1]\n";
   for (int level = 1; level <= 27; ++level) {
     const std::string below = "*a" + std::to_string(level - 1);
@@ -107,7 +107,7 @@ TEST(LoadYaml, DepthAndSizeAreBounded) {
             ": expected yaml, but it has more than 1048576 bytes");
 }
 
-TEST(LoadYaml, WhatIsNoFileIsRefused) {
+TEST(LoadYaml, MissingFilesAreRefused) {
   EXPECT_THROW(loadYaml(testing::TempDir()), OptionError);
   EXPECT_THROW(loadYaml(testing::TempDir() + "nowhere.yaml"), OptionError);
   EXPECT_THROW(loadYaml("/dev/zero"), OptionError);

@@ -11,10 +11,10 @@
 
 namespace datmo {
 
-/// What a scanner sees of a world from a pose.
+/// The scan of a world from a pose.
 using ScannedWorld = std::function<Scan(const Pose2& base, double seconds)>;
 
-/// All ends of a scan stand.
+/// All end points of a scan are static.
 inline LabeledScan labeled(const Scan& scan, const Pose2& base_in_map) {
   LabeledScan labeled;
   labeled.stamp = scan.stamp;
@@ -35,12 +35,12 @@ inline Keyframe keyframe(const ScannedWorld& world, const Pose2& truth, const Po
   return {scan.stamp, scan.base_in_map, KeptScan(scan)};
 }
 
-/// A motion as a live SLAM measures it that drifts.
+/// A motion as measured by a drifting live SLAM.
 inline Pose2 drifting(const Pose2& motion) {
   return {1.01 * motion.x(), 1.01 * motion.y(), motion.heading() + degrees(0.04) * motion.x()};
 }
 
-/// Round a square of 28 m x 8 m in the yard, a meter from one pose to the next.
+/// Around a rectangle of 28 m x 8 m in the yard, 1 m from one pose to the next.
 inline std::vector<Pose2> roundTheYard(int laps) {
   std::vector<Pose2> poses{Pose2(0.0, -4.0, 0.0)};
   for (int side = 0; side < 4 * laps; ++side) {
@@ -55,7 +55,7 @@ inline std::vector<Pose2> roundTheYard(int laps) {
   return poses;
 }
 
-/// The options for a place of this size.
+/// The options for an area of this size.
 inline LoopCloserOptions yardOptions() {
   LoopCloserOptions options;
   options.submap_length = 10.0;

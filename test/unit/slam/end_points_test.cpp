@@ -31,14 +31,14 @@ TEST(EndPointsTest, ASurfaceIsSampledBetweenItsPoints) {
 }
 
 TEST(EndPointsTest, AWallAtAFlatAngleIsSampledAlongItselfHoweverFarTheStep) {
-  // A wall along x, 2 m to the left: the beams end further and further apart.
+  // A wall along x, 2 m to the left: the beams end at increasing spacing.
   const auto points = endPoints(scanOf({{28.0, 2.0}, {20.0, 2.0}, {15.0, 2.0}}), 3.0);
   EXPECT_NEAR(points[0].sampling(0, 0), 8.0 * 8.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(0, 0), 5.0 * 5.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(1, 1), 0.0, 1e-12);
 }
 
-TEST(EndPointsTest, WhatStandsOutIsSampledByTheBeamsSpacing) {
+TEST(EndPointsTest, ProtrudingPointsAreSampledByTheBeamsSpacing) {
   const auto points = endPoints(scanOf({{30.0, -3.0}, {10.0, 0.0}, {30.0, 3.0}}), 3.0);
   EXPECT_NEAR(points[1].sampling(1, 1), 1.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(0, 0), 0.0, 1e-12);

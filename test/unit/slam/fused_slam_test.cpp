@@ -11,14 +11,14 @@
 namespace datmo::fused_slam_test {
 namespace {
 
-/// The yard as a scanner and nobody else sees it.
+/// The yard as seen by a scanner alone.
 SensorGrid gridOf(const Scan& scan) {
   static const LidarGridModel model{LidarGridOptions{}};
   return model.grid(scan);
 }
 
-/// Drives a gentle curve at 4 m/s on grids of the scans, 10 a second; returns how far off it ends,
-/// m.
+/// Drives a gentle curve at 4 m/s on grids of the scans, 10 per second; returns the error at the
+/// end, m.
 double errorAfterDrive(GridSlam& slam, bool with_scans) {
   const Yard yard;
   const Twist2 twist{4.0, 0.05};
@@ -38,24 +38,24 @@ double errorAfterDrive(GridSlam& slam, bool with_scans) {
   return (estimate.position() - truth.position()).norm();
 }
 
-TEST(FusedSlamTest, OnScansThroughTheGridItIsAsGoodAsOnScans) {
+TEST(FusedSlamTest, WithScansThroughTheGridItIsAsAccurateAsWithScans) {
   GridSlam slam{GridSlamOptions{}};
   EXPECT_LT(errorAfterDrive(slam, true), 0.15);  // odometry alone: 1.2 m and 6 degrees
 }
 
-TEST(FusedSlamTest, OnCellsAloneItKeepsToTheirSize) {
+TEST(FusedSlamTest, WithCellsAloneItsErrorIsBelowTheirSize) {
   GridSlamOptions options;
   options.grid_ends = GridEnds::kCells;
   GridSlam slam{options};
   EXPECT_LT(errorAfterDrive(slam, true), options.map.window.cell_size);
 }
 
-TEST(FusedSlamTest, WithASilentScannerTheGridServes) {
+TEST(FusedSlamTest, WithASilentScannerTheGridIsUsed) {
   GridSlam slam{GridSlamOptions{}};
   EXPECT_LT(errorAfterDrive(slam, false), GridSlamOptions{}.map.window.cell_size);
 }
 
-/// What the scan after 20 of the empty yard leads to.
+/// The result of a scan that follows 20 scans of the empty yard.
 class FusedSlamInTheYard : public testing::Test {
  protected:
   FusedSlamInTheYard() {
@@ -78,13 +78,13 @@ class FusedSlamInTheYard : public testing::Test {
   Box2 box_{Pose2(9.0, 0.0, 0.0), 1.0, 2.0};
 };
 
-TEST_F(FusedSlamInTheYard, WhatTheGridConfirmsMovesAndIsNotMapped) {
+TEST_F(FusedSlamInTheYard, PointsConfirmedByTheGridMoveAndAreNotMapped) {
   const Scan scan = yard_.scan(Pose2(), 2.0, &box_);
   EXPECT_GE(moving(slam_.process(gridOf(scan), scan)), 5);
   EXPECT_LT(slam_.map().occupancy(slam_.map().window().cellAt({8.5, 0.0})), 0.3);
 }
 
-TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
+TEST_F(FusedSlamInTheYard, EndsRefutedByTheGridAreNoPoints) {
   const Scan scan = yard_.scan(Pose2(), 2.0, &box_);
   const SlamResult result = slam_.process(gridOf(yard_.scan(Pose2(), 2.0)), scan);
   EXPECT_EQ(moving(result), 0);
@@ -95,7 +95,7 @@ TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
   EXPECT_EQ(result.labeled_scan.blind_beams.size() + result.labeled_scan.points.size(), 81U);
 }
 
-TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingWasKnown) {
+TEST_F(FusedSlamInTheYard, CellsOfOthersAloneDoNotMoveAndAreMappedInUnknownSpace) {
   const Scan scan = yard_.scan(Pose2(), 2.0);
   SensorGrid grid = gridOf(scan);
   const CellIndex in_free_space = grid.window().cellAt({9.0, 0.0});

@@ -12,7 +12,7 @@ TEST(GradualCorrectionTest, TheVehicleIsMovedAndTurnedNoFasterThanAllowed) {
   const GradualCorrectionOptions options;
   GradualCorrection correction(options);
   const Pose2 target(3.0, -2.0, degrees(10.0));
-  const Pose2 vehicle(300.0, 200.0, 1.0);  // 63 m are between target and start there
+  const Pose2 vehicle(300.0, 200.0, 1.0);  // 63 m between target and start there
   Pose2 before = correction.advance(Stamp::fromSeconds(1000.0), vehicle, target) * vehicle;
   EXPECT_NEAR((before.position() - vehicle.position()).norm(), 0.0, 1e-9) << "no time has passed";
   for (int i = 1; i <= 50; ++i) {
@@ -31,7 +31,7 @@ TEST(GradualCorrectionTest, TheVehicleIsMovedAndTurnedNoFasterThanAllowed) {
   EXPECT_NEAR(end.heading(), target.heading(), 1e-9);
 }
 
-TEST(GradualCorrectionTest, BehindAGapNothingJumps) {
+TEST(GradualCorrectionTest, AfterAGapNothingJumps) {
   const GradualCorrectionOptions options;
   GradualCorrection correction(options);
   const Pose2 target(50.0, 0.0, 0.0);
@@ -40,7 +40,7 @@ TEST(GradualCorrectionTest, BehindAGapNothingJumps) {
   EXPECT_NEAR(after.x(), options.speed, 1e-9) << "as in a second";
 }
 
-TEST(GradualCorrectionTest, AClockThatStandsOrJumpsBackMovesNothing) {
+TEST(GradualCorrectionTest, AClockThatStopsOrJumpsBackMovesNothing) {
   GradualCorrection correction{GradualCorrectionOptions()};
   correction.advance(Stamp::fromSeconds(1000.0), Pose2(), Pose2(1.0, 0.0, 0.0));
   EXPECT_EQ(correction.advance(Stamp::fromSeconds(999.0), Pose2(), Pose2(1.0, 0.0, 0.0)).x(), 0.0);

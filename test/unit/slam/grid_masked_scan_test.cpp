@@ -30,7 +30,7 @@ Scan scanOf(const std::vector<double>& ranges) {
   return scan;
 }
 
-/// All free but for these cells.
+/// All free except these cells.
 SensorGrid gridWith(const std::vector<CellIndex>& occupied) {
   SensorGrid grid({}, kWindow);
   std::fill(grid.cells().begin(), grid.cells().end(), Percent{20});
@@ -70,12 +70,12 @@ TEST(GridMaskedScanTest, UndecidedIsNotConfirmed) {
       maskScanWithGrid(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
 }
 
-TEST(GridMaskedScanTest, BeyondTheWindowTheBeamIsBelieved) {
+TEST(GridMaskedScanTest, BeyondTheWindowTheBeamIsTrusted) {
   Scan scan = scanOf({kNothing, 30.0, kNothing});
   EXPECT_TRUE(maskScanWithGrid(gridWith({}), scan, GridEnds::kScan).measured[1]);
 }
 
-TEST(GridMaskedScanTest, ABeamWithoutHitEndsAtWhatOthersSee) {
+TEST(GridMaskedScanTest, ABeamWithoutHitEndsAtCellsOfOthers) {
   const GridMaskedScan view = maskScanWithGrid(
       gridWith({{5, 5}, {8, 8}}), scanOf({kNothing, kNothing, kNothing}), GridEnds::kScan);
   const Ray& ray = view.scan.rays[2];
@@ -111,7 +111,7 @@ TEST(GridMaskedScanTest, OfCellsAllEndsAreCenters) {
   EXPECT_NEAR(view.scan.rays[1].range, 10.5, 1e-9);
 }
 
-TEST(GridMaskedScanTest, ASilentScannersBeamsAreMadeOfTheGrid) {
+TEST(GridMaskedScanTest, ASilentScannersBeamsAreMadeFromTheGrid) {
   Scan silent = scanOf({});
   const GridMaskedScan view = maskScanWithGrid(gridWith({{10, 0}}), silent, GridEnds::kScan);
   ASSERT_EQ(view.scan.rays.size(), 3U);
@@ -126,7 +126,7 @@ TEST(GridMaskedScanTest, BlindBeamsStayBlind) {
   EXPECT_EQ(maskScanWithGrid(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
 }
 
-TEST(ExcludeConnectedTo, WhatTouchesASeedByOccupiedCellsIsLeftOut) {
+TEST(ExcludeConnectedTo, CellsConnectedToASeedAreLeftOut) {
   const SensorGrid grid = gridWith({{3, 3}, {4, 4}, {5, 4}, {8, 4}});
   const std::vector<Point2> positions = {{5.5, 4.5}, {8.5, 4.5}};
   const std::vector<Point2> apart = excludeConnectedTo({{3.2, 3.9}}, grid, positions);

@@ -11,7 +11,7 @@
 namespace datmo::grid_slam_drift_test {
 namespace {
 
-/// Drives a gentle curve with odometry, or stands, 10 scans a second.
+/// Drives a gentle curve with odometry, or is stationary, 10 scans per second.
 class Vehicle {
  public:
   SlamResult step(GridSlam& slam, const Twist2& twist) {
@@ -44,13 +44,13 @@ class Vehicle {
     return result;
   }
 
-  /// From now on odometry measures this much more.
+  /// From now on odometry has this additional error.
   void errOdometry(const Twist2& error) { odometry_error_ = error; }
 
   /// m.
   double distanceFrom(const SlamResult& result) const { return errorOf(result).head<2>().norm(); }
 
-  /// Normalized squared error of the pose since the start; of three degrees of freedom.
+  /// Normalized squared error of the pose since the start; three degrees of freedom.
   double neesOf(const SlamResult& result) const {
     const Eigen::Matrix3d covariance = result.labeled_scan.base_in_map.covariance + result.drift;
     const Eigen::Vector3d error = errorOf(result);
@@ -97,7 +97,7 @@ TEST(GridSlamDriftTest, AtRestItDoesNot) {
   EXPECT_NEAR(rest.drift(2, 2), end.drift(2, 2), 0.1 * end.drift(2, 2));
 }
 
-TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
+TEST(GridSlamDriftTest, DistanceDrivenWithoutAMatchStaysUncertain) {
   GridSlam slam{GridSlamOptions{}};
   Vehicle vehicle;
   vehicle.go(slam, {4.0, 0.0}, 20);
@@ -110,8 +110,8 @@ TEST(GridSlamDriftTest, WhatWasDrivenWithoutAMatchStaysUncertain) {
   EXPECT_GT(sinceStart(after), 0.9 * sinceStart(before));
 }
 
-TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapInWhichOnlyOdometryThatErrsWasReceived) {
-  // 4 % of the speed and 1 degree/s off, which the SLAM does not know, and 2 s without a hit.
+TEST(GridSlamDriftTest, ItCoversTheErrorOfAGapWithOnlyBiasedOdometry) {
+  // Errors of 4 % of the speed and 1 degree/s, unknown to the SLAM, and 2 s without a hit.
   double nees = 0.0;
   const std::vector<Twist2> errors = {
       {0.16, degrees(1.0)}, {-0.16, degrees(1.0)}, {0.16, degrees(-1.0)}, {-0.16, degrees(-1.0)}};

@@ -10,7 +10,7 @@
 namespace datmo::grid_slam_test {
 namespace {
 
-/// Drives a gentle curve at 4 m/s, 10 scans a second; returns the last result and the true pose.
+/// Drives a gentle curve at 4 m/s, 10 scans per second; returns the last result and the true pose.
 struct Drive {
   SlamResult result;
   Pose2 truth;
@@ -53,8 +53,8 @@ TEST(GridSlamTest, CorrectsBiasedOdometry) {
               0.0, degrees(0.5));
 }
 
-TEST(GridSlamTest, OdometryThatComesLateIsNotTakenForNow) {
-  // A turn that begins at once, of which odometry says a scan and a half later.
+TEST(GridSlamTest, LateOdometryIsNotTakenForCurrent) {
+  // A turn that begins immediately, which odometry reports one and a half scans later.
   constexpr double kPeriod = 0.06;
   constexpr double kLate = 0.1;
   const auto twistAt = [](double seconds) { return Twist2{4.0, seconds < 1.0 ? 0.0 : 0.6}; };
@@ -86,7 +86,7 @@ TEST(GridSlamTest, WorksWithoutOdometry) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
-TEST(GridSlamTest, AYawRateAloneServesWithoutASpeed) {
+TEST(GridSlamTest, AYawRateAloneIsUsedWithoutASpeed) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   const Twist2 twist{4.0, 0.4};
@@ -105,7 +105,7 @@ TEST(GridSlamTest, AYawRateAloneServesWithoutASpeed) {
 }
 
 TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
-  // A driver that stamps on arrival: two scans come within a microsecond, then nothing for 0.2 s.
+  // A driver that stamps on arrival: two scans arrive within a microsecond, then nothing for 0.2 s.
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   Drive end;
@@ -118,7 +118,7 @@ TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
-TEST(GridSlamTest, SomethingThatComesIntoFreeSpaceIsMovingAndNotMapped) {
+TEST(GridSlamTest, AnObjectEnteringFreeSpaceIsMovingAndNotMapped) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   for (int i = 0; i < 20; ++i) {
@@ -169,7 +169,7 @@ TEST(GridSlamTest, TheLabeledScanHasBeamsWithoutReturn) {
   EXPECT_EQ(split.blind_beams, (std::vector<std::uint32_t>{0, 3, 4})) << "beam 1: no return";
 }
 
-/// Between two walls without an end, 4 m to the left and 5 m to the right.
+/// Between two endless walls, 4 m to the left and 5 m to the right.
 Scan corridorScan(double seconds) {
   Scan scan;
   scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
@@ -232,8 +232,8 @@ TEST(GridSlamTest, AGapOfThreeSecondsIsBridgedByOdometry) {
   EXPECT_LT(positionError(end), 0.15);
 }
 
-/// Turns on the spot at 0.4 rad/s for 2 s, then without a scan for this long, then 2 s on; the
-/// odometry has poses, and is silent as long, and `late` (s) longer.
+/// Turns on the spot at 0.4 rad/s for 2 s, then without a scan for this long, then for 2 s more;
+/// the odometry has poses, and is silent for as long, plus `late` (s).
 Drive driveOverAGap(double gap, double late) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
@@ -266,7 +266,7 @@ TEST(GridSlamTest, AnEncoderCountsOverAGapOfScansAndOdometry) {
   }
 }
 
-TEST(GridSlamTest, WithoutScansThePoseFollowsTheOdometryForAsLongAsItTakes) {
+TEST(GridSlamTest, WithoutScansThePoseFollowsTheOdometryIndefinitely) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   Drive end;

@@ -11,7 +11,7 @@ namespace {
 
 using Use = KeyframeSelector::Use;
 
-TEST(KeptScanTest, EndsComeBackToWithinAFewMillimeters) {
+TEST(KeptScanTest, EndsAreRestoredToWithinAFewMillimeters) {
   const Scan scan = Yard().scan(Pose2(), 0.0);
   const KeptScan kept(labeled(scan, Pose2()));
   EXPECT_EQ(kept.bytes(), 4 * scan.rays.size());
@@ -37,7 +37,7 @@ TEST(KeptScanTest, MoversAreLeftOutAndBeamsWithoutReturnAreFree) {
   EXPECT_NEAR(kept.rays.back().end.y(), 40.0 * std::sin(degrees(80.0)), 1e-6);
 }
 
-TEST(KeptScanTest, WhatIsTooFarIsLeftOut) {
+TEST(KeptScanTest, DistantEndsAreLeftOut) {
   LabeledScan scan;
   scan.points = {{Point2(170.0, 0.0), 170.0, 0.0, 0, PointState::kStatic}};
   EXPECT_TRUE(KeptScan(scan).empty());
@@ -61,34 +61,34 @@ TEST_F(KeyframeSelectorTest, AScanIsKeptEveryMeter) {
   EXPECT_EQ(take(0.3, 1.8, 0.1), Use::kPose);
 }
 
-TEST_F(KeyframeSelectorTest, AfterAGapTheDriveGoesOnWhenTheVehicleIsFound) {
+TEST_F(KeyframeSelectorTest, AfterAGapTheDriveContinuesWhenTheVehicleIsFound) {
   take(0.0, 0.0, 0.1);
   EXPECT_EQ(take(3.0, 20.0, 5.0), Use::kNothing);
   EXPECT_EQ(take(4.0, 25.0, 5.0), Use::kNothing);
   EXPECT_EQ(take(5.0, 31.0, 0.3), Use::kKeyframe);
 }
 
-TEST_F(KeyframeSelectorTest, ANewMapBeginsANewDrive) {
+TEST_F(KeyframeSelectorTest, ANewMapStartsANewDrive) {
   take(0.0, 0.0, 0.1);
   EXPECT_EQ(take(3.0, 20.0, 5.0), Use::kNothing);
   EXPECT_EQ(take(10.1, 40.0, 5.0), Use::kFirst);
   EXPECT_EQ(take(10.2, 41.2, 5.0), Use::kKeyframe) << "no less certain than its start";
 }
 
-TEST_F(KeyframeSelectorTest, ALeapOfThePoseBeginsANewDrive) {
+TEST_F(KeyframeSelectorTest, APoseJumpStartsANewDrive) {
   take(0.0, 0.0, 0.1);
   EXPECT_EQ(take(1.0, 50.0, 0.1), Use::kKeyframe) << "as fast as a vehicle may be";
   EXPECT_EQ(take(1.1, 0.0, 0.1), Use::kFirst) << "the SLAM has started over at its origin";
   EXPECT_EQ(take(1.2, 1.2, 0.1), Use::kKeyframe);
 }
 
-TEST_F(KeyframeSelectorTest, AfterALongGapTheDriveGoesOn) {
+TEST_F(KeyframeSelectorTest, AfterALongGapTheDriveContinues) {
   take(0.0, 0.0, 0.1);
   take(1.0, 1.5, 0.1);
   EXPECT_EQ(take(11.0, 200.0, 0.1), Use::kKeyframe);
 }
 
-TEST_F(KeyframeSelectorTest, WhoIsFoundInAPriorMapBeginsANewDrive) {
+TEST_F(KeyframeSelectorTest, LocalizationInAPriorMapStartsANewDrive) {
   EXPECT_EQ(take(0.0, 0.0, 30.0), Use::kNothing);
   EXPECT_EQ(take(7.0, 5.0, 30.0), Use::kFirst);
   EXPECT_EQ(take(8.0, 80.0, 0.1), Use::kFirst) << "the frame of what was before is another";

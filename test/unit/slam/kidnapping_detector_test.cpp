@@ -6,10 +6,10 @@
 namespace datmo::kidnapping_detector_test {
 namespace {
 
-/// A detector, and scans of 100 beams, ten a second.
+/// A detector, and scans of 100 beams, ten per second.
 class Scans {
  public:
-  /// The map contradicts 10 beams of each of the first ones.
+  /// The map contradicts 10 beams of each of the first scans.
   Scans() { add(10, 5); }
 
   void add(int contradicted, int scans = 1, int beams = 100) {
@@ -42,7 +42,7 @@ TEST(KidnappingDetectorTest, ASmallerRiseIsTraffic) {
   EXPECT_FALSE(scans.detector.isSuspected());
 }
 
-TEST(KidnappingDetectorTest, WhatFillsTheViewLittleByLittleIsTraffic) {
+TEST(KidnappingDetectorTest, AGradualRiseIsTraffic) {
   Scans scans;
   for (int contradicted = 10; contradicted <= 100; contradicted += 3) {
     scans.add(contradicted);
@@ -61,7 +61,7 @@ TEST(KidnappingDetectorTest, ABumpIsForgotten) {
   EXPECT_FALSE(scans.detector.isKidnapped());
 }
 
-TEST(KidnappingDetectorTest, FewBeamsSayNothingAndEndASuspicion) {
+TEST(KidnappingDetectorTest, FewBeamsAreUninformativeAndEndASuspicion) {
   Scans scans;
   scans.add(19, 20, 19);
   EXPECT_FALSE(scans.detector.isSuspected());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that is carried elsewhere between two scans, as its odometry does not notice.
+// A vehicle that is carried elsewhere between two scans without odometry noticing.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,7 +53,7 @@ double sigmaOf(const Step& step) {
 
 /// In view of what was seen before.
 const std::vector<Pose2> kKnown{{8.0, 5.0, -1.5}, {10.0, -3.0, 1.0}};
-/// Facing what no scan has seen.
+/// Facing an area that no scan has seen.
 const Pose2 kUnknown(14.0, -6.0, kPi);
 
 TEST(KidnappingTest, NoPoseIsConfidentAndWrong) {
@@ -78,7 +78,7 @@ TEST(KidnappingTest, ItIsFoundInTheMapItWasIn) {
   }
 }
 
-TEST(KidnappingTest, WhereTheMapKnowsNothingItGoesOnInANewOne) {
+TEST(KidnappingTest, InUnmappedSpaceItContinuesInANewMap) {
   const Step last = drive(kUnknown, 80).back();
   EXPECT_EQ(last.result.localization, Localization::kLocated);
   EXPECT_EQ(last.result.maps_begun, 1);
@@ -93,7 +93,7 @@ TEST(KidnappingTest, AGapMeanwhileEndsNoSearch) {
   SlamResult result;
   for (int i = 0; i < 60; ++i) {
     truth = i == 40 ? truth * kKnown.front() : truth;
-    seconds += i == 55 ? 3.0 : kInterval;  // it goes on meanwhile
+    seconds += i == 55 ? 3.0 : kInterval;  // it keeps moving meanwhile
     truth = truth * arc(kTwist, i == 55 ? 3.0 : kInterval);
     slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), kTwist});
     result = slam.process(yard.scan(truth, seconds));
@@ -110,7 +110,7 @@ TEST(KidnappingTest, NothingMovesMeanwhile) {
   }
 }
 
-TEST(KidnappingTest, WhoStaysOnTheWayStaysLocated) {
+TEST(KidnappingTest, WithoutKidnappingItStaysLocated) {
   for (const Step& step : drive(std::nullopt, 60)) {
     EXPECT_EQ(step.result.localization, Localization::kLocated);
     EXPECT_LT(sigmaOf(step), 0.3);
@@ -133,7 +133,7 @@ TEST(KidnappingTest, WhereTheVehiclePitchesOnlyThePoseIsUncertain) {
     const double seconds = kInterval * i;
     Scan scan = yard.scan(truth, seconds);
     const bool pitches = i >= 40 && i < 46;
-    for (Ray& ray : scan.rays) {  // the beams meet the road
+    for (Ray& ray : scan.rays) {  // the beams hit the road
       ray.range = pitches ? std::min(ray.range, 4.0) : ray.range;
       ray.end =
           scan.scanner_in_base * (ray.range * Point2(std::cos(ray.bearing), std::sin(ray.bearing)));
@@ -153,7 +153,7 @@ TEST(KidnappingTest, ATruckThatCoversHalfOfTheViewIsTraffic) {
   const Yard yard;
   for (int i = 0; i < 60; ++i) {
     const double seconds = kInterval * i;
-    // Across in front of the vehicle that stands, from the right at 6 m/s.
+    // Across in front of the stationary vehicle, from the right at 6 m/s.
     const Box2 truck{Pose2(8.0, -30.0 + 6.0 * seconds, 0.5 * kPi), 12.0, 2.5};
     slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), Twist2{}});
     const SlamResult result = slam.process(yard.scan(Pose2(), seconds, &truck));

@@ -14,7 +14,7 @@ constexpr double kStart = 1000.0;  // s, of the yard's stamps
 
 Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
 
-/// Two endless walls 10 m apart with a pillar before one of them every 7 m.
+/// Two endless walls 10 m apart with a pillar in front of one of them every 7 m.
 Scan street(const Pose2& base, double seconds) {
   Scan scan = Yard().scan(base, seconds);
   const Pose2 scanner = base * scan.scanner_in_base;
@@ -58,7 +58,7 @@ double maxError(const std::vector<Pose2>& truth, const std::vector<Pose2>& poses
   return max;
 }
 
-TEST(LoopCloserTest, TheSecondLapTakesTheDriftOut) {
+TEST(LoopCloserTest, TheSecondLapRemovesTheDrift) {
   LoopCloser closer(yardOptions());
   const Drive lapped = drive(closer, yard, roundTheYard(2));
   EXPECT_GT(closer.counts().closed, 5U);
@@ -74,14 +74,14 @@ TEST(LoopCloserTest, TheSecondLapTakesTheDriftOut) {
   EXPECT_NEAR((corrected.position() - closer.graph().poses().back().position()).norm(), 0.0, 1e-9);
 }
 
-TEST(LoopCloserTest, WithoutALoopThePosesStay) {
+TEST(LoopCloserTest, WithoutALoopThePosesAreUnchanged) {
   LoopCloser closer(yardOptions());
   const Drive lapped = drive(closer, yard, roundTheYard(1));
   EXPECT_EQ(closer.counts().closed, 0U) << "shorter than min_loop before it ends";
   EXPECT_NEAR(maxError(lapped.live, closer.graph().poses()), 0.0, 1e-9);
 }
 
-/// Two stretches of 40 m, and what the live SLAM thinks: the second one begins where the first one
+/// Two stretches of 40 m, and the live SLAM's estimate: the second one begins where the first one
 /// did, to within `sigma` (m).
 LoopCounts returnTo(const ScannedWorld& world, double truth_x, double sigma) {
   LoopCloser closer(yardOptions());
@@ -98,20 +98,20 @@ LoopCounts returnTo(const ScannedWorld& world, double truth_x, double sigma) {
 }
 
 TEST(LoopCloserTest, AFalseLoopInARepeatingStreetIsRefused) {
-  // The vehicle is 30 periods farther on, where all looks the same.
+  // The vehicle is 30 periods farther on, where everything looks the same.
   const LoopCounts counts = returnTo(street, 210.0 + 3.0, 10.0);
   EXPECT_EQ(counts.closed, 0U);
   EXPECT_GT(counts.ambiguous, 0U);
 }
 
-TEST(LoopCloserTest, WhatIsUniqueIsFoundWithinTheSameUncertainty) {
+TEST(LoopCloserTest, AUniquePlaceIsFoundWithTheSameUncertainty) {
   const auto unlike_street = [](const Pose2& base, double seconds) {
     return Yard().scan(base * Pose2(-5.0, 0.0, 0.0), seconds);
   };
   EXPECT_GT(returnTo(unlike_street, 0.0, 10.0).closed, 0U);
 }
 
-TEST(LoopCloserTest, InTooWideAnAreaNothingIsLookedFor) {
+TEST(LoopCloserTest, InTooWideAnAreaThereIsNoSearch) {
   const auto unlike_street = [](const Pose2& base, double seconds) {
     return Yard().scan(base * Pose2(-5.0, 0.0, 0.0), seconds);
   };
@@ -119,7 +119,7 @@ TEST(LoopCloserTest, InTooWideAnAreaNothingIsLookedFor) {
   EXPECT_EQ(counts.closed + counts.ambiguous + counts.unlike, 0U);
 }
 
-TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
+TEST(LoopCloserTest, AClearlyDifferentPlaceIsNoLoop) {
   const auto other = [](const Pose2& base, double seconds) {
     return base.x() < 100.0 ? Yard().scan(base * Pose2(-5.0, 0.0, 0.0), seconds)
                             : street(base, seconds);
@@ -127,9 +127,9 @@ TEST(LoopCloserTest, ASurelyOtherPlaceIsNoLoop) {
   EXPECT_EQ(returnTo(other, 210.0, 3.0).closed, 0U);
 }
 
-TEST(LoopCloserTest, APlaceIsSoughtWithinWhatItsOwnVisitMayBeOff) {
-  // Two places 100 m apart, each visited twice. The path between them is known to 4 m, but for the
-  // last time; on the first visit the second place is taken to be 8 m to the left.
+TEST(LoopCloserTest, APlaceIsSearchedWithinItsOwnUncertainty) {
+  // Two places 100 m apart, each visited twice. The path between them is known to 4 m, except for
+  // the last time; on the first visit the second place is assumed to be 8 m to the left.
   const auto places = [](const Pose2& base, double seconds) {
     return base.x() < 70.0 ? Yard().scan(Pose2(-5.0, 0.0, 0.0) * base, seconds)
                            : Yard().scan(Pose2(134.0, 2.0, kPi) * base, seconds);
@@ -204,7 +204,7 @@ TEST(LoopCloserTest, TheTrajectoryHasAllPosesButThoseAtRest) {
   EXPECT_TRUE(closer.trajectory().empty());
 }
 
-TEST(LoopCloserTest, TheMapIsOfAllThatWasSeen) {
+TEST(LoopCloserTest, TheMapCoversAllScans) {
   LoopCloser closer(yardOptions());
   drive(closer, yard, roundTheYard(1));
   const OccupancyMap map = closer.map();

@@ -39,7 +39,7 @@ class Drive {
     time_ += kPeriod;
   }
 
-  /// So many scans, 1 m apart.
+  /// Adds this many scans, 1 m apart.
   void straight(int scans, double age = kAge) {
     for (int i = 0; i < scans; ++i) {
       x_ += 1.0;
@@ -68,8 +68,9 @@ TEST(MapDriftTest, TheMapTakesOverOneErrorOfTheMatchInEachRenewal) {
 }
 
 TEST(MapDriftTest, OfSurfacesOfTwoAgesTheMeanAgeCoversTheDriftWithinAFactorOfTwenty) {
-  // Nine tenths of what is matched are one scan old, a tenth 101: 11 on average. Each error of a
-  // match, one a scan, is in the map as it is; how far is it off after 3000?
+  // Nine tenths of the matched points are one scan old, one tenth is 101 scans old: 11 on average.
+  // Each error of a match, one per scan, enters the map unchanged; how large is the drift after
+  // 3000?
   constexpr int kOld = 101;
   constexpr int kScans = 3000;
   constexpr int kRuns = 200;
@@ -86,7 +87,7 @@ TEST(MapDriftTest, OfSurfacesOfTwoAgesTheMeanAgeCoversTheDriftWithinAFactorOfTwe
   Drive drive(false, ScalePrior{0.0, false});
   drive.straight(kScans, 11.0 * kPeriod);
   const double by_mean_age = drive.drift.covariance()(0, 0);
-  // It covers errors that are alike for as long as a renewal, 11 scans; here they are independent.
+  // It covers errors that are correlated over one renewal, 11 scans; here they are independent.
   EXPECT_GT(by_mean_age, squares);
   EXPECT_LT(by_mean_age, 20.0 * squares);
   Drive by_rate(false, ScalePrior{0.0, false});
@@ -94,7 +95,7 @@ TEST(MapDriftTest, OfSurfacesOfTwoAgesTheMeanAgeCoversTheDriftWithinAFactorOfTwe
   EXPECT_GT(by_rate.drift.covariance()(0, 0), 20.0 * squares) << "the rates' mean is far off";
 }
 
-TEST(MapDriftTest, AnErrorOfTheHeadingLeadsAside) {
+TEST(MapDriftTest, AHeadingErrorCausesLateralDrift) {
   Drive drive(false);
   drive.straight(100);
   const double heading_variance = drive.drift.covariance()(2, 2);
@@ -143,7 +144,7 @@ TEST(MapDriftTest, AScaleThatIsNotEstimatedStaysUnknown) {
   EXPECT_DOUBLE_EQ(drive.drift.scaleSigma(), 0.05);
 }
 
-TEST(MapDriftTest, SurfacesOfLongAgoShowTheScaleOnlyOverTheDistanceDrivenSince) {
+TEST(MapDriftTest, OldSurfacesShowTheScaleOnlyOverTheDistanceDrivenSince) {
   constexpr double kLongAgo = 1e6;  // s
   Drive drive(true);
   for (int i = 1; i <= 100; ++i) {
@@ -173,7 +174,7 @@ TEST(MapDriftTest, APriorMapHoldsThePose) {
   EXPECT_LT(drive.drift.covariance()(0, 0), 0.01 * square(kPositionSigma));
 }
 
-TEST(MapDriftTest, WhatWasWrittenWithoutAMatchErrsAsThePredictionDid) {
+TEST(MapDriftTest, UnmatchedScansHaveTheErrorOfThePrediction) {
   Drive drive(false);
   drive.straight(100);
   const double before = drive.drift.covariance()(0, 0);
@@ -183,7 +184,7 @@ TEST(MapDriftTest, WhatWasWrittenWithoutAMatchErrsAsThePredictionDid) {
   EXPECT_NEAR(drive.drift.covariance()(0, 0) - before, 4.0, 0.01) << "the last one's, once";
 }
 
-TEST(MapDriftTest, WithoutMatchesItIsCarriedAlong) {
+TEST(MapDriftTest, WithoutMatchesItIsPropagated) {
   Drive drive(false);
   drive.straight(100);
   const Eigen::Matrix3d before = drive.drift.covariance();

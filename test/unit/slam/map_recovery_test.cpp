@@ -9,7 +9,7 @@
 namespace datmo::map_recovery_test {
 namespace {
 
-/// A drive with a gap of scans and odometry, in which the vehicle goes at `speed_in_gap`.
+/// A drive with a gap in scans and odometry, during which the vehicle moves at `speed_in_gap`.
 struct Drive {
   double gap = 2.0;           ///< s
   double speed_in_gap = 2.0;  ///< m/s; before and after it 2 m/s
@@ -60,7 +60,7 @@ Eigen::Vector3d errorOf(const Step& step) {
           angleBetween(step.truth.heading(), pose.heading())};
 }
 
-/// Whether an error beyond 0.5 m, 2 degrees is at most three standard deviations.
+/// Returns whether an error beyond 0.5 m, 2 degrees is at most three standard deviations.
 bool admits(const Step& step) {
   const Eigen::Vector3d error = errorOf(step);
   const Eigen::Matrix3d& covariance = step.result.labeled_scan.base_in_map.covariance;
@@ -74,8 +74,8 @@ bool admits(const Step& step) {
 }
 
 TEST(MapRecoveryTest, AfterAGapItIsUncertainAndNeverConfidentAndWrong) {
-  // The pillars of the yard repeat every 9 m: where the vehicle went on at another speed it may
-  // not be found, but then it says so.
+  // The pillars of the yard repeat every 9 m: if the vehicle continued at another speed it may not
+  // be found, but then it reports that.
   for (const double speed : {0.0, 2.0, 4.0}) {
     for (const double turn : {-0.2, 0.0, 0.2}) {
       const std::vector<Step> steps = run({2.0, speed, turn}, 70);
@@ -97,7 +97,7 @@ TEST(MapRecoveryTest, ItIsFoundWhereNothingElseFits) {
   EXPECT_LT(steps.back().result.labeled_scan.base_in_map.covariance(0, 0), 0.1);
 }
 
-TEST(MapRecoveryTest, OdometryThatComesLateStillBoundsTheGap) {
+TEST(MapRecoveryTest, LateOdometryStillBoundsTheGap) {
   const Eigen::Matrix3d in_time =
       run({2.0, 2.0}, 4).back().result.labeled_scan.base_in_map.covariance;
   const Eigen::Matrix3d late =
@@ -118,7 +118,7 @@ TEST(MapRecoveryTest, WithoutOdometryItIsFoundToo) {
   EXPECT_LT(errorOf(steps.back()).head<2>().norm(), 0.3);
 }
 
-TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapIsNoWayIntoTheOlder) {
+TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapDoesNotLeadIntoTheOlder) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
   const Twist2 twist{2.0, 0.0};
@@ -139,7 +139,7 @@ TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapIsNoWayIntoTheOlder) {
   }
   truth = truth * arc({4.0, 0.0}, 2.0);
   seconds += 2.0;
-  const Pose2 reset(1000.0, 0.0, 0.0);  // the encoders have begun anew
+  const Pose2 reset(1000.0, 0.0, 0.0);  // the encoders have been reset
   EXPECT_EQ(step(reset * truth).result.localization, Localization::kUncertain);
   for (int i = 0; i < 2; ++i) {
     step(reset * truth);
@@ -163,7 +163,7 @@ TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {
   }
 }
 
-TEST(MapRecoveryTest, PutDownElsewhereItGoesOnInANewMap) {
+TEST(MapRecoveryTest, PutDownElsewhereItContinuesInANewMap) {
   const std::vector<Step> steps = run({2.0, 2.0, 0.0, 0.0, true}, 70);
   EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
   EXPECT_EQ(steps.back().result.maps_begun, 1);

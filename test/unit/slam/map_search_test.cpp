@@ -19,7 +19,7 @@ using World = std::function<Scan(const Pose2& base, double seconds)>;
 
 Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
 
-/// Two endless walls 10 m apart with a pillar before one of them every 7 m.
+/// Two endless walls 10 m apart with a pillar in front of one of them every 7 m.
 Scan street(const Pose2& base, double seconds) {
   Scan scan = Yard().scan(base, seconds);
   const Pose2 scanner = base * scan.scanner_in_base;
@@ -41,7 +41,7 @@ Scan street(const Pose2& base, double seconds) {
   return scan;
 }
 
-/// A map of 2 s of driving from a pose, 2 m/s straight on, where that pose is `in_map`.
+/// A map of 2 s of driving straight from a pose at 2 m/s, where that pose is `in_map`.
 OccupancyMap mapOf(const World& world, const Pose2& from, const Pose2& in_map) {
   OccupancyMap map{OccupancyMapOptions{}};
   for (int i = 0; i <= 20; ++i) {
@@ -58,7 +58,7 @@ std::shared_ptr<const SearchedMap> searched(const OccupancyMap& map) {
   return std::make_shared<const SearchedMap>(map);
 }
 
-/// Searches for a newer map that begins `ahead` of an older one, with a prior that is `off`.
+/// Searches for a newer map that begins `ahead` of an older one, with a prior error of `off`.
 MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
                  const Eigen::Vector3d& sigma) {
   const OccupancyMap older = mapOf(world, Pose2(), Pose2());

@@ -14,7 +14,7 @@ namespace {
 constexpr double kHalfLength = 30.0;
 constexpr double kHalfWidth = 12.0;
 
-/// From a place in the room to its walls.
+/// Returns the distance from a point in the room to its walls.
 double rangeToWall(const Point2& from, double direction) {
   const double c = std::cos(direction);
   const double s = std::sin(direction);
@@ -39,7 +39,7 @@ struct Sweep {
 constexpr int kBeams = 81;
 const Pose2 kBaseInRoom(-4.0, 1.0, 0.4);
 
-/// Each ray is measured from where the vehicle is at the ray's time.
+/// Each ray is measured from the vehicle's position at the ray's time.
 Scan scanOf(const Sweep& sweep) {
   Scan scan;
   scan.scanner_in_base = Pose2(3.6, 0.3, 0.1);
@@ -62,7 +62,7 @@ Scan scanOf(const Sweep& sweep) {
   return scan;
 }
 
-/// Of the rays' ends, seen from the pose at the scan's stamp, from the walls.
+/// Returns the distance of the rays' ends, seen from the pose at the scan's stamp, from the walls.
 double largestDistanceToWalls(const Scan& scan) {
   double largest = 0.0;
   for (const Ray& ray : scan.rays) {
@@ -137,7 +137,7 @@ TEST(MotionCompensationOf, AVehicleAtRestChangesNothing) {
   }
 }
 
-TEST(MotionCompensationOf, NoRaysIsAtOnce) {
+TEST(MotionCompensationOf, NoRaysIsInstantaneous) {
   EXPECT_EQ(sweepDuration({}), 0.0);
   EXPECT_TRUE(compensateMotion({}, {14.0, 0.0}).rays.empty());
 }
@@ -149,7 +149,7 @@ TEST(MotionCompensationOf, TheSweepLastsToItsLatestRay) {
   EXPECT_DOUBLE_EQ(sweepDuration(scan), 0.079);
 }
 
-TEST(ScanAt, AnotherTimeIsAsTheVehicleWouldHaveMeasuredItThen) {
+TEST(ScanAt, CompensationToAnotherTimeEqualsAMeasurementThen) {
   const Scan scan = scanOf({"", 0.0, 0.0, {}});
   const Pose2 base(-1.0, 0.5, 0.1);  // the vehicle has driven on
   const Stamp later = scan.stamp + 0.1;

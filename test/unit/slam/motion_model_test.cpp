@@ -48,7 +48,7 @@ TEST(VelocityMotionModelTest, WithoutOdometryTheVelocityIsARandomWalk) {
   EXPECT_NEAR(model.velocityChange(0.25)(0, 0), 3.0 * 3.0 * 0.25, 1e-12);
 }
 
-TEST(VelocityMotionModelTest, WhatIsAssumedOfTheStartIsAnOption) {
+TEST(VelocityMotionModelTest, TheInitialUncertaintyIsAnOption) {
   const auto options = readOptions<MotionModelOptions>(
       {{"initial_speed_sigma", 2.0}, {"initial_yaw_rate_sigma", 0.5}});
   const Eigen::Matrix2d start = VelocityMotionModel(options).initialVelocityCovariance();

@@ -23,7 +23,7 @@ class OdometryAnchorTest : public ::testing::Test {
     odometry_.add({at(seconds), {0.0, 0.5}, Pose2(7.0, 3.0, 0.5 * seconds)});
   }
 
-  /// The filter as a match has left it that took the robot to stand at this heading.
+  /// The filter after a match that gave the robot this heading.
   PoseFilter matchedAt(double heading) const {
     PoseFilter matched = filter_;
     matched.predictUnmeasured(0.1);

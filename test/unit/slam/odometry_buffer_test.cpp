@@ -37,7 +37,7 @@ TEST_F(OdometryBufferTest, PartsOfAMotionComposeToTheWhole) {
   EXPECT_NEAR(angleBetween(composed.heading(), whole->heading()), 0.0, 1e-9);
 }
 
-TEST_F(OdometryBufferTest, TheFirstSampleServesTheTimeJustBeforeIt) {
+TEST_F(OdometryBufferTest, TheFirstSampleIsUsedForTheTimeJustBeforeIt) {
   buffer_.add({at(1.0), {2.0, 0.0}});
   const auto motion = buffer_.motion(at(0.9), at(1.1));
   ASSERT_TRUE(motion);
@@ -94,7 +94,7 @@ TEST_F(OdometryBufferTest, IsOverdueOnceTheNextSampleShouldHaveCome) {
   EXPECT_EQ(buffer_.overdue(at(1.39)), 0.0);
 }
 
-TEST_F(OdometryBufferTest, APoseWithoutATwistServesBackwardsAlone) {
+TEST_F(OdometryBufferTest, APoseWithoutATwistIsUsedOnlyBackward) {
   OdometrySample counted{at(4.0), {0.0, 26.0}, Pose2(0.0, 0.0, 1.0)};
   counted.twist_measured = false;
   buffer_.add({at(1.0), {0.0, 0.0}, Pose2()});
@@ -119,14 +119,14 @@ TEST_F(OdometryBufferTest, AfterTheLastPoseTheTwistHolds) {
   EXPECT_NEAR(buffer_.motion(at(1.0), at(1.2))->x(), 0.05 + 0.2, 1e-9);
 }
 
-TEST_F(OdometryBufferTest, LeavesOutWhatIsNotNewer) {
+TEST_F(OdometryBufferTest, LeavesOutSamplesThatAreNotNewer) {
   buffer_.add({at(1.0), {1.0, 0.0}});
   buffer_.add({at(1.0), {50.0, 0.0}});
   buffer_.add({at(0.5), {50.0, 0.0}});
   EXPECT_NEAR(buffer_.motion(at(1.0), at(1.1))->x(), 0.1, 1e-9);
 }
 
-TEST_F(OdometryBufferTest, KnownErrorsAreTakenOut) {
+TEST_F(OdometryBufferTest, KnownErrorsAreRemoved) {
   buffer_.add({at(1.0), {1.1, 0.25}});
   const auto motion = buffer_.motion(at(1.0), at(1.2), {0.1, 0.25});
   ASSERT_TRUE(motion);

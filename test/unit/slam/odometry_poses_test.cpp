@@ -8,7 +8,7 @@ namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
 
-/// Ahead at 10 m/s, from x = 0 at 100 s on.
+/// Ahead at 10 m/s, starting from x = 0 at 100 s.
 void addAt(double seconds, OdometryPoses& poses) {
   poses.add(at(seconds), {10.0, 0.0}, Pose2(10.0 * (seconds - 100.0), 2.0, 0.0));
 }
@@ -28,7 +28,7 @@ TEST(OdometryPoses, BeforeTheFirstOneItIsMovedBack) {
   EXPECT_NEAR(poses.at(at(99.8))->x(), -2.0, 1e-9);
 }
 
-TEST(OdometryPoses, NoneServesBeyondItsHold) {
+TEST(OdometryPoses, NoneIsUsedBeyondItsHold) {
   OdometryPoses poses(0.5);
   EXPECT_FALSE(poses.at(at(100.0)));
   addAt(100.0, poses);

@@ -8,7 +8,7 @@ namespace {
 
 const Eigen::Matrix3d kCovariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
 
-TEST(PoseCovarianceTest, AHeadingErrorMovesWhatIsFarAway) {
+TEST(PoseCovarianceTest, AHeadingErrorMovesDistantPoints) {
   const Eigen::Matrix3d far = carried(kCovariance, {10.0, 0.0});
   EXPECT_NEAR(far(0, 0), 0.01, 1e-12);
   EXPECT_NEAR(far(1, 1), 0.04 + 100.0 * 0.25, 1e-12);

@@ -12,7 +12,8 @@
 namespace datmo::pose_filter_test {
 namespace {
 
-/// What a match with this noise makes of a prior: the product of the two normal distributions.
+/// Returns a match with this noise combined with a prior: the product of the two normal
+/// distributions.
 PoseWithCovariance fuse(const PoseWithCovariance& prior, const Pose2& measured,
                         const Eigen::Matrix3d& noise) {
   const Eigen::Vector3d error(measured.x() - prior.pose.x(), measured.y() - prior.pose.y(),
@@ -74,7 +75,7 @@ TEST(PoseFilterTest, WithoutCalibrationNothingIsLearned) {
 TEST(PoseFilterTest, TheCovarianceHoldsTheError) {
   // Normalized estimation error squared of the pose over independent drives: 3 on average; 200 runs
   // have a mean between 2.67 and 3.35 with 95 % if the covariance is exact. The filter's odometry
-  // noise is larger than the drive's, so that it may only be too modest.
+  // noise is larger than the drive's, so the filter can only be conservative.
   double sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
@@ -114,7 +115,7 @@ TEST(PoseFilterTest, WithoutOdometryTheVelocityIsLearnedFromTheMatches) {
                      truth.heading() + random.normal(0.004));
     filter.correct(fuse(filter.pose(), seen, noise));
   }
-  // Half a second without a match: the velocity carries it on.
+  // Half a second without a match: it is predicted with the velocity.
   filter.predictUnmeasured(0.5);
   truth = truth * arc({8.0, 0.2}, 0.5);
   EXPECT_LT((filter.pose().pose.position() - truth.position()).norm(), 0.3);
@@ -156,14 +157,14 @@ PoseFilter measuredAt(const Twist2& twist) {
   return filter;
 }
 
-TEST(PoseFilterTest, AVelocityOfLongAgoTellsLittleOfNow) {
-  // 10 m/s once; since then the matches may have seen it brake. A walk of 3 m/s^1.5.
+TEST(PoseFilterTest, AnOldVelocityIsHardlyInformative) {
+  // Once 10 m/s; since then the matches may have seen it brake. A random walk of 3 m/s^1.5.
   const auto speedAfter = [](double age) {
     PoseFilter filter = measuredAt({4.0, 0.0});
     filter.observeVelocity({10.0, 0.0}, age);
     return filter.velocity().forward_speed;
   };
-  // Variances: of what is known (0.1 + 0.05 * 4)^2, of what was measured (0.1 + 0.05 * 10)^2.
+  // Variances: of the known velocity (0.1 + 0.05 * 4)^2, of the measured one (0.1 + 0.05 * 10)^2.
   EXPECT_NEAR(speedAfter(0.0), 4.0 + 6.0 * 0.09 / (0.09 + 0.36), 1e-9);
   EXPECT_NEAR(speedAfter(0.25), 4.0 + 6.0 * 0.09 / (0.09 + 0.36 + 2.25), 1e-9);
 }
@@ -190,7 +191,7 @@ TEST(PoseFilterTest, OverAGapTheMeanVelocityOfBothEndsHolds) {
   EXPECT_EQ(filter.velocity().forward_speed, 4.0);
 }
 
-TEST(PoseFilterTest, ARestartKeepsWhatIsKnownOfTheOdometry) {
+TEST(PoseFilterTest, ARestartKeepsTheOdometrysCalibration) {
   PoseFilter filter({}, {});
   BiasedDrive drive(0.03, degrees(0.5), 7);
   drive.run(filter, 600);

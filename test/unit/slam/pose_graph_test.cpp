@@ -36,7 +36,7 @@ TEST(PoseGraphTest, EqualMotionsShareTheErrorOfALoop) {
   EXPECT_NEAR(poses.squaredError(poses.loops().front()), 0.01, 1e-4);
 }
 
-TEST(PoseGraphTest, TheSurerMotionGivesWayLess) {
+TEST(PoseGraphTest, TheMoreCertainMotionIsCorrectedLess) {
   PoseGraph poses = graph();
   poses.start(Pose2());
   poses.extend(Pose2(1.0, 0.0, 0.0), covariance(1.0, 1.0));
@@ -90,7 +90,7 @@ TEST(PoseGraphTest, AFalseLoopDoesNotTearTheGraphApart) {
   EXPECT_EQ(poses.loops().front().to, 10U) << "the true one stays";
 }
 
-TEST(PoseGraphTest, ALoopThatIsNotFiniteIsTakenOut) {
+TEST(PoseGraphTest, ANonFiniteLoopIsRemoved) {
   PoseGraph poses = graph();
   poses.start(Pose2());
   poses.extend(Pose2(1.0, 0.0, 0.0), covariance(1.0, 1.0));
@@ -113,7 +113,7 @@ PoseGraph straightOn() {
   return poses;
 }
 
-TEST(PoseGraphTest, UncertaintyGrowsWithWhatWasDriven) {
+TEST(PoseGraphTest, UncertaintyGrowsWithTheDistanceDriven) {
   const PoseGraph poses = straightOn();
   // Each motion adds 0.1^2; its heading turns the remaining 90, 80 .. 0 m.
   const double across = 10 * 0.01 + 0.0001 * 100.0 * (81 + 64 + 49 + 36 + 25 + 16 + 9 + 4 + 1);
@@ -128,7 +128,7 @@ TEST(PoseGraphTest, UncertaintyGrowsWithWhatWasDriven) {
   EXPECT_NEAR(back(1, 1), across + 0.0001 * 100.0 * 100, 1e-9);
 }
 
-TEST(PoseGraphTest, ALoopMakesCertainWhatItConnectsAndNothingElse) {
+TEST(PoseGraphTest, ALoopReducesOnlyTheUncertaintyBetweenItsEnds) {
   PoseGraph poses = straightOn();
   poses.close({0, 10, Pose2(100.0, 0.0, 0.0), covariance(0.1, 0.001)});
   EXPECT_LT(maxPositionVariance(poses.covarianceBetween(0, 10)), 0.03);

@@ -18,7 +18,7 @@ OccupancyMap smallMap() {
   return OccupancyMap(options);
 }
 
-/// Ends of beams in all directions.
+/// End points of beams in all directions.
 std::vector<EndPoint> ends(std::size_t count, Random& random) {
   std::vector<EndPoint> points(count);
   for (EndPoint& point : points) {
@@ -57,7 +57,7 @@ double meanOccupancy(const OccupancyMap& map, const std::vector<EndPoint>& point
   return sum / static_cast<double>(points.size());
 }
 
-/// The first of the best, by looking up all ends of all poses.
+/// Returns the first of the best poses, by looking up all end points for all poses.
 std::size_t bestByAll(const OccupancyMap& map, const std::vector<EndPoint>& points,
                       const std::vector<Pose2>& poses) {
   std::size_t best = 0;
@@ -109,15 +109,15 @@ TEST(PoseScorer, WithoutPointsNothingFits) {
   EXPECT_EQ(scorer.bestOf({Pose2(1.0, 0.0, 0.0), Pose2()}).x(), 1.0);
 }
 
-TEST(PoseScorer, FarAwayNothingIsKnown) {
+TEST(PoseScorer, FarAwayTheMapIsUnknown) {
   Random random(4);
   const auto points = ends(20, random);
   const OccupancyMap map = mapOf(points);
   EXPECT_EQ(PoseScorer(map, points).score(Pose2(1e12, -1e300, 0.0)), 0.5);
 }
 
-// Under the undefined-behavior sanitizer: none of it is cast to a cell.
-TEST(PoseScorer, WhatIsNotFiniteIsNowhereInTheMap) {
+// Under the undefined-behavior sanitizer: none of it may be cast to a cell.
+TEST(PoseScorer, NonFinitePointsAreOutsideTheMap) {
   Random random(5);
   auto points = ends(20, random);
   const OccupancyMap map = mapOf(points);

@@ -17,7 +17,7 @@ Scan scanAt(const Pose2& base, double seconds) {
   return Yard().scan(base, seconds, &container);
 }
 
-/// Drives with odometry from a pose, 2 m/s.
+/// Drives with odometry from a pose, at 2 m/s.
 class Vehicle {
  public:
   explicit Vehicle(const Pose2& start) : pose_(start) {}
@@ -43,7 +43,7 @@ class Vehicle {
   double seconds_ = 0.0;
 };
 
-/// A map of the yard, there and back, in its own frame.
+/// A map of the yard, driven there and back, in its own frame.
 OccupancyMap mapOfYard() {
   GridSlam slam{GridSlamOptions{}};
   Vehicle vehicle{Pose2()};
@@ -63,7 +63,7 @@ double positionError(const SlamResult& result, const Pose2& truth) {
   return (result.labeled_scan.base_in_map.pose.position() - truth.position()).norm();
 }
 
-/// Whether a pose claims to know what it does not.
+/// Returns whether the result claims to be located although the pose is wrong.
 bool isConfidentlyWrong(const SlamResult& result, const Pose2& truth) {
   return result.localization == Localization::kLocated &&
          (positionError(result, truth) > 0.5 ||
@@ -71,7 +71,7 @@ bool isConfidentlyWrong(const SlamResult& result, const Pose2& truth) {
               degrees(3.0));
 }
 
-TEST(PriorMapTest, FromAnywhereItIsFoundOnTheWay) {
+TEST(PriorMapTest, GlobalLocalizationSucceedsWhileDriving) {
   const OccupancyMap map = mapOfYard();
   for (const Pose2& start :
        {Pose2(2.0, 1.0, 0.1), Pose2(20.0, -3.0, 3.0), Pose2(-5.0, 4.0, -0.8)}) {
@@ -128,7 +128,7 @@ TEST(PriorMapTest, FromAGuessItIsFoundThere) {
   EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
 }
 
-TEST(PriorMapTest, AWrongGuessIsGivenUp) {
+TEST(PriorMapTest, AWrongGuessIsAbandoned) {
   GridSlam slam{GridSlamOptions{}};
   SearchRegion guess;
   guess.prior.pose = {11.0, 1.0, 0.1};
@@ -144,7 +144,7 @@ TEST(PriorMapTest, AWrongGuessIsGivenUp) {
   EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
 }
 
-TEST(PriorMapTest, WhileItIsLostThePriorMapStaysAsItIs) {
+TEST(PriorMapTest, WhileItIsLostThePriorMapIsUnchanged) {
   GridSlam slam{GridSlamOptions{}};
   slam.startIn({mapOfYard(), {{}, true}});
   const MapEvidence before = mapOfYard().evidence();
@@ -171,7 +171,7 @@ TEST(PriorMapTest, AtRestNothingIsConfirmed) {
   }
 }
 
-/// A scan where each beam ends at the first point (m, fixed frame) of which this is true.
+/// A scan in which each beam ends at the first point (m, fixed frame) for which this is true.
 Scan scanUpTo(const std::function<bool(const Point2&)>& isOccupied, const Pose2& base,
               double seconds) {
   Scan scan = scanAt(base, seconds);
@@ -192,7 +192,7 @@ Scan scanUpTo(const std::function<bool(const Point2&)>& isOccupied, const Pose2&
   return scan;
 }
 
-/// A yard turned by half a turn about its own center is the same yard.
+/// The yard is unchanged by half a turn about its own center.
 Scan scanInSymmetricYard(const Pose2& base, double seconds) {
   return scanUpTo(
       [](const Point2& at) {
@@ -202,7 +202,7 @@ Scan scanInSymmetricYard(const Pose2& base, double seconds) {
       base, seconds);
 }
 
-TEST(PriorMapTest, WhereTwoPlacesFitNoneIsTaken) {
+TEST(PriorMapTest, IfTwoPlacesFitNoneIsChosen) {
   OccupancyMap map{GridSlamOptions{}.map};
   const auto show = [](OccupancyMap& shown, const Pose2& base, double seconds) {
     const Scan scan = scanInSymmetricYard(base, seconds);
@@ -223,7 +223,7 @@ TEST(PriorMapTest, WhereTwoPlacesFitNoneIsTaken) {
   }
 }
 
-/// Another place: two walls that meet at an angle no wall of the yard has.
+/// Another place: two walls that meet at an angle that no walls of the yard have.
 Scan scanElsewhere(const Pose2& base, double seconds) {
   return scanUpTo(
       [](const Point2& at) {
@@ -234,7 +234,7 @@ Scan scanElsewhere(const Pose2& base, double seconds) {
 
 TEST(PriorMapTest, InTheMapOfAnotherPlaceItStaysLost) {
   GridSlamOptions options;
-  options.recovery.prior_search.max_boxes = 150000;  // several searches come to an end
+  options.recovery.prior_search.max_boxes = 150000;  // several searches complete
   GridSlam slam{options};
   slam.startIn({mapOfYard(), {{}, true}});
   Pose2 truth;

@@ -49,7 +49,7 @@ OccupancyMap emptyMap() {
   return OccupancyMap(options);
 }
 
-/// The points are seen from the origin, `times` times from this time on, every 0.1 s.
+/// Adds the points, seen from the origin, `times` times from this time on, every 0.1 s.
 void see(OccupancyMap& map, const std::vector<Point2>& points, double from, int times) {
   Scan scan = scanOf(points, {});
   for (int i = 0; i < times; ++i) {
@@ -58,7 +58,7 @@ void see(OccupancyMap& map, const std::vector<Point2>& points, double from, int 
   }
 }
 
-/// The map after the points were seen several times.
+/// Returns the map after the points were seen several times.
 OccupancyMap mapOf(const std::vector<Point2>& points) {
   OccupancyMap map = emptyMap();
   see(map, points, 10.0, 5);
@@ -115,7 +115,7 @@ TEST(ScanMatcherTest, RefinementIsBetterThanTheBestSample) {
   EXPECT_LT(refined_error, 0.5 * plain_error);
 }
 
-TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
+TEST(ScanMatcherTest, AlongACorridorPredictionAndCovarianceAreKept) {
   const std::vector<Point2> points = corridor();
   const OccupancyMap map = mapOf(points);
   Random random(1);
@@ -127,8 +127,8 @@ TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
 }
 
 TEST(ScanMatcherTest, ACorridorsDirectionIsLeftToThePrediction) {
-  // The map knows another piece of the corridor's walls than the scan sees: only the walls' sides
-  // tell anything.
+  // The map knows another part of the corridor's walls than the scan sees: only the walls' sides
+  // are informative.
   const OccupancyMap map = mapOf(corridor());
   std::vector<Point2> seen;
   addWall(seen, {-5.0, 3.04}, {4.3, 3.04});
@@ -167,8 +167,8 @@ TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
   EXPECT_LT(result.pose.pose.position().norm(), 0.05);
 }
 
-/// Where the pose goes along a corridor, m, when the rear of a car that has just come into view is
-/// 0.3 m further than the map has it: 0.3 m back if it is taken for standing.
+/// Shift of the pose along a corridor, m, if the rear of a car that has just come into view is 0.3
+/// m further than the map has it: -0.3 m if it is taken for static.
 double shiftByNewcomer(double min_maturity, bool measured) {
   OccupancyMap map = emptyMap();
   see(map, corridor(), 10.0, 12);
@@ -187,12 +187,12 @@ double shiftByNewcomer(double min_maturity, bool measured) {
   return ScanMatcher(options).match(map, seenFrom(seen, {}), prediction, random).pose.pose.x();
 }
 
-TEST(ScanMatcherTest, WhatHasJustComeIntoViewDoesNotTakeThePoseAlong) {
+TEST(ScanMatcherTest, NewlyVisiblePointsDoNotPullThePose) {
   EXPECT_NEAR(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, true), 0.0, 0.02);
   EXPECT_LT(shiftByNewcomer(1.0, true), -0.15) << "all alike";
 }
 
-TEST(ScanMatcherTest, WithoutOdometryWhatHasJustComeIntoViewCounts) {
+TEST(ScanMatcherTest, WithoutOdometryNewlyVisiblePointsCount) {
   EXPECT_LT(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, false), -0.15);
 }
 

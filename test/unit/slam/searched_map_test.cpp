@@ -11,7 +11,7 @@ namespace {
 
 using samples::mapWithABeam;
 
-TEST(SearchedMapTest, KnowsHowFarSurfacesAre) {
+TEST(SearchedMapTest, HasTheDistanceToSurfaces) {
   const SearchedMap map(mapWithABeam());
   EXPECT_EQ(map.surfaces().size(), 1U);
   // Cells are counted from the lower left corner, which is at (-5, -5) m.
@@ -20,7 +20,7 @@ TEST(SearchedMapTest, KnowsHowFarSurfacesAre) {
   EXPECT_NEAR(map.at({7.5F, 8.5F}).to_surface, std::sqrt(13.0), 0.02);
 }
 
-TEST(SearchedMapTest, KnowsHowDeepFreeSpaceIs) {
+TEST(SearchedMapTest, HasTheDepthOfFreeSpace) {
   const SearchedMap map(mapWithABeam());
   EXPECT_EQ(map.at({6.5F, 5.5F}).depth, 1.0F) << "one row of cells";
   EXPECT_EQ(map.at({9.5F, 5.5F}).depth, 0.0F) << "occupied";

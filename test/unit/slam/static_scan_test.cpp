@@ -12,8 +12,7 @@ ScanPoint pointOf(std::uint32_t beam, double range, PointState state) {
   return {Point2(range, static_cast<double>(beam)), range, 0.0, beam, state};
 }
 
-/// Beam 0 ends on a wall, 1 on a car that moves, 2 where nothing is known, 3 returns nothing, 4 is
-/// blind.
+/// Beam 0 ends on a wall, 1 on a moving car, 2 in unknown space, 3 has no return, 4 is blind.
 LabeledScan fiveBeams() {
   LabeledScan scan;
   scan.field.beams = 5;
@@ -26,7 +25,7 @@ LabeledScan fiveBeams() {
   return scan;
 }
 
-TEST(StaticRanges, MarkWhatStandsAndClearWhatIsFree) {
+TEST(StaticRanges, MarkStaticPointsAndClearFreeSpace) {
   const auto ranges = staticRanges(fiveBeams(), true);
   ASSERT_EQ(ranges.size(), 5U);
   EXPECT_EQ(ranges[0], 10.0F);
@@ -36,17 +35,17 @@ TEST(StaticRanges, MarkWhatStandsAndClearWhatIsFree) {
   EXPECT_TRUE(std::isnan(ranges[4]));
 }
 
-TEST(StaticRanges, WhatIsNotKnownIsLeftOutOnDemand) {
+TEST(StaticRanges, UnknownPointsAreLeftOutOnRequest) {
   EXPECT_TRUE(std::isnan(staticRanges(fiveBeams(), false)[2]));
 }
 
-TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
+TEST(StaticRanges, WithoutAFreeRangeABeamWithoutReturnIsUninformative) {
   LabeledScan scan = fiveBeams();
   scan.field.free_range = 0.0;
   EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
 }
 
-TEST(StaticRanges, NothingIsKnownBeyondWhatABeamWithoutReturnClears) {
+TEST(StaticRanges, BeyondItsFreeRangeABeamWithoutReturnIsUninformative) {
   LabeledScan scan = fiveBeams();
   EXPECT_EQ(staticRange(scan.field), 40.0);
   scan.points = {pointOf(0, 45.0, PointState::kStatic)};
@@ -74,7 +73,7 @@ TEST(StaticRanges, BeamsBeyondTheFieldAreLeftOut) {
   EXPECT_TRUE(staticRanges(scan, true).empty());
 }
 
-TEST(StaticPoints, AreThoseThatStand) {
+TEST(StaticPoints, AreTheStaticOnes) {
   EXPECT_EQ(staticPoints(fiveBeams(), true).size(), 2U);
   const auto known = staticPoints(fiveBeams(), false);
   ASSERT_EQ(known.size(), 1U);

@@ -7,7 +7,7 @@
 namespace datmo::submap_matcher_test {
 namespace {
 
-/// 8 m straight on through the yard; the frame is where the vehicle is after 4 m.
+/// 8 m straight through the yard; the frame is the vehicle's pose after 4 m.
 Submap submapFrom(const Pose2& begin) {
   Submap submap;
   for (int i = 0; i <= 8; ++i) {

@@ -13,14 +13,14 @@ bool passes(TwistGate& gate, double seconds, double speed, double yaw_rate) {
   return gate.passes(Stamp::fromSeconds(seconds), {speed, yaw_rate});
 }
 
-TEST(TwistGate, OneImpossibleYawRateCostsItself) {
+TEST(TwistGate, OneImpossibleYawRateCostsOneSample) {
   TwistGate gate{TwistGateOptions(), OdometryNoiseOptions()};
   EXPECT_TRUE(passes(gate, 10.0, 8.0, 0.0));
   EXPECT_FALSE(passes(gate, 10.02, 8.0, 3.0)) << "8 m/s at 3 rad/s is 2.4 g sideways";
   EXPECT_TRUE(passes(gate, 10.04, 8.0, 0.0));
 }
 
-TEST(TwistGate, OneImpossibleSpeedCostsItself) {
+TEST(TwistGate, OneImpossibleSpeedCostsOneSample) {
   TwistGate gate{TwistGateOptions(), OdometryNoiseOptions()};
   passes(gate, 10.0, 8.0, 0.0);
   EXPECT_FALSE(passes(gate, 10.1, 40.0, 0.0));
@@ -37,7 +37,7 @@ TEST(TwistGate, FullBrakingAndASteppedTurnPass) {
   }
 }
 
-TEST(TwistGate, ATurnThatTheTiresHoldMayComeAtOnce) {
+TEST(TwistGate, ATurnWithinTheTiresLimitMayBeSudden) {
   TwistGate gate{TwistGateOptions(), OdometryNoiseOptions()};
   EXPECT_TRUE(passes(gate, 10.0, 8.0, 0.0));
   EXPECT_TRUE(passes(gate, 10.02, 8.0, 1.2)) << "1 g sideways, on a radius of 7 m";
@@ -48,7 +48,7 @@ TEST(TwistGate, ATurnThatTheTiresHoldMayComeAtOnce) {
   EXPECT_FALSE(passes(gate, 12.02, 1.0, 1.0)) << "on a radius of 1 m";
 }
 
-TEST(TwistGate, WhatTheNoiseExplainsPasses) {
+TEST(TwistGate, ChangesExplainedByNoisePass) {
   OdometryNoiseOptions wheels_that_slip;
   wheels_that_slip.yaw_rate_noise = 0.2;
   TwistGate gate{TwistGateOptions(), wheels_that_slip};
@@ -65,7 +65,7 @@ TEST(TwistGate, AChangeThatASecondTwistConfirmsIsFollowed) {
   EXPECT_TRUE(passes(gate, 10.06, 20.2, 0.0));
 }
 
-TEST(TwistGate, TheLongerTheGapTheMoreMayHaveChanged) {
+TEST(TwistGate, LongerGapsAllowLargerChanges) {
   TwistGate gate{TwistGateOptions(), OdometryNoiseOptions()};
   passes(gate, 10.0, 0.0, 0.0);
   EXPECT_TRUE(passes(gate, 12.0, 20.0, 0.0)) << "10 m/s^2";

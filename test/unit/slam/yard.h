@@ -10,12 +10,12 @@
 
 namespace datmo {
 
-/// A walled yard of 50 m x 30 m with pillars, in which a car drives; rays by hand.
+/// A walled yard of 50 m x 30 m with pillars, in which a car drives; ray casting by hand.
 class Yard {
  public:
-  /// A scan with 2-degree beams over 160 degrees from this pose, at this time. `box`: something
-  /// that stands in the yard in this scan only. Beams that meet nothing, from beyond a wall, are no
-  /// hits.
+  /// Returns a scan with 2-degree beams over 160 degrees from this pose, at this time. `box`: an
+  /// object in the yard in this scan only. Beams that hit nothing, from outside the walls, have no
+  /// return.
   Scan scan(const Pose2& base_in_map, double seconds, const Box2* box = nullptr) const {
     Scan scan;
     scan.stamp = Stamp::fromSeconds(1000.0 + seconds);

@@ -32,7 +32,7 @@ std::vector<double> positionsOf(const AssociationScan& scan) {
   return positions;
 }
 
-TEST_F(AssociationScanTest, ObjectsByRisingXInTheFixedFrameWithTheirIndexInTheList) {
+TEST_F(AssociationScanTest, ObjectsByAscendingXInTheFixedFrameWithTheirIndexInTheList) {
   const AssociationScan scan =
       take({objectAt(3.0, 0.0), objectAt(1.0, 0.0), objectAt(2.0, 0.0)}, Pose2(10.0, 5.0, 0.0));
   EXPECT_EQ(positionsOf(scan), (std::vector<double>{11.0, 12.0, 13.0}));
@@ -99,7 +99,7 @@ TEST_F(AssociationScanTest, DensityIsThatOfNewObjectsAndOfClutterSeenFromTheVehi
   EXPECT_NEAR(std::exp(scan.observations[1].log_density), options_.new_density, 1e-12);
 }
 
-TEST_F(AssociationScanTest, WhatTheMapKnowsAsStaticStartsNoTarget) {
+TEST_F(AssociationScanTest, ObjectsStaticInTheMapStartNoTarget) {
   const AssociationScan scan =
       take({objectAt(1.0, 0.0, DynamicState::kStatic), objectAt(2.0, 0.0, DynamicState::kUnknown)});
   EXPECT_FALSE(scan.observations[0].starts_target);
@@ -107,7 +107,7 @@ TEST_F(AssociationScanTest, WhatTheMapKnowsAsStaticStartsNoTarget) {
   EXPECT_FALSE(scan.observations[0].needs_target);
 }
 
-TEST_F(AssociationScanTest, NothingInNothingOut) {
+TEST_F(AssociationScanTest, NoInputGivesNoOutput) {
   const AssociationScan scan = take({});
   EXPECT_EQ(scan.objects, 0U);
   EXPECT_TRUE(scan.observations.empty());

@@ -13,10 +13,10 @@
 
 namespace datmo {
 
-/// Makes scans for the association; nothing is known of the view nor of clutter.
+/// Makes scans for the association; view and clutter are unknown.
 class ScanSource {
  public:
-  /// Lives as long as this source.
+  /// Returns a scan, which must not outlive this source.
   AssociationScan scan(const std::vector<Object>& objects) {
     return ingest(objects, Pose2(), visibility_, clutter_, ScanIntakeOptions(), counts_);
   }
@@ -30,7 +30,7 @@ class ScanSource {
   ScanIntakeCounts counts_;
 };
 
-/// One that was just seen for the first time, at (x, y) in m.
+/// A target that was just seen for the first time, at (x, y) in m.
 inline Target targetAt(double x, double y, std::uint64_t number = 1) {
   return {objectAt(x, y), 0, number, TargetOptions()};
 }
@@ -51,7 +51,7 @@ inline std::vector<Object> objectsAlong(const std::vector<double>& positions) {
   return objects;
 }
 
-/// Whole scans through a set of targets, 0.1 s apart.
+/// Passes whole scans to a set of targets, 0.1 s apart.
 inline void see(TargetSet& targets, ScanSource& source, const std::vector<Object>& objects,
                 const StepBudget& budget = StepBudget()) {
   AssociationScan scan = source.scan(objects);
@@ -59,7 +59,8 @@ inline void see(TargetSet& targets, ScanSource& source, const std::vector<Object
   targets.associate(scan, budget);
 }
 
-/// What the target of this number was seen as in the last scan; kUnseen too if there is none.
+/// Returns the observation of the target of this number in the last scan; kUnseen also if there is
+/// none.
 inline std::size_t measurementIndex(const TargetSet& targets, std::uint64_t number) {
   for (const BestTarget& best : targets.best()) {
     if (best.target->number() == number) {

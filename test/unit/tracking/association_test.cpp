@@ -51,7 +51,7 @@ TEST_F(AssociationTest, MoreCertainToExistScoresHigher) {
   EXPECT_LT(sure.missed, unsure.missed);
 }
 
-TEST_F(AssociationTest, OnlyWhatIsWithinTheGateByRisingX) {
+TEST_F(AssociationTest, OnlyObjectsWithinTheGateByAscendingX) {
   const Target target = predictedAt(0.0, 0.0);
   EXPECT_EQ(candidatesOf(target, objectsAlong({50.0, 0.4, -50.0, -0.3})),
             (std::vector<std::size_t>{1, 2}));
@@ -69,8 +69,8 @@ TEST_F(AssociationTest, TheGateIsAMahalanobisDistance) {
   EXPECT_TRUE(candidatesOf(target, {object}).empty());
 }
 
-TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
-  // All objects that pass the gate by themselves are found among many, large and small ones.
+TEST_F(AssociationTest, ThePregateLosesNothingWithinTheGate) {
+  // All objects that pass the gate by themselves are found among many, small and large ones.
   const Target target = predictedAt(0.0, 0.0);
   std::vector<Object> objects;
   for (int i = -60; i <= 60; ++i) {
@@ -89,7 +89,7 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
   EXPECT_EQ(candidatesOf(target, objects).size(), expected);
 }
 
-TEST_F(AssociationTest, TheQuickAnswerLosesNothingWhateverSidesAreSeen) {
+TEST_F(AssociationTest, ThePregateLosesNothingWhateverSidesAreVisible) {
   Random random(1);
   const auto anyObject = [&random] {
     Object object = objectAt(random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0));
@@ -146,7 +146,7 @@ Object ofClass(ObjectClass object_class, double probability) {
   return object;
 }
 
-TEST_F(AssociationTest, SurelyDifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
+TEST_F(AssociationTest, ClearlyDifferentClassesAreNeverAssociated) {
   const auto of = [](ObjectClass object_class) { return ofClass(object_class, 0.99); };
   const Target cyclist(of(ObjectClass::kCyclist), 0, 1, TargetOptions());
   EXPECT_TRUE(candidatesOf(cyclist, {of(ObjectClass::kVehicle)}).empty());
@@ -156,7 +156,7 @@ TEST_F(AssociationTest, SurelyDifferentClassesAreNeverJoinedAnUnknownOneIsWithAn
   EXPECT_EQ(candidatesOf(unknown, {of(ObjectClass::kVehicle)}).size(), 1U);
 }
 
-TEST_F(AssociationTest, WhereClassesMayDifferTheProbabilityCounts) {
+TEST_F(AssociationTest, PossiblyDifferentClassesCountByProbability) {
   const Target cyclist(ofClass(ObjectClass::kCyclist, 0.8), 0, 1, TargetOptions());
   const auto scoreOf = [&](ObjectClass object_class, double probability) {
     const AssociationScan scan = source_.scan({ofClass(object_class, probability)});
@@ -168,7 +168,8 @@ TEST_F(AssociationTest, WhereClassesMayDifferTheProbabilityCounts) {
   const double pedestrian = scoreOf(ObjectClass::kPedestrian, 0.8);
   EXPECT_LT(scoreOf(ObjectClass::kPedestrian, 0.9), pedestrian);
   EXPECT_LT(pedestrian, scoreOf(ObjectClass::kPedestrian, 0.5));
-  // The target is a pedestrian by 0.05 (ClassBelief's doubt: 0.0575), as the object by 0.8.
+  // The target is a pedestrian with probability 0.05 (ClassBelief's doubt: 0.0575), the object with
+  // 0.8.
   const double same = 0.0575 * 0.8 + (1.0 - 0.0575) * 0.2 / 4.0;
   EXPECT_NEAR(pedestrian - unknown, std::log(same / 0.2), 1e-9);
   EXPECT_EQ(scoreOf(ObjectClass::kCyclist, 0.8), unknown) << "others are cyclists too";

@@ -13,7 +13,7 @@ namespace datmo::samples {
 /// Scans and observations of one object, and the evidence of beams for its motion.
 class BeamEvidenceScene : public testing::Test {
  protected:
-  /// What is computed by hand below goes by these, not by the defaults.
+  /// The results worked out by hand below assume these values, not the defaults.
   BeamEvidenceScene() {
     options_.detection = 0.8;
     options_.detection_strength = 10.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What beams say of an object's motion by where they ended, and where they passed.
+// Beams as evidence of an object's motion: where they ended, and what they passed.
 #include "beam_evidence_scene.h"
 
 namespace datmo::beam_evidence_test {
@@ -7,23 +7,23 @@ namespace {
 
 using BeamEvidenceTest = samples::BeamEvidenceScene;
 
-TEST_F(BeamEvidenceTest, WithoutScansNothingIsKnown) {
+TEST_F(BeamEvidenceTest, WithoutScansThereIsNoEvidence) {
   see(0.0, {{20.0, 0.0}});
   const BeamEvidence nothing = evidence(0.0, elsewhere());
   EXPECT_EQ(nothing.observed, 0U);
   EXPECT_EQ(nothing.log_ratio, 0.0);
 }
 
-TEST_F(BeamEvidenceTest, TheScanInWhichItWasSeenSaysNothing) {
+TEST_F(BeamEvidenceTest, TheScanInWhichItWasSeenIsNoEvidence) {
   scan(0.0, {{20.0, 0.0}});
   see(0.0, {{20.0, 0.0}});
   EXPECT_EQ(evidence(0.0, elsewhere()).observed, 0U);
 }
 
-TEST_F(BeamEvidenceTest, PositionsWhereNoBeamOfTheirScanEndedAreNotAsked) {
+TEST_F(BeamEvidenceTest, PositionsWithoutBeamEndsAreNotEvaluated) {
   scan(0.0, {});
   scan(0.1, {{20.0, 0.0}});
-  see(0.1, {{20.0, 1.0}});  // as a camera has it
+  see(0.1, {{20.0, 1.0}});  // as a camera reports it
   const BeamEvidence of_camera = evidence(0.1, elsewhere());
   EXPECT_EQ(of_camera.observed, 0U);
   EXPECT_TRUE(of_camera.by_others);
@@ -33,7 +33,7 @@ TEST_F(BeamEvidenceTest, PositionsWhereNoBeamOfTheirScanEndedAreNotAsked) {
   EXPECT_FALSE(of_both.by_others);
 }
 
-TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeSpeaksForMotion) {
+TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeIsEvidenceForMotion) {
   scan(0.0, {});
   scan(0.1, {{20.0, 0.0}});
   see(0.1, {{20.0, 0.0}});
@@ -42,14 +42,14 @@ TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeSpeaksForMotion) {
   EXPECT_NEAR(entered.log_ratio, std::log(0.9 / 0.4), 1e-9) << "of a single echo";
 }
 
-TEST_F(BeamEvidenceTest, ABeamThatPassesAfterwardSpeaksForMotionToo) {
+TEST_F(BeamEvidenceTest, ABeamThatPassesAfterwardIsEvidenceForMotionToo) {
   scan(0.0, {{20.0, 0.0}});
   see(0.0, {{20.0, 0.0}});
   scan(0.1, {});
   EXPECT_NEAR(evidence(0.1, elsewhere()).log_ratio, std::log(0.9 / 0.4), 1e-9);
 }
 
-TEST_F(BeamEvidenceTest, ABeamThatEndedThereBeforeSpeaksAgainstMotion) {
+TEST_F(BeamEvidenceTest, ABeamThatEndedThereBeforeIsEvidenceAgainstMotion) {
   scan(0.0, {{20.0, 0.0}});
   scan(0.1, {{20.0, 0.0}});
   see(0.1, {{20.0, 0.0}});
@@ -67,7 +67,7 @@ TEST_F(BeamEvidenceTest, SurfacesCountForMoreThanEchoes) {
   EXPECT_NEAR(entered.log_ratio, 3.0 * std::log(0.9) - std::log(24.0 / 1320.0), 1e-9);
 }
 
-TEST_F(BeamEvidenceTest, WhatIsHitNowAndThenMayStand) {
+TEST_F(BeamEvidenceTest, AnOccasionallyHitObjectMayBeStationary) {
   const std::vector<Point2> edge{{20.0, 0.0}};
   scan(0.0, {});
   scan(0.1, edge);
@@ -79,7 +79,7 @@ TEST_F(BeamEvidenceTest, WhatIsHitNowAndThenMayStand) {
   EXPECT_NEAR(evidence(0.3, elsewhere()).log_ratio, std::log(0.9 * 0.1 * 0.9 / stands), 1e-9);
 }
 
-TEST_F(BeamEvidenceTest, WhatIsNeverHitBeforehandIsSoonNoEdge) {
+TEST_F(BeamEvidenceTest, AnObjectNeverHitBeforeIsSoonNoEdge) {
   const std::vector<Point2> side{{20.0, -0.7}, {20.0, 0.0}, {20.0, 0.7}};
   for (int i = 0; i < 5; ++i) {
     scan(0.1 * i, {});
@@ -89,7 +89,7 @@ TEST_F(BeamEvidenceTest, WhatIsNeverHitBeforehandIsSoonNoEdge) {
   EXPECT_GT(evidence(0.5, elsewhere()).log_ratio, std::log(1e3));
 }
 
-TEST_F(BeamEvidenceTest, WhereTheBodyCoversItsPositionBothSayTheSame) {
+TEST_F(BeamEvidenceTest, IfTheBodyCoversItsPositionBothAgree) {
   scan(0.0, {{20.0, 0.0}});
   scan(0.1, {{20.0, 0.0}});
   see(0.1, {{20.0, 0.0}});
@@ -97,7 +97,7 @@ TEST_F(BeamEvidenceTest, WhereTheBodyCoversItsPositionBothSayTheSame) {
   EXPECT_NEAR(evidence(0.1, large).log_ratio, 0.0, 1e-6);
 }
 
-TEST_F(BeamEvidenceTest, WhatIsHiddenSaysNothing) {
+TEST_F(BeamEvidenceTest, HiddenPositionsAreNoEvidence) {
   scan(0.0, {{10.0, 0.0}});
   scan(0.1, {{20.0, 0.0}});
   see(0.1, {{20.0, 0.0}});
@@ -114,7 +114,7 @@ TEST_F(BeamEvidenceTest, PositionsThatOneScanCrossesCountInTheirMean) {
   EXPECT_NEAR(entered.log_ratio, std::log(0.9 / 0.4), 1e-9);
 }
 
-TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotAsked) {
+TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotEvaluated) {
   scan(0.0, {});
   scan(2.5, {{20.0, 0.0}});
   see(2.5, {{20.0, 0.0}});

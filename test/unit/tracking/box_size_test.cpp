@@ -11,7 +11,7 @@ namespace {
 VisibleExtent whole(double length) { return {length, 0.01, true, 0.0}; }
 VisibleExtent atLeast(double length) { return {length, 0.01, false, 0.0}; }
 
-/// The rear of something that moves along the first axis: its width seen, its depth not.
+/// The rear of an object that moves along the first axis: its width is visible, its depth not.
 BoxSize afterRear(double width, const BoxSizeOptions& options, int scans = 5) {
   BoxSize size(options);
   for (int i = 0; i < scans; ++i) {
@@ -25,7 +25,7 @@ TEST(BoxSize, OneKindAloneIsAKalmanFilter) {
   BoxSizeOptions options;
   options.drift = 0.0;
   options.extent_std = 0.1;
-  options.vehicle = {1.0, 4.0, 0.5, 4.0, 0.5};  // length and width the same: no axis to choose
+  options.vehicle = {1.0, 4.0, 0.5, 4.0, 0.5};  // length and width equal: no axis to choose
   for (SizePrior* other : {&options.lorry, &options.two_wheeler, &options.person, &options.other}) {
     *other = options.vehicle;
   }
@@ -110,7 +110,7 @@ TEST(BoxSize, AClassSetsTheSize) {
   EXPECT_EQ(size.mean(), before);
 }
 
-TEST(BoxSize, AWrongClassIsForgottenByWhatIsSeen) {
+TEST(BoxSize, AWrongClassIsCorrectedByMeasurements) {
   const BoxSizeOptions options;
   BoxSize size(options);
   size.classify(ObjectClass::kPedestrian, 1.0);
@@ -149,7 +149,7 @@ TEST(BoxSize, ScansOfOneMomentCountAsOne) {
   EXPECT_LT(longer.variance().x(), 0.5 * few.variance().x()) << "as many, each of its own moment";
 }
 
-TEST(BoxSize, AScanWithoutTimeSaysNothingNew) {
+TEST(BoxSize, AScanWithoutElapsedTimeAddsNothing) {
   const BoxSizeOptions options;
   BoxSize size(options);
   size.update({whole(4.2), whole(1.75)}, 0.0, options);
@@ -158,7 +158,7 @@ TEST(BoxSize, AScanWithoutTimeSaysNothingNew) {
   EXPECT_EQ(size.mean(), before);
 }
 
-/// One kind has been seen, from both its sides: by hand.
+/// Only one kind, seen from both its sides: worked out by hand.
 TEST(BoxSize, TheLikelihoodsAreThoseOfTheSizes) {
   BoxSizeOptions options;
   options.lorry.share = 1e-6;
@@ -185,7 +185,7 @@ TEST(BoxSize, TheLikelihoodsAreThoseOfTheSizes) {
   EXPECT_NEAR(seen.vehicle, 0.9 * density(options.vehicle) / best + 0.1, kTolerance);
 }
 
-TEST(BoxSize, WhatWasSaidOfTheClassIsNotInTheLikelihoods) {
+TEST(BoxSize, ClassReportsAreNotInTheLikelihoods) {
   const BoxSizeOptions options;
   BoxSize size = afterRear(1.8, options);
   const RoadUserLikelihoods before = size.likelihoods(options);

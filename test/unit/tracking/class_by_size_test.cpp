@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a track says of its class before it has moved.
+// A track's class before it has moved.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace datmo::class_by_size_test {
 namespace {
 
-/// All sides of it are seen.
+/// All sides of it are visible.
 Object objectOf(double length, double width) {
   Object object;
   object.box = {Pose2(10.0, 2.0, 0.3), length, width};
@@ -19,7 +19,7 @@ Object objectOf(double length, double width) {
   return object;
 }
 
-/// The same as a sensor reports it, of this class.
+/// The same as reported by a sensor, with this class.
 Object reportOf(double length, double width, const char* sensor, ObjectClass object_class,
                 double probability) {
   Object object = objectOf(length, width);
@@ -57,14 +57,14 @@ class Seen {
   Target target_;
 };
 
-TEST(ClassBySize, OfWhatNoDetectorHasClassifiedTheSizeTells) {
+TEST(ClassBySize, UnclassifiedObjectsAreClassifiedBySize) {
   EXPECT_EQ(classOf(objectOf(4.2, 1.75)), ObjectClass::kVehicle);
   EXPECT_EQ(classOf(objectOf(11.0, 2.5)), ObjectClass::kVehicle) << "a bus";
   EXPECT_EQ(classOf(objectOf(1.8, 0.6)), ObjectClass::kCyclist);
   EXPECT_EQ(classOf(objectOf(0.6, 0.5)), ObjectClass::kPedestrian);
 }
 
-TEST(ClassBySize, ADetectorsClassIsNotWeighedByTheSizeOnceMore) {
+TEST(ClassBySize, ADetectorsClassIsNotWeightedBySizeAgain) {
   const TargetOptions options;
   const Object object = reportOf(4.2, 1.75, "stereo", ObjectClass::kCyclist, 0.6);
   ClassBelief said;
@@ -72,20 +72,20 @@ TEST(ClassBySize, ADetectorsClassIsNotWeighedByTheSizeOnceMore) {
   EXPECT_EQ(Target(object, 0, 1, options).track(options).class_probabilities, said.probabilities());
 }
 
-TEST(ClassBySize, OneWeakReportByAnImageDoesNotUndoAllSizes) {
+TEST(ClassBySize, OneWeakImageReportDoesNotOverrideSizes) {
   Seen seen(objectOf(4.2, 1.75));
   seen.again(objectOf(4.2, 1.75), 50);
   seen.again(reportOf(4.2, 1.75, "lidar", ObjectClass::kPedestrian, 0.28));
   EXPECT_EQ(classOf(seen.target()), ObjectClass::kVehicle);
 }
 
-TEST(ClassBySize, ReportsByAnImageWinOverASizeThatFitsAnotherClass) {
+TEST(ClassBySize, ImageReportsWinOverASizeThatFitsAnotherClass) {
   Seen seen(objectOf(4.2, 1.75));  // people side by side
   seen.again(reportOf(4.2, 1.75, "lidar", ObjectClass::kPedestrian, 0.8), 10);
   EXPECT_EQ(classOf(seen.target()), ObjectClass::kPedestrian);
 }
 
-TEST(ClassBySize, OfFusedObjectsOneSensorThatTellsByTheSizeIsEnough) {
+TEST(ClassBySize, OneSensorThatClassifiesBySizeIsEnough) {
   Object object = reportOf(4.2, 1.75, "lidar", ObjectClass::kCyclist, 0.6);
   EXPECT_FALSE(TargetOptions().hasClassBySize(object));
   object.sensors = {"lidar", "stereo"};

@@ -15,24 +15,24 @@ double of(ObjectClass object_class, const ClassProbabilities& probabilities) {
   return probabilities[static_cast<std::size_t>(object_class)];
 }
 
-TEST(ClassBySpeed, WhoWalksIsAPedestrian) {
+TEST(ClassBySpeed, WalkingSpeedIsAPedestrian) {
   const ClassProbabilities result = withSpeed(kPerson, {1.4, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kPedestrian, result), 0.9);
   EXPECT_NEAR(std::accumulate(result.begin(), result.end(), 0.0), 1.0, 1e-12);
 }
 
-TEST(ClassBySpeed, WhoIsTooFastToWalkRides) {
+TEST(ClassBySpeed, TooFastToWalkIsACyclist) {
   const ClassProbabilities result = withSpeed(kPerson, {5.0, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kCyclist, result), 0.9);
 }
 
-TEST(ClassBySpeed, WhatIsTooFastToRideDrives) {
+TEST(ClassBySpeed, TooFastToRideIsAVehicle) {
   const ClassProbabilities said{0.02, 0.10, 0.60, 0.26, 0.02};
   const ClassProbabilities result = withSpeed(said, {10.0, 0.2}, ClassBySpeedOptions());
   EXPECT_GT(of(ObjectClass::kVehicle, result), 0.8);
 }
 
-TEST(ClassBySpeed, ACarThatIsSurelyOneStaysACarWhenItCreeps) {
+TEST(ClassBySpeed, AClearCarStaysACarWhenItCreeps) {
   const ClassProbabilities said{0.01, 0.01, 0.01, 0.96, 0.01};
   for (const double speed : {0.5, 1.4, 5.0}) {
     const ClassProbabilities result = withSpeed(said, {speed, 0.3}, ClassBySpeedOptions());
@@ -52,7 +52,7 @@ TEST(ClassBySpeed, IsAsComputedByHand) {
   EXPECT_NEAR(of(ObjectClass::kCyclist, result), 0.5, 1e-6);
 }
 
-TEST(ClassBySpeed, OtherThingsStayWhatTheyAre) {
+TEST(ClassBySpeed, OtherObjectsAreUnchanged) {
   const ClassProbabilities said{0.4, 0.0, 0.0, 0.0, 0.6};
   const ClassProbabilities result = withSpeed(said, {30.0, 1.0}, ClassBySpeedOptions());
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
@@ -60,7 +60,7 @@ TEST(ClassBySpeed, OtherThingsStayWhatTheyAre) {
   }
 }
 
-TEST(ClassBySpeed, AnUnknownSpeedTellsNothing) {
+TEST(ClassBySpeed, AnUnknownSpeedIsUninformative) {
   const ClassProbabilities result = withSpeed(kPerson, {1.0, 1e3}, ClassBySpeedOptions());
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     EXPECT_NEAR(result[i], kPerson[i], 1e-3);
@@ -75,7 +75,7 @@ TEST(ClassBySpeed, NoSpeedLeavesAnythingUndefined) {
   }
 }
 
-TEST(ClassBySpeed, WhatTheSpeedSaidCanBeTakenOutAgain) {
+TEST(ClassBySpeed, EvidenceOfSpeedCanBeRemovedAgain) {
   for (const double speed : {0.0, 1.4, 5.0, 12.0, 60.0}) {
     const MeasuredSpeed measured{speed, 0.3};
     const ClassProbabilities weighed = withSpeed(kPerson, measured, ClassBySpeedOptions());

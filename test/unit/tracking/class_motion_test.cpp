@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pedestrians, cyclists and vehicles move each in their own way.
+// Pedestrians, cyclists and vehicles each move in their own way.
 #include <cmath>
 
 #include "tracking_scene.h"
@@ -21,7 +21,7 @@ Object measurementIndex(ObjectClass object_class, double probability, const Poin
   return object;
 }
 
-TEST(ClassMotion, PeopleTurnFasterThanVehiclesAndWhatHasNoClassMovesLikeThese) {
+TEST(ClassMotion, PeopleTurnFasterThanVehiclesAndUnknownClasses) {
   EXPECT_GT(turnRateOf(ObjectClass::kPedestrian), turnRateOf(ObjectClass::kCyclist));
   EXPECT_GT(turnRateOf(ObjectClass::kCyclist), turnRateOf(ObjectClass::kVehicle));
   EXPECT_EQ(turnRateOf(ObjectClass::kUnknown), turnRateOf(ObjectClass::kVehicle));
@@ -41,7 +41,8 @@ TEST(ClassMotion, TheStepsOfAScanAreThoseOfEachClass) {
   }
 }
 
-/// Mean error (m) of the position that is predicted for the next scan, of one who walks in circles.
+/// Mean error (m) of the position predicted for the next scan, for a pedestrian who walks in
+/// circles.
 double predictionErrorOf(ObjectClass object_class) {
   constexpr double kPeriod = 0.1;    // s
   constexpr double kSpeed = 1.3;     // m/s
@@ -63,7 +64,7 @@ double predictionErrorOf(ObjectClass object_class) {
   return error;
 }
 
-TEST(ClassMotion, OneWhoWalksInCirclesIsPredictedBetterAsAPedestrian) {
+TEST(ClassMotion, WalkingInCirclesIsPredictedBetterAsAPedestrian) {
   EXPECT_LT(predictionErrorOf(ObjectClass::kPedestrian),
             0.9 * predictionErrorOf(ObjectClass::kVehicle));
 }

@@ -18,7 +18,7 @@ class ClutterMapTest : public testing::Test {
   const Point2 position_{12.0, -7.0};
 };
 
-TEST_F(ClutterMapTest, NothingIsKnownAtFirst) { EXPECT_EQ(map_.density(position_), 0.0); }
+TEST_F(ClutterMapTest, IsUnknownInitially) { EXPECT_EQ(map_.density(position_), 0.0); }
 
 TEST_F(ClutterMapTest, OneObjectInEachScanBecomesOneByArea) {
   for (int i = 0; i < 1000; ++i) {
@@ -52,7 +52,7 @@ TEST_F(ClutterMapTest, NoTimeTeachesNothing) {
   EXPECT_EQ(map_.density(position_), 0.0);
 }
 
-TEST_F(ClutterMapTest, WhatIsFarAwayOrNotANumberIsLeftOut) {
+TEST_F(ClutterMapTest, DistantOrNanPositionsAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   map_.learn({Point2(1e300, 0.0), Point2(nan, nan), Point2(options_.range + 1.0, 0.0)}, 1.0);
   EXPECT_EQ(map_.density(Point2(1e300, 0.0)), 0.0);

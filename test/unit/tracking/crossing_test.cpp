@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What later scans are good for: targets that cross at a small angle, missed at times, among false
+// The benefit of later scans: targets that cross at a small angle, missed at times, among false
 // objects.
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr double kSeconds = 4.0;  // they meet half way
 constexpr int kScans = 40;
 
-/// One goes from the right to the left of the other, both ahead.
+/// One moves from the right to the left of the other, both ahead.
 Point2 positionOf(int target, double seconds) {
   const double side = target == 0 ? 1.0 : -1.0;
   return {4.0 * seconds, side * (2.5 - 5.0 * seconds / kSeconds)};
@@ -32,7 +32,7 @@ std::uint32_t idAt(const TrackList& list, const Point2& position) {
   return id;
 }
 
-/// How many of the two have the same id after the crossing as before it.
+/// Returns how many of the two have the same id after the crossing as before it.
 int idsKept(const TrackerOptions& options, std::uint64_t seed) {
   TrackingScene scene(options);
   std::mt19937_64 engine(seed);

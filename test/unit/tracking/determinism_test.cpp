@@ -74,7 +74,7 @@ TEST(Determinism, AClockThatIsNeverLateChangesNothing) {
   EXPECT_EQ(second.tracker().counts().association.best_only_steps, 0U);
 }
 
-TEST(Determinism, AClockThatIsAlwaysLateIsCountedAndTracksAllTheSame) {
+TEST(Determinism, AClockThatIsAlwaysLateIsCountedAndTracksNonetheless) {
   double now = 0.0;
   TrackingScene scene(TrackerOptions(), 0.1, [&now] { return now += 1.0; });
   for (int i = 0; i < 30; ++i) {

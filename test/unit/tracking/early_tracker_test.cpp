@@ -29,7 +29,7 @@ TrackerInput inputAt(int step, const std::vector<Object>& objects) {
           Visibility(VisibilityOptions())};
 }
 
-/// What comes at once of a scan's objects: those of every other place.
+/// Returns the objects of a scan that are available at once: those at positive y.
 std::vector<Object> earlyOf(const std::vector<Object>& objects) {
   std::vector<Object> early;
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(early),
@@ -54,7 +54,7 @@ void sortByPlace(TrackList& list) {
             [](const Track& a, const Track& b) { return a.state[0] < b.state[0]; });
 }
 
-/// Bit for bit, whatever the ids.
+/// Equal bit for bit, except for the ids.
 void expectSameButIds(TrackList a, TrackList b) {
   ASSERT_EQ(a.tracks.size(), b.tracks.size());
   sortByPlace(a);
@@ -72,7 +72,8 @@ void expectSame(const TrackList& a, const TrackList& b) {
   expectSameButIds(a, b);
 }
 
-/// Ids of two trackers that have the same tracks: one stands for one, for good.
+/// Ids of two trackers that have the same tracks: each id of one corresponds permanently to one of
+/// the other.
 class SameIds {
  public:
   void expect(TrackList a, TrackList b) {
@@ -91,7 +92,7 @@ class SameIds {
   std::map<std::uint32_t, std::uint32_t> ids_;
 };
 
-/// The id of the track there; 0: none.
+/// Returns the id of the track there; 0: none.
 std::uint32_t idAt(const TrackList& list, double x) {
   for (const Track& track : list.tracks) {
     if (std::abs(track.state[0] - x) < 2.0) {
@@ -108,7 +109,7 @@ class EarlyTrackerTest : public testing::TestWithParam<TrackerAssociation> {
   TrackerInput early(int step) const { return inputAt(step, earlyOf(scans_[index(step)])); }
   TrackerInput complete(int step) const { return inputAt(step, scans_[index(step)]); }
 
-  /// Each scan's objects early, and complete as many scans later.
+  /// Each scan's objects early, and complete this many scans later.
   void expectAsIfItHadWaited(int lag) {
     EarlyTracker tracker(with(GetParam()));
     Tracker waiting(with(GetParam()));
@@ -142,13 +143,13 @@ class EarlyTrackerTest : public testing::TestWithParam<TrackerAssociation> {
   std::vector<std::vector<Object>> scans_ = made();
 };
 
-TEST_P(EarlyTrackerTest, WithCompleteListsItIsAsIfItHadWaitedForThemButForIds) {
+TEST_P(EarlyTrackerTest, EqualsATrackerOfCompleteListsExceptForIds) {
   for (const int lag : {0, 1, 3}) {
     expectAsIfItHadWaited(lag);
   }
 }
 
-TEST_P(EarlyTrackerTest, TheNextEarlyListGoesOnFromTheCompleteOnes) {
+TEST_P(EarlyTrackerTest, TheNextEarlyListContinuesFromTheCompleteOnes) {
   EarlyTracker tracker(with(GetParam()));
   Tracker waiting(with(GetParam()));
   for (int step = 0; step < kSteps; ++step) {
@@ -165,7 +166,7 @@ TEST_P(EarlyTrackerTest, TheNextEarlyListGoesOnFromTheCompleteOnes) {
   }
 }
 
-TEST_P(EarlyTrackerTest, WhatWaitsIsBounded) {
+TEST_P(EarlyTrackerTest, TheQueueIsBounded) {
   EarlyTracker tracker(with(GetParam()));
   for (int step = 0; step < kSteps; ++step) {
     tracker.processEarly(early(step));
@@ -183,8 +184,9 @@ TEST_P(EarlyTrackerTest, WhatWaitsIsBounded) {
   EXPECT_TRUE(tracker.processEarly(early(0)).tracks.empty());
 }
 
-// Both confirmed at once by the complete lists, which come two scans later; early only one is seen.
-TEST_P(EarlyTrackerTest, WhatIsPublishedEarlyKeepsItsIdAndNoOtherGetsIt) {
+// Both confirmed at once by the complete lists, which arrive two scans later; early only one is
+// seen.
+TEST_P(EarlyTrackerTest, AnEarlyPublishedTrackKeepsItsUniqueId) {
   for (const double first : {-10.0, 10.0}) {  // either may be the first of both
     const double second = -first;
     EarlyTracker tracker(with(GetParam()));
@@ -205,14 +207,14 @@ TEST_P(EarlyTrackerTest, WhatIsPublishedEarlyKeepsItsIdAndNoOtherGetsIt) {
   }
 }
 
-TEST_P(EarlyTrackerTest, WhatEarlyListsAloneHaveIsNotConfirmed) {
+TEST_P(EarlyTrackerTest, ObjectsOfEarlyListsAloneAreNotConfirmed) {
   EarlyTracker tracker(with(GetParam()));
   for (int step = 0; step < 20; ++step) {
     EXPECT_TRUE(tracker.processEarly(inputAt(step, {objectAt(5.0, 3.0)})).tracks.empty());
   }
 }
 
-TEST_P(EarlyTrackerTest, IdsThatWerePublishedEarlyAreNotGivenOutAgainAfterAReset) {
+TEST_P(EarlyTrackerTest, EarlyPublishedIdsAreNotReusedAfterAReset) {
   EarlyTracker tracker(with(GetParam()));
   tracker.process(inputAt(0, {objectAt(5.0, 3.0)}));
   const auto published = [&] {
@@ -229,7 +231,7 @@ TEST_P(EarlyTrackerTest, IdsThatWerePublishedEarlyAreNotGivenOutAgainAfterAReset
   EXPECT_GT(published(), before);
 }
 
-TEST(EarlyTracker, WhatEarlyListsCutShortIsCounted) {
+TEST(EarlyTracker, SearchesCutShortByEarlyListsAreCounted) {
   double now = 0.0;
   EarlyTracker tracker(with(TrackerAssociation::kMultipleHypotheses),
                        [&now] { return now += 1.0; });

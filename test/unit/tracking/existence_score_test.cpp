@@ -28,7 +28,7 @@ TEST_F(ExistenceScoreTest, ANewTargetHasItsPriorProbability) {
   EXPECT_NEAR(score_.probability(options_), options_.birth_probability, 1e-12);
 }
 
-TEST_F(ExistenceScoreTest, WhatItsDetectorSaysOfTheFirstObjectCounts) {
+TEST_F(ExistenceScoreTest, TheDetectorsOddsOfTheFirstObjectCount) {
   options_.min_score = -20.0;
   const ExistenceScore doubted(-4.0, options_);
   const double prior = std::log(options_.birth_probability / (1.0 - options_.birth_probability));
@@ -46,7 +46,7 @@ TEST_F(ExistenceScoreTest, AddsUpLogLikelihoodRatios) {
   EXPECT_NEAR(score_.score(), 2.0 * one + 0.75 + std::log(1.0 - kDetection), 1e-12);
 }
 
-TEST_F(ExistenceScoreTest, OddsAreThoseOfThePriorAndOfTheScore) {
+TEST_F(ExistenceScoreTest, OddsCombinePriorAndScore) {
   options_.scan_limit = 100.0;
   options_.birth_probability = 0.5;
   options_.clutter_density = 0.0;
@@ -62,7 +62,7 @@ TEST_F(ExistenceScoreTest, OneObjectCountsForALimitedAmount) {
   EXPECT_DOUBLE_EQ(score_.score(), 0.0);
 }
 
-TEST_F(ExistenceScoreTest, AMissWhereNothingCouldBeSeenCostsLittle) {
+TEST_F(ExistenceScoreTest, AMissInAnUnobservedAreaCostsLittle) {
   detect(4);
   const double before = score_.score();
   ExistenceScore visible = score_;

@@ -19,7 +19,7 @@ inline StateEstimate startAt(const Point2& position) {
   return start;
 }
 
-/// Follows a path (m, by time in s) with noisy measurements for `seconds`.
+/// Tracks a path (m, by time in s) with noisy measurements for `seconds`.
 inline ImmFilter follow(const std::function<Point2(double)>& path, double seconds,
                         const ImmOptions& options = ImmOptions(), std::uint64_t seed = 23) {
   std::mt19937_64 engine(seed);
@@ -28,7 +28,8 @@ inline ImmFilter follow(const std::function<Point2(double)>& path, double second
   const ImmStep step = immStep(options, kPeriod);
   for (double time = kPeriod; time < seconds; time += kPeriod) {
     filter.predict(step);
-    const double aside = noise(engine);  // first, whatever a compiler's order of arguments is
+    const double aside =
+        noise(engine);  // first, whatever a compiler's evaluation order of arguments
     const Point2 seen = path(time) + Point2(noise(engine), aside);
     filter.update(PositionMeasurement{seen, Eigen::Matrix2d::Identity() * kSigma * kSigma},
                   options.outlier_probability);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tracker makes of objects that two sensors see, and of their classes.
+// How the tracker handles objects that two sensors see, and their classes.
 #include <cmath>
 #include <random>
 
@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kWalking = 1.4;  // m/s
 
-/// Scans after which its velocity is evidence enough of who walks, without beams.
+/// Scans after which its velocity alone, without beams, is sufficient evidence of a pedestrian.
 constexpr int kConfirmedBy = 20;
 
-/// The same where its class is mistaken in between: each time a pole is none that moves.
+/// The same if it is misclassified in between: each time as a pole, which does not move.
 constexpr int kMistakenConfirmedBy = 40;
 
-/// As the fusion of lidar and stereo tells it where both agree that it is there.
+/// As reported by the fusion of lidar and stereo if both see it.
 Object fusedAt(double x, double y) {
   Object object = objectAt(x, y, DynamicState::kMoving);
   object.sensors = {"lidar", "stereo"};
@@ -25,7 +25,7 @@ Object fusedAt(double x, double y) {
   return object;
 }
 
-/// As stereo alone tells it.
+/// As reported by stereo alone.
 Object stereoAt(double x, double y) {
   Object object = objectAt(x, y);
   object.sensors = {"stereo"};
@@ -51,8 +51,8 @@ TEST(FusedObjects, APoleIsNeverTracked) {
   }
 }
 
-TEST(FusedObjects, WhatStoodForLongMustBeSeenToMove) {
-  // Stereo's noise leaves it open whether it moves; that it was followed for long does not.
+TEST(FusedObjects, LongStationaryObjectsMustBeSeenToMove) {
+  // Stereo's noise leaves it open whether it moves; that it was tracked for long does not.
   TrackingScene scene;
   for (int i = 0; i < 30; ++i) {
     Object parked = stereoAt(10.0 + scene.noise(0.8), scene.noise(0.1));
@@ -66,7 +66,7 @@ TEST(FusedObjects, WhatStoodForLongMustBeSeenToMove) {
   }
 }
 
-TEST(FusedObjects, WhatStoodUntilNowDoesNotMoveForOneEcho) {
+TEST(FusedObjects, OneEchoDoesNotMakeAStationaryObjectMove) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({stereoAt(10.0 + scene.noise(0.1), scene.noise(0.1))});
@@ -75,7 +75,7 @@ TEST(FusedObjects, WhatStoodUntilNowDoesNotMoveForOneEcho) {
   EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
 }
 
-/// A walker whose class stereo mistakes for another one in this share of the scans.
+/// A pedestrian whom stereo misclassifies in this share of the scans.
 void walkMistaken(ObjectClass other, double probability, double share) {
   TrackingScene scene;
   std::mt19937_64 engine(17);
@@ -101,7 +101,7 @@ TEST(FusedObjects, AClassThatFlipsDoesNotBreakTheTrack) {
   }
 }
 
-TEST(FusedObjects, AClassThatChangesForGoodChangesThatOfTheTrack) {
+TEST(FusedObjects, APermanentClassChangeIsAdopted) {
   TrackingScene scene;
   for (int i = 0; i < 60; ++i) {
     const ObjectClass said = i < 30 ? ObjectClass::kPedestrian : ObjectClass::kCyclist;

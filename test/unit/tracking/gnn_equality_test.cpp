@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With one hypothesis, no scan history, and neither split nor merged objects, multiple hypothesis
+// With one hypothesis, no scan history, and neither split nor merged objects, multiple-hypothesis
 // tracking is the global nearest neighbor.
 #include <cstdint>
 

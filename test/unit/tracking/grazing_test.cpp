@@ -37,12 +37,12 @@ TEST_F(GrazingTest, AnEchoBesideThePathThatKeepsItsBeamMayBeTheEndOfOneAlongAWal
   EXPECT_NEAR(grazingShareAt({20.0, 5.0}), options_.grazing_share, 1e-9);
 }
 
-TEST_F(GrazingTest, NoWallStandsInTheVehiclesOwnPath) {
+TEST_F(GrazingTest, NoWallIsInTheVehiclesOwnPath) {
   EXPECT_LT(grazingShareAt({20.0, 0.5}), 0.01 * options_.grazing_share);
 }
 
 TEST_F(GrazingTest, AtTheEdgeOfThePathAWallIsHalfAsLikely) {
-  options_.free_path = 1.4;  // m: a beam looks there
+  options_.free_path = 1.4;  // m: a beam faces there
   EXPECT_NEAR(grazingShareAt({20.0, 1.4}), 0.5 * options_.grazing_share, 1e-9);
 }
 
@@ -53,13 +53,13 @@ TEST_F(GrazingTest, FarAheadThePathIsLessCertain) {
   EXPECT_GT(grazingShareAt({40.0, 1.4}), 1.5 * near);
 }
 
-TEST_F(GrazingTest, AtACreepNobodyKnowsWhereThePathLeads) {
+TEST_F(GrazingTest, WhileCreepingThePathIsUnknown) {
   const std::vector<Point2> ahead(5, {20.0, 0.0});
   EXPECT_GT(grazingShare(ahead, 0.05), 0.4 * options_.grazing_share);
 }
 
-TEST_F(GrazingTest, InABendAWallMayStandStraightAhead) {
-  // 8 m/s on a radius of 50 m to the left, whose outer wall is met by the beam straight ahead.
+TEST_F(GrazingTest, InABendAWallMayBeStraightAhead) {
+  // 8 m/s on a radius of 50 m to the left, whose outer wall is hit by the beam straight ahead.
   constexpr double kRadius = 50.0;
   constexpr double kYawRate = 8.0 / kRadius;
   Pose2 scanner;
@@ -77,7 +77,7 @@ TEST_F(GrazingTest, InABendAWallMayStandStraightAhead) {
   EXPECT_GT(evidence(1.5, end_of_beam).grazing_share, 0.2 * options_.grazing_share);
 }
 
-TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
+TEST_F(GrazingTest, PositionsWithoutBeamEndsAreNone) {
   see(0.0, {{20.0, 5.0}});
   for (const double seconds : {0.0, 0.1}) {
     history_.add(scanOf({}, seconds, Pose2(seconds, 0.0, 0.0)));
@@ -87,7 +87,7 @@ TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
   EXPECT_EQ(evidence(0.1, keeps_its_bearing).grazing_share, 0.0);
 }
 
-TEST_F(GrazingTest, AnEchoThatGoesFromBeamToBeamIsNone) {
+TEST_F(GrazingTest, AnEchoThatMovesFromBeamToBeamIsNone) {
   EXPECT_EQ(grazingShare({{20.0, 5.0}, {20.0, 5.7}, {20.0, 5.7}}), 0.0);
 }
 

@@ -64,10 +64,10 @@ TEST(HypothesisCluster, ASingleTargetIsCertain) {
   expectHypotheses(cluster, {1.0}, {{0}});
 }
 
-TEST(HypothesisCluster, CanonicalizeMergesEqualOnesSortsAndRemovesWhatIsUnused) {
+TEST(HypothesisCluster, CanonicalizeMergesEqualOnesSortsAndRemovesUnusedLeaves) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{1}, {2}, {3}}), treeOf(2, {{4}}), treeOf(3, {{5}, {6}})};
-  // The second leaf of the first tree and the whole second one are in none.
+  // The second leaf of the first tree and the whole second tree are in no hypothesis.
   cluster.hypotheses = {hypothesisOf(0.3, {2, kAbsent, kAbsent}),
                         hypothesisOf(0.2, {0, kAbsent, 1}), hypothesisOf(0.15, {0, kAbsent, 1})};
   canonicalize(cluster);
@@ -100,7 +100,7 @@ TEST(HypothesisCluster, MergedHasAllPairsBestFirst) {
   EXPECT_EQ(few.trees[1].leaves.size(), 1U) << "the other one is in no pair that is left";
 }
 
-TEST(HypothesisCluster, PruningLeavesWhatAgreesWithTheBestSoManyScansAgo) {
+TEST(HypothesisCluster, PruningKeepsWhatAgreesWithTheBestNScansAgo) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{5, 3, 1}, {6, 3, 1}, {7, 4, 1}})};
   cluster.hypotheses = {hypothesisOf(0.5, {0}), hypothesisOf(0.3, {2}), hypothesisOf(0.2, {1})};
@@ -116,7 +116,7 @@ TEST(HypothesisCluster, PruningLeavesWhatAgreesWithTheBestSoManyScansAgo) {
   EXPECT_EQ(cluster.trees[0].leaves[0].nodes[0], 5U);
 }
 
-TEST(HypothesisCluster, ATargetThatDidNotExistThenIsNoDisagreement) {
+TEST(HypothesisCluster, TargetsThatDidNotExistThenAreNoDisagreement) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{5, 3}, {6, 3}}), treeOf(2, {{9, 0}})};
   cluster.hypotheses = {hypothesisOf(0.6, {0, kAbsent}), hypothesisOf(0.4, {1, 0})};
@@ -142,8 +142,8 @@ TEST(HypothesisCluster, RemovedLeavesMakeTheirTargetAbsentAndEqualHypothesesOne)
   EXPECT_TRUE(cluster.trees.empty());
 }
 
-/// Three targets; the first two hypotheses differ in what the first two were seen as, the third one
-/// was seen or not in either case.
+/// Three targets; the first two hypotheses differ in the observations of the first two, the third
+/// one was observed or not in either case.
 HypothesisCluster threeTargets() {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{1}, {2}}), treeOf(2, {{3}, {4}}), treeOf(3, {{5}, {6}})};
@@ -160,7 +160,7 @@ std::vector<HypothesisCluster> partsOf(const HypothesisCluster& cluster,
   return parts;
 }
 
-TEST(HypothesisCluster, SplitsIntoTargetsThatSharedNoObjectOfLate) {
+TEST(HypothesisCluster, SplitsIntoTargetsThatSharedNoRecentObject) {
   HypothesisCluster cluster = threeTargets();
   cluster.links = {{10, 1, 2}, {7, 2, 3}};
   const std::vector<HypothesisCluster> parts = partsOf(cluster, 8);
@@ -184,7 +184,7 @@ TEST(HypothesisCluster, TargetsStayLinkedThroughOneThatIsGone) {
   EXPECT_EQ(parts[0].hypotheses.size(), 4U);
 }
 
-TEST(HypothesisCluster, NothingIsLeftOfNothing) {
+TEST(HypothesisCluster, AnEmptyClusterStaysEmpty) {
   HypothesisCluster cluster;
   cluster.hypotheses = {hypothesisOf(1.0, {})};
   EXPECT_TRUE(partsOf(cluster, 0).empty());

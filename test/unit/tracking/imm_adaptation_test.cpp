@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fixed against adaptive transition probabilities on objects that jump between the modes by a known
+// Fixed versus adaptive transition probabilities on objects that jump between the modes by a known
 // matrix. Both filters see the same objects, so that their errors are compared in pairs.
 #include <array>
 #include <cmath>
@@ -38,10 +38,10 @@ struct Errors {
   }
 };
 
-/// Steps of a sensor that does not keep time.
+/// Time steps of an irregular sensor.
 double secondsOf(int step) { return step % 3 == 0 ? 0.16 : 0.07; }
 
-/// Both filters follow the same object.
+/// Both filters track the same object.
 std::array<Errors, 2> follow(std::array<ImmFilter, 2>& filters, JumpSystem& object,
                              const ImmOptions& options, const JumpCounts& truth) {
   std::array<Errors, 2> errors;
@@ -60,7 +60,7 @@ std::array<Errors, 2> follow(std::array<ImmFilter, 2>& filters, JumpSystem& obje
   return errors;
 }
 
-/// The filters believe in the default sojourn times at first.
+/// The filters initially assume the default sojourn times.
 Comparison compare(const JumpCounts& truth) {
   ImmOptions options;
   options.transitions.adaptive = true;
@@ -87,7 +87,7 @@ Comparison compare(const JumpCounts& truth) {
 
 JumpCounts assumed() { return countsOfSojourns(TransitionOptions()); }
 
-/// Objects that change much more often than assumed, and that turn left rather than anything else.
+/// Objects that change much more often than assumed, and that mostly turn left.
 JumpCounts restlessLeftTurners() {
   TransitionOptions options;
   options.straight_sojourn = 3.0;
@@ -121,12 +121,12 @@ TEST(ImmAdaptation, WrongTransitionsAreLearnedAndErrorsShrink) {
   EXPECT_NEAR(adaptive.mean, 4.0, adaptive.bound);
 }
 
-TEST(ImmAdaptation, RightTransitionsStayAndErrorsDoNotGrow) {
+TEST(ImmAdaptation, RightTransitionsAreKeptAndErrorsDoNotGrow) {
   const Comparison result = compare(assumed());
   EXPECT_LT(divergence(assumed(), result.learned),
             0.1 * divergence(restlessLeftTurners(), assumed()));
 
-  // No more than 1 % of the squared error may be lost, with 95 %.
+  // No more than 1 % of the squared error may be lost, with 95 % confidence.
   const SampleMean change(result.velocity_change);
   EXPECT_LT(change.mean + change.bound, 0.01 * SampleMean(result.fixed_velocity).mean);
   const SampleMean adaptive(result.adaptive_normalized);

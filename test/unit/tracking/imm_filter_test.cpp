@@ -58,14 +58,14 @@ TEST(ImmFilter, EstimatesVelocityAndAccelerationOfABrakingCar) {
   EXPECT_NEAR(filter.estimate().mean[4], -2.0, 0.7);
 }
 
-/// A step in which the velocity has no say in the modes.
+/// A step in which the velocity does not affect the modes.
 ImmStep withStopFromAnySpeed() {
   ImmStep step = immStep(ImmOptions(), kPeriod);
   step.stop_variance = 1e12;
   return step;
 }
 
-TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
+TEST(ImmFilter, MissesGrowTheCovarianceAndLeadToThePriorModes) {
   ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
   const ImmStep step = withStopFromAnySpeed();
   double trace = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
@@ -80,7 +80,7 @@ TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
 }
 
 TEST(ImmFilter, OneMixingByHand) {
-  // Two steps of no time: only the mixing is left, and of equal modes it changes nothing.
+  // Two steps of zero time: only the mixing remains, and for equal modes it changes nothing.
   const ImmOptions options;
   ImmFilter filter(startAt(Point2(1.0, 2.0)), priorModeProbabilities(options));
   filter.predict(immStep(options, 0.0));
@@ -106,7 +106,7 @@ TEST(ImmFilter, WithEqualModesItIsOneKalmanFilter) {
   }
   EXPECT_TRUE(filter.estimate().mean.isApprox(single.mean, 1e-9));
   EXPECT_TRUE(filter.estimate().covariance.isApprox(single.covariance, 1e-9));
-  // Shares of time stay as they are, but for the discretization of the jumps.
+  // Shares of time are unchanged, except for the discretization of the jumps.
   EXPECT_TRUE(filter.modeProbabilities().isApprox(priorModeProbabilities(ImmOptions()), 0.02));
 }
 
@@ -125,7 +125,7 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
 }
 
-TEST(ImmFilter, OneMeasurementLeavesStandingItsShareOfOutliersTwoDoNot) {
+TEST(ImmFilter, OneMeasurementMayBeAnOutlierOfStandingTwoMayNot) {
   const ImmOptions options;
   ImmFilter filter = follow([](double) { return Point2(20.0, 5.0); }, 3.0);
   ASSERT_GT(filter.modeProbabilities()[kStanding], 0.9);
@@ -176,7 +176,7 @@ TEST(ImmFilter, FarFromTheOriginNoDigitsAreLost) {
   EXPECT_TRUE(there.modeProbabilities().isApprox(here.modeProbabilities(), 1e-6));
 }
 
-TEST(ImmFilter, WhatMayNotBeLearnedEqualsTheFixedTransitions) {
+TEST(ImmFilter, WithoutAdaptationTransitionsAreFixed) {
   ImmOptions options;
   options.transitions.adaptive = true;
   options.transitions.learning.prior_exposure = 1e5;
@@ -222,8 +222,8 @@ TEST_P(JumpingModes, ErrorsAndInnovationsAreConsistent) {
     innovations.push_back(sum / kSteps);
     errors.push_back(normalizedError(object.truth(), filter.estimate()));
   }
-  // Of right covariances the means are 4 and 2 whatever the distribution, but its spread is not
-  // that of chi-square: a mixture is not normal, least of all one of standing and moving.
+  // With correct covariances the means are 4 and 2 whatever the distribution, but its spread is not
+  // that of chi-square: a mixture is not normal, least of all one of stationary and moving.
   const SampleMean error(errors);
   EXPECT_NEAR(error.mean, 4.0, error.bound);
   const SampleMean innovation(innovations);

@@ -29,7 +29,7 @@ ImmOptions withoutStanding() {
   return options;
 }
 
-TEST(Standing, AnObjectThatStandsHasNoVelocityAndStaysInTheMode) {
+TEST(Standing, AStationaryObjectHasNoVelocityAndStaysInTheMode) {
   const auto point = [](double) { return Point2(3.0, 4.0); };
   for (const double seconds : {3.0, 10.0, 60.0}) {
     const ImmFilter filter = follow(point, seconds);
@@ -72,7 +72,7 @@ TEST(Standing, ComingToRestEndsInTheMode) {
   EXPECT_LT(speedOf(filter), 0.1);
 }
 
-TEST(Standing, SlowWalkingIsNotTakenForIt) {
+TEST(Standing, SlowWalkingIsNotMistakenForIt) {
   const auto path = [](double t) { return Point2(0.6 * t, 0.0); };
   constexpr int kRuns = 20;
   double standing = 0.0;
@@ -86,7 +86,7 @@ TEST(Standing, SlowWalkingIsNotTakenForIt) {
   EXPECT_NEAR(speed, 0.6, 0.1);
 }
 
-TEST(Standing, SwitchedOffItHasNoProbability) {
+TEST(Standing, DisabledItHasNoProbability) {
   const ImmOptions options = withoutStanding();
   ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
   for (int i = 0; i < 50; ++i) {
@@ -99,7 +99,7 @@ TEST(Standing, SwitchedOffItHasNoProbability) {
   }
 }
 
-TEST(Standing, AMeasuredVelocityTellsAWalkerFromWhatStands) {
+TEST(Standing, AMeasuredVelocityDistinguishesAWalkerFromAStationaryObject) {
   const ImmOptions options;
   for (const double speed : {0.0, 1.4}) {
     ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
@@ -113,7 +113,7 @@ TEST(Standing, AMeasuredVelocityTellsAWalkerFromWhatStands) {
   }
 }
 
-TEST(Standing, BetweenSureAndUnknownAMeasuredStandstillTellsTheLessTheLessSureItIs) {
+TEST(Standing, AnUncertainMeasuredStandstillIsLessInformative) {
   const ImmOptions options;
   ImmFilter before(startAt(Point2::Zero()), priorModeProbabilities(options));
   before.predict(immStep(options, kPeriod));
@@ -129,7 +129,7 @@ TEST(Standing, BetweenSureAndUnknownAMeasuredStandstillTellsTheLessTheLessSureIt
   EXPECT_NEAR(standing, before.modeProbabilities()[kStanding], 5e-3) << "it tells nothing";
 }
 
-TEST(Standing, HowManyOfAModeStopIsByItsVelocity) {
+TEST(Standing, TheShareThatStopsDependsOnTheVelocity) {
   const ImmOptions options;
   const ImmStep step = immStep(options, kPeriod);
   const ModeVector prior = priorModeProbabilities(options);
@@ -152,9 +152,10 @@ TEST(Standing, HowManyOfAModeStopIsByItsVelocity) {
               1e-12);
 }
 
-TEST(Standing, WhatIsFastDoesNotStandInTheNextScan) {
+TEST(Standing, AFastObjectIsNotStationaryInTheNextScan) {
   ImmFilter filter = follow([](double t) { return Point2(8.0 * t, 1.2 * t); }, 3.0);
-  // Of a parked car beside it: the speed along the line of sight is vague, that across is not.
+  // For a parked car to the side: the speed along the line of sight is uncertain, that across it is
+  // not.
   const Eigen::Vector2d variance(13.7, 0.09);
   const MeasuredVelocity of_another{{1.7, 0.0}, variance.asDiagonal()};
   filter.predict(immStep(ImmOptions(), kPeriod));
@@ -163,7 +164,7 @@ TEST(Standing, WhatIsFastDoesNotStandInTheNextScan) {
   EXPECT_GT(filter.estimate().mean[2], 6.0);
 }
 
-TEST(Standing, WhatBrakesToAStopStands) {
+TEST(Standing, AnObjectThatBrakesToAStopIsStationary) {
   constexpr double kDeceleration = 4.0;  // m/s^2
   constexpr double kStopTime = 2.0;      // s
   const auto braking = [=](double t) {

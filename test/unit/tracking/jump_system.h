@@ -14,8 +14,8 @@
 
 namespace datmo {
 
-/// An object that moves as the motion models say and jumps between them by a known matrix, and how
-/// it is measured. Seeded.
+/// An object that moves by the motion models and jumps between them by a known matrix, and its
+/// measurements. Seeded.
 class JumpSystem {
  public:
   static constexpr double kPositionSigma = 0.1;  // m
@@ -70,7 +70,7 @@ class JumpSystem {
     return solver.eigenvectors() * values;
   }
 
-  /// Whether it may come to stand: the slower, the more often.
+  /// Returns whether it may stop: the slower it is, the more often.
   bool isSlow(const ImmStep& step) {
     const double squared = truth_.segment<2>(2).squaredNorm() / step.stop_variance;
     return std::generate_canonical<double, 53>(engine_) < std::exp(-0.5 * squared);
@@ -94,7 +94,7 @@ inline double normalizedError(const TrackState& truth, const StateEstimate& esti
   return error.dot(covariance.ldlt().solve(error));
 }
 
-/// Mean of independent values, and how far the true mean may be off with 95 %.
+/// Mean of independent values, and its 95 % confidence bound.
 struct SampleMean {
   double mean = 0.0;
   double bound = 0.0;

@@ -63,8 +63,8 @@ TEST(KalmanFilter, VelocityUpdateByHand) {
   EXPECT_NEAR(updated.covariance(4, 4), 1.0, 1e-12);
 }
 
-/// The same as a measurement of position + delay * velocity, in the textbook's form.
-TEST(KalmanFilter, DelayedMeasurementIsOfWhereTheVelocityLeadsTo) {
+/// The same as a measurement of position + delay * velocity, in textbook form.
+TEST(KalmanFilter, DelayedMeasurementIsExtrapolatedWithTheVelocity) {
   constexpr double kDelay = 0.3;
   StateEstimate predicted;
   predicted.mean << 1.0, 2.0, 3.0, -4.0, 0.5, 0.1;
@@ -107,7 +107,7 @@ TEST(KalmanFilter, CovarianceStaysSymmetricAndPositiveWithExtremeMeasurements) {
   EXPECT_GT(solver.eigenvalues().minCoeff(), 0.0);
 }
 
-/// Objects that move as each model says are tracked by the same model with honest covariances.
+/// Objects that move by each model are tracked by the same model with consistent covariances.
 class Consistency : public testing::TestWithParam<int> {
  protected:
   Eigen::VectorXd normal(Eigen::Index size) {

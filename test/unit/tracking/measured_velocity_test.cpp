@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tracker makes of objects whose velocity a sensor measured.
+// How the tracker handles objects whose velocity a sensor measured.
 #include <cmath>
 #include <optional>
 
@@ -13,7 +13,7 @@ constexpr double kPeriod = 0.1;      // s
 constexpr double kWalking = 1.4;     // m/s
 constexpr double kSpeedSigma = 0.3;  // m/s
 
-/// As a stereo camera sees it: its position to 0.3 m.
+/// As measured by a stereo camera: its position to 0.3 m.
 Object seenAt(TrackingScene& scene, double x, const Eigen::Vector2d& velocity) {
   Object object = objectAt(x + scene.noise(0.3), scene.noise(0.3));
   object.position_covariance = Eigen::Matrix2d::Identity() * 0.09;
@@ -24,7 +24,7 @@ Object seenAt(TrackingScene& scene, double x, const Eigen::Vector2d& velocity) {
   return object;
 }
 
-/// s, until it is a track.
+/// Returns the time until it is a track, s.
 std::optional<double> delay(bool measured, double speed, double seconds) {
   TrackingScene scene;
   for (double time = 0.0; time < seconds; time += kPeriod) {
@@ -47,7 +47,7 @@ TEST(MeasuredVelocity, AWalkerIsATrackWithinHalfASecond) {
   EXPECT_TRUE(!without || *without > *measured);
 }
 
-TEST(MeasuredVelocity, OneThatTellsNothingIsAsNone) {
+TEST(MeasuredVelocity, AnUninformativeOneHasNoEffect) {
   constexpr double kCycling = 4.0;    // m/s
   constexpr double kUnknown = 100.0;  // m/s
   TrackingScene with;
@@ -63,7 +63,7 @@ TEST(MeasuredVelocity, OneThatTellsNothingIsAsNone) {
   EXPECT_FALSE(without.tracks().tracks.empty());
 }
 
-TEST(MeasuredVelocity, WhatStandsIsNoTrack) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }
+TEST(MeasuredVelocity, StationaryObjectsAreNoTracks) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }
 
 TEST(MeasuredVelocity, TheTrackHasItFromItsFirstScanOn) {
   TrackingScene scene;
@@ -77,7 +77,7 @@ TEST(MeasuredVelocity, TheTrackHasItFromItsFirstScanOn) {
   EXPECT_LE(track.covariance(2, 2), kSpeedSigma * kSpeedSigma);
 }
 
-TEST(MeasuredVelocity, OneThatIsOfSomethingElseDoesNotMoveATrack) {
+TEST(MeasuredVelocity, AnotherObjectsVelocityDoesNotMoveATrack) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({seenAt(scene, 15.0 + kPeriod * kWalking * i, {kWalking, 0.0})});

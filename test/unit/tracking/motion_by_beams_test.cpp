@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scans of made scenes through detector and tracker: how soon what moves is a track, and that what
-// stands is none.
+// Simulated scans through detector and tracker: how soon a moving object is a track, and that no
+// stationary object is.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ class BeamScene {
  public:
   BeamScene(double speed, std::uint64_t seed) : speed_(speed), random_(seed) {}
 
-  /// The tracks after a scan of these boxes (map frame), of which the map knows nothing; all lie
+  /// Returns the tracks after a scan of these boxes (map frame), which are not in the map; all are
   /// where the odds of motion are these.
   TrackList scan(const std::vector<Box2>& boxes, double motion_log_odds = 0.0) {
     time_ += kPeriod;
@@ -67,8 +67,8 @@ class BeamScene {
   Tracker tracker_{TrackerOptions{}};
 };
 
-/// s until a box of this size, that starts at `start` with this velocity along y, is a track, in
-/// the median over seeds; the vehicle stands before a wall. After 5 s: never.
+/// Returns the median time over seeds, s, until a box of this size that starts at `start` with this
+/// velocity along y is a track; the vehicle is stationary in front of a wall. After 5 s: never.
 double medianDelay(double length, double width, double speed, double motion_log_odds = 0.0) {
   std::vector<double> delays;
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -104,9 +104,12 @@ TEST(MotionByBeams, ACarBeyondABorderIsATrackHardlyLater) {
 
 TEST(MotionByBeams, AWalkerIsATrackWithinTwoSeconds) { EXPECT_LE(medianDelay(0.6, 0.6, 1.4), 2.0); }
 
-TEST(MotionByBeams, WhatStandsIsNoTrackForWhoStands) { EXPECT_EQ(medianDelay(4.4, 1.8, 0.0), 5.0); }
+TEST(MotionByBeams, StationaryObjectsAreNoTracksForAStationaryVehicle) {
+  EXPECT_EQ(medianDelay(4.4, 1.8, 0.0), 5.0);
+}
 
-/// How many of the scans of 10 s past what stands publish a moving track, over all seeds.
+/// Returns how many of the scans of a 10 s drive past stationary objects publish a moving track,
+/// over all seeds.
 int falseScans(const std::vector<Box2>& boxes) {
   int scans = 0;
   for (int seed = 1; seed <= kStandingSeeds; ++seed) {
@@ -122,7 +125,7 @@ int falseScans(const std::vector<Box2>& boxes) {
   return scans;
 }
 
-TEST(MotionByBeams, ARowOfParkedCarsIsSeldomTakenForTraffic) {
+TEST(MotionByBeams, ARowOfParkedCarsIsRarelyTakenForTraffic) {
   std::vector<Box2> row;
   for (int i = 0; i < 16; ++i) {
     row.push_back({Pose2(10.0 + 7.0 * i, 5.0, 0.0), 4.4, 1.8});
@@ -130,7 +133,7 @@ TEST(MotionByBeams, ARowOfParkedCarsIsSeldomTakenForTraffic) {
   EXPECT_LE(falseScans(row), 0.02 * kStandingSeeds * 10.0 / kPeriod);
 }
 
-TEST(MotionByBeams, HousesWithYardsAreSeldomTakenForTraffic) {
+TEST(MotionByBeams, HousesWithYardsAreRarelyTakenForTraffic) {
   std::vector<Box2> houses;
   for (int i = 0; i < 5; ++i) {
     houses.push_back({Pose2(10.0 + 24.0 * i, -14.0, 0.0), 18.0, 10.0});

@@ -16,7 +16,7 @@ ClassProbabilities reportedAs(ObjectClass object_class, double probability, int 
   return belief.probabilities();
 }
 
-TEST(ClassLogRatio, SaysNothingWhereNothingIsKnown) {
+TEST(ClassLogRatio, IsUninformativeForUnknownClasses) {
   MotionByClassOptions uneven;
   uneven.pedestrian = 0.6;
   EXPECT_NEAR(classLogRatio(ClassBelief().probabilities(), uneven), 0.0, 1e-12);
@@ -32,7 +32,7 @@ TEST(ClassLogRatio, IsAsComputedByHand) {
   EXPECT_NEAR(classLogRatio(mixed, even), std::log((0.48 + 0.2) / (0.12 + 0.2)), 1e-12);
 }
 
-TEST(ClassLogRatio, WhoLooksLikeAPersonMostlyMovesAndAPoleDoesNot) {
+TEST(ClassLogRatio, PersonLikeObjectsMostlyMoveAndPolesDoNot) {
   const MotionByClassOptions options;
   const auto ratio = [&](ObjectClass object_class, double probability, int times) {
     return classLogRatio(reportedAs(object_class, probability, times), options);

@@ -24,13 +24,13 @@ TEST(VelocityLogRatio, IsThatOfTheTwoDensities) {
               std::log(bayes_factor / (1.0 - kApparent + kApparent * bayes_factor)), 1e-12);
 }
 
-TEST(VelocityLogRatio, RestSpeaksAgainstMotionTheMoreTheSurerItIs) {
+TEST(VelocityLogRatio, RestIsStrongerEvidenceAgainstMotionTheMoreCertainItIs) {
   EXPECT_LT(velocityRatio(0.0, 1.0), 0.0);
   EXPECT_LT(velocityRatio(0.0, 0.2), velocityRatio(0.0, 1.0));
   EXPECT_NEAR(velocityRatio(0.0, 1e3), 0.0, 1e-5) << "nothing is known";
 }
 
-TEST(VelocityLogRatio, NoVelocityOutweighsWhatOnlySeemsToMove) {
+TEST(VelocityLogRatio, NoVelocityOutweighsApparentMotion) {
   EXPECT_NEAR(velocityRatio(3.0, 0.1), std::log(1.0 / kApparent), 1e-3);
 }
 
@@ -53,12 +53,12 @@ TEST(MotionLogRatio, AddsTheVelocityWhereNothingGrazes) {
 }
 
 TEST(MotionLogRatio, TheEndOfABeamAlongAWallMovesToo) {
-  // However fast it is, what the beams do not refute is as likely as its share.
+  // However fast it is, an object that the beams do not refute is as likely as its share.
   EXPECT_NEAR(motionLogRatio(evidence(50.0, 0.0, 0.1), 2.0), std::log(10.0), 1e-9);
   EXPECT_NEAR(motionLogRatio(evidence(50.0, 3.0, 0.1), 2.0), std::log(10.0) + 3.0, 1e-9);
 }
 
-TEST(MotionLogRatio, WhatFacesTheBeamsCountsByItsShare) {
+TEST(MotionLogRatio, SurfacesFacingTheBeamsCountByTheirShare) {
   EXPECT_NEAR(motionLogRatio(evidence(-2.0, 50.0, 0.1), 1.0), -1.0 - std::log(0.9), 1e-9);
 }
 

@@ -30,7 +30,7 @@ class MultipleHypothesesTest : public testing::Test {
     return {TargetOptions(), association_, hypotheses_, apart};
   }
 
-  /// One target at the origin, then two objects that may both be it; the second is nearer.
+  /// One target at the origin, then two objects that may both be it; the second one is nearer.
   MultipleHypotheses inDoubt() {
     MultipleHypotheses result = targets();
     see(result, source_, objectsAlong({0.0}));
@@ -38,7 +38,7 @@ class MultipleHypothesesTest : public testing::Test {
     return result;
   }
 
-  /// Weight of "seen as this object" against "missed" of a target that was seen once.
+  /// Weight of "seen as this object" versus "missed" for a target that was seen once.
   double weightOf(const Object& object) const {
     const Target target = predictedAt(0.0, 0.0);
     const double seen =
@@ -53,7 +53,7 @@ class MultipleHypothesesTest : public testing::Test {
   HypothesisOptions hypotheses_;
 };
 
-TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
+TEST_F(MultipleHypothesesTest, WeightsTheHypothesesOfAnAmbiguousScan) {
   const MultipleHypotheses result = inDoubt();
   const double first = weightOf(objectAt(-0.5, 0.0));
   const double second = weightOf(objectAt(0.45, 0.0));
@@ -61,12 +61,12 @@ TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
   ASSERT_EQ(result.best().size(), 2U);
   EXPECT_EQ(measurementIndex(result, 1), 1U);
   EXPECT_DOUBLE_EQ(probabilityOf(result, 1), 1.0) << "it exists in all of them";
-  // The other object is of a new target, if it is not of the first one: missed, or seen as the
+  // The other object is from a new target, if it is not from the first one: missed, or seen as the
   // second.
   EXPECT_NEAR(probabilityOf(result, 2), (1.0 + second) / (1.0 + first + second), 1e-12);
 }
 
-TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
+TEST_F(MultipleHypothesesTest, AMissIsEvidenceAgainstMoreTargets) {
   MultipleHypotheses result = inDoubt();
   see(result, source_, {});
   const TargetOptions options;
@@ -89,7 +89,7 @@ TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
   EXPECT_NEAR(probabilityOf(result, 2), (second + neither) / (first + second + neither), 1e-9);
 }
 
-TEST_F(MultipleHypothesesTest, WhatIsUnlikelyIsDropped) {
+TEST_F(MultipleHypothesesTest, UnlikelyHypothesesAreDropped) {
   hypotheses_.min_ratio = 0.9;
   EXPECT_EQ(probabilityOf(inDoubt(), 2), 1.0);
 }
@@ -106,8 +106,8 @@ TEST_F(MultipleHypothesesTest, ADecisionIsFinalAfterTheScanHistory) {
   }
 }
 
-/// A target goes straight on for a while; then it turns off, and beside it appears something else,
-/// for one scan, nearer to where it was expected.
+/// A target moves straight on for a while; then it turns off, and another object appears beside it,
+/// for one scan, nearer to its predicted position.
 template <typename Targets>
 void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   for (int i = 0; i < 20; ++i) {
@@ -127,7 +127,7 @@ void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighborGotWrong) {
+TEST_F(MultipleHypothesesTest, LaterScansCorrectTheNearestNeighborsErrors) {
   MultipleHypotheses alone = targets();
   turnOffBesideAnother(alone, source_, false);
   MultipleHypotheses result = targets();
@@ -145,7 +145,7 @@ TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighborGotWron
       expected.filter().estimate().mean, 1e-3));
 }
 
-TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
+TEST_F(MultipleHypothesesTest, ClearlyDifferentClassesAreNeverTheSameTarget) {
   const auto of = [](ObjectClass object_class) {
     Object object = objectAt(0.0, 0.0);
     object.object_class = object_class;
@@ -162,8 +162,8 @@ TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
   EXPECT_EQ(result.best().size(), 2U);
 }
 
-/// So many targets in a row, half as far apart as they may have gone; then as many objects between
-/// them: more explanations than could ever be looked at.
+/// This many targets in a row, spaced half as far as they may have moved; then as many objects
+/// between them: more explanations than could ever be evaluated.
 void crowd(MultipleHypotheses& targets, ScanSource& source, int size) {
   std::vector<double> first;
   std::vector<double> second;
@@ -195,7 +195,7 @@ TEST_F(MultipleHypothesesTest, FullTreesEndTheSearch) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
+TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsKept) {
   hypotheses_.max_joint_targets = 10;
   MultipleHypotheses result = targets();
   crowd(result, source_, 25);
@@ -205,7 +205,7 @@ TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesAsTheNearestNeighbor) {
+TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesLikeTheNearestNeighbor) {
   double now = 0.0;
   const StepClock clock = [&now] { return now += 1.0; };
   MultipleHypotheses result = targets();
@@ -238,7 +238,7 @@ TEST_F(MultipleHypothesesTest, AFullListRefusesNewObjectsAndCountsEachOnce) {
   EXPECT_LE(result.counts().refused_births, 4U) << "three objects, in whatever hypotheses";
 }
 
-TEST_F(MultipleHypothesesTest, RemovesAndForgetsButNumbersGoOn) {
+TEST_F(MultipleHypothesesTest, RemovesAndForgetsButNumbersContinue) {
   MultipleHypotheses result = inDoubt();
   result.removeIf([](const Target& target) { return target.number() == 1; });
   EXPECT_EQ(probabilityOf(result, 1), 0.0);

@@ -45,7 +45,7 @@ TEST_F(NearestNeighborTest, TheSumDecidesNotTheNearest) {
   EXPECT_EQ(measurementIndex(targets_, 2), 1U);
 }
 
-TEST_F(NearestNeighborTest, NothingAndNothing) {
+TEST_F(NearestNeighborTest, NoTargetsAndNoObjects) {
   see(targets_, source_, {});
   EXPECT_TRUE(targets_.best().empty());
   see(targets_, source_, objectsAlong({1.0}));

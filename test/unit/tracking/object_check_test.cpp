@@ -33,7 +33,7 @@ TEST(ObjectCheck, TransformTurnsTheVelocity) {
   EXPECT_TRUE(turned.velocity->covariance.isApprox(expected, 1e-12));
 }
 
-TEST(ObjectCheck, RefusesAVelocityThatCannotBe) {
+TEST(ObjectCheck, RefusesAnImpossibleVelocity) {
   Object object = objectAt(2.0, 0.0);
   object.velocity = MeasuredVelocity{{3.0, 0.0}, Eigen::Matrix2d::Identity()};
   EXPECT_TRUE(isValid(object));
@@ -45,7 +45,7 @@ TEST(ObjectCheck, RefusesAVelocityThatCannotBe) {
   EXPECT_FALSE(isValid(object));
 }
 
-TEST(ObjectCheck, TakesAGoodObjectAndRefusesASkewCovariance) {
+TEST(ObjectCheck, AcceptsAGoodObjectAndRefusesAnAsymmetricCovariance) {
   Object object = objectAt(1.0, 2.0);
   EXPECT_TRUE(isValid(object));
   object.position_covariance << 1.0, 0.5, 0.0, 1.0;
@@ -70,7 +70,7 @@ TEST(ObjectCheck, ItWasSeenAboutTheTimeOfItsList) {
   Object object = objectAt(1.0, 2.0);
   object.delay = -0.1;
   EXPECT_TRUE(isValid(object));
-  object.delay = 1e6;  // where it is now would be anybody's guess
+  object.delay = 1e6;  // its present position would be arbitrary
   EXPECT_FALSE(isValid(object));
   object.delay = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(isValid(object));
@@ -86,7 +86,7 @@ TEST(ObjectCheck, RefusesACovarianceWithoutSpread) {
   EXPECT_FALSE(isValid(object));
 }
 
-TEST(ObjectCheck, RefusesWhatIsNotMeasuredWithinAKilometer) {
+TEST(ObjectCheck, RefusesErrorsBeyondAKilometer) {
   for (const double variance : {1e9, 1e308}) {
     Object object = objectAt(1.0, 2.0);
     object.position_covariance(1, 1) = variance;

@@ -18,7 +18,7 @@ struct RandomSceneOptions {
   int max_clutter = 5;      ///< false objects in one scan
 };
 
-/// Things that go straight on across each other, missed at times, among false objects; seeded.
+/// Objects that move straight across each other, missed at times, among false objects; seeded.
 class RandomScene {
  public:
   RandomScene(std::uint64_t seed, const RandomSceneOptions& options)
@@ -29,7 +29,7 @@ class RandomScene {
     }
   }
 
-  /// 0.1 s later.
+  /// Returns the objects 0.1 s later.
   std::vector<Object> next() {
     std::vector<Object> objects;
     for (std::size_t i = 0; i < positions_.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which other readings of a cluster's objects there are, and what they weigh.
+// Alternative readings of a cluster's objects, and their weights.
 #include <cmath>
 
 #include "association_scene.h"
@@ -83,7 +83,8 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   EXPECT_EQ(whole.object.heading_variance, kUnknownHeadingVariance) << "it has the target's own";
   EXPECT_EQ(whole.object.object_class, ObjectClass::kUnknown) << "a part is not of the class";
   EXPECT_TRUE(isCandidate(0, 2));
-  // One target instead of two objects of none, and one more object than things within its reach.
+  // One target instead of two objects of no target, and one more object than things within its
+  // reach.
   const Box2 target = cluster_.trees[0].leaves[0].target.box();
   const double area =
       (target.length + 2.0 * options_.margin) * (target.width + 2.0 * options_.margin);
@@ -107,7 +108,7 @@ TEST_F(SplitMergeReadings, PartsAndCoversAreRelatedWithinTheGateOrNot) {
   EXPECT_EQ(relatedObjects(target, scan, options_), std::vector<std::size_t>{2});
 }
 
-TEST_F(SplitMergeReadings, NothingToReadAnew) {
+TEST_F(SplitMergeReadings, NoAlternativeReadings) {
   follow(box(0.0, 0.0, 5.0, 2.0));
   read({box(0.0, 0.0, 5.0, 2.0)});
   EXPECT_EQ(readings_.size(), 1U) << "one object";

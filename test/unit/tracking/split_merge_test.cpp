@@ -32,7 +32,7 @@ double vanAt(const TrackingScene& scene) { return kVanSpeed * (scene.nextTime() 
 
 Object van(double x) { return segment(x, 0.0, kVanLength, 2.0); }
 
-/// Its ends; what lies between is not seen.
+/// Its ends; the part in between is not visible.
 std::vector<Object> endsOfVan(double x) {
   return {segment(x - 1.6, 0.0, 1.8, 2.0), segment(x + 1.6, 0.0, 1.8, 2.0)};
 }
@@ -82,7 +82,7 @@ TEST(SplitMerge, WithoutSplitsAPartIsTakenForTheWhole) {
 }
 
 TEST(SplitMerge, AUnionHasNoNewInformationOnTheHeading) {
-  // The union has the heading that the target has already.
+  // The union has the heading that the target already has.
   TrackingScene scene;
   splitVan(scene, 20);
   TrackerOptions options;
@@ -103,7 +103,7 @@ constexpr double kApart = 1.2;  // m, between two pedestrians
 
 Object pedestrian(double x, double y) { return segment(x, y, 0.5, 0.5); }
 
-/// Side by side for 3 s; then seen as one; then apart again.
+/// Side by side for 3 s; then seen as one; then separate again.
 std::vector<Object> twoPedestrians(double x, bool as_one) {
   if (as_one) {
     Object both = segment(x, 0.5 * kApart, 0.5, kApart + 0.5);

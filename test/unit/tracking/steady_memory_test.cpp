@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often the association of targets that are followed already asks for memory. Counts every
-// operator new of this program; what Eigen allocates for matrices of any size is not seen.
+// How often the association of already tracked targets allocates memory. Counts every operator new
+// of this program; Eigen's allocations for dynamically sized matrices are not seen.
 
 #include <cstddef>
 #include <cstdlib>
@@ -22,7 +22,7 @@ std::size_t allocations = 0;
 }  // namespace
 }  // namespace datmo::steady_memory_test
 
-// Not in line, where the compiler would take them for a mismatch.
+// Not inlined, as the compiler would report a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++datmo::steady_memory_test::allocations;
   if (void* memory = std::malloc(size > 0 ? size : 1)) {
@@ -44,7 +44,7 @@ constexpr int kTargets = 40;
 constexpr int kWarmUp = 40;  // scans
 constexpr int kScans = 20;
 
-/// Cyclists side by side, far enough from each other that no object is of two of them.
+/// Cyclists side by side, far enough apart that no object could belong to two of them.
 std::vector<Object> cyclists(int scan) {
   std::vector<Object> objects;
   for (int i = 0; i < kTargets; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands must not seem to move because of how stereo errs: its depth is uncertain by up to a
-// meter and more, and the error of one frame is much like that of the last one.
+// Stationary objects must not appear to move because of stereo's errors: depth is uncertain by a
+// meter and more, and the error of one frame is strongly correlated with that of the last one.
 #include <cmath>
 #include <random>
 
@@ -17,7 +17,7 @@ constexpr double kAcross = 0.1;           // m, standard deviation across the li
 constexpr double kNearest = 5.0;          // m
 constexpr double kEffectiveRange = 36.0;  // m
 
-/// The error of the depth, m: of a constant standard deviation, correlated in time.
+/// The error of the depth, m: constant standard deviation, correlated in time.
 class DepthError {
  public:
   DepthError(double sigma, unsigned seed) : sigma_(sigma), engine_(seed) {}
@@ -37,7 +37,7 @@ class DepthError {
   std::normal_distribution<double> normal_{0.0, 1.0};
 };
 
-/// A car that goes along x at this speed, as stereo sees it from behind, in the vehicle's frame.
+/// A car that drives along x at this speed, as stereo sees it from behind, in the vehicle's frame.
 Object carAhead(double depth, double sigma, DepthError& error) {
   Object object;
   object.box = {Pose2(depth + error.next(), 3.0 + error.across(), 0.0), 4.2, 1.8};
@@ -50,7 +50,8 @@ Object carAhead(double depth, double sigma, DepthError& error) {
   return object;
 }
 
-/// How many tracks a car makes that drives at this speed, or stands, while the vehicle comes near.
+/// Returns how many tracks a car leads to that drives at this speed, or is parked, while the
+/// vehicle approaches.
 std::uint64_t tracksOf(double speed, double sigma, unsigned seed) {
   TrackingScene scene({}, 1.0 / kRate);
   DepthError error(sigma, seed);
@@ -65,7 +66,7 @@ std::uint64_t tracksOf(double speed, double sigma, unsigned seed) {
   return scene.tracker().counts().confirmed_tracks;
 }
 
-TEST(StereoNoise, WhatStandsIsNoTrack) {
+TEST(StereoNoise, StationaryObjectsAreNoTracks) {
   for (const double sigma : {0.3, 0.5, 1.0, 1.5}) {
     int tracks = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -75,7 +76,7 @@ TEST(StereoNoise, WhatStandsIsNoTrack) {
   }
 }
 
-TEST(StereoNoise, WhatDrivesIsOne) {
+TEST(StereoNoise, MovingObjectsAreTracks) {
   for (const double sigma : {0.3, 0.5, 1.0}) {
     int tracks = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {

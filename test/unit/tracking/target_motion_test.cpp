@@ -52,7 +52,7 @@ TEST(TargetMotion, ConstantAccelerationNoiseIsThatOfWhiteJerk) {
 TEST(TargetMotion, LeftTurnByAQuarterCircle) {
   const double rate = 0.5;
   const double quarter = 0.5 * kPi / rate;
-  // Speed 2 m/s on a circle of radius 4 m, from its lowest point; the acceleration points inwards.
+  // Speed 2 m/s on a circle of radius 4 m, from its lowest point; the acceleration points inward.
   const LinearMotion motion = coordinatedTurn(rate, TargetMotionOptions(), quarter);
   const TrackState next = motion.transition * state(0, 0, 2, 0, 0, 1);
   EXPECT_TRUE(next.isApprox(state(4, 4, 0, 2, -1, 0), 1e-9)) << next;
@@ -75,8 +75,7 @@ TEST(TargetMotion, TurnNoiseAgreesWithIntegrationInSmallSteps) {
   const double rate = 1.5;
   const int steps = 20000;
   const double seconds = 1.0;
-  // White acceleration acts on the velocity; what it does in between follows from the linear
-  // motion.
+  // White acceleration acts on the velocity; its effect in between follows from the linear motion.
   Eigen::Matrix4d flow = Eigen::Matrix4d::Zero();
   flow(0, 2) = flow(1, 3) = 1.0;
   flow(2, 3) = -rate;
@@ -111,7 +110,7 @@ TEST_P(EveryMotion, TwoStepsEqualOne) {
   EXPECT_TRUE(noise.isApprox(whole.noise, 1e-9)) << noise << "\n\n" << whole.noise;
 }
 
-TEST_P(EveryMotion, NoTimeChangesNothing) {
+TEST_P(EveryMotion, ZeroTimeChangesNothing) {
   EXPECT_TRUE(motion(0.0).transition.isApprox(TrackCovariance::Identity(), 1e-12));
   EXPECT_TRUE(motion(0.0).noise.isZero(1e-12));
 }

@@ -33,7 +33,7 @@ Track goodTrack() {
 
 ViewFan goodFan() { return {Pose2(), -1.0, 0.1, 0.0, 40.0, 80.0, true, {10.0, 0.0, 80.0}}; }
 
-TEST(TrackCheck, TakesGoodTracks) {
+TEST(TrackCheck, AcceptsGoodTracks) {
   EXPECT_TRUE(isValid(goodTrack()));
   Track bare = goodTrack();
   bare.history.clear();
@@ -126,7 +126,7 @@ TEST(TrackCheck, AmountsAndProbabilitiesHaveTheirRange) {
   }
 }
 
-TEST(TrackCheck, WhatTheTrackerPublishesIsValid) {
+TEST(TrackCheck, PublishedTracksAreValid) {
   TrackingScene scene;
   std::size_t tracks = 0;
   for (int i = 0; i < 120; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a track lives, what it says of its existence, and its history.
+// A track's lifetime, its existence probability, and its history.
 #include <cmath>
 
 #include "tracking_scene.h"
@@ -16,10 +16,10 @@ FieldOfView allAround() {
   return view;
 }
 
-/// Nothing hides anything.
+/// Nothing is occluded.
 Visibility openView() { return {allAround(), {}, VisibilityOptions()}; }
 
-/// A wall near the sensor hides all that is ahead.
+/// A wall near the sensor occludes everything ahead.
 Visibility blockedView() {
   return {allAround(), {Box2{Pose2(4.0, 0.0, 0.0), 0.5, 40.0}}, VisibilityOptions()};
 }
@@ -31,7 +31,7 @@ void drive(TrackingScene& scene, int scans, double speed = kSpeed) {
   }
 }
 
-/// Until no track is published.
+/// Returns the number of scans until no track is published.
 int scansWithout(TrackingScene& scene, const Visibility& view) {
   int scans = 0;
   while (!scene.scan({}, view).tracks.empty() && scans < 100) {
@@ -40,7 +40,7 @@ int scansWithout(TrackingScene& scene, const Visibility& view) {
   return scans;
 }
 
-TEST(TrackLife, WhereItShouldBeSeenATrackDiesSoonerThanWhereItIsHidden) {
+TEST(TrackLife, AVisibleTrackEndsSoonerThanAHiddenOne) {
   TrackingScene open;
   TrackingScene blocked;
   drive(open, 50);
@@ -131,7 +131,7 @@ TEST(TrackLife, ObjectsOfATrackAreThoseOfTheSensorsList) {
   EXPECT_TRUE(scene.tracks().tracks[0].objects.empty());
 }
 
-TEST(TrackLife, ClassProbabilitiesFollowWhatWasSaid) {
+TEST(TrackLife, ClassProbabilitiesFollowTheReports) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     Object object = objectAt(10.0 + kSpeed * (scene.nextTime() - 100.0), 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes that drive past a simulated scanner, from its beams to the tracked center: is the center
-// where it is said to be, and is a part that comes into view no motion?
+// consistent with its covariance, and is a part that comes into view not taken for motion?
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ double squaredDistance(const Eigen::Vector2d& v, const Eigen::Matrix2d& covarian
   return v.dot(covariance.inverse() * v);
 }
 
-/// A tracked box with the simplest filter there is, at constant velocity.
+/// A tracked box with the simplest possible filter, at constant velocity.
 class Follower {
  public:
   Follower(const Object& object, const TrackedBoxOptions& options)
@@ -75,11 +75,11 @@ class Follower {
   int objects_ = 1;
 };
 
-/// What the scanner sees of a box, if that is one object; nothing if it is out of view or in
-/// pieces.
+/// Returns the scanner's measurement of a box, if that is one object; nothing if it is out of view
+/// or in pieces.
 std::optional<Object> objectOf(const Box2& box, const std::vector<Box2>& others,
                                const RayCaster& scanner, Random& random) {
-  // The fit of a few noisy points is off by more than their mean.
+  // The fit to a few noisy points has a larger error than their mean.
   constexpr double kFitShare = 0.75;
   constexpr double kNearest = 2.0;  // m; nearer than that it would be run over
   if (box.distanceTo(Point2::Zero()) < kNearest) {
@@ -120,8 +120,8 @@ struct Consistency {
   int turned_round = 0;  ///< the front is taken for the rear
 };
 
-/// Straight drives in random directions past the scanner, judged at one random instant of each, so
-/// that the samples are independent.
+/// Straight drives in random directions past the scanner, evaluated at one random instant of each,
+/// so that the samples are independent.
 Consistency consistencyOf(const Traffic& traffic, const RayCaster& scanner) {
   constexpr int kDrives = 200;
   constexpr int kScans = 50;
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Traffic, TrackedBoxDrives,
                                          Traffic{1.8, 0.6, 4.0}, Traffic{0.6, 0.6, 1.4}));
 
 TEST(TrackedBoxSimulation, ACarThatComesFromBehindAWallDoesNotJump) {
-  // It drives to the left at 12 m; a wall at 8 m hides all to the right of x = 0.
+  // It drives to the left at 12 m; a wall at 8 m hides everything to the right of x = 0.
   constexpr double kSpeed = 3.0;
   const Box2 wall{Pose2(8.0, -4.0, 0.0), 0.3, 8.0};
   const RayCaster scanner(degrees(180.0), degrees(0.5), 0.03);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSideVariance = 0.01;
 
-/// All four sides seen.
+/// All four sides are visible.
 Object wholeBox(double heading, double length, double width) {
   Object object = objectAt(0.0, 0.0);
   object.box = {Pose2(0.0, 0.0, heading), length, width};
@@ -20,8 +20,8 @@ Object wholeBox(double heading, double length, double width) {
   return object;
 }
 
-/// The rear of a car 1.8 m wide, seen from behind: across x, as scanners report it along the
-/// longer side.
+/// The rear of a car 1.8 m wide, seen from behind: across x, as scanners report it along the longer
+/// side.
 Object rearAt(double x) {
   Object object = wholeBox(0.5 * kPi, 1.8, 0.0);
   object.box.center = Pose2(x, 0.0, 0.5 * kPi);
@@ -29,7 +29,7 @@ Object rearAt(double x) {
   return object;
 }
 
-/// Its front, seen from ahead: the same line, but the car reaches to smaller x.
+/// Its front, seen from ahead: the same line, but the car extends to smaller x.
 Object frontAt(double x) {
   Object object = rearAt(x);
   std::swap(object.side_variance[static_cast<std::size_t>(BoxSide::kRight)],
@@ -50,7 +50,7 @@ TrackedBox convergedOn(const Object& object, const TrackedBoxOptions& options, i
 
 const Eigen::Matrix2d kVelocityCovariance = Eigen::Matrix2d::Identity();
 
-/// A car that is seen from behind as it drives along x.
+/// A car that is seen from behind while it drives along x.
 TrackedBox drivingAhead(const TrackedBoxOptions& options) {
   TrackedBox box(rearAt(10.0), options);
   for (int i = 0; i < 30; ++i) {
@@ -61,7 +61,7 @@ TrackedBox drivingAhead(const TrackedBoxOptions& options) {
   return box;
 }
 
-TEST(TrackedBox, SizeConvergesToWhatIsSeen) {
+TEST(TrackedBox, SizeConvergesToTheMeasurements) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.3, 4.9, 2.0), options);
   EXPECT_NEAR(box.at(Point2::Zero()).length, 4.9, 0.02);
@@ -81,13 +81,13 @@ TEST(TrackedBox, BetweenTwoSidesTheCenterIsMeasuredByBoth) {
   EXPECT_NEAR(box.centerCovariance()(0, 0), 0.0, 1e-9) << "the size does not matter to it";
 }
 
-TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
+TEST(TrackedBox, OfTwoSidesTheMoreCertainOneCountsMoreIfTheSizeIsKnown) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
-  Object object = wholeBox(0.0, 4.0, 1.8);  // the front seems nearer than it is
+  Object object = wholeBox(0.0, 4.0, 1.8);  // the front appears nearer than it is
   object.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = 1.0;
   const PositionMeasurement measured = box.measurementOf(object);
-  // 2 m behind the center of what is seen there is the rear, and 2.2 m ahead of that the center.
+  // 2 m behind the measured center is the rear, and 2.2 m ahead of that the center.
   EXPECT_NEAR(measured.position.x(), 0.2, 0.02);
   EXPECT_LT(measured.covariance(0, 0) - object.position_covariance(0, 0), 1.2 * kSideVariance);
 }
@@ -122,7 +122,7 @@ TEST(TrackedBox, TheOtherSideIsTrustedOnlyAsFarAsTheSizeIsKnown) {
       << "by then the filter's center rests on the front";
 }
 
-TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
+TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInTheRemainingLength) {
   const TrackedBoxOptions options;
   const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
   Object middle = wholeBox(0.0, 1.4, 1.8);
@@ -133,7 +133,7 @@ TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
   EXPECT_NEAR(measured.covariance(0, 0) - middle.position_covariance(0, 0), 3.0 * 3.0 / 12.0, 0.02);
 }
 
-TEST(TrackedBox, GrowthMovesTheCenterAndLeavesTheSideThatWasSeen) {
+TEST(TrackedBox, GrowthMovesTheCenterAndKeepsTheVisibleSide) {
   const TrackedBoxOptions options;
   TrackedBox box = convergedOn(rearAt(10.0), options);
   Object longer = wholeBox(0.0, 8.0, 1.8);
@@ -242,7 +242,7 @@ TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
   EXPECT_NEAR(headingOf(box), 0.0, 1e-6);
 }
 
-TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyWhereItIsSurer) {
+TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyIfMoreCertain) {
   const TrackedBoxOptions options;
   const Eigen::Vector2d velocity = 5.0 * Eigen::Vector2d(std::cos(0.2), std::sin(0.2));
   TrackedBox sure = convergedOn(wholeBox(0.0, 4.4, 1.8), options);

@@ -32,7 +32,7 @@ TEST(TrackerRobustness, TheSameTimeTwiceChangesNoStateWithoutObjects) {
   EXPECT_TRUE(after.tracks[0].covariance.isApprox(before.covariance, 1e-9));
 }
 
-TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
+TEST(TrackerRobustness, RejectsInvalidObjectsAndUsesTheRest) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Object> broken(8, objectAt(3.0, 3.0));
@@ -56,13 +56,13 @@ TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
   EXPECT_TRUE(scene.tracks().tracks[0].state.allFinite());
 }
 
-TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteRejectsTheObjectsOnly) {
+TEST(TrackerRobustness, ANonFiniteVehiclePoseRejectsTheObjectsOnly) {
   TrackingScene scene;
   scene.scan({objectAt(1.0, 1.0)}, Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
   EXPECT_EQ(scene.tracker().counts().intake.rejected, 1U);
 }
 
-TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteLeavesTheTracksAlone) {
+TEST(TrackerRobustness, ANonFiniteVehiclePoseLeavesTheTracksUnchanged) {
   FieldOfView view;
   view.range = 100.0;
   const Visibility visibility(view, {}, VisibilityOptions());
@@ -124,7 +124,7 @@ TEST(TrackerRobustness, ResetForgetsTheCounts) {
 
 TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   TrackerOptions options;
-  options.gating.max_targets = 300;  // fewer than objects are taken in
+  options.gating.max_targets = 300;  // fewer than the objects accepted
   TrackingScene scene(options);
   for (int i = 0; i < 3; ++i) {
     scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
@@ -138,7 +138,7 @@ TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   EXPECT_EQ(counts.confirmed_tracks, 0U);
 }
 
-TEST(TrackerRobustness, AThousandObjectsAtOnePointDoNotStallWhatIsFollowed) {
+TEST(TrackerRobustness, AThousandObjectsAtOnePointDoNotStallOtherTracks) {
   TrackerOptions options;
   options.require_motion = false;
   TrackingScene scene(options);

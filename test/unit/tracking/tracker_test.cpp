@@ -13,7 +13,7 @@
 namespace datmo::tracker_test {
 namespace {
 
-/// Scans until the first track is published; -1: never.
+/// Returns the number of scans until the first track is published; -1: never.
 int scansUntilConfirmed(TrackingScene& scene, double speed, int max) {
   for (int scan = 1; scan <= max; ++scan) {
     const double x = 15.0 + speed * scene.nextTime();
@@ -38,7 +38,7 @@ TEST(Tracker, ConfirmsWithinTheSameTimeAtTheScannersRate) {
   for (int noise = 0; noise < 21; ++noise) {
     TrackingScene scene(TrackerOptions(), 0.06);
     for (int i = 0; i < noise; ++i) {
-      scene.noise(1.0);  // another stretch of the same noise
+      scene.noise(1.0);  // a different stretch of the same noise
     }
     scans.push_back(scansUntilConfirmed(scene, 4.4, 30));
     EXPECT_GE(scans.back(), 3);
@@ -69,7 +69,7 @@ TEST(Tracker, EstimatesStateInTheFixedFrameFromAMovingVehicle) {
   EXPECT_EQ(track.hits, 40U);
 }
 
-TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
+TEST(Tracker, NeverPublishesStationaryObjectsThatOnlySeemToMove) {
   TrackingScene scene;
   for (int i = 0; i < 100; ++i) {
     scene.scan({objectAt(12.0 + scene.noise(0.2), 3.0 + scene.noise(0.2))});
@@ -77,7 +77,7 @@ TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
   }
 }
 
-/// A scan of which only that part of a parked car's side is visible that lies between these x (m);
+/// A scan of a parked car of which only the part of its side between these x (m) is visible;
 /// something nearer hides the rest.
 LabeledScan scanOfSide(double rear, double front, double y, double seconds) {
   std::vector<Point2> ends;
@@ -109,7 +109,7 @@ TEST(Tracker, NeverPublishesAParkedCarWhoseVisiblePartSlides) {
   }
 }
 
-TEST(Tracker, NeverStartsFromAStaticObjectButFollowsOneThatIsTracked) {
+TEST(Tracker, NeverStartsFromAStaticObjectButKeepsATrackedOne) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     scene.scan({objectAt(5.0 * scene.nextTime(), 0.0, DynamicState::kStatic)});
@@ -203,7 +203,7 @@ TEST(Tracker, ClutterIsNotPublished) {
   EXPECT_LE(scene.tracker().counts().confirmed_tracks, 2U);
 }
 
-TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
+TEST(Tracker, AnObjectThatStopsStaysAStationaryTrack) {
   TrackingScene scene;
   double x = 10.0;
   for (int i = 0; i < 100; ++i) {
@@ -216,7 +216,7 @@ TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
   EXPECT_NEAR(scene.tracks().tracks.front().box.center.heading(), 0.0, 0.2);
 }
 
-TEST(Tracker, IdsRiseAndAreNotReusedAfterDeathOrReset) {
+TEST(Tracker, IdsIncreaseAndAreNotReusedAfterDeathOrReset) {
   TrackingScene scene;
   std::uint32_t last = 0;
   for (int life = 0; life < 4; ++life) {

@@ -34,7 +34,7 @@ inline std::set<std::uint32_t> idsOf(const TrackList& list) {
   return ids;
 }
 
-/// Scans at a fixed rate through a tracker; the vehicle stands at the origin unless it is told
+/// Passes scans at a fixed rate to a tracker; the vehicle is stationary at the origin unless set
 /// otherwise.
 class TrackingScene {
  public:
@@ -48,7 +48,7 @@ class TrackingScene {
     return tracks_;
   }
 
-  /// The same with what could be seen from the origin.
+  /// The same with the visibility from the origin.
   const TrackList& scan(const std::vector<Object>& objects, const Visibility& visibility) {
     time_ += period_;
     tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects, {}}, Pose2(), visibility);
@@ -59,7 +59,7 @@ class TrackingScene {
   double nextTime() const { return time_ + period_; }
   void wait(double seconds) { time_ += seconds; }
 
-  /// One normal value of standard deviation `sigma`, seeded.
+  /// Returns one normal value of standard deviation `sigma`, seeded.
   double noise(double sigma) { return std::normal_distribution<double>(0.0, sigma)(engine_); }
 
   Tracker& tracker() { return tracker_; }

@@ -15,7 +15,7 @@ using samples::sojourn;
 constexpr double kPeriod = 0.1;  // s
 constexpr int kStanding = static_cast<int>(MotionMode::kStanding);
 
-/// Without forgetting, and with bounds far away.
+/// Without forgetting, and with distant bounds.
 TransitionLearningOptions plainLearning(double prior_exposure) {
   TransitionLearningOptions options;
   options.prior_exposure = prior_exposure;
@@ -27,7 +27,7 @@ TransitionLearningOptions plainLearning(double prior_exposure) {
   return options;
 }
 
-/// A row with the given sojourn time (s) and shares of jumps, all others as by default.
+/// A row with the given sojourn time (s) and shares of jumps, all others at their defaults.
 JumpCounts priorCounts(const TransitionLearningOptions& learning) {
   TransitionOptions options;
   options.learning = learning;
@@ -177,8 +177,8 @@ TEST(TransitionModel, MeanAndTotalVarianceAreThoseOfTheExactPosterior) {
   EXPECT_NEAR((1.0 - after.row(1).squaredNorm()) / (strength + 1.0), variance, 0.02 * variance);
 }
 
-TEST(TransitionModel, StepsOfAllLengthsTeachTheSame) {
-  // Jumps between two modes that are seen without doubt.
+TEST(TransitionModel, LearningDoesNotDependOnTheStepLength) {
+  // Jumps between two modes that are observed without ambiguity.
   const TransitionLearningOptions options = plainLearning(5.0);
   JumpCounts truth = priorCounts(options);
   truth.jumps.row(0) << 0.0, 5.0 / 2.0, 0.0, 0.0, 0.0;
@@ -218,7 +218,7 @@ TEST(TransitionModel, ForgetsInSecondsNotInSteps) {
   EXPECT_TRUE(other.learned().jumps.isApprox(model.learned().jumps, 1e-9));
 }
 
-TEST(TransitionModel, NothingLearnedLeavesTheBounds) {
+TEST(TransitionModel, LearnedValuesStayWithinTheBounds) {
   TransitionLearningOptions options;
   options.forgetting = 1e6;
   options.max_sojourn = 50.0;
@@ -252,7 +252,7 @@ TEST(TransitionModel, ExtremeStepsAndLikelihoodsStayFinite) {
   }
 }
 
-TEST(TransitionModel, ANewPriorKeepsWhatWasLearned) {
+TEST(TransitionModel, ANewPriorKeepsTheLearnedCounts) {
   const TransitionLearningOptions options = plainLearning(2.0);
   TransitionModel model(priorCounts(options), options);
   model.predict(kPeriod);

@@ -16,7 +16,7 @@ class Priors : public testing::Test {
  protected:
   Priors() { options_.adaptive = true; }
 
-  /// A target that changes between modes 0 and 1 all the time.
+  /// A target that switches between modes 0 and 1 all the time.
   TransitionModel restlessTarget(const TransitionPriors& priors, ObjectClass object_class) const {
     TransitionModel target = *priors.modelOf(object_class);
     for (int i = 0; i < 100; ++i) {
@@ -35,7 +35,7 @@ TEST_F(Priors, StartFromTheSojournTimes) {
   EXPECT_NEAR(sojourn(counts, kStanding), options_.standing_sojourn, 1e-12);
 }
 
-TEST_F(Priors, GiveNoModelWhereNothingIsAdapted) {
+TEST_F(Priors, GiveNoModelWithoutAdaptation) {
   options_.adaptive = false;
   EXPECT_FALSE(TransitionPriors(options_).modelOf(ObjectClass::kVehicle).has_value());
 }
@@ -56,7 +56,7 @@ TEST_F(Priors, TheirWeightIsBounded) {
     EXPECT_LE(priors.of(ObjectClass::kVehicle).exposure.maxCoeff(),
               options_.learning.prior_exposure * (1.0 + 1e-9));
   }
-  // However much was learned, a class can change its mind.
+  // However much was learned, a class can change its transition probabilities.
   const double learned_sojourn = sojourn(priors.of(ObjectClass::kVehicle), 0);
   for (int i = 0; i < 100; ++i) {
     TransitionModel calm = *priors.modelOf(ObjectClass::kVehicle);

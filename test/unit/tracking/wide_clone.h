@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wide functions (common/wide.h) compiled for one processor alone, and wideResults() by them.
+// The wide functions (common/wide.h) compiled for one processor only, and wideResults() with them.
 // Included once by a file that defines DATMO_FUSION_WIDE as that processor's attribute and `datmo`
 // as a name of its own, so that both may be in one program.
 #pragma once
@@ -17,7 +17,7 @@ namespace datmo {
 
 namespace {
 
-/// Numbers of the size that states of tracks have, and covariances that are some.
+/// Numbers of the magnitude of tracks' states, and valid covariances.
 class RandomStates {
  public:
   explicit RandomStates(std::uint32_t seed) : generator_(seed) {}
@@ -41,7 +41,7 @@ class RandomStates {
     return result;
   }
 
-  /// As predict() takes it: positions move by the rest, which they do not change.
+  /// As predict() expects it: positions change by the rest, which they do not affect.
   LinearMotion motion() {
     LinearMotion result;
     result.transition.setIdentity();

@@ -5,7 +5,7 @@
 namespace datmo::wide_functions_test {
 namespace {
 
-/// To the last bit, as wide.h says, and not only to rounding: the same additions and
+/// Equal to the last bit, as wide.h says, and not only up to rounding: the same additions and
 /// multiplications are done.
 TEST(WideFunctions, ResultsDoNotDependOnTheProcessor) {
 #if defined(__clang__)

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-// All that the wide functions (common/wide.h) make of random numbers, by each of the two that the
-// compiler makes of them: for AVX2, and for a processor without.
+// Results of all wide functions (common/wide.h) for random numbers, by each of the two compiled
+// versions: for AVX2, and for a processor without.
 namespace datmo_avx2 {
 std::vector<double> wideResults(std::uint32_t seed);
 }

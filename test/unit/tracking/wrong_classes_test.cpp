@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Classes of one source that are wrong in a fifth of the frames (thesis 4.2.4 claims that their
-// effect fades, without a figure): tracks are not lost, shape and motion follow the right class.
+// effect fades, without a figure): tracks are not lost, shape and motion follow the correct class.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,12 +22,12 @@ namespace {
 constexpr double kWrongShare = 0.2;
 constexpr int kScans = 200;  // 20 s
 constexpr int kSeeds = 10;
-constexpr int kMaxFirstScan = 20;  // of who walks: by velocity alone, without beams
+constexpr int kMaxFirstScan = 20;  // of a pedestrian: by velocity alone, without beams
 
 const std::array<ObjectClass, 3> kClasses = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
                                              ObjectClass::kVehicle};
 
-/// One of each class, side by side, far enough from each other to be told apart by position.
+/// One of each class, side by side, far enough apart to be distinguished by position.
 struct Mover {
   ObjectClass object_class;
   double y;  // m
@@ -119,7 +119,7 @@ TEST(WrongClassesTest, InAFifthOfTheFramesLoseNoTrack) {
   }
 }
 
-TEST(WrongClassesTest, TheTracksClassIsRightAllTheSame) {
+TEST(WrongClassesTest, TheTracksClassIsRightNonetheless) {
   int named = 0;
   int followed = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -132,7 +132,7 @@ TEST(WrongClassesTest, TheTracksClassIsRightAllTheSame) {
   EXPECT_GE(named, 0.95 * followed) << named << " of " << followed;
 }
 
-TEST(WrongClassesTest, ShapeAndMotionAreAsWithClassesThatAreRight) {
+TEST(WrongClassesTest, ShapeAndMotionAreThoseOfTheRightClasses) {
   Outcomes wrong;
   Outcomes right;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {

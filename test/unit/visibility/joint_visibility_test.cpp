@@ -21,7 +21,7 @@ const Box2 kVan{{10.0, 0.0, 0.0}, 5.0, 2.0};
 const Box2 kBehindVan{{30.0, 0.0, 0.0}, 4.0, 1.8};
 const Box2 kToTheLeft{{0.0, 20.0, 0.0}, 4.0, 1.8};
 
-/// A scanner that sees to the left only.
+/// A scanner that sees only to the left.
 Visibility scanner() {
   const FieldOfView left{Pose2(0.0, 0.0, degrees(90.0)), degrees(-60.0), degrees(60.0), 60.0, 60.0};
   return {left, {}, kOptions};
@@ -31,7 +31,7 @@ double seen(const Visibility* scan, const ObjectList& list, const Box2& box) {
   return jointVisibility(scan, list, kOptions).detectionProbability(box, 0.0);
 }
 
-TEST(JointVisibility, OfNoSensorNothingIsKnown) {
+TEST(JointVisibility, WithoutSensorsItIsUnknown) {
   EXPECT_EQ(seen(nullptr, {}, kBehindVan), kOptions.unknown_probability);
 }
 
@@ -71,7 +71,7 @@ TEST(JointVisibility, IndependentChancesJoin) {
       << "nothing is surer than that";
 }
 
-TEST(JointVisibility, WhatASensorSawHidesWhatIsBehindItFromThatSensorAlone) {
+TEST(JointVisibility, ObjectsOccludeOnlyForTheSensorThatSawThem) {
   ObjectList list{{}, {objectOf(kVan, {"camera"})}, {{"camera", fieldOf(degrees(30.0))}}};
   EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.min_probability);
   list.objects[0].sensors = {"lidar"};

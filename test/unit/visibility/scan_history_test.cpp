@@ -13,7 +13,7 @@ using samples::scanOf;
 
 class ScanHistoryTest : public testing::Test {
  protected:
-  /// At something that runs across the x axis.
+  /// At an object that extends across the x axis.
   BeamOutcome lookAt(const Point2& position) const {
     return history_.look(0, {position, Point2::UnitY()}).outcome;
   }
@@ -30,10 +30,10 @@ TEST_F(ScanHistoryTest, SeesAHitNearItsEnd) {
 }
 
 TEST_F(ScanHistoryTest, AGrazingBeamMeetsACurbSomeDistanceAlong) {
-  // A curb along y = 2; the beam of 6 degrees meets it at 19.03 m ahead.
+  // A curb along y = 2; the beam at 6 degrees hits it at 19.03 m ahead.
   const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
   history_.add(scanOf({met}, 0.0));
-  const Point2 beside(19.6, 2.0);  // the same beam lights it
+  const Point2 beside(19.6, 2.0);  // the same beam hits it
   EXPECT_EQ(history_.look(0, {beside, Point2::UnitX()}).outcome, BeamOutcome::kHit);
   EXPECT_EQ(history_.look(0, {beside, Point2::UnitY()}).outcome, BeamOutcome::kNothing)
       << "behind the hit";
@@ -67,9 +67,9 @@ TEST_F(ScanHistoryTest, ABeamAlongALineIsNoEvidenceOfIt) {
   EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}).outcome, BeamOutcome::kNothing);
 }
 
-TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
-  // Beams half a radian apart: the one straight ahead lights a point that lies 0.2 rad beside it,
-  // but meets the line there only behind the scanner, at -3.4 m.
+TEST(ScanHistorySparseTest, ABeamThatDivergesFromTheLineIsNoEvidenceOfIt) {
+  // Beams half a radian apart: the one straight ahead hits a point 0.2 rad beside it, but meets the
+  // line there only behind the scanner, at -3.4 m.
   ScanHistoryOptions options;
   options.lit_share = 1.0;
   ScanHistory history(options);
@@ -84,7 +84,7 @@ TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
   EXPECT_EQ(history.look(0, {position, Point2::UnitY()}).outcome, BeamOutcome::kFree);
 }
 
-TEST_F(ScanHistoryTest, SeesFreeWhatABeamWentThrough) {
+TEST_F(ScanHistoryTest, CellsThatABeamPassedAreFree) {
   history_.add(scanOf({{20.0, 0.0}}, 0.0));
   EXPECT_EQ(lookAt({10.0, 0.0}), BeamOutcome::kFree);
   EXPECT_EQ(lookAt({19.0, 0.0}), BeamOutcome::kFree);
@@ -95,7 +95,7 @@ TEST_F(ScanHistoryTest, SeesNothingBehindAHit) {
   EXPECT_EQ(lookAt({21.0, 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ABeamWithoutReturnIsFreeAsFarAsTheFieldSays) {
+TEST_F(ScanHistoryTest, ABeamWithoutReturnIsFreeUpToTheFreeRange) {
   history_.add(scanOf({}, 0.0));
   EXPECT_EQ(lookAt({39.3, 0.0}), BeamOutcome::kFree);
   EXPECT_EQ(lookAt({39.7, 0.0}), BeamOutcome::kNothing);
@@ -113,13 +113,13 @@ TEST_F(ScanHistoryTest, SeesNothingOutsideOfTheField) {
   EXPECT_EQ(lookAt({0.5, 10.0}), BeamOutcome::kNothing) << "the field ends at 80 degrees";
 }
 
-TEST_F(ScanHistoryTest, SeesNothingBeyondAllNumbers) {
+TEST_F(ScanHistoryTest, SeesNothingAtNonFinitePositions) {
   history_.add(scanOf({}, 0.0));
   EXPECT_EQ(lookAt({std::numeric_limits<double>::quiet_NaN(), 0.0}), BeamOutcome::kNothing);
   EXPECT_EQ(lookAt({std::numeric_limits<double>::infinity(), 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ABlindBeamSaysNothing) {
+TEST_F(ScanHistoryTest, ABlindBeamIsUninformative) {
   LabeledScan scan = scanOf({}, 0.0);
   scan.blind_beams = {40};
   history_.add(scan);
@@ -144,7 +144,7 @@ TEST_F(ScanHistoryTest, AFullTurnIsSeenAllRound) {
   EXPECT_EQ(history_.look(0, {{0.0, -10.0}, Point2::UnitX()}).outcome, BeamOutcome::kFree);
 }
 
-TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
+TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldIsUninformative) {
   LabeledScan scan = scanOf({{20.0, 0.0}}, 0.0);
   scan.field = {};
   history_.add(scan);
@@ -152,7 +152,7 @@ TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
   EXPECT_EQ(lookAt({10.0, 0.0}), BeamOutcome::kNothing);
 }
 
-TEST_F(ScanHistoryTest, ForgetsWhatIsOld) {
+TEST_F(ScanHistoryTest, ForgetsOldScans) {
   for (int i = 0; i <= 50; ++i) {
     history_.add(scanOf({}, 0.1 * i));
   }
@@ -162,7 +162,7 @@ TEST_F(ScanHistoryTest, ForgetsWhatIsOld) {
   EXPECT_EQ(history_.size(), 0U);
 }
 
-TEST(ScanHistoryMemoryTest, HoldsNoMoreScansThanItMay) {
+TEST(ScanHistoryMemoryTest, HoldsALimitedNumberOfScans) {
   ScanHistoryOptions options;
   options.max_scans = 5;
   ScanHistory history(options);

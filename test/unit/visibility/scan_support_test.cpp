@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t kBeams = 161;
 
-/// Beams a degree apart, from 80 degrees on the right to 80 on the left (or the other way round),
-/// none of which meets anything.
+/// Beams one degree apart, from 80 degrees on the right to 80 on the left (or vice versa), none of
+/// which hits anything.
 LabeledScan emptyScan(bool from_the_left = false) {
   LabeledScan scan;
   scan.scanner_in_base = Pose2(2.0, 0.0, 0.0);
@@ -39,7 +39,7 @@ void addWall(LabeledScan& scan, double x, PointState state, double from = -1.0, 
   }
 }
 
-/// A car's rear 20 m ahead of the scanner, of which its range is known to `sigma` (m).
+/// A car's rear 20 m ahead of the scanner, whose range is known to `sigma` (m).
 Object car(double sigma) {
   Object object = boxObject(22.5, 0.0, 1.0, 1.8, 0.0, "stereo");
   object.position_covariance << sigma * sigma, 0.0, 0.0, 0.01;
@@ -50,7 +50,7 @@ PositionEvidence evidence(const LabeledScan& scan, const Object& object, double 
   return ScanSupport(scan, ScanSupportOptions()).evidence(object, motion_std);
 }
 
-TEST(ScanSupportTest, BeamsThatEndThereOnStaticPointsSayThatItStands) {
+TEST(ScanSupportTest, BeamsThatEndThereOnStaticPointsShowThatItIsStationary) {
   for (const bool from_the_left : {false, true}) {
     LabeledScan scan = emptyScan(from_the_left);
     addWall(scan, 22.5, PointState::kStatic);
@@ -63,7 +63,7 @@ TEST(ScanSupportTest, BeamsThatEndThereOnStaticPointsSayThatItStands) {
   }
 }
 
-TEST(ScanSupportTest, BeamsThatEndThereOnOtherPointsSayNothing) {
+TEST(ScanSupportTest, BeamsThatEndThereOnOtherPointsAreUninformative) {
   for (const PointState state : {PointState::kMoving, PointState::kUnknown}) {
     LabeledScan scan = emptyScan();
     addWall(scan, 22.0, state);
@@ -78,12 +78,12 @@ TEST(ScanSupportTest, BeamsThatEndFarBehindPassedThrough) {
   addWall(scan, 30.0, PointState::kStatic);
   EXPECT_EQ(evidence(scan, car(1.0)).through_share, 1.0);
   EXPECT_EQ(evidence(scan, car(1.0)).static_share, 0.0);
-  // Its far side may be there, or have been there a moment ago.
+  // Its far side may be there, or may have been there a moment ago.
   EXPECT_EQ(evidence(scan, car(4.0)).through_share, 0.0);
   EXPECT_EQ(evidence(scan, car(1.0), 4.0).through_share, 0.0);
 }
 
-TEST(ScanSupportTest, WhatIsHiddenIsNotJudged) {
+TEST(ScanSupportTest, HiddenObjectsAreNotJudged) {
   LabeledScan scan = emptyScan();
   addWall(scan, 12.0, PointState::kStatic);
   const PositionEvidence said = evidence(scan, car(1.0));
@@ -91,8 +91,8 @@ TEST(ScanSupportTest, WhatIsHiddenIsNotJudged) {
   EXPECT_EQ(said.through_share, 0.0);
 }
 
-TEST(ScanSupportTest, ACarHiddenFromTheScannerInFrontOfAWallDoesNotStand) {
-  // A van hides all of it but the right edge, beside which the wall is seen.
+TEST(ScanSupportTest, ACarHiddenFromTheScannerInFrontOfAWallIsNotStationary) {
+  // A van hides all of it except the right edge, beside which the wall is visible.
   LabeledScan scan = emptyScan();
   addWall(scan, 23.5, PointState::kStatic, -1.0, -degrees(1.5));
   addWall(scan, 10.0, PointState::kMoving, -degrees(1.5), 1.0);
@@ -100,7 +100,7 @@ TEST(ScanSupportTest, ACarHiddenFromTheScannerInFrontOfAWallDoesNotStand) {
   EXPECT_FALSE(scan_support.standsStill(scan_support.evidence(car(2.0), 0.0)));
 }
 
-TEST(ScanSupportTest, AParkedRowBehindDoesNotFreezeWhatPasses) {
+TEST(ScanSupportTest, AParkedRowBehindDoesNotFreezePassingObjects) {
   LabeledScan scan = emptyScan();
   addWall(scan, 25.0, PointState::kStatic);
   const ScanSupport scan_support(scan, ScanSupportOptions());
@@ -116,7 +116,7 @@ TEST(ScanSupportTest, BeamsWithoutReturnPassThroughAsFarAsTheyAreKnownFree) {
   EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
 }
 
-TEST(ScanSupportTest, BlindBeamsSayNothing) {
+TEST(ScanSupportTest, BlindBeamsAreUninformative) {
   LabeledScan scan = emptyScan();
   for (std::uint32_t beam = 0; beam < kBeams; ++beam) {
     scan.blind_beams.push_back(beam);
@@ -124,14 +124,14 @@ TEST(ScanSupportTest, BlindBeamsSayNothing) {
   EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
 }
 
-TEST(ScanSupportTest, OutsideTheFieldNothingIsKnown) {
+TEST(ScanSupportTest, OutsideTheFieldItIsUnknown) {
   const LabeledScan scan = emptyScan();
   Object behind = car(1.0);
   behind.box.center = Pose2(-20.0, 0.0, 0.0);
   const PositionEvidence said = evidence(scan, behind);
   EXPECT_EQ(said.static_share, 0.0);
   EXPECT_EQ(said.through_share, 0.0);
-  // Half of it is: the rest is not taken for free.
+  // Half of it is: the rest is not assumed to be free.
   Object at_edge = car(1.0);
   at_edge.box.center = Pose2(
       scan.scanner_in_base * (20.0 * Point2(std::cos(degrees(80.0)), std::sin(degrees(80.0)))),
@@ -141,7 +141,7 @@ TEST(ScanSupportTest, OutsideTheFieldNothingIsKnown) {
   EXPECT_LT(share, 0.7);
 }
 
-TEST(ScanSupportTest, AThinPoleIsLookedAtByTheNearestBeam) {
+TEST(ScanSupportTest, AThinPoleIsJudgedByTheNearestBeam) {
   LabeledScan scan = emptyScan();
   Object pole = pointObject(0.0, 0.0, 0.1, "stereo");
   pole.box = {Pose2(scan.scanner_in_base *
@@ -153,8 +153,8 @@ TEST(ScanSupportTest, AThinPoleIsLookedAtByTheNearestBeam) {
   EXPECT_LT(said.beams, 0.5);
 }
 
-TEST(ScanSupportTest, WhereAWholeTurnEndsNoBeamIsMissed) {
-  // 514.3 beams are a turn: the last one and the first are nearer together than others.
+TEST(ScanSupportTest, NoBeamIsMissedAtTheSeamOfAFullTurn) {
+  // 514.3 beams are a turn: the last one and the first are closer together than others.
   LabeledScan scan = emptyScan();
   scan.field.beam_spacing = degrees(0.7);
   scan.field.first_bearing = -kPi;
@@ -169,13 +169,13 @@ TEST(ScanSupportTest, WhereAWholeTurnEndsNoBeamIsMissed) {
   EXPECT_EQ(evidence(scan, behind).static_share, 1.0);
 }
 
-TEST(ScanSupportTest, BeamsFinerThanThoseOfAnyScannerSayNothing) {
+TEST(ScanSupportTest, BeamsFinerThanThoseOfAnyScannerAreUninformative) {
   LabeledScan scan = emptyScan();
   scan.field.beam_spacing = 1e-9;
   EXPECT_EQ(evidence(scan, car(1.0)).beams, 0.0);
 }
 
-TEST(ScanSupportTest, WithoutAFieldOrAroundTheScannerNothingIsKnown) {
+TEST(ScanSupportTest, WithoutAFieldOrAroundTheScannerItIsUnknown) {
   LabeledScan scan = emptyScan();
   Object around = boxObject(2.0, 0.0, 2.0, 2.0, 0.01, "stereo");
   EXPECT_EQ(evidence(scan, around).through_share, 0.0);

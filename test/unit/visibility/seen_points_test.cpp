@@ -61,7 +61,7 @@ TEST(SeenPointHistory, AnObjectWithoutPointsAddsNothing) {
   EXPECT_TRUE(history.scans().empty());
 }
 
-TEST(SeenPointHistory, ForgetsWhatIsOlderThanItsMemory) {
+TEST(SeenPointHistory, ForgetsPointsOlderThanItsMemory) {
   SeenPointHistory history;
   history.add(objectOf({{20.0, 1.0}}), 0.0, 2.0);
   history.add(objectOf({{20.0, 1.0}}), 1.5, 2.0);
@@ -69,7 +69,7 @@ TEST(SeenPointHistory, ForgetsWhatIsOlderThanItsMemory) {
   EXPECT_EQ(timesOf(history), (std::vector<double>{1.5, 2.5}));
 }
 
-TEST(SeenPointHistory, SpreadsWhatItKeepsOverTheMemory) {
+TEST(SeenPointHistory, SpreadsTheKeptPointsOverTheMemory) {
   SeenPointHistory history;
   for (int i = 0; i <= 40; ++i) {
     history.add(objectOf({{20.0, 1.0}}), 0.05 * i, 2.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors could see as fans of beams: out of a visibility, into another frame, and back.
+// Fields of view as fans of beams: from a visibility, into another frame, and back.
 #include "datmo_fusion/common/view_fan.h"
 
 #include <vector>
@@ -26,7 +26,7 @@ Visibility scanner() {
   return {scan, kOptions};
 }
 
-/// A camera to the left, before which something stands.
+/// A camera facing left, with an obstacle in front of it.
 Visibility camera() {
   const FieldOfView field{Pose2(1.0, 0.0, 1.0), degrees(-40.0), degrees(40.0), 20.0, 60.0};
   return {field, {{{8.0, 8.0, 0.3}, 3.0, 2.0}}, kOptions};
@@ -68,7 +68,7 @@ TEST(ViewFan, OneOfEachSensorWhoseViewIsKnown) {
   EXPECT_EQ(joint.fans().size(), 1U);
 }
 
-TEST(ViewFan, ReportsWhatTheScanDid) {
+TEST(ViewFan, ReportsTheScansBeams) {
   const ViewFan fan = scanner().fans().at(0);
   EXPECT_EQ(fan.sensor.x(), 3.0);
   EXPECT_EQ(fan.first_bearing, degrees(-90.0));
@@ -82,7 +82,7 @@ TEST(ViewFan, ReportsWhatTheScanDid) {
   EXPECT_EQ(fan.reach[60], 15.0) << "a wall";
 }
 
-TEST(ViewFan, OfNoneNothingIsKnown) {
+TEST(ViewFan, WithoutFansItIsUnknown) {
   const Box2 box{{20.0, 0.0, 0.0}, 4.0, 2.0};
   const std::vector<ViewFan> none;
   EXPECT_EQ(Visibility(none, kOptions).detectionProbability(box, 0.0),

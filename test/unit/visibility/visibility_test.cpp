@@ -76,7 +76,7 @@ TEST(Visibility, OutsideTheFieldOfViewAndTheReachNothingIsSeen) {
 }
 
 TEST(Visibility, APedestrianBetweenTheBeamsIsSeenAsOftenAsOneMeetsIt) {
-  // Facing the scanner at 40 m its near side, 39.7 m away, is as wide as 0.866 beams.
+  // Facing the scanner at 40 m, its near side, 39.7 m away, is as wide as 0.866 beams.
   const double beams = 2.0 * std::atan(0.3 / 39.7) / degrees(1.0);
   ASSERT_LT(beams, 1.0);
   const double expected = kOptions.max_probability * beams * kOptions.beam_detection;
@@ -84,7 +84,7 @@ TEST(Visibility, APedestrianBetweenTheBeamsIsSeenAsOftenAsOneMeetsIt) {
 }
 
 TEST(Visibility, EveryFurtherBeamCutsTheChanceOfAMiss) {
-  // 2.62 beams: two, and a third one 62 times in a hundred.
+  // 2.62 beams: two, and a third one with a probability of 62 %.
   const double beams = 2.0 * std::atan(0.3 / 13.1) / degrees(1.0);
   const double miss = 1.0 - kOptions.beam_detection;
   const double expected = 1.0 - miss * miss * (1.0 - (beams - 2.0) * kOptions.beam_detection);
@@ -138,7 +138,8 @@ TEST(Visibility, BeamsAndBlindOnesThatTheFieldDoesNotHaveAreLeftOut) {
   EXPECT_NEAR(seen(scan, carAt(20.0, 0.0)), kOptions.max_probability, 1e-3);
 }
 
-/// A pole at 30 degrees to the left, in a scan from a scanner that turns this way; full circle.
+/// A pole at 30 degrees to the left, in a full-circle scan from a scanner that turns in this
+/// direction.
 LabeledScan poleToTheLeft(double spacing_degrees, double first_degrees) {
   LabeledScan scan;
   scan.field = {degrees(first_degrees), degrees(spacing_degrees), 360, 0.1, 40.0, 40.0};
@@ -196,20 +197,20 @@ TEST(Visibility, AnUncertainPositionIsTheMeanOverPositions) {
   const double middle = seen(scan, at_the_edge, 2.0);
   EXPECT_GT(middle, behind + 0.2);
   EXPECT_LT(middle, free - 0.2);
-  // Ahead (1/3), and a step of 3.46 m nearer and farther (1/6 each), it is seen as at the edge;
+  // Ahead (1/3), and one step of 3.46 m nearer and farther (1/6 each), it is seen as at the edge;
   // to the left fully, to the right not at all.
   const double full = seen(scan, pedestrianAt(10.0, 5.0));
   EXPECT_NEAR(middle, seen(scan, at_the_edge) * 2.0 / 3.0 + full / 6.0, 0.1);
 }
 
-TEST(Visibility, AHiddenObjectThatMayStandBeforeTheWallMayBeSeen) {
+TEST(Visibility, AnObjectThatMayBeInFrontOfTheWallMayBeSeen) {
   LabeledScan scan = emptyScan();
   addWall(scan, -90, 90, 18.0);
   EXPECT_EQ(seen(scan, carAt(21.0, 0.0)), kOptions.min_probability);
   EXPECT_NEAR(seen(scan, carAt(21.0, 0.0), 1.0), kOptions.max_probability / 6.0, 0.01);
 }
 
-TEST(Visibility, AroundTheScannerNothingIsKnown) {
+TEST(Visibility, AroundTheScannerItIsUnknown) {
   EXPECT_EQ(seen(emptyScan(), carAt(0.5, 0.5)), kOptions.unknown_probability);
 }
 
@@ -230,7 +231,7 @@ TEST(Visibility, StaysWithinItsBounds) {
   }
 }
 
-TEST(Visibility, AFieldOfViewWithBoxesHidesWhatIsBehindThem) {
+TEST(Visibility, AFieldOfViewWithBoxesHidesObjectsBehindThem) {
   const FieldOfView view{Pose2(1.0, 0.0, 0.0), degrees(-40.0), degrees(40.0), 50.0, 70.0};
   const Box2 van{{15.0, 0.0, 0.0}, 5.0, 2.2};
   const Visibility visibility(view, {van}, kOptions);

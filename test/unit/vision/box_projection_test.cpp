@@ -11,8 +11,8 @@ namespace {
 const PinholeCamera kCamera{100.0, 200.0, 320.0, 240.0};
 constexpr double kNear = 0.5;  // m
 
-/// Right, up, forward of the camera as x, y, z of a box: it stands on a plane `down` below the
-/// camera, the middle of its bottom `forward` ahead.
+/// Right, up, forward of the camera as x, y, z of a box: it is on a plane `down` below the camera,
+/// the middle of its bottom `forward` ahead.
 Box3 boxAhead(double forward, double down, const Eigen::Vector3d& size) {
   Box3 box;
   box.pose.linear() << 0.0, -1.0, 0.0,  // its y is the camera's left
@@ -23,7 +23,7 @@ Box3 boxAhead(double forward, double down, const Eigen::Vector3d& size) {
   return box;
 }
 
-TEST(BoxProjection, CornersAreWhereTheyAreByHand) {
+TEST(BoxProjection, CornersByHand) {
   // From 9 to 11 m ahead, 1 m to each side, from 2 m below the camera to 1 m below it.
   const auto edges = projectBox(kCamera, boxAhead(10.0, 2.0, {2.0, 2.0, 1.0}), kNear);
   ASSERT_EQ(edges.size(), 12U);
@@ -46,7 +46,7 @@ TEST(BoxProjection, UprightEdgesOfAnUprightBoxAreUpright) {
   }
 }
 
-TEST(BoxProjection, ABoxBehindTheCameraIsNotThere) {
+TEST(BoxProjection, ABoxBehindTheCameraIsNotProjected) {
   EXPECT_TRUE(projectBox(kCamera, boxAhead(-10.0, 2.0, {4.0, 2.0, 1.5}), kNear).empty());
   EXPECT_TRUE(projectBox(kCamera, boxAhead(0.0, 2.0, {0.8, 2.0, 1.5}), kNear).empty())
       << "nearer than the limit";
@@ -55,9 +55,10 @@ TEST(BoxProjection, ABoxBehindTheCameraIsNotThere) {
 TEST(BoxProjection, ABoxPartlyBehindTheCameraIsCutAtTheNearPlane) {
   // From 2 m behind the camera to 2 m ahead, 1 m to each side.
   const auto edges = projectBox(kCamera, boxAhead(0.0, 2.0, {4.0, 2.0, 1.0}), kNear);
-  // Gone: those between the rear corners, one of the bottom and of the top, and two upright ones.
+  // Removed: those between the rear corners, one of the bottom and of the top, and two upright
+  // ones.
   ASSERT_EQ(edges.size(), 8U);
-  // The left edge of the bottom goes from (-1, 2, 2) to where it is cut, (-1, 2, 0.5).
+  // The left edge of the bottom extends from (-1, 2, 2) to where it is clipped, (-1, 2, 0.5).
   EXPECT_NEAR(edges[0].from.x(), 270.0, 1e-9);
   EXPECT_NEAR(edges[0].from.y(), 440.0, 1e-9);
   EXPECT_NEAR(edges[0].to.x(), 120.0, 1e-9);
@@ -75,7 +76,7 @@ TEST(BoxProjection, BoundsHoldTheBoxAndEndWithTheImage) {
   EXPECT_DOUBLE_EQ(cut.max().y(), 480.0);
 }
 
-TEST(BoxProjection, BoundsOfWhatIsOutOfTheImageAreEmpty) {
+TEST(BoxProjection, BoundsOutsideTheImageAreEmpty) {
   Box3 box = boxAhead(10.0, 2.0, {2.0, 2.0, 1.0});
   box.pose.translation().x() = 100.0;
   EXPECT_TRUE(boundsInImage(projectBox(kCamera, box, kNear), 640.0, 480.0).isEmpty());

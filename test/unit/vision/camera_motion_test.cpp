@@ -22,7 +22,7 @@ StereoFeature project(const Eigen::Vector3d& point, Random& random) {
           200.0 / point.z() + noise()};
 }
 
-/// 10 m/s ahead, in a bend, nodding.
+/// 10 m/s ahead, in a bend, pitching.
 Eigen::Isometry3d trueMotion() {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = (Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY()) *
@@ -32,7 +32,7 @@ Eigen::Isometry3d trueMotion() {
   return motion;
 }
 
-/// Features of what stands, and of what has moved by `shift` (m) on its own.
+/// Features of the static scene, and of an object that has moved by `shift` (m).
 void add(std::vector<FeatureQuad>& quads, int count, const Eigen::Vector3d& shift, Random& random) {
   for (int i = 0; i < count; ++i) {
     const double depth = random.uniform(5.0, 40.0);
@@ -45,7 +45,7 @@ void add(std::vector<FeatureQuad>& quads, int count, const Eigen::Vector3d& shif
   }
 }
 
-/// Of which hardly anything is known: 3 degrees, 1 m.
+/// Poorly known: 3 degrees, 1 m.
 CameraMotion vaguePrior(const Eigen::Isometry3d& motion) {
   CameraMotion prior;
   prior.earlier_in_later = motion;
@@ -61,7 +61,7 @@ Eigen::Matrix<double, 6, 1> errorOf(const CameraMotion& motion) {
   return error;
 }
 
-TEST(CameraMotion, IsFoundFromStandingStillAsPriorThoughAThirdMoves) {
+TEST(CameraMotion, IsFoundFromAZeroMotionPriorThoughAThirdMoves) {
   Random random(1);
   std::vector<FeatureQuad> quads;
   add(quads, 200, Eigen::Vector3d::Zero(), random);
@@ -74,7 +74,7 @@ TEST(CameraMotion, IsFoundFromStandingStillAsPriorThoughAThirdMoves) {
   EXPECT_NEAR(motion->inliers, 200.0, 30.0);
 }
 
-TEST(CameraMotion, CovarianceIsHonest) {
+TEST(CameraMotion, CovarianceIsConsistent) {
   constexpr int kRuns = 100;
   double nees = 0.0;
   for (int run = 0; run < kRuns; ++run) {
@@ -91,7 +91,7 @@ TEST(CameraMotion, CovarianceIsHonest) {
   EXPECT_LT(nees, 9.0);
 }
 
-TEST(CameraMotion, ASurePriorHoldsWhereAnObjectFillsTheImage) {
+TEST(CameraMotion, ACertainPriorIsKeptWhenAnObjectFillsTheImage) {
   Random random(2);
   std::vector<FeatureQuad> quads;
   add(quads, 40, Eigen::Vector3d::Zero(), random);

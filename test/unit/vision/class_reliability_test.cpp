@@ -27,7 +27,7 @@ TEST(ClassReliability, TheCurveIsStraightBetweenItsPointsAndLevelBeyond) {
   EXPECT_NEAR(reliability.right(std::numeric_limits<double>::quiet_NaN()), 0.3, 1e-12);
 }
 
-TEST(ClassReliability, WhatIsWrongIsSharedAsMeasured) {
+TEST(ClassReliability, ErrorsAreDistributedAsMeasured) {
   ClassReliabilityOptions options = curve();
   options.mistaken = {1.0, 9.0, 3.0, 0.0, 0.0,   // pedestrian
                       0.0, 0.0, 0.0, 0.0, 0.0,   // cyclist: nothing was wrong
@@ -43,7 +43,7 @@ TEST(ClassReliability, WhatIsWrongIsSharedAsMeasured) {
   EXPECT_NEAR(cyclist[0], 0.125, 1e-12);
 }
 
-TEST(ClassReliability, NoBetterThanChanceIsNothing) {
+TEST(ClassReliability, NoBetterThanChanceIsUninformative) {
   ClassReliabilityOptions options = curve();
   options.right = {0.05, 0.2, 0.9};
   const ClassReliability reliability(options);
@@ -65,7 +65,7 @@ TEST(ClassReliability, ProbabilitiesSumToOne) {
   EXPECT_NEAR(nothing[0], nothing[3], 1e-12) << "no detector reports poles";
 }
 
-TEST(ClassReliability, RefusesCurvesThatAreNone) {
+TEST(ClassReliability, RefusesInvalidCurves) {
   ClassReliabilityOptions options = curve();
   options.scores = {0.2, 0.2, 0.8};
   EXPECT_THROW(ClassReliability{options}, OptionError);

@@ -17,7 +17,7 @@ ProjectedObject projected(const Object& object) {
   return {region.value_or(ImageRegion()), object.box.distanceTo(Point2(0.0, 0.0)), 0.05};
 }
 
-/// As an object of this height would be seen whose near face is at (x, y).
+/// The detection of an object of this height whose near face is at (x, y).
 ImageDetection seenAt(double x, double y, double width, double height, ObjectClass object_class) {
   const double middle = 500.0 - 500.0 * y / x;
   const double feet = 200.0 + 500.0 * test::kCameraHeight / x;
@@ -40,7 +40,7 @@ TEST(DetectionAssociation, EachObjectGetsItsOwn) {
   EXPECT_EQ(matches[1], 0U);
 }
 
-TEST(DetectionAssociation, WhatStandsBehindIsAnother) {
+TEST(DetectionAssociation, AnObjectBehindIsAnother) {
   const auto near = projected(objectAt(8.0, 0.0, 0.5, 0.5, 0.0));
   const auto far = projected(objectAt(30.0, 0.0, 0.5, 0.5, 0.0));
   const auto matches =
@@ -49,7 +49,7 @@ TEST(DetectionAssociation, WhatStandsBehindIsAnother) {
   EXPECT_EQ(matches[1], 0U);
 }
 
-TEST(DetectionAssociation, WhatLiesBesideIsAnother) {
+TEST(DetectionAssociation, AnObjectBesideIsAnother) {
   const auto matches = associated({projected(objectAt(10.0, 3.0, 0.5, 0.5, 0.0))},
                                   {seenAt(9.75, 0.0, 0.6, 1.7, ObjectClass::kPedestrian)});
   EXPECT_FALSE(matches[0]);
@@ -73,7 +73,7 @@ TEST(DetectionAssociation, APersonIsOneObjectAlone) {
   EXPECT_FALSE(matches[1]);
 }
 
-TEST(DetectionAssociation, OfNothingIsNothing) {
+TEST(DetectionAssociation, OfNoObjectsIsEmpty) {
   EXPECT_TRUE(associated({}, {seenAt(10.0, 0.0, 0.6, 1.7, ObjectClass::kPedestrian)}).empty());
   const auto matches = associated({projected(objectAt(10.0, 0.0, 0.5, 0.5, 0.0))}, {});
   ASSERT_EQ(matches.size(), 1U);

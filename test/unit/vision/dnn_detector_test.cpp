@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Networks are not in the repository: where one is missing, its tests are skipped.
+// Networks are not in the repository: if one is missing, its tests are skipped.
 #include "datmo_fusion/vision/dnn_detector.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the repository, as the data sets are.
+/// Beside the repository, like the data sets.
 const fs::path kModels = fs::path(DATMO_FUSION_SHARED) / "models";
 const fs::path kDarknet = kModels / "yolo-fastest-1.1-xl" / "yolo-fastest-1.1-xl.weights";
 const fs::path kOnnx = kModels / "yolox_nano" / "yolox_nano.onnx";
@@ -49,7 +49,7 @@ TEST_P(DnnDetectorOf, LabelsOfAnotherNumberAreRefused) {
   EXPECT_THROW(DnnDetector{options_}, ModelError);
 }
 
-TEST_P(DnnDetectorOf, ACutFileIsRefused) {
+TEST_P(DnnDetectorOf, ATruncatedFileIsRefused) {
   const fs::path cut = fs::path(testing::TempDir()) / ("cut" + GetParam().extension().string());
   std::ifstream whole(GetParam(), std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(whole), {}};
@@ -69,7 +69,7 @@ TEST_P(DnnDetectorOf, ACutFileIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Networks, DnnDetectorOf, testing::Values(kDarknet, kOnnx),
                          [](const auto& one) { return one.index == 0 ? "Darknet" : "Onnx"; });
 
-TEST(DnnDetector, AModelThatIsNotThereIsRefused) {
+TEST(DnnDetector, AMissingModelIsRefused) {
   DnnDetectorOptions options;
   for (const char* model :
        {"", "/nowhere/network.onnx", "/nowhere/network.weights", "/etc/hosts"}) {
@@ -78,7 +78,7 @@ TEST(DnnDetector, AModelThatIsNotThereIsRefused) {
   }
 }
 
-TEST(DnnDetector, AFileThatIsNoNetworkIsRefused) {
+TEST(DnnDetector, AFileThatIsNotANetworkIsRefused) {
   const fs::path file = fs::path(testing::TempDir()) / "text.onnx";
   std::ofstream(file) << "this is no network";
   DnnDetectorOptions options;
@@ -86,7 +86,7 @@ TEST(DnnDetector, AFileThatIsNoNetworkIsRefused) {
   EXPECT_THROW(DnnDetector{options}, ModelError);
 }
 
-TEST(DnnDetector, SizesThatNoNetworkHasAreRefused) {
+TEST(DnnDetector, InvalidSizesAreRefused) {
   DnnDetectorOptions options;
   options.width = 100;
   EXPECT_THROW(DnnDetector{options}, OptionError);

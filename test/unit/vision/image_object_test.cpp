@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the image alone sees, over many rectangles: bodies of all sizes and headings, seen by a
-// camera that pitches, with edges that err as ImageRangeOptions says.
+// Detections from the image alone, over many rectangles: bodies of all sizes and headings, seen by
+// a pitching camera, with edge errors as in ImageRangeOptions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ struct Body {
   double height;
 };
 
-/// By the shares that the image's sizes of vehicles are the mixture of.
+/// By the shares in the mixture of vehicle sizes for the image.
 const KindSize& kindOf(ObjectClass object_class, Random& random) {
   static const ObjectClassifierOptions kinds;
   if (object_class != ObjectClass::kVehicle) {
@@ -61,7 +61,7 @@ Body bodyAt(double distance, ObjectClass object_class, Random& random) {
           drawn(kind.height, kind.height_sigma)};
 }
 
-/// As a detector reports it that does not know of the camera's pitch.
+/// As reported by a detector that does not know of the camera's pitch.
 ImageDetection reportOf(const Body& body, ObjectClass object_class, Random& random) {
   const ImageRangeOptions options;
   MountedCamera pitched = levelCamera();
@@ -84,7 +84,7 @@ Eigen::Vector2d edgesOf(const Box2& box) {
   return {normalizeAngle(middle + silhouette.right()), normalizeAngle(middle + silhouette.left())};
 }
 
-/// The side of a box that the vehicle sees in the middle of the box's bearings.
+/// The side of a box that the vehicle sees at the middle of the box's bearings.
 struct NearSide {
   double range = std::numeric_limits<double>::infinity();  ///< m, there
   double bearing = 0.0;                                    ///< rad, between those of its ends
@@ -121,10 +121,10 @@ double neesOf(const Object& object, const Body& body) {
          square(across) / (aside.dot(covariance * aside) + 0.25 * (left + right));
 }
 
-TEST(ImageObject, ItsNearSideIsAsSureAsItIsReported) {
+TEST(ImageObject, ItsNearSideIsConsistentWithItsCovariance) {
   Random random(5);
   ImageRangeOptions options;
-  options.max_range = 500.0;  // none is left out for what it seems to be
+  options.max_range = 500.0;  // so that none is dropped for its apparent range
   for (const ObjectClass object_class :
        {ObjectClass::kPedestrian, ObjectClass::kCyclist, ObjectClass::kVehicle}) {
     for (const double distance : {12.0, 18.0, 27.0}) {
@@ -151,7 +151,7 @@ TEST(ImageObject, ItsNearSideIsAsSureAsItIsReported) {
   }
 }
 
-TEST(ImageObject, StandsAtItsBearingAndItsCovarianceLiesAlongTheLineOfSight) {
+TEST(ImageObject, IsAtItsBearingWithItsCovarianceAlongTheLineOfSight) {
   const auto object =
       objectOf(levelCamera(), detectionOf(ObjectClass::kPedestrian, 740.0, 195.0, 760.0, 237.5),
                ImageRangeOptions());
@@ -167,7 +167,7 @@ TEST(ImageObject, StandsAtItsBearingAndItsCovarianceLiesAlongTheLineOfSight) {
   EXPECT_EQ(object->object_class, ObjectClass::kPedestrian);
 }
 
-TEST(ImageObject, IsAsWideAsItLooksHoweverItIsTurned) {
+TEST(ImageObject, HasItsApparentWidthAtAnyHeading) {
   for (const double heading : {0.0, 0.25 * kPi, 0.5 * kPi}) {
     const Body car{{Pose2(15.0, 3.0, heading), 4.2, 1.75}, 1.45};
     const Eigen::AlignedBox2d seen = boxInImage(levelCamera(), car.box, car.height);

@@ -13,7 +13,7 @@ namespace {
 using test::detectionOf;
 using test::levelCamera;
 
-/// A person of the mean height at this distance, `columns` beside the middle.
+/// A person of mean height at this distance, `columns` beside the middle.
 ImageDetection personAt(double distance, double columns = 0.0) {
   const double feet = 200.0 + 500.0 * test::kCameraHeight / distance;
   const double height = 500.0 * sizeOf(ObjectClass::kPedestrian).height / distance;
@@ -31,7 +31,7 @@ TEST(ImageRange, SizeAndGroundAgreeOnAPersonOfMeanHeight) {
   }
 }
 
-TEST(ImageRange, FartherAwayIsLessSure) {
+TEST(ImageRange, FartherAwayIsLessCertain) {
   const ImageRangeOptions options;
   const auto near = rangeOf(levelCamera(), personAt(10.0), options);
   const auto far = rangeOf(levelCamera(), personAt(40.0), options);
@@ -39,8 +39,8 @@ TEST(ImageRange, FartherAwayIsLessSure) {
   EXPECT_GT(far->sigma, 4.0 * near->sigma) << "faster than in proportion";
 }
 
-TEST(ImageRange, AContradictionMakesItLessSure) {
-  // A child or one on a wall: its feet at 10 m, of the height of one at 20 m.
+TEST(ImageRange, AContradictionMakesItLessCertain) {
+  // A child, or a person on a wall: feet at 10 m, with the height of a person at 20 m.
   ImageDetection person = personAt(10.0);
   person.box.min().y() = 0.5 * (person.box.min().y() + person.box.max().y());
   const auto range = rangeOf(levelCamera(), person, ImageRangeOptions());
@@ -51,7 +51,7 @@ TEST(ImageRange, AContradictionMakesItLessSure) {
   EXPECT_GT(range->sigma, 2.0 * plain->sigma);
 }
 
-TEST(ImageRange, CutEdgesSayNothing) {
+TEST(ImageRange, CutEdgesAreUninformative) {
   const MountedCamera camera = levelCamera();
   ImageDetection feet_cut = personAt(3.0);
   feet_cut.box.max().y() = camera.height;
@@ -78,7 +78,7 @@ TEST(ImageRange, BesideTheMiddleItIsFartherThanItIsDeep) {
   EXPECT_NEAR(range->range, std::hypot(20.0, 10.0), 1e-6);
 }
 
-TEST(ImageRange, OfClassesThatAreReportedAlone) {
+TEST(ImageRange, OnlyOfReportedClasses) {
   EXPECT_THROW(sizeOf(ObjectClass::kPole), std::invalid_argument);
   EXPECT_THROW(sizeOf(ObjectClass::kUnknown), std::invalid_argument);
   EXPECT_GT(sizeOf(ObjectClass::kVehicle).height_sigma, 0.3) << "cars, vans and trucks";

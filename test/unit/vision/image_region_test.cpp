@@ -12,7 +12,7 @@ using test::objectAt;
 
 constexpr double kSigmas = 2.0;
 
-TEST(ImageRegion, ABoxIsWhereItIsByHand) {
+TEST(ImageRegion, ABoxByHand) {
   // Its near face 10 m ahead, 2 m wide, 1 m high: rows 200 + 500 * 1.5 / 10 and 200 + 25.
   const auto region = regionOf(levelCamera(), objectAt(11.0, 0.0, 2.0, 2.0, 1.0), 1.6, 0.4, 0.0);
   ASSERT_TRUE(region);
@@ -33,20 +33,20 @@ TEST(ImageRegion, UncertaintyMakesRoomAroundTheBox) {
   EXPECT_TRUE(region->search.contains(region->box));
 }
 
-TEST(ImageRegion, WhatIsNotInTheImageHasNone) {
+TEST(ImageRegion, ObjectsOutsideTheImageHaveNone) {
   const MountedCamera camera = levelCamera();
   EXPECT_FALSE(regionOf(camera, objectAt(-10.0, 0.0, 4.0, 2.0, 1.5), 1.6, 0.4, kSigmas));
   EXPECT_FALSE(regionOf(camera, objectAt(10.0, 30.0, 4.0, 2.0, 1.5), 1.6, 0.4, kSigmas));
 }
 
-TEST(ImageRegion, WhatIsHalfOutsideIsCutAtTheBorder) {
+TEST(ImageRegion, ObjectsHalfOutsideAreCutAtTheBorder) {
   const auto region = regionOf(levelCamera(), objectAt(10.0, 10.0, 0.0, 2.0, 1.0), 1.6, 1e-6, 0.0);
   ASSERT_TRUE(region);
   EXPECT_NEAR(region->box.min().x(), 0.0, 1e-9);
   EXPECT_NEAR(region->box.max().x(), 50.0, 1e-3);
 }
 
-TEST(ImageRegion, AnObjectOfNoSizeHasTheLeastOneAndTheDefaultHeight) {
+TEST(ImageRegion, AnObjectWithoutSizeHasTheMinimumOneAndTheDefaultHeight) {
   const auto region = regionOf(levelCamera(), objectAt(10.2, 0.0, 0.0, 0.0, 0.0), 1.5, 0.4, 0.0);
   ASSERT_TRUE(region);
   EXPECT_NEAR(region->box.sizes().x(), 20.0, 1e-9);

@@ -11,7 +11,7 @@ namespace datmo::test {
 
 inline constexpr double kCameraHeight = 1.5;  ///< m
 
-/// 1000 x 400 px, 500 px of focal length, at the vehicle's origin, level, looking ahead: a point at
+/// 1000 x 400 px, 500 px of focal length, at the vehicle's origin, level, facing ahead: a point at
 /// (x, y) on the road is at column 500 - 500 y / x and row 200 + 750 / x.
 inline MountedCamera levelCamera() {
   MountedCamera camera;
@@ -38,7 +38,7 @@ inline ImageDetection detectionOf(ObjectClass object_class, double left, double 
   return {{Eigen::Vector2d(left, top), Eigen::Vector2d(right, bottom)}, object_class, score};
 }
 
-/// Sees the same in each image.
+/// Detects the same in each image.
 class FixedDetector : public ImageDetector {
  public:
   explicit FixedDetector(std::vector<ImageDetection> seen) : seen_(std::move(seen)) {}

@@ -20,7 +20,7 @@ using test::objectAt;
 const ImageDetection kPerson = detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275);
 const ImageDetection kCar = detectionOf(ObjectClass::kVehicle, 350, 197, 400, 237.5);
 
-/// Whose detector is right in four of five.
+/// Its detector is right in four of five cases.
 MonoClassifierOptions dnnOptions() {
   MonoClassifierOptions options;
   options.detector = ImageDetectorKind::kDnn;
@@ -37,7 +37,7 @@ MonoClassification classified(const std::vector<ImageDetection>& seen, const Obj
   return classifier.classify(grayImage(), levelCamera(), objects);
 }
 
-TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
+TEST(MonoClassifier, ClassifiesTheScannersObject) {
   ObjectList objects;
   objects.stamp = Stamp::fromSeconds(5.0);
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0), objectAt(-5.0, 0.0, 0.4, 0.4, 0.0)};
@@ -59,7 +59,7 @@ TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
       << "the scanner's position must not count twice";
 }
 
-TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
+TEST(MonoClassifier, ADetectionWithoutAScannersObjectIsAnObject) {
   const MonoClassification result = classified({kPerson, kCar}, ObjectList());
   EXPECT_EQ(result.alone, 2U);
   ASSERT_EQ(result.list.objects.size(), 2U);
@@ -68,13 +68,13 @@ TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
   EXPECT_GT(result.list.objects[1].box.center.y(), 3.0);
 }
 
-TEST(MonoClassifier, AnUnsureOneAloneIsNone) {
+TEST(MonoClassifier, AnUncertainDetectionAloneIsNoObject) {
   MonoClassifierOptions options = dnnOptions();
   options.min_alone = 0.81;
   EXPECT_TRUE(classified({kPerson}, ObjectList(), options).list.objects.empty());
 }
 
-TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheSurestDetectionWins) {
+TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   MonoClassifierOptions options = dnnOptions();
   options.method = MonoMethod::kThesis;
   ObjectList objects;
@@ -98,12 +98,12 @@ TEST(MonoClassifier, RefusesAnImageOfAnotherSize) {
                std::invalid_argument);
 }
 
-TEST(MonoClassifier, ADetectorThatIsRightByChanceAloneSaysNothing) {
+TEST(MonoClassifier, ADetectorAtChanceLevelIsUninformative) {
   MonoClassifierOptions options = dnnOptions();
   options.min_alone = 0.0;
   options.dnn_reliability.scores = {0.0, 0.5};
   options.dnn_reliability.right = {0.03, 0.2};
-  // What it was mostly where it was wrong must not be taken for what it is.
+  // The most frequent class among the errors must not be taken for the true one.
   options.dnn_reliability.mistaken = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0};
   ObjectList objects;
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};

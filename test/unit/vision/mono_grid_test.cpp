@@ -26,7 +26,7 @@ constexpr int kHorizon = 200;  // px, of test::levelCamera
 
 int rowAt(double distance) { return static_cast<int>(kHorizon + 750.0 / distance); }
 
-/// Something that stands on the road, `distance` ahead, over all the image's width.
+/// An object on the road, `distance` ahead, over all the image's width.
 void stand(cv::Mat& image, double distance, double height, std::uint8_t gray) {
   const int foot = rowAt(distance);
   const int top = foot - static_cast<int>(500.0 * height / distance);
@@ -55,7 +55,7 @@ Scan scanOf(double distance = std::numeric_limits<double>::infinity()) {
   return scan;
 }
 
-/// What images of a level camera and scans say of cells straight ahead.
+/// What images of a level camera and scans report about cells straight ahead.
 class MonoGridTest : public testing::Test {
  protected:
   void look(const cv::Mat& image, const Scan& scan) {
@@ -77,7 +77,7 @@ class MonoGridTest : public testing::Test {
   MonoGridResult result_;
 };
 
-TEST_F(MonoGridTest, AnEmptyRoadIsFreeAsFarAsItSays) {
+TEST_F(MonoGridTest, AnEmptyRoadIsFreeUpToTheFreeRange) {
   look(emptyRoad(), scanOf());
   EXPECT_EQ(result_.grid.stamp(), Stamp::fromSeconds(kStart));
   EXPECT_GT(result_.learned, 1000U);
@@ -90,7 +90,7 @@ TEST_F(MonoGridTest, AnEmptyRoadIsFreeAsFarAsItSays) {
   EXPECT_EQ(result_.occupied, 0U);
 }
 
-TEST_F(MonoGridTest, WhatBothSeeIsOccupied) {
+TEST_F(MonoGridTest, ObjectsSeenByBothAreOccupied) {
   cv::Mat image = emptyRoad();
   stand(image, 12.0, 2.0, kDark);
   look(image, scanOf(12.0));
@@ -116,7 +116,7 @@ TEST_F(MonoGridTest, PaintOnTheRoadIsFree) {
   EXPECT_TRUE(isFree(at(12.0)));
 }
 
-TEST_F(MonoGridTest, WhatTheScannerDoesNotSeeIsUndecidedWithTheRoadBeforeIt) {
+TEST_F(MonoGridTest, ObjectsUnseenByTheScannerAreUndecidedLikeTheRoadBeforeThem) {
   look(emptyRoad(), scanOf());
   cv::Mat image = emptyRoad();
   stand(image, 12.0, 1.5, kDark);
@@ -128,7 +128,7 @@ TEST_F(MonoGridTest, WhatTheScannerDoesNotSeeIsUndecidedWithTheRoadBeforeIt) {
   EXPECT_EQ(result_.occupied, 0U);
 }
 
-TEST_F(MonoGridTest, WhatHidesTheRoadAndEndsIsUndecided) {
+TEST_F(MonoGridTest, ObjectsThatHideTheRoadAndEndAreUndecided) {
   look(emptyRoad(), scanOf());
   cv::Mat image = emptyRoad();
   stand(image, 8.0, 0.6, kDark);
@@ -137,7 +137,7 @@ TEST_F(MonoGridTest, WhatHidesTheRoadAndEndsIsUndecided) {
   EXPECT_TRUE(isFree(at(16.0))) << "the road is seen over it";
 }
 
-TEST_F(MonoGridTest, ColorsTellWhatGrayDoesNot) {
+TEST_F(MonoGridTest, ColorsDistinguishWhatGrayDoesNot) {
   cv::Mat color;
   cv::cvtColor(emptyRoad(), color, cv::COLOR_GRAY2BGR);
   look(color, scanOf());
@@ -162,7 +162,7 @@ TEST_F(MonoGridTest, TheThesisDecidesForWholeLines) {
   EXPECT_EQ(at(5.0, 10.0), kUnknownPercent) << "outside of the camera's view";
 }
 
-TEST_F(MonoGridTest, ACameraThatSeesNoRoadSaysNothing) {
+TEST_F(MonoGridTest, ACameraThatSeesNoRoadIsUninformative) {
   MountedCamera camera = test::levelCamera();
   camera.in_base.translation().z() = -0.1;
   const MonoGridResult below = model_.grid(emptyRoad(), camera, scanOf(), kScannerHeight);

@@ -92,7 +92,7 @@ TEST(RoadUsers, APersonOnACycleIsACyclist) {
   EXPECT_NEAR(users[1].box.max().y(), 200.0, 1e-9);
 }
 
-TEST(RoadUsers, WhoStandsBehindAParkedCycleIsNoRider) {
+TEST(RoadUsers, APersonBehindAParkedCycleIsNoRider) {
   const auto users = roadUsers({thing(NetworkLabel::kPerson, 100, 100, 120, 145, 0.9),
                                 thing(NetworkLabel::kCycle, 90, 150, 140, 200, 0.9)},
                                0.5);
@@ -100,7 +100,7 @@ TEST(RoadUsers, WhoStandsBehindAParkedCycleIsNoRider) {
   EXPECT_EQ(users[0].object_class, ObjectClass::kPedestrian);
 }
 
-TEST(RoadUsers, ComeOnceEach) {
+TEST(RoadUsers, AreReportedOnce) {
   const auto users = roadUsers({thing(NetworkLabel::kVehicle, 100, 100, 200, 200, 0.5),
                                 thing(NetworkLabel::kVehicle, 102, 100, 202, 200, 0.9)},
                                0.5);

@@ -21,7 +21,7 @@ PointVelocity pointAt(double x, double y, double height, const Eigen::Vector3d& 
   return point;
 }
 
-TEST(ObjectVelocity, EachObjectHasThatOfThePointsInItsBox) {
+TEST(ObjectVelocity, EachObjectHasTheVelocityOfThePointsInItsBox) {
   std::vector<Object> objects{objectAt(10.0, 0.0), objectAt(10.0, 1.0), objectAt(20.0, 0.0)};
   const Eigen::Vector3d walks(0.0, 1.4, 0.0);
   const Eigen::Vector3d stands = Eigen::Vector3d::Zero();
@@ -39,7 +39,7 @@ TEST(ObjectVelocity, EachObjectHasThatOfThePointsInItsBox) {
 
 TEST(ObjectVelocity, PointsOnAParkedCarAreNotTheCyclistsBesideIt) {
   std::vector<Object> objects{objectAt(15.0, -1.9), objectAt(17.0, -2.6)};
-  objects[1].box = {Pose2(17.0, -2.6, 0.0), 4.2, 0.0};  // its side, as it is seen
+  objects[1].box = {Pose2(17.0, -2.6, 0.0), 4.2, 0.0};  // its visible side
   for (Object& object : objects) {
     object.position_covariance = 0.5 * Eigen::Matrix2d::Identity();
   }
@@ -56,7 +56,7 @@ TEST(ObjectVelocity, PointsOnAParkedCarAreNotTheCyclistsBesideIt) {
   EXPECT_NEAR(objects[1].velocity->velocity.x(), 0.0, 1e-3);
 }
 
-TEST(ObjectVelocity, PointsOnTheRoadAndOverheadAreOfNobody) {
+TEST(ObjectVelocity, PointsOnTheRoadAndOverheadAreIgnored) {
   std::vector<Object> objects{objectAt(10.0, 0.0)};
   const Eigen::Vector3d moves(5.0, 0.0, 0.0);
   std::vector<PointVelocity> points(5, pointAt(10.0, 0.0, 0.05, moves));
@@ -65,7 +65,7 @@ TEST(ObjectVelocity, PointsOnTheRoadAndOverheadAreOfNobody) {
   EXPECT_FALSE(objects[0].velocity);
 }
 
-TEST(ObjectVelocity, WhatWasMeasuredBeforeIsForgotten) {
+TEST(ObjectVelocity, EarlierMeasurementsAreForgotten) {
   std::vector<Object> objects{objectAt(10.0, 0.0)};
   objects[0].velocity = MeasuredVelocity{};
   measureVelocities({}, ObjectVelocityOptions(), objects);

@@ -21,7 +21,7 @@ StereoFeature project(const Eigen::Vector3d& point) {
           200.0 / point.z()};
 }
 
-/// Optical frame of a camera that looks along the fixed frame's x, turned to the left by `heading`.
+/// Optical frame of a camera that faces along the fixed frame's x, turned to the left by `heading`.
 Exposure exposure(double seconds, double x, double heading) {
   Exposure result;
   result.stamp = Stamp::fromSeconds(seconds);
@@ -62,10 +62,10 @@ std::vector<PointVelocity> pedestrian(double distance, const Eigen::Vector3d& ve
   return points;
 }
 
-/// Whose center is known.
+/// With a known center.
 BodyCenter centerAt(double distance) { return {{distance, 0.0}, Eigen::Matrix2d::Zero()}; }
 
-/// With errors of their own alone.
+/// With independent errors only.
 std::vector<PointVelocity> independent(std::vector<PointVelocity> points) {
   for (PointVelocity& point : points) {
     point.common_covariance.setZero();
@@ -90,7 +90,7 @@ TEST(PointVelocity, IsAsComputedByHand) {
   EXPECT_NEAR(result->covariance(2, 2), 200.0, 1e-9);
 }
 
-TEST(PointVelocity, OwnMotionIsTakenOut) {
+TEST(PointVelocity, OwnMotionIsCompensated) {
   const Eigen::Vector3d point(15.0, 3.0, 0.7);
   const auto result =
       pointVelocity(kRig, seen(point, kEarlier), kEarlier, seen(point, kLater), kLater);
@@ -99,7 +99,7 @@ TEST(PointVelocity, OwnMotionIsTakenOut) {
   EXPECT_TRUE(result->position.isApprox(point, 1e-9));
 }
 
-TEST(PointVelocity, OfAStandingSceneIsZeroWithinItsCovariance) {
+TEST(PointVelocity, OfAStaticSceneIsZeroWithinItsCovariance) {
   constexpr int kPoints = 4000;
   Random random(1);
   double squared_errors = 0.0;
@@ -127,7 +127,7 @@ TEST(PointVelocity, BadInputGivesNothing) {
                std::invalid_argument);
 }
 
-TEST(SharedVelocity, APedestrianAt20MetersTellsItsWalkFromOnePair) {
+TEST(SharedVelocity, APedestrianAt20MetersRevealsItsWalkInOnePair) {
   Random random(2);
   const auto shared = sharedVelocity(pedestrian(20.0, {0.0, 1.4, 0.0}, 20, random), centerAt(20.0),
                                      SharedVelocityOptions());
@@ -136,7 +136,7 @@ TEST(SharedVelocity, APedestrianAt20MetersTellsItsWalkFromOnePair) {
   EXPECT_GT(1.4 * 1.4 / shared->covariance(1, 1), 9.0) << "three standard deviations";
 }
 
-TEST(SharedVelocity, CovarianceIsHonestWithOutliers) {
+TEST(SharedVelocity, CovarianceIsConsistentWithOutliers) {
   SharedVelocityOptions rigid;
   rigid.turn_rate = 0.0;
   constexpr int kObjects = 400;
@@ -158,7 +158,7 @@ TEST(SharedVelocity, CovarianceIsHonestWithOutliers) {
   EXPECT_LT(nees, 3.0);
 }
 
-TEST(SharedVelocity, WhatAllShareDoesNotAverageOut) {
+TEST(SharedVelocity, CommonErrorsDoNotAverageOut) {
   Random random(4);
   auto points = independent(pedestrian(8.0, Eigen::Vector3d::Zero(), 20, random));
   const auto own = sharedVelocity(points, centerAt(8.0), SharedVelocityOptions());
@@ -171,7 +171,7 @@ TEST(SharedVelocity, WhatAllShareDoesNotAverageOut) {
   EXPECT_TRUE(common->covariance.isApprox(expected));
 }
 
-/// The rear of a van, seen from behind: its points move aside while it turns about its middle.
+/// The rear of a van, seen from behind: its points move sideways while it turns about its middle.
 std::vector<PointVelocity> turningRear(double speed, double turn_rate, int count, Random& random) {
   constexpr double kRear = 12.0;
   constexpr double kMiddle = 14.5;
@@ -184,7 +184,7 @@ std::vector<PointVelocity> turningRear(double speed, double turn_rate, int count
   return independent(points);
 }
 
-TEST(SharedVelocity, OfABodyThatTurnsIsThatOfItsCenterAndHonest) {
+TEST(SharedVelocity, OfATurningBodyIsThatOfItsCenterAndConsistent) {
   constexpr int kBodies = 400;
   constexpr double kHiddenMiddle = 1.3;
   Random random(6);
@@ -193,7 +193,7 @@ TEST(SharedVelocity, OfABodyThatTurnsIsThatOfItsCenterAndHonest) {
   SharedVelocityOptions options;
   double squared_errors = 0.0;
   for (int i = 0; i < kBodies; ++i) {
-    // Its middle is somewhere else than the box's.
+    // Its middle differs from the box's.
     const double hidden = random.normal(kHiddenMiddle);
     const double turn_rate = random.normal(options.turn_rate);
     const auto shared = sharedVelocity(turningRear(5.0, turn_rate, 12, random), center, options);
@@ -206,7 +206,7 @@ TEST(SharedVelocity, OfABodyThatTurnsIsThatOfItsCenterAndHonest) {
   EXPECT_LT(nees, 3.0);
 }
 
-TEST(SharedVelocity, WhatStandsDoesNotTurnAndWhatIsSlowTurnsLittle) {
+TEST(SharedVelocity, StationaryBodiesDoNotTurnAndSlowOnesTurnLittle) {
   PointVelocity point;
   point.position = {12.0, 0.0, 1.0};
   point.covariance = 1e-4 * Eigen::Matrix3d::Identity();
@@ -220,7 +220,7 @@ TEST(SharedVelocity, WhatStandsDoesNotTurnAndWhatIsSlowTurnsLittle) {
   EXPECT_NEAR(acrossVariance(20.0), 0.25e-4 + 0.2 * 0.2 * 4.0, 1e-4) << "0.2 rad/s";
 }
 
-TEST(SharedVelocity, IsTheLessLikelyWrongTheMoreAgree) {
+TEST(SharedVelocity, ErrorProbabilityFallsWithAgreement) {
   EXPECT_FALSE(sharedVelocity({}, centerAt(8.0), SharedVelocityOptions())) << "of nothing";
   const auto wrongOf = [](int points) {
     Random random(5);

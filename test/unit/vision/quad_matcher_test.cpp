@@ -13,7 +13,7 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 200;
 constexpr double kDisparity = 6.0;  // px
 
-/// A cloudy texture, seen `right` px to the right and `down` px lower.
+/// A cloudy texture, seen `right` px further right and `down` px lower.
 cv::Mat texture(double right, double down) {
   cv::RNG random(7);
   cv::Mat image(kHeight + 100, kWidth + 100, CV_8UC1);
@@ -42,7 +42,7 @@ TEST(QuadMatcher, FindsFlowAndDisparityOfATexture) {
   EXPECT_GT(good, 0.95 * static_cast<double>(quads.size()));
 }
 
-TEST(QuadMatcher, WhatIsInOneImageOnlyIsNoQuad) {
+TEST(QuadMatcher, FeaturesInOneImageOnlyAreNoQuad) {
   QuadMatcher matcher{QuadMatcherOptions()};
   matcher.match(texture(0.0, 0.0), texture(-kDisparity, 0.0));
   cv::Mat other;
@@ -50,7 +50,7 @@ TEST(QuadMatcher, WhatIsInOneImageOnlyIsNoQuad) {
   EXPECT_LT(matcher.match(other, texture(-kDisparity, 0.0)).size(), 20U);
 }
 
-TEST(QuadMatcher, BeginsAnewAfterAResetAndWithAnotherSize) {
+TEST(QuadMatcher, StartsOverAfterAResetAndWithAnotherSize) {
   QuadMatcher matcher{QuadMatcherOptions()};
   const cv::Mat left = texture(0.0, 0.0);
   const cv::Mat right = texture(-kDisparity, 0.0);
@@ -69,7 +69,7 @@ TEST(QuadMatcher, ABlackImageHasNoFeatures) {
   EXPECT_TRUE(matcher.match(black, black).empty());
 }
 
-TEST(QuadMatcher, RefusesImagesThatAreNoPair) {
+TEST(QuadMatcher, RefusesImagesThatAreNotAPair) {
   QuadMatcher matcher{QuadMatcherOptions()};
   const cv::Mat gray = texture(0.0, 0.0);
   cv::Mat color;

@@ -14,7 +14,7 @@ constexpr int kSamples = 2000;
 constexpr double kSigma = 6.0;  // gray levels
 const Stamp kStart = Stamp::fromSeconds(1.0);
 
-/// As many samples around each of some gray levels.
+/// An equal number of samples around each of some gray levels.
 PixelColors samplesAround(const std::vector<double>& levels) {
   std::mt19937 engine(1);
   std::normal_distribution<double> noise(0.0, kSigma);
@@ -34,14 +34,14 @@ PixelColor bgr(double blue, double green, double red) {
   return color;
 }
 
-TEST(RoadColorTest, KnowsNothingBeforeItHasLearned) {
+TEST(RoadColorTest, IsUnknownBeforeLearning) {
   RoadColor color{RoadColorOptions()};
   EXPECT_FALSE(color.isKnown(1));
   color.learn({gray(100.0)}, kStart);
   EXPECT_FALSE(color.isKnown(1)) << "one pixel is no road";
 }
 
-TEST(RoadColorTest, SunAndShadeAreRoadAndWhatIsBetweenThemIsNot) {
+TEST(RoadColorTest, SunAndShadeAreRoadAndColorsBetweenThemAreNot) {
   RoadColor color{RoadColorOptions()};
   color.learn(samplesAround({60.0, 160.0}), kStart);
   EXPECT_GT(color.probability(gray(60.0)), 0.7);
@@ -50,7 +50,7 @@ TEST(RoadColorTest, SunAndShadeAreRoadAndWhatIsBetweenThemIsNot) {
   EXPECT_LT(color.probability(gray(250.0)), 0.01);
 }
 
-TEST(RoadColorTest, OneGaussianTakesWhatIsBetweenThemForRoad) {
+TEST(RoadColorTest, OneGaussianTakesColorsBetweenThemForRoad) {
   RoadColorOptions thesis;
   thesis.components = 1;
   RoadColor color{thesis};
