@@ -219,7 +219,7 @@ class Tool(Files):
             for message in (pose(50, 0.0), pose(51, 0.0)):
                 bag.write("/pose", message, to_ros_time(ns(0)))
         self.write_relations("1000 1001 1 0 0 0 0 0")
-        with self.assertRaisesRegex(InputError, "knows 0 of the poses' stamps"):
+        with self.assertRaisesRegex(InputError, "has 0 of the poses' stamps"):
             score(other, self.relations, recording=self.bag)
 
     def convert(self, clock):

@@ -240,8 +240,8 @@ class BadUsage(ScoreRunCase):
         self.assert_no_report(*expected, arguments=arguments)
 
     def test_wrong_arguments(self):
-        self.refuse(expected=["0 bags are named"])
-        self.refuse("a.bag", "b.bag", "c.bag", expected=["3 bags are named"])
+        self.refuse(expected=["0 bags are given"])
+        self.refuse("a.bag", "b.bag", "c.bag", expected=["3 bags are given"])
         self.refuse(self.run_bag, "--fast", expected=["'--fast'"])
         self.refuse(self.run_bag, "--out", expected=["--out: expected a value"])
         self.refuse(self.run_bag, "--set", "gate", expected=["gate", "key=value"])
