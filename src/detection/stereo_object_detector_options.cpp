@@ -36,10 +36,11 @@ void StereoNoiseOptions::visit(OptionVisitor& visitor) {
       {"column", "1",
        "the same for the depth of one column of an object's points relative to the others"},
       column, {0.0, 5.0});
-  visitor.number({"correlated_width", "px",
-                  "of matching windows or paths: points this far apart in the image have half of "
-                  "their noise in common"},
-                 correlated_width, {0.0, 512.0});
+  visitor.number(
+      {"correlated_width", "px",
+       "width of matching windows or paths: points this far apart in the image have half of "
+       "their noise in common"},
+      correlated_width, {0.0, 512.0});
   visitor.number({"edge_sigma", "px", "standard deviation of the edge of a surface in the image"},
                  edge_sigma, {0.0, 20.0});
   visitor.number({"body_sigma", "m",

@@ -85,9 +85,10 @@ void RiskOptions::visit(OptionVisitor& visitor) {
                  point_spacing, {0.05, 2.0});
   visitor.number({"point_margin", "m", "points this close to a track's box belong to the track"},
                  point_margin, {0.0, 5.0});
-  visitor.number({"default_size", "m",
-                  "extent of a track that was not measured, or is smaller: that of a pedestrian"},
-                 default_size, {0.1, 5.0});
+  visitor.number(
+      {"default_size", "m",
+       "extent of a track whose own is not measured or is smaller: that of a pedestrian"},
+      default_size, {0.1, 5.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("horizon", [&] { horizon.visit(visitor); });
   visitor.group("host", [&] { host.visit(visitor); });

@@ -61,7 +61,8 @@ void WarningOptions::visit(OptionVisitor& visitor) {
                   "the driver is informed from this probability of contact within 4 s"},
                  information_probability, kProbability);
   visitor.number({"warning_probability", "1",
-                  "the driver is warned from this probability, if the time left to brake runs out"},
+                  "the driver is warned from this probability of contact within 4 s, if the time "
+                  "left to brake runs out"},
                  warning_probability, kProbability);
   visitor.number(
       {"warning_time", "s",

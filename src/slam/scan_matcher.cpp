@@ -124,10 +124,10 @@ struct ScanMatcher::Normal {
 void ScanMatcherOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"samples", "1", "poses sampled for each scan (thesis 3.3.1: 300)"}, samples,
                   {1, 100000});
-  visitor.integer(
-      {"refinement_steps", "1",
-       "most Gauss-Newton steps at each resolution; 0: the best sample as it is (thesis)"},
-      refinement_steps, {0, 100});
+  visitor.integer({"refinement_steps", "1",
+                   "maximum number of Gauss-Newton steps at each resolution; 0: the best sample as "
+                   "it is (thesis)"},
+                  refinement_steps, {0, 100});
   visitor.number({"point_sigma", "m", "standard deviation of an end point about the surface it hit",
                   Tier::kPublic},
                  point_sigma, {0.005, 2.0});

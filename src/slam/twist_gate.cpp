@@ -15,11 +15,10 @@ constexpr double kNoiseSigmas = 5.0;
 }  // namespace
 
 void TwistGateOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"max_acceleration", "m/s^2",
-       "odometry does not change its speed faster, except by noise; one that does is dropped, and "
-       "accepted when the next one agrees with it; 1.2 g: the best road tires"},
-      max_acceleration, {0.1, 1000.0});
+  visitor.number({"max_acceleration", "m/s^2",
+                  "odometry does not change its speed faster, except by noise; a twist that does "
+                  "is not used until the next one agrees with it; 1.2 g: the best road tires"},
+                 max_acceleration, {0.1, 1000.0});
   visitor.number({"max_yaw_acceleration", "rad/s^2",
                   "the same for its yaw rate; those tires at half of a car's wheelbase of 2.7 m"},
                  max_yaw_acceleration, {0.1, 1000.0});

@@ -255,7 +255,7 @@ void DnnDetectorOptions::visit(OptionVisitor& visitor) {
                  max_overlap, {0.0, 1.0});
   visitor.integer({"close_look", "px",
                    "persons are examined again, enlarged to a square of this size, to see whether "
-                   "they ride; a multiple of 32, 0: they are not"},
+                   "they ride; a multiple of 32; 0: not examined again"},
                   close_look, {0.0, 1024.0});
   visitor.number(
       {"close_margin", "1", "size of that square in the image, relative to the person's"},

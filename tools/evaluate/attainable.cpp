@@ -91,10 +91,12 @@ void AttainableOptions::visit(OptionVisitor& visitor) {
                   "standard deviation of the scanner's ranges, from its data sheet or the "
                   "simulated scene; KITTI's Velodyne: 0.02"},
                  range_noise, {1e-4, 5.0});
-  visitor.number({"required_probability", "1", "that the object moves; as in the tracker"},
+  visitor.number({"required_probability", "1",
+                  "probability from which an object is considered moving; as in the tracker"},
                  required_probability, {0.5, 0.999999});
-  visitor.number({"moving_prior", "1", "the same before any beam; as in the tracker"}, moving_prior,
-                 {0.01, 0.99});
+  visitor.number(
+      {"moving_prior", "1", "prior probability that it moves, before any beam; as in the tracker"},
+      moving_prior, {0.01, 0.99});
 }
 
 double AttainableOptions::requiredLogRatio() const {

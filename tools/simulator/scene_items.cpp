@@ -64,8 +64,10 @@ void ActorItem::visit(OptionVisitor& visitor) {
 void LaneItem::visit(OptionVisitor& visitor) {
   visitor.number({"corner_radius", "m", "of the arcs at the corners of its path"}, corner_radius,
                  {0.0, 200.0});
-  visitor.number({"min_speed", "m/s", "of the movers in it"}, min_speed, {0.1, 100.0});
-  visitor.number({"max_speed", "m/s", "of the movers in it"}, max_speed, {0.1, 100.0});
+  visitor.number({"min_speed", "m/s", "minimum speed of the movers in it"}, min_speed,
+                 {0.1, 100.0});
+  visitor.number({"max_speed", "m/s", "maximum speed of the movers in it"}, max_speed,
+                 {0.1, 100.0});
   visitor.number({"min_ahead", "m", "ahead of the ego vehicle along the lane when they meet"},
                  min_ahead, {-500.0, 500.0});
   visitor.number({"max_ahead", "m", "ahead of the ego vehicle along the lane when they meet"},

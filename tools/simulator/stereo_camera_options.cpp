@@ -37,11 +37,10 @@ void visitImages(StereoCameraOptions& o, OptionVisitor& visitor) {
                   o.image_height, {16.0, kMaxPixels});
   visitor.number({"focal_length", "px", "of these images: 68 deg from side to side; assumed"},
                  o.focal_length, {10.0, 10000.0});
-  visitor.integer({"column_step", "px",
-                   "one point for every this many columns: fewer points make a smaller bag"},
-                  o.column_step, {1.0, 64.0});
-  visitor.integer({"row_step", "px", "one point for every this many rows"}, o.row_step,
-                  {1.0, 64.0});
+  visitor.integer(
+      {"column_step", "px", "number of columns per point: fewer points make a smaller bag"},
+      o.column_step, {1.0, 64.0});
+  visitor.integer({"row_step", "px", "number of rows per point"}, o.row_step, {1.0, 64.0});
   visitor.number({"min_range", "m", "depth of the nearest points; assumed"}, o.min_range,
                  {0.1, 100.0});
   visitor.number({"max_range", "m", "depth of the farthest points; assumed"}, o.max_range,

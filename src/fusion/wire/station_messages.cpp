@@ -12,7 +12,7 @@ void StationMessageOptions::visit(OptionVisitor& visitor) {
                   leap_seconds, {0.0, 60.0});
   visitor.choice(
       {"dictionary", "",
-       "version of ETSI TS 102 894-2 of the CPMs that are sent: 2.1.1, or 2.2.1 and later"},
+       "version of ETSI TS 102 894-2 of the CPMs sent and received: 2.1.1, or 2.2.1 and later"},
       dictionary,
       Choices<ItsDictionary>{{"2.1.1", ItsDictionary::k211}, {"2.2.1", ItsDictionary::k221}});
   visitor.number({"position_sigma", "m",

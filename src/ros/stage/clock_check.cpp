@@ -24,7 +24,8 @@ std::string stepSentence(const std::string& input, double ahead) {
 
 std::string takenSentence(const std::string& input, double ahead) {
   return "stamps of " + input + " stay " + offsetInWords(ahead) +
-         " the sensor's previous clock, which may have been wrong, or are now right: that clock "
+         " the sensor's previous clock, which may have been wrong, or the new stamps are right: "
+         "that clock "
          "was set; uses them uncorrected";
 }
 

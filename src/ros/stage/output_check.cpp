@@ -59,7 +59,7 @@ std::string OutputCheck::faultOf(const OutputContent& content) const {
   const std::optional<Stamp>& input = monitor_.newestInput();
   if (input && content.stamp && secondsBetween(*input, *content.stamp) > kMaxAhead) {
     return "the stamp " + std::to_string(content.stamp->seconds()) +
-           " s while its newest input has " + std::to_string(input->seconds()) + " s";
+           " s while its newest input has the stamp " + std::to_string(input->seconds()) + " s";
   }
   return "";
 }

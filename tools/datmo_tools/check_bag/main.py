@@ -43,7 +43,7 @@ def _parser():
         help="yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
     add("--no-yaml", action="store_true", help="do not write a yaml")
     add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or the most messages)")
-    add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or longest)")
+    add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most messages)")
     command_line.add_json(parser)
     return parser
 

@@ -95,7 +95,7 @@ def check_reach(measured, roles, findings):
     if measured.free_range == 0.0:
         findings.note(
             "lost_returns", roles.scan,
-            "beams between others that return often do not return, even nearby",
+            "many beams between others that return do not return, even nearby",
             "The yaml sets free_range to 0: a beam without return clears no cells.",
         )  # fmt: skip
 

@@ -120,7 +120,7 @@ def _check_latencies(latencies, findings):
             findings.warn(
                 "latency_varies", name,
                 f"latency from stamp to record time is {low:.3f} to {high:.3f} s (5 to 95 %)",
-                "A busy machine or network, or a drifting clock: other sensors come first.",
+                "A busy machine or network, or a drifting clock: others' messages come first.",
             )  # fmt: skip
     _check_clocks(medians, findings)
 

@@ -133,7 +133,7 @@ class Drive:
             found = ", ".join(sorted(path.name for path in self.folder.glob("image_*"))) or "none"
             raise InputError(
                 f"{folder}: missing, expected the gray cameras image_00 and image_01 (found: "
-                f"{found}); without --images none are converted"
+                f"{found}); without --images the drive is converted without images"
             )
         return Stream(folder, [".png"])
 

@@ -11,12 +11,12 @@ from datmo_tools.convert.kitti_scans import ScannerOptions
 from datmo_tools.convert.odometry import OdometryErrors
 from datmo_tools.errors import InputError
 
-DESCRIPTION = """\ Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its
-parent), to a bag: /scan, /odometry, /tf, /tf_static, the true pose and, if the drive is labeled,
-the true objects; /points and stereo images on request. Both published forms are supported:
-synced+rectified (..._sync) and unsynced+unrectified (..._extract), whose sensors keep their own
-rates and whose images are rectified here; it has no true objects, as labels count the frames of the
-other form.
+DESCRIPTION = """\
+Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
+/scan, /odometry, /tf, /tf_static, the true pose and, if the drive is labeled, the true objects;
+/points and stereo images on request. Both published forms are supported: synced+rectified
+(..._sync) and unsynced+unrectified (..._extract), whose sensors keep their own rates and whose
+images are rectified here; it has no true objects, as labels count the frames of the other form.
 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
 in a height band above the road, as computed by clouds_to_scans. The Velodyne looks down from 1.73 m
@@ -79,7 +79,7 @@ def _add_scanner(group, scanner):
 
 def _add_odometry(group):
     add_number(group, "--odometry-scale-error", 0.0, "SHARE", "0.03: speed 3 %% too high")
-    add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "bias of the yaw rate")
+    add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "bias added to the yaw rate")
     noise = "standard deviation of the noise of"
     add_number(group, "--odometry-speed-noise", 0.0, "M_PER_S", f"{noise} the speed")
     add_number(group, "--odometry-yaw-noise", 0.0, "DEG_PER_S", f"{noise} the yaw rate")

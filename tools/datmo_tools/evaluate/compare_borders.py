@@ -7,11 +7,11 @@ from datmo_tools import command_line
 from datmo_tools.evaluate.border_comparison import comparison, comparison_table
 from datmo_tools.evaluate.score_run import find_score_run, score
 
-DESCRIPTION = """\ Compares two results of run_bag on the same drive, without and with
---road-border: false moving objects before tracking, tracks, intersections found, and for each true
-moving object that the scanner saw moving the number of frames in which it is tracked. An object is
-lost if it is tracked in some frame without borders, and in none with them. Counts are
-score_run's."""
+DESCRIPTION = """\
+Compares two results of run_bag on the same drive, without and with --road-border: false moving
+objects before tracking, tracks, intersections found, and for each true moving object that the
+scanner saw moving the number of frames in which it is tracked. An object is lost if it is tracked
+in some frame without borders, and in none with them. Counts are score_run's."""
 
 # All objects that the scanner saw moving, however briefly, at any distance.
 SETTINGS = ("truth/visible_to=scanner", "truth/min_time_seen=0", "region/range=500")

@@ -118,4 +118,4 @@ def add_arguments(parser):
     command_line.add_number(parser, "--gate", GATE, "M",
                             "from a track to the box of its true object, m")  # fmt: skip
     command_line.add_number(parser, "--soon", SOON, "S",
-                            "time for objects that both follow to pass, s")  # fmt: skip
+                            "time within which objects that both sensors track must pass, s")  # fmt: skip

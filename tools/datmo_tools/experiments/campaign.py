@@ -23,9 +23,10 @@ from datmo_tools.programs import StepFailed
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\ Plays drives with truth through the stack with one sensor fault after another,
-and writes the effect of each on poses and tracks, together with the effects of mutated messages,
-hours of driving, load and outages on the stages, as a page and as JSON."""
+DESCRIPTION = """\
+Plays drives with truth through the stack with one sensor fault after another, and writes the effect
+of each on poses and tracks, together with the effects of mutated messages, hours of driving, load
+and outages on the stages, as a page and as JSON."""
 PROGRAMS = ("run_bag", "score_run")
 TRUTH = "/ground_truth/pose"
 # The drive with a stereo camera: how scanner and camera are fused while the scanner is silent, and when

@@ -21,12 +21,13 @@ from datmo_tools.experiments.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\ Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB
-for each second) and several seeds, and a labeled KITTI drive, if there is one, through the stack at
-several levels of fusion, and prints the results for their moving objects next to the thesis's table
-3.2. Each drive is recorded once, for all levels. Bags and scores of each are kept in a separate
-folder, for evaluate, all figures in comparison.json, and a picture of them in comparison.svg. A run
-without a score is reported, and the others continue; the exit code is then 1."""
+DESCRIPTION = """\
+Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second)
+and several seeds, and a labeled KITTI drive, if there is one, through the stack at several levels
+of fusion, and prints the results for their moving objects next to the thesis's table 3.2. Each
+drive is recorded once, for all levels. Bags and scores of each are kept in a separate folder, for
+evaluate, all figures in comparison.json, and a picture of them in comparison.svg. A run without a
+score is reported, and the others continue; the exit code is then 1."""
 
 
 class Result(NamedTuple):

@@ -16,10 +16,11 @@ from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
 from datmo_tools.experiments.fusion_table import FusionRuns, fusion_table
 from datmo_tools.programs import StepFailed
 
-DESCRIPTION = """\ Drives the scenes data_set_1 to data_set_3 through simulator, stack and score,
-and prints the thesis's tables 3.1 to 3.5 with our counts next to the thesis's. Bags and scores of
-each set are kept in a separate folder, for evaluate. A run without a score is reported, and the
-others continue; the exit code is then 1.
+DESCRIPTION = """\
+Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the
+thesis's tables 3.1 to 3.5 with our counts next to the thesis's. Bags and scores of each set are
+kept in a separate folder, for evaluate. A run without a score is reported, and the others continue;
+the exit code is then 1.
 
 With --low-level-fusion the stereo camera is simulated, too (10 MB for each second), each drive goes
 through the stack without and with low-level fusion, and a table has both; the thesis's tables are

@@ -15,11 +15,12 @@ from datmo_tools.experiments.encounter_scenes import AVOIDED, ENDINGS, STOPS, en
 from datmo_tools.experiments.random_encounters import random_scenes
 from datmo_tools.programs import StepFailed
 
-DESCRIPTION = """\ Makes scenes following the public test protocols (or, with --random, random
-variations of them), assesses the risks of each by each method, from the true objects and from the
-stack's own tracks, and scores the methods side by side like `evaluate risk`. For the own tracks
-there is one run for all methods. Writes FOLDER/scenes/*.yaml, FOLDER/<true or own>/<method>/*.bag
-and FOLDER/encounters.json."""
+DESCRIPTION = """\
+Makes scenes following the public test protocols (or, with --random, random variations of them),
+assesses the risks of each by each method, from the true objects and from the stack's own tracks,
+and scores the methods side by side like `evaluate risk`. For the own tracks there is one run for
+all methods. Writes FOLDER/scenes/*.yaml, FOLDER/<true or own>/<method>/*.bag and
+FOLDER/encounters.json."""
 
 METHODS = ("futures", "thesis", "ttc_boxes", "rss")
 TRUE, OWN = "true", "own"  # whose tracks

@@ -19,10 +19,10 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\ Drives a scene through simulator and run_bag, with several seeds, and prints the
-final and the largest error of the live pose and of the optimized trajectory, both aligned with the
-true drive at the first pose; how many loops were closed, and how many of these are false; and the
-time per scan."""
+DESCRIPTION = """\
+Drives a scene through simulator and run_bag, with several seeds, and prints the final and the
+largest error of the live pose and of the optimized trajectory, both aligned with the true drive at
+the first pose; how many loops were closed, and how many of these are false; and the time per scan."""
 
 FORMAT = 2  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")

@@ -18,10 +18,11 @@ from datmo_tools.experiments.machines_run import Drive, Kill
 from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\ Plays a drive in real time to the stack on one computer, and on three (network
-namespaces) whose network delays each packet and loses some; kills the process of each part in turn.
-Prints how far the tracks agree with those of run_bag, which does not depend on timing, the latency,
-how soon each part works again, and the clocks' offsets, whose true value is 0. Needs root."""
+DESCRIPTION = """\
+Plays a drive in real time to the stack on one computer, and on three (network namespaces) whose
+network delays each packet and loses some; kills the process of each part in turn. Prints how far
+the tracks agree with those of run_bag, which does not depend on timing, the latency, how soon each
+part works again, and the clocks' offsets, whose true value is 0. Needs root."""
 
 MOTION_TOPICS = ("/odometry", "/tf", "/tf_static")
 MOTION_ALONE = 0.5  # s

@@ -14,10 +14,11 @@ from datmo_tools.pose_path import planar, read_messages
 from datmo_tools.programs import call
 from datmo_tools.text_table import aligned, rounded
 
-DESCRIPTION = """\ Drives a scene with each seed, adds a satellite receiver and a pole camera's
-tracks to the bag, and runs the stack with the scanner alone and with the camera's tracks. Prints
-when the pedestrian was first tracked, the NEES of the camera's tracks in the map (position, 2
-degrees of freedom), and how many lists had a track farther than 2 m from all true objects."""
+DESCRIPTION = """\
+Drives a scene with each seed, adds a satellite receiver and a pole camera's tracks to the bag, and
+runs the stack with the scanner alone and with the camera's tracks. Prints when the pedestrian was
+first tracked, the NEES of the camera's tracks in the map (position, 2 degrees of freedom), and how
+many lists had a track farther than 2 m from all true objects."""
 
 FORMAT = 1  # of the JSON file
 SCANNER_ALONE = "track_fusion: {sources: {stereo: {use: false}}}\n"

@@ -15,14 +15,15 @@ from datmo_tools.experiments.speed_context import describe, devel_space
 from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
-DESCRIPTION = """\ Measures the speed of the stack. micro: each hot path by itself, in processor
-time, and the ratio to its lower bound (its limit, measured in the same run). live: the nodelets on
-a drive that is played in real time, with the demonstrator's settings and with heavy ones: latency
-from the publication of a scan by another process to the arrival of its tracks there, including both
-transports; processor time and memory of the nodelets' process. Each live figure is the median over
-the runs. All figures are written to a JSON file. --compare prints two such files side by side, or
-one next to a new measurement, and compares the ratios to the limits, which hold on any machine: the
-exit code is 3 if one of them has grown by more than its spread."""
+DESCRIPTION = """\
+Measures the speed of the stack. micro: each hot path by itself, in processor time, and the ratio to
+its lower bound (its limit, measured in the same run). live: the nodelets on a drive that is played
+in real time, with the demonstrator's settings and with heavy ones: latency from the publication of
+a scan by another process to the arrival of its tracks there, including both transports; processor
+time and memory of the nodelets' process. Each live figure is the median over the runs. All figures
+are written to a JSON file. --compare prints two such files side by side, or one next to a new
+measurement, and compares the ratios to the limits, which hold on any machine: the exit code is 3 if
+one of them has grown by more than its spread."""
 
 SLOWER = 3  # exit code
 
