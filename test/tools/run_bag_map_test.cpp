@@ -61,7 +61,8 @@ TEST_F(RunBagMap, ABadMapEndsItWithOneSentence) {
   const std::string map = savedMap();
   std::filesystem::remove(arguments_.output);
   arguments_.map = path("none.map");
-  EXPECT_TRUE(holds(failure(), "none.map: no such file, expected the absolute path of a saved map"));
+  EXPECT_TRUE(
+      holds(failure(), "none.map: no such file, expected the absolute path of a saved map"));
   arguments_.map = map;
   writeConfig("grid_slam: {map: {cell_size: 0.2}}\n");
   EXPECT_TRUE(holds(failure(), "cells of 0.3 m, expected 0.2 m"));
