@@ -7,6 +7,7 @@
 
 #include "message_parts.h"
 
+#include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -28,6 +29,8 @@ std::size_t indexInSix(int row, int column) {
          kPlanar.at(static_cast<std::size_t>(column));
 }
 
+bool isReach(double range) { return range >= 0.0 && range <= kMaxReach; }
+
 ScanPointMessage toMessage(const ScanPoint& point) {
   ScanPointMessage message;
   message.x = static_cast<float>(point.position.x());
@@ -46,14 +49,16 @@ ScanPoint fromMessage(const ScanPointMessage& message) {
   point.bearing = message.bearing;
   point.beam = message.beam;
   point.state = static_cast<PointState>(message.state);
-  const bool finite =
-      point.position.allFinite() && std::isfinite(point.range) && std::isfinite(point.bearing);
-  if (!finite || message.state > ScanPointMessage::UNKNOWN) {
+  // NaN compares false with everything.
+  const bool near = point.position.norm() <= kMaxReach + kMaxMountDistance &&
+                    isReach(point.range) && std::isfinite(point.bearing);
+  if (!near || message.state > ScanPointMessage::UNKNOWN) {
     throw InputError("bad_point", "labeled scan with beam " + std::to_string(message.beam) +
                                       " at " + std::to_string(message.x) + ", " +
                                       std::to_string(message.y) + " in state " +
                                       std::to_string(message.state) +
-                                      ": expected finite numbers and a state from 0 to 2");
+                                      ": expected finite numbers within a scanner's range, and a "
+                                      "state from 0 to 2");
   }
   return point;
 }
@@ -74,16 +79,16 @@ ScanField fromMessage(const ScanFieldMessage& message) {
   const ScanField field{message.first_bearing, message.beam_spacing, message.beams,
                         message.min_range,     message.free_range,   message.range,
                         message.beam_time};
-  const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.min_range +
-                                    field.free_range + field.range + field.beam_time);
-  if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
-    throw InputError("bad_field",
-                     "labeled scan of " + std::to_string(field.beams) + " beams from " +
-                         std::to_string(field.first_bearing) + " rad every " +
-                         std::to_string(field.beam_spacing) + " rad up to " +
-                         std::to_string(field.range) +
-                         " m: expected finite numbers, a spacing other than 0 and at most " +
-                         std::to_string(kMaxBeams) + " beams");
+  const bool usable = std::isfinite(field.first_bearing + field.beam_spacing + field.beam_time) &&
+                      isReach(field.min_range) && isReach(field.free_range) && isReach(field.range);
+  if (!usable || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
+    throw InputError(
+        "bad_field",
+        "labeled scan of " + std::to_string(field.beams) + " beams from " +
+            std::to_string(field.first_bearing) + " rad every " +
+            std::to_string(field.beam_spacing) + " rad up to " + std::to_string(field.range) +
+            " m: expected finite numbers, ranges up to " + std::to_string(kMaxReach) +
+            " m, a spacing other than 0 and at most " + std::to_string(kMaxBeams) + " beams");
   }
   return field;
 }
@@ -188,10 +193,12 @@ LabeledScan fromMessage(const LabeledScanMessage& message) {
   scan.stamp = toStamp(message.header.stamp);
   scan.base_in_map = fromMessage(message.pose);
   const geometry_msgs::Pose2D& scanner = message.scanner;
-  if (!std::isfinite(scanner.x + scanner.y + scanner.theta)) {
+  if (!(std::hypot(scanner.x, scanner.y) <= kMaxMountDistance) || !std::isfinite(scanner.theta)) {
     throw InputError("bad_pose", "scanner at " + std::to_string(scanner.x) + ", " +
                                      std::to_string(scanner.y) + ", heading " +
-                                     std::to_string(scanner.theta) + ": expected finite numbers");
+                                     std::to_string(scanner.theta) +
+                                     ": expected finite numbers, at most " +
+                                     std::to_string(kMaxMountDistance) + " m from the vehicle");
   }
   scan.scanner_in_base = toPose2(scanner);
   scan.field = fromMessage(message.field);

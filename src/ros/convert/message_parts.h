@@ -17,6 +17,10 @@
 
 namespace datmo {
 
+/// No vehicle's scanner has a longer range (m); drivers also use arbitrarily large numbers for "no
+/// limit" and "no return".
+inline constexpr float kMaxReach = 1000.0F;
+
 inline std_msgs::Header header(Stamp stamp, const std::string& frame) {
   std_msgs::Header result;
   result.stamp = toTime(stamp);

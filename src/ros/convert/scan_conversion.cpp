@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "message_parts.h"
+
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -16,10 +18,6 @@ namespace {
 
 /// A beam without return (REP 117).
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
-
-/// No vehicle's scanner has a longer range (m); drivers also use arbitrarily large numbers for "no
-/// limit" and "no return".
-constexpr float kMaxReach = 1000.0F;
 
 template <typename Message>
 void checkGeometry(const Message& message) {

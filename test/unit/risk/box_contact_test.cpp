@@ -72,6 +72,15 @@ TEST(FirstContact, SeesACornerThatSwingsOut) {
   EXPECT_TRUE(firstContact(turning, still));
 }
 
+TEST(FirstContact, OfAnAbsurdSpinEnds) {
+  // The circle of the long box meets the car, but the box itself spins far too fast to be followed.
+  const BodySize pole{1e6, 1e-3};
+  const BodyMove spinning = moveFromTo({0, 5}, {0, 5}, pole, 0.0, 1e12);
+  const auto share = firstContact(moveFromTo({0, 0}, {0, 0}, kCar), spinning);
+  ASSERT_TRUE(share);
+  EXPECT_EQ(*share, 0.0);
+}
+
 TEST(FirstContact, AgreesWithFineSteps) {
   Random random(7);
   for (int trial = 0; trial < 300; ++trial) {

@@ -118,6 +118,17 @@ TEST(LabeledScanConversion, BadPointsAreRefused) {
   message.points[0].state = 0;
   message.points[0].y = std::numeric_limits<float>::infinity();
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+  message.points[0].y = 2000.0F;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+  message.points[0].y = 900.0F;
+  message.points[0].range = 1001.0F;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+}
+
+TEST(LabeledScanConversion, AScannerFarFromItsVehicleIsRefused) {
+  LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
+  message.scanner.x = 101.0;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
 
 TEST(LabeledScanConversion, BadFieldsAreRefused) {
@@ -129,6 +140,8 @@ TEST(LabeledScanConversion, BadFieldsAreRefused) {
   EXPECT_EQ(reason([](auto& field) { field.first_bearing = kNan; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.range = std::numeric_limits<float>::infinity(); }),
             "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.free_range = 1001.0F; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.min_range = -1.0F; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.beam_spacing = 0.0; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.beams = 65537; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.beams = 65536; }), "");
