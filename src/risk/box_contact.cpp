@@ -14,11 +14,8 @@ namespace {
 /// m; closer than this is contact: no track is that accurate.
 constexpr double kTouching = 0.01;
 
-/// rad; a body that turns by more within one move sweeps all of its circle.
-constexpr double kMaxTurn = kPi;
-
-/// Share of a move that a search for its contact advances by at least, so that an absurdly large
-/// body costs a bounded time.
+/// Share of a move that a search for its contact advances by at least, so that a body of
+/// absurd size or spin costs a bounded time.
 constexpr double kMinAdvance = 2.5e-4;
 
 }  // namespace
@@ -87,10 +84,6 @@ std::optional<double> firstContact(const BodyMove& a, const BodyMove& b) {
   const Point2 drift = (b.to.center - b.from.center) - (a.to.center - a.from.center);
   const double turning = std::abs(a.to.heading - a.from.heading) * radius_a +
                          std::abs(b.to.heading - b.from.heading) * radius_b;
-  if (std::max(std::abs(a.to.heading - a.from.heading), std::abs(b.to.heading - b.from.heading)) >
-      kMaxTurn) {
-    return 0.0;
-  }
   double share = 0.0;
   while (share <= 1.0) {
     const Separation apart = separation(a.at(share), a.size, b.at(share), b.size);

@@ -68,8 +68,7 @@ bool circlesMeet(const CircleMove& a, const CircleMove& b);
 /// Returns the share (0 to 1) of two simultaneous moves at which the rectangles first touch, to
 /// within 1 cm; none if they do not. No contact that lasts for 2.5e-4 of the moves is missed,
 /// however long they are, thanks to conservative advancement along the separating axis (Mirtich,
-/// Impulse-based Dynamic Simulation, 1996, 2.3.2). A body that turns by more than half a turn
-/// within the move counts as the circle around it, and touches from the start if the circles meet.
+/// Impulse-based Dynamic Simulation, 1996, 2.3.2).
 std::optional<double> firstContact(const BodyMove& a, const BodyMove& b);
 
 /// Side of a rectangle that faces a touching one; values as in Risk.msg.
