@@ -5,6 +5,7 @@
 
 #include <tf2/LinearMath/Vector3.h>
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 #include "datmo_fusion/ros/stage/stamp_range.h"
 
@@ -19,9 +20,6 @@ const std::string kMounts = "mounts";
 /// A mount that differs from tf's by more (m, and in the quaternion's elements) is another one:
 /// more than rounding to three digits.
 constexpr double kMountTolerance = 2e-3;
-
-/// m, per coordinate: half of the earth's circumference, which no map's coordinates exceed.
-constexpr double kMaxCoordinate = 2.0e7;
 
 /// Tolerance of the squared length of a quaternion, as in tf2.
 constexpr double kQuaternionTolerance = 1e-2;

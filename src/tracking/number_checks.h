@@ -6,26 +6,24 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/common/pose2.h"
 
 /// Requirements for the numbers of objects and tracks. NaN fails all of them, because it compares
 /// false with everything.
 namespace datmo {
 
-/// Nothing on the ground is farther away or larger (m), faster (m/s) or older (s); squares of such
-/// numbers stay far from the limits of a double.
-inline constexpr double kMaxMagnitude = 1e9;
+/// An age (s) fits into a message's duration; a variance this large (rad^2) means unknown, and sums
+/// of them stay far from the limits of a double.
+inline constexpr double kMaxAmount = 1e9;
 
-inline bool isModerate(double value) { return std::abs(value) <= kMaxMagnitude; }
+inline bool isPosition(const Point2& point) { return isWithin(point, kMaxCoordinate); }
 
-inline bool isPosition(const Point2& point) {
-  return isModerate(point.x()) && isModerate(point.y());
-}
+inline bool isExtent(double value) { return value >= 0.0 && value <= kMaxExtent; }
 
-/// Finite and not negative.
-inline bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
+inline bool isRate(double value) { return std::abs(value) <= kMaxRate; }
 
-inline bool isModerateAmount(double value) { return value >= 0.0 && value <= kMaxMagnitude; }
+inline bool isAmount(double value) { return value >= 0.0 && value <= kMaxAmount; }
 
 inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 

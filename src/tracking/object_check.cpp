@@ -17,6 +17,9 @@ constexpr double kMaxObjectSpeed = 100.0;
 /// sums with such numbers those of other sensors lose all digits.
 constexpr double kMaxVariance = 1e6;
 
+/// Certainty: a double cannot tell the probability from 0 or 1, and sums fit into a float.
+constexpr double kMaxLogOdds = 1000.0;
+
 /// s, before or after the list's stamp: no sensor takes that long for one measurement.
 constexpr double kMaxDelay = 10.0;
 
@@ -47,13 +50,13 @@ bool areSides(const std::array<double, kBoxSides>& variances) {
 bool isValid(const Object& object) {
   const Pose2& center = object.box.center;
   return isPosition(center.position()) && std::isfinite(center.heading()) &&
-         isModerateAmount(object.box.length) && isModerateAmount(object.box.width) &&
+         isExtent(object.box.length) && isExtent(object.box.width) &&
          std::all_of(object.points.begin(), object.points.end(), isPosition) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
-         std::isfinite(object.log_odds) && std::isfinite(object.motion_log_odds) &&
-         isModerateAmount(object.height) && std::abs(object.delay) <= kMaxDelay &&
-         isShare(object.moving_fraction) && isShare(object.class_probability) &&
-         isPrecise(object.position_covariance) &&
+         std::abs(object.log_odds) <= kMaxLogOdds &&
+         std::abs(object.motion_log_odds) <= kMaxLogOdds && isExtent(object.height) &&
+         std::abs(object.delay) <= kMaxDelay && isShare(object.moving_fraction) &&
+         isShare(object.class_probability) && isPrecise(object.position_covariance) &&
          (!object.velocity || isVelocity(*object.velocity));
 }
 

@@ -101,7 +101,7 @@ std::vector<Cause> causes() {
       {"no spacing", scan([](auto& each) { each.angle_increment = 0.0F; }),
        "no tracks: grid_slam: scan with an angle increment of 0"},
       {"no range", scan([](auto& each) { each.range_max = kNan; }),
-       "no tracks: grid_slam: scan with an angle or range limit of nan"},
+       "no tracks: grid_slam: scan with a range limit of nan"},
       {"odometry of a trailer", [](Sent& sent) { sent.odometry->child_frame_id = "trailer"; },
        "degraded: grid_slam: odometry of 'trailer' in 'odom': expected 'base_link' in 'odom'"},
       {"odometry without frame", [](Sent& sent) { sent.odometry->header.frame_id = ""; },

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -18,7 +19,8 @@ namespace datmo {
 namespace {
 
 bool isCovariance(const Eigen::Matrix4d& covariance) {
-  return covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
+  return isWithin(covariance, kMaxCoordinate * kMaxCoordinate) &&
+         covariance.isApprox(covariance.transpose()) &&
          Eigen::LLT<Eigen::Matrix4d>(covariance).info() == Eigen::Success;
 }
 
@@ -145,8 +147,8 @@ StationTracks::Before StationTracks::before(const StationTrackList& list) const 
 
 bool StationTracks::isCredible(const StationTrackList& list, const StationTrack& track,
                                const Before& before) {
-  const bool is_valid =
-      track.position.allFinite() && track.velocity.allFinite() && isCovariance(track.covariance);
+  const bool is_valid = isWithin(track.position, kMaxCoordinate) && track.velocity.allFinite() &&
+                        isCovariance(track.covariance);
   counts_.invalid += is_valid ? 0 : 1;
   if (!is_valid) {
     return false;

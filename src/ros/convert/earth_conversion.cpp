@@ -10,6 +10,7 @@
 #include <sensor_msgs/NavSatStatus.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -98,11 +99,15 @@ EarthFrame fromMessage(const EarthFrameMessage& message) {
   const GeodeticPosition datum = geodetic(message, message.altitude);
   const Eigen::Matrix3d covariance = Eigen::Map<const Matrix3>(message.covariance.data());
   const Pose2 pose(message.pose.x, message.pose.y, message.pose.theta);
-  if (!isValid(datum) || !covariance.allFinite() || !pose.position().allFinite() ||
-      !std::isfinite(pose.heading()) ||
+  const bool is_near = isWithin(pose.position(), kMaxCoordinate) &&
+                       isWithin(covariance, kMaxCoordinate * kMaxCoordinate);
+  if (!isValid(datum) || !is_near || !std::isfinite(pose.heading()) ||
       Eigen::LLT<Eigen::Matrix3d>(covariance).info() != Eigen::Success) {
     throw InputError("bad_earth_frame",
-                     "the map's pose on the earth is not finite, or its covariance is invalid");
+                     "the map's pose on the earth at " + std::to_string(message.pose.x) + ", " +
+                         std::to_string(message.pose.y) +
+                         ", or its covariance, is invalid: expected finite numbers within 20000 km "
+                         "and a positive definite covariance");
   }
   return {toStamp(message.header.stamp), LocalPlane(datum), {pose, covariance}};
 }

@@ -7,6 +7,7 @@
 
 #include "message_parts.h"
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/output_check.h"
@@ -15,9 +16,6 @@
 namespace datmo {
 
 namespace {
-
-/// m; no coordinate on the earth is larger, and squares stay far below the limits of a double.
-constexpr double kMaxCoordinate = 1e9;
 
 /// Quaternions are sent as doubles; one with a larger error was never normalized.
 constexpr double kUnitLengthTolerance = 1e-3;
@@ -51,7 +49,7 @@ ScanPoint fromMessage(const ScanPointMessage& message) {
   point.state = static_cast<PointState>(message.state);
   // NaN compares false with everything.
   const bool near = point.position.norm() <= kMaxReach + kMaxMountDistance &&
-                    isReach(point.range) && std::isfinite(point.bearing);
+                    isReach(point.range) && std::abs(point.bearing) <= kMaxBearing;
   if (!near || message.state > ScanPointMessage::UNKNOWN) {
     throw InputError("bad_point", "labeled scan with beam " + std::to_string(message.beam) +
                                       " at " + std::to_string(message.x) + ", " +
@@ -79,16 +77,20 @@ ScanField fromMessage(const ScanFieldMessage& message) {
   const ScanField field{message.first_bearing, message.beam_spacing, message.beams,
                         message.min_range,     message.free_range,   message.range,
                         message.beam_time};
-  const bool usable = std::isfinite(field.first_bearing + field.beam_spacing + field.beam_time) &&
-                      isReach(field.min_range) && isReach(field.free_range) && isReach(field.range);
+  const bool usable = std::abs(field.first_bearing) <= kMaxBearing &&
+                      std::abs(field.beam_spacing) <= kMaxBearing && field.beam_time >= 0.0 &&
+                      field.beam_time * field.beams <= kMaxSweep && isReach(field.min_range) &&
+                      isReach(field.free_range) && isReach(field.range);
   if (!usable || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
     throw InputError(
         "bad_field",
         "labeled scan of " + std::to_string(field.beams) + " beams from " +
             std::to_string(field.first_bearing) + " rad every " +
             std::to_string(field.beam_spacing) + " rad up to " + std::to_string(field.range) +
-            " m: expected finite numbers, ranges up to " + std::to_string(kMaxReach) +
-            " m, a spacing other than 0 and at most " + std::to_string(kMaxBeams) + " beams");
+            " m, one each " + std::to_string(field.beam_time) +
+            " s: expected angles within two turns, ranges up to " + std::to_string(kMaxReach) +
+            " m, a spacing other than 0, at most " + std::to_string(kMaxBeams) + " beams and " +
+            std::to_string(kMaxSweep) + " s");
   }
   return field;
 }
@@ -123,7 +125,7 @@ Pose2 fromMessage(const geometry_msgs::Pose& pose) {
   if (!reasonable || !(std::abs(length - 1.0) < kUnitLengthTolerance)) {
     throw InputError("bad_pose", "pose at " + std::to_string(p.x) + ", " + std::to_string(p.y) +
                                      " with a quaternion of length " + std::to_string(length) +
-                                     ": expected finite numbers up to 1e9 m and length 1");
+                                     ": expected finite numbers within 20000 km and length 1");
   }
   const double heading =
       std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
@@ -145,8 +147,8 @@ PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message)
   if (!isCovariance(pose.covariance.data(), 3) ||
       pose.covariance.diagonal().maxCoeff() > kMaxCoordinate * kMaxCoordinate) {
     throw InputError("bad_pose",
-                     "pose with an invalid covariance of x, y and yaw: expected finite numbers, "
-                     "symmetric and positive semidefinite");
+                     "pose with an invalid covariance of x, y and yaw: expected finite numbers up "
+                     "to the square of 20000 km, symmetric and positive semidefinite");
   }
   return pose;
 }

@@ -5,6 +5,7 @@
 
 #include "message_parts.h"
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
@@ -71,8 +72,9 @@ FieldOfViewMessage toMessage(const SensorView& view) {
 bool isValid(const FieldOfViewMessage& view) {
   const geometry_msgs::Pose2D& pose = view.pose;
   const double width = static_cast<double>(view.max_bearing) - view.min_bearing;
-  return std::isfinite(pose.x + pose.y + pose.theta) && std::isfinite(view.min_bearing) &&
-         width > 0.0 && width <= 2.0 * kPi + kRounding && view.sure_range >= 0.0F &&
+  return std::abs(pose.x) <= kMaxCoordinate && std::abs(pose.y) <= kMaxCoordinate &&
+         std::isfinite(pose.theta) && std::abs(view.min_bearing) <= kMaxBearing && width > 0.0 &&
+         width <= 2.0 * kPi + kRounding && view.sure_range >= 0.0F &&
          view.sure_range <= view.range && std::isfinite(view.range);
 }
 

@@ -9,6 +9,7 @@
 #include "message_parts.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
@@ -21,11 +22,16 @@ constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
 template <typename Message>
 void checkGeometry(const Message& message) {
-  for (const float value : {message.angle_min, message.angle_max, message.angle_increment,
-                            message.range_min, message.range_max}) {
-    if (!std::isfinite(value)) {
-      throw InputError("bad_geometry", "scan with an angle or range limit of " +
-                                           std::to_string(value) + ": expected finite ones");
+  for (const float angle : {message.angle_min, message.angle_max, message.angle_increment}) {
+    if (!(std::abs(angle) <= kMaxBearing)) {
+      throw InputError("bad_geometry", "scan with an angle of " + std::to_string(angle) +
+                                           " rad: expected angles within two turns");
+    }
+  }
+  for (const float range : {message.range_min, message.range_max}) {
+    if (!std::isfinite(range)) {
+      throw InputError("bad_geometry", "scan with a range limit of " + std::to_string(range) +
+                                           ": expected a finite one");
     }
   }
   if (message.angle_increment == 0.0F) {

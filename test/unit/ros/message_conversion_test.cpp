@@ -123,6 +123,9 @@ TEST(LabeledScanConversion, BadPointsAreRefused) {
   message.points[0].y = 900.0F;
   message.points[0].range = 1001.0F;
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+  message.points[0].range = 1.5F;
+  message.points[0].bearing = 1e30F;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
 }
 
 TEST(LabeledScanConversion, AScannerFarFromItsVehicleIsRefused) {
@@ -145,6 +148,10 @@ TEST(LabeledScanConversion, BadFieldsAreRefused) {
   EXPECT_EQ(reason([](auto& field) { field.beam_spacing = 0.0; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.beams = 65537; }), "bad_field");
   EXPECT_EQ(reason([](auto& field) { field.beams = 65536; }), "");
+  EXPECT_EQ(reason([](auto& field) { field.first_bearing = 1e300; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beam_spacing = -1e300; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beam_time = -1e-3; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beam_time = 1.0; }), "bad_field") << "21 s in all";
 }
 
 TEST(LabeledScanConversion, AScannerNowhereIsRefused) {

@@ -216,6 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = 0.0F; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = kNan; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_min = -kInfinity; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_min = -1e30F; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.range_max = kNan; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.range_max = 0.5F; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.range_min = -1.0F; }},

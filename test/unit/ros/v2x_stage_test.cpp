@@ -3,11 +3,14 @@
 #include "datmo_fusion/ros/stage/v2x_stage.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "message_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/earth_frame_stage.h"
 #include "datmo_fusion/ros/stage/output_check.h"
@@ -193,6 +196,21 @@ TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   fix.header.frame_id = "elsewhere";
   earth_.takeFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
+}
+
+TEST(EarthFrameConversion, ImpossiblePosesAndCovariancesAreRefused) {
+  const LocalPlane plane{{degrees(45.19), degrees(5.72), 212.0}};
+  const EarthFrame good{stampAt(0), plane, {kMap, Eigen::Matrix3d::Identity()}};
+  const auto reason = [&good](const std::function<void(EarthFrameMessage&)>& spoil) {
+    EarthFrameMessage message = toMessage(good, "map");
+    spoil(message);
+    return samples::reasonOf([&] { fromMessage(message); });
+  };
+  EXPECT_EQ(reason([](auto& /*message*/) {}), "");
+  EXPECT_EQ(reason([](auto& message) { message.pose.x = 1e12; }), "bad_earth_frame");
+  EXPECT_EQ(reason([](auto& message) { message.covariance[0] = 1e300; }), "bad_earth_frame");
+  EXPECT_EQ(reason([](auto& message) { message.covariance[8] = std::nan(""); }), "bad_earth_frame");
+  EXPECT_EQ(reason([](auto& message) { message.covariance[4] = 0.0; }), "bad_earth_frame");
 }
 
 TEST(NavSatFixCovariance, OfAnImpossibleFixIsNotAccepted) {

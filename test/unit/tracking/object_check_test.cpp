@@ -110,7 +110,7 @@ TEST(ObjectCheck, SidesAreKnownOrHidden) {
   }
 }
 
-TEST(ObjectCheck, LogOddsAreFinite) {
+TEST(ObjectCheck, LogOddsAreFiniteAndTheirSumsToo) {
   Object object = objectAt(1.0, 2.0);
   object.log_odds = -12.5;
   EXPECT_TRUE(isValid(object));
@@ -120,8 +120,10 @@ TEST(ObjectCheck, LogOddsAreFinite) {
   EXPECT_TRUE(isValid(object));
   object.log_odds = kNan;
   EXPECT_FALSE(isValid(object));
-  object.log_odds = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(isValid(object));
+  for (const double bad : {std::numeric_limits<double>::infinity(), 3e38}) {
+    object.log_odds = bad;
+    EXPECT_FALSE(isValid(object)) << bad;
+  }
 }
 
 TEST(ObjectCheck, PointsAreFinite) {
@@ -129,6 +131,14 @@ TEST(ObjectCheck, PointsAreFinite) {
   object.points = {Point2(1.0, 2.0), Point2(1.5, 2.0)};
   EXPECT_TRUE(isValid(object));
   object.points[1].y() = kNan;
+  EXPECT_FALSE(isValid(object));
+}
+
+TEST(ObjectCheck, NothingIsLargerThanATrainOrBeyondTheEarth) {
+  Object object = objectAt(1.0, 2.0);
+  object.box.width = 1e6;
+  EXPECT_FALSE(isValid(object));
+  object = objectAt(1.0, 3e7);
   EXPECT_FALSE(isValid(object));
 }
 

@@ -103,6 +103,9 @@ TEST(TrackCheck, CovarianceIsSymmetricAndPositiveDefinite) {
 TEST(TrackCheck, AmountsAndProbabilitiesHaveTheirRange) {
   const std::vector<std::function<void(Track&)>> faults = {
       [](Track& t) { t.box.length = -0.1; },
+      [](Track& t) { t.box.length = 1e6; },          // longer than any train
+      [](Track& t) { t.state[2] = 1e6; },            // m/s
+      [](Track& t) { t.heading_variance = 1e300; },  // sums with others overflow
       [](Track& t) { t.height = -1.0; },
       [](Track& t) { t.heading_variance = -0.01; },
       [](Track& t) { t.age = -1.0; },

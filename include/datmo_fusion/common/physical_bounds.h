@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/angle.h"
+
+/// Bounds that no measurement on the ground exceeds. A number beyond one is a fault of the sender;
+/// within them, sums and squares stay far from the limits of a double, and a result fits into the
+/// floats of messages.
+namespace datmo {
+
+inline constexpr double kMaxCoordinate = 2.0e7;  ///< m, half of the earth's circumference
+inline constexpr double kMaxExtent = 1000.0;     ///< m, size of an object: longer than any train
+inline constexpr double kMaxRate = 1000.0;       ///< m/s, m/s^2, rad/s, of anything that is tracked
+inline constexpr double kMaxBearing = 2.0 * kTurn;  ///< rad: drivers count from 0 or from -pi
+inline constexpr double kMaxSweep = 10.0;           ///< s, from a scan's first beam to its last
+
+/// Returns whether no element is larger in magnitude; false if one is NaN.
+template <typename Matrix>
+bool isWithin(const Eigen::MatrixBase<Matrix>& values, double bound) {
+  return (values.array().abs() <= bound).all();
+}
+
+}  // namespace datmo
