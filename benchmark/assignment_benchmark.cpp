@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranked assignments: the tiny problems of clusters, large ones, and what no data should be.
+// Ranked assignments: small problems as in clusters of targets, large ones, and the worst case.
 
 #include <benchmark/benchmark.h>
 
@@ -9,7 +9,7 @@
 namespace datmo {
 namespace {
 
-/// Costs of 0 to 1; a row would rather have any column than none.
+/// Costs from 0 to 1; any column is cheaper than none.
 constexpr double kUnassignedCost = 1.0;
 
 CostMatrix randomCosts(int rows, int columns) {
@@ -23,7 +23,7 @@ CostMatrix randomCosts(int rows, int columns) {
   return cost;
 }
 
-/// The first assignments of a dense square problem.
+/// The best assignments of a dense square problem.
 void rankedAssignments(benchmark::State& state) {
   const auto size = static_cast<int>(state.range(0));
   const CostMatrix cost = randomCosts(size, size);
@@ -40,7 +40,7 @@ BENCHMARK(rankedAssignments)
     ->ArgsProduct({{2, 6, 20, 100}, {1, 10, 100}})
     ->Unit(benchmark::kMicrosecond);
 
-/// Every row prefers the same columns in the same order: the longest paths.
+/// Every row prefers the same columns in the same order, which makes augmenting paths longest.
 void oneBigCluster(benchmark::State& state) {
   const int rows = 300;
   const int columns = 1000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cloud of a 3D lidar with 64 rows in a street, to a planar scan.
+// Conversion of the cloud of a 3D lidar with 64 rows, in a street, to a planar scan.
 
 #include <cstring>
 
@@ -24,7 +24,7 @@ void cloudToScan(benchmark::State& state) {
 }
 BENCHMARK(cloudToScan)->Unit(benchmark::kMillisecond);
 
-/// The cloud as drivers publish it: x, y, z, intensity, t.
+/// The cloud with the fields that drivers publish: x, y, z, intensity, t.
 sensor_msgs::PointCloud2 messageOf(const LidarCloud& cloud) {
   sensor_msgs::PointCloud2 message;
   for (const char* name : {"x", "y", "z", "intensity", "time"}) {
@@ -49,7 +49,7 @@ sensor_msgs::PointCloud2 messageOf(const LidarCloud& cloud) {
   return message;
 }
 
-/// From the message on.
+/// Including the decoding of the message.
 void cloudMessageToScan(benchmark::State& state) {
   const LidarCloud cloud = cloudOfStreet();
   const sensor_msgs::PointCloud2 message = messageOf(cloud);

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// A cloud of a lidar with 64 rows in a street, 130,048 points: house fronts 8 m to both sides, a
-/// car 12 m ahead, the road between them.
+/// The cloud of a lidar with 64 rows in a street, 130,048 points: facades at 8 m on both sides, a
+/// car 12 m ahead, the road in between.
 LidarCloud cloudOfStreet();
 
 }  // namespace datmo

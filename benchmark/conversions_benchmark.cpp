@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between messages and the core: what each scan costs at the doors.
+// Conversion between messages and the core's types, for each scan.
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detection of moving objects in one scan: the most there can be, since everything in it may move.
+// Detection of moving objects in one scan, in the worst case: all of its points may be moving.
 
 #include <vector>
 
@@ -28,7 +28,7 @@ void segmentation(benchmark::State& state) {
 }
 BENCHMARK(segmentation)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
 
-/// Two sides of a car, as a scanner sees them.
+/// The two visible sides of a car.
 std::vector<Point2> cornerOfCar(int points) {
   constexpr double kLength = 4.5;
   constexpr double kWidth = 1.8;

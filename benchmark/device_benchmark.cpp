@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A turn of a lidar of Velodyne's with 32 lasers and two returns, 138,880 of them: from its packets
-// to the cloud's points, and to the message.
+// One revolution of a Velodyne lidar with 32 lasers and dual returns (138,880 points): packets to
+// points, and points to a message.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTurnPackets = 362;
 
-/// Two returns at 10 m and 20 m in all directions.
+/// Two returns in every direction, at 10 m and 20 m.
 std::string packetOfTwoReturns() {
   std::string bytes;
   const auto put = [&bytes](unsigned word) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Low-level fusion: the lidar's instantaneous grid, grids brought to another stamp, fused grids.
+// Low-level fusion: the lidar's instantaneous grid, grids predicted to another stamp, fused grids.
 
 #include <algorithm>
 
@@ -22,8 +22,8 @@ void lidarGrid(benchmark::State& state) {
 }
 BENCHMARK(lidarGrid)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
 
-/// 300 x 360 cells, occupied where the beams of a scan end, and known free everywhere else: more
-/// than any sensor sees. `step`: scan of the drive.
+/// 300 x 360 cells, occupied at the end points of a scan and free everywhere else, which is more
+/// than any sensor observes. `step`: index of the scan.
 SensorGrid fullGrid(int step) {
   constexpr int kBeams = 641;
   StreetDrive drive({kBeams});
@@ -53,7 +53,7 @@ BENCHMARK_CAPTURE(fusion, log_odds, FusionRule::kLogOdds)->Unit(benchmark::kMicr
 BENCHMARK_CAPTURE(fusion, dempster_shafer, FusionRule::kDempsterShafer)
     ->Unit(benchmark::kMicrosecond);
 
-/// Movers may have come this far (cm) in between.
+/// Distance (cm) that objects may have moved between the stamps.
 void gridMotion(benchmark::State& state) {
   const SensorGrid grid = fullGrid(0);
   const Pose2 motion(-0.4, 0.01, -0.005);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The occupancy map: taking in a scan, and moving its window.
+// The occupancy map: update with a scan, and movement of its window.
 
 #include "settings.h"
 #include "street.h"
@@ -24,7 +24,7 @@ void gridUpdate(benchmark::State& state, Settings (*settings_of)()) {
 BENCHMARK_CAPTURE(gridUpdate, demonstrator, demonstratorSettings)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(gridUpdate, heavy, heavySettings)->Unit(benchmark::kMicrosecond);
 
-/// The window moves by this many cells along both axes with each step; 0: it stands.
+/// Argument: cells by which the window moves along both axes in each step.
 void gridScroll(benchmark::State& state) {
   OccupancyMapOptions options;
   options.window.length = static_cast<double>(state.range(0));

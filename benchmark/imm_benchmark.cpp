@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter of one target: what a scan costs, and what one more measurement in its gate does.
+// The IMM filter of one target: one scan, and each additional measurement in its gate.
 
 #include <benchmark/benchmark.h>
 
@@ -13,10 +13,10 @@ constexpr double kFilterPeriod = 0.1;   // s
 constexpr double kSpeed = 8.0;          // m/s
 constexpr double kPositionSigma = 0.2;  // m
 
-/// Scans before the clock runs: the velocity is known.
+/// Scans before the measurement, after which the velocity is known.
 constexpr int kFilterWarmUp = 20;
 
-/// A target that is seen driving ahead, always by the same noise after so many scans.
+/// A target that drives ahead, with the same noise in every run.
 class FollowedTarget {
  public:
   explicit FollowedTarget(bool adaptive = false) {

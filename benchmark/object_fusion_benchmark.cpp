@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Object-level fusion: two lists of objects of one street, and the scan as a witness.
+// Object-level fusion of two lists of objects in one street, supported by the scan.
 
 #include <cstddef>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace datmo {
 namespace {
 
-/// Cars and pedestrians over the field of view of both sensors, as one of them sees them.
+/// Cars and pedestrians in the common field of view, as detected by one sensor.
 std::vector<Object> observedObjects(const std::vector<Box2>& truth, double sigma, Random& random) {
   constexpr double kSideVariance = 0.01;
   std::vector<Object> objects;
@@ -42,7 +42,7 @@ std::vector<Box2> roadUsers(std::size_t count, Random& random) {
   return boxes;
 }
 
-/// Both sensors see half of the objects, and each as many that the other one does not.
+/// Both sensors detect half of the objects; each detects as many that the other does not.
 void objectFusion(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   Random random(1);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // record_latency _output:=FILE.json
-// How long the live chain takes, as another process sees it: hands on each scan that comes on
-// recorded/scan or recorded/echoes, and measures from then until the tracks of the same stamp are
-// here. The way of the scan to the chain and that of the tracks back, over TCP, are part of it. The
-// map is listened to as rviz does, so that the chain has to send it. Times are the computer's.
+// Measures the latency of the live chain from another process: forwards each scan from
+// recorded/scan or recorded/echoes, and takes the time until the tracks with the same stamp arrive,
+// including transport over TCP in both directions. It subscribes to the map, as rviz does, so that
+// the map is serialized and sent as well.
 //
 // The file is written when the node ends:
-//   first_scan, last_scan  s of the computer's monotonic clock, when they were handed on
-//   latency                s, one for each scan that led to tracks, in their order
-//   unanswered             number of scans that did not
+//   first_scan, last_scan  s of the computer's monotonic clock, when they were forwarded
+//   latency                s, of each scan that led to tracks, in order
+//   unanswered             number of scans that did not lead to tracks
 //   stages                 s, processing time of each message, by stage (StageTiming)
 #include <chrono>
 #include <cstdlib>
@@ -105,7 +105,7 @@ class LatencyRecorder {
 
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
-  std::map<ros::Time, Clock::time_point> departures_;  ///< of scans that wait for their tracks
+  std::map<ros::Time, Clock::time_point> departures_;  ///< of scans whose tracks have not arrived
   Clock::time_point first_scan_;
   Clock::time_point last_scan_;
   std::vector<double> latency_;
@@ -117,7 +117,7 @@ class LatencyRecorder {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string(argv[1]) == "--help") {
-    std::cout << "usage: record_latency _output:=FILE.json, beside live_load.launch's chain\n";
+    std::cout << "usage: record_latency _output:=FILE.json, with the chain of live_load.launch\n";
     return EXIT_SUCCESS;
   }
   ros::init(argc, argv, "record_latency");

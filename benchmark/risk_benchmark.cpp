@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Risks in a street: cars in both directions, people on the footpaths, and what stands beside it.
+// Risk in a street: cars in both directions, pedestrians on the sidewalks, static points on both
+// sides.
 
 #include <cmath>
 #include <cstdint>
@@ -51,7 +52,7 @@ RiskInput street(int tracks) {
   return input;
 }
 
-/// Argument: tracks.
+/// Argument: number of tracks.
 void assessRisks(benchmark::State& state) {
   RiskInput input = street(static_cast<int>(state.range(0)));
   RiskAssessor assessor{RiskOptions()};

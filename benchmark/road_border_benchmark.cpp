@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Borders of the road: a scan through all of it, the hit grid and the search for borders alone.
+// Road borders: the whole processing of a scan, and the hit grid and the search by themselves.
 
 #include <cstdint>
 #include <optional>
@@ -15,10 +15,10 @@
 namespace datmo {
 namespace {
 
-/// Scans before the clock runs: the grid is filled, and the borders are found.
+/// Scans before the measurement, after which the grid is filled and the borders are found.
 constexpr int kBorderWarmUp = 100;
 
-/// The drive down the street with exact poses.
+/// The drive along the street, with exact poses.
 class SplitDrive {
  public:
   explicit SplitDrive(const StreetOptions& street) : drive_(street) {}
@@ -61,7 +61,7 @@ BENCHMARK_CAPTURE(roadBorderScan, demonstrator, demonstratorSettings)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(roadBorderScan, heavy, heavySettings)->Unit(benchmark::kMicrosecond);
 
-/// It follows the borders that it knows, and looks for others all the same.
+/// Known borders are tracked, and the search for others continues.
 void roadBorderStanding(benchmark::State& state) { timeScans(state, demonstratorSettings(), 0.0); }
 BENCHMARK(roadBorderStanding)->Unit(benchmark::kMicrosecond);
 
@@ -76,7 +76,7 @@ void hitGridUpdate(benchmark::State& state) {
 }
 BENCHMARK(hitGridUpdate)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
 
-/// One side from one place; `turned` 0: windows along the vehicle only, as in the thesis.
+/// One side from one position; `turned` 0: only windows parallel to the vehicle, as in the thesis.
 void borderSearch(benchmark::State& state) {
   const Settings settings = demonstratorSettings();
   SplitDrive drive({settings.beams});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grid SLAM: one pose of the scan matcher, and one scan through all of it; how the cost grows with
-// beams, poses and the map's size.
+// Grid SLAM: scoring of one pose by the scan matcher, and the whole processing of a scan, by the
+// number of beams and poses and by the size of the map.
 
 #include "settings.h"
 #include "street.h"
@@ -12,7 +12,7 @@
 namespace datmo {
 namespace {
 
-/// Scans before the clock runs: the map is filled, and its memory has been touched.
+/// Scans before the measurement, after which the map is filled and its memory has been touched.
 constexpr int kSlamWarmUp = 100;
 
 /// Grid SLAM in the middle of a drive.
@@ -48,7 +48,7 @@ void timeSteps(benchmark::State& state, const GridSlamOptions& options,
   }
 }
 
-/// Drawing and scoring poses alone; `per_pose` is the time of one.
+/// Only sampling and scoring of poses; `per_pose` is the time of one.
 void scorePoses(benchmark::State& state) {
   const auto poses = static_cast<int>(state.range(1));
   RunningSlam slam({}, {static_cast<int>(state.range(0))});
@@ -79,8 +79,8 @@ void slamStep(benchmark::State& state, Settings (*settings_of)()) {
 BENCHMARK_CAPTURE(slamStep, demonstrator, demonstratorSettings)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(slamStep, heavy, heavySettings)->Unit(benchmark::kMicrosecond);
 
-/// The cost is linear in the beams for each number of poses (BigO: the fit, RMS: its error), and so
-/// is what a beam costs in the poses.
+/// Time is linear in the number of beams for each number of poses (BigO: the fit, RMS: its error),
+/// and the time per beam is linear in the number of poses.
 void slamStepByBeams(benchmark::State& state, int poses) {
   GridSlamOptions options;
   options.matcher.samples = poses;
@@ -98,7 +98,7 @@ BENCHMARK_CAPTURE(slamStepByBeams, poses_100, 100)->Apply(setBeams);
 BENCHMARK_CAPTURE(slamStepByBeams, poses_300, 300)->Apply(setBeams);
 BENCHMARK_CAPTURE(slamStepByBeams, poses_1000, 1000)->Apply(setBeams);
 
-/// The map's size costs only when its window moves with the vehicle, and no more than its edge.
+/// The size of the map matters only when the window moves, and then only by its edge.
 void slamStepInWindow(benchmark::State& state) {
   GridSlamOptions options;
   options.map.window.length = static_cast<double>(state.range(0));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stereo cloud in a street as stereo_image_proc publishes it, to a grid, and to objects.
+// Conversion of a stereo cloud in a street, as published by stereo_image_proc, to a grid and to
+// objects.
 
 #include "stereo_street.h"
 #include <benchmark/benchmark.h>

@@ -27,7 +27,7 @@ StereoCloud streetView() {
   return cloud;
 }
 
-/// Depth (m) in a street: road, house fronts to both sides and across its end, a car.
+/// Depth (m) in a street: road, facades on both sides and at its end, a car.
 double depthAlong(double right, double down, double camera_height) {
   double depth = std::min(40.0, 8.0 / std::max(std::abs(right), 1e-6));
   if (down > 0.0) {
@@ -38,7 +38,7 @@ double depthAlong(double right, double down, double camera_height) {
   return on_car ? std::min(depth, car) : depth;
 }
 
-/// The points of `cloud`'s image, 1 in 5 without a depth, with noise.
+/// The points of the image with noise, 1 in 5 without depth.
 std::vector<std::uint8_t> streetPoints(const StereoCloud& cloud) {
   Random random(1);
   std::vector<std::uint8_t> memory(kPointStep * kWidth * kHeight, 0);
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> streetPoints(const StereoCloud& cloud) {
   return memory;
 }
 
-/// The points that lie in `memory`.
+/// A message whose points are in `memory`.
 PointsView pointsIn(const std::vector<std::uint8_t>& memory) {
   PointsView points;
   points.data = memory.data();

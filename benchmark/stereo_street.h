@@ -8,11 +8,11 @@
 
 namespace datmo {
 
-/// What a stereo camera sees in a street, as stereo_image_proc publishes it: 640 x 480 points.
+/// A stereo camera's cloud of a street, as published by stereo_image_proc: 640 x 480 points.
 class StereoStreet {
  public:
   StereoStreet();
-  StereoStreet(const StereoStreet&) = delete;  // its points lie in its memory
+  StereoStreet(const StereoStreet&) = delete;  // the message refers to the object's memory
   StereoStreet& operator=(const StereoStreet&) = delete;
 
   const StereoCloud& cloud() const { return cloud_; }

@@ -13,16 +13,16 @@ namespace {
 constexpr double kStreetPeriod = 0.06;  // s, of the demonstrator's scanner: 16.6 Hz
 constexpr double kHalfFov = 80.0;       // degrees
 constexpr double kRangeNoise = 0.05;
-constexpr double kCars = 4.0;     // m, from the vehicle to the parked cars on either side
+constexpr double kCars = 4.0;     // m, from the vehicle to the parked cars on both sides
 constexpr double kHouses = 12.0;  // m, from the vehicle to the houses
 constexpr double kCarLength = 4.5;
 constexpr double kCarSpacing = 6.0;
 constexpr double kFarthest = 50.0;
 
-/// At 8 m/s these lead on by 24 parked cars, so that the first scan may follow the last one.
+/// At 8 m/s the vehicle passes 24 parked cars in these, so that the first scan can follow the last.
 constexpr int kScans = 300;
 
-/// Whether the street's side shows a parked car at this place, and not the gap behind it.
+/// Returns whether there is a parked car at this distance along the street, or a gap.
 bool isParked(double x) { return x - kCarSpacing * std::floor(x / kCarSpacing) < kCarLength; }
 
 double rangeAlong(double direction, double x) {

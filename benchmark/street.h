@@ -9,20 +9,20 @@
 
 namespace datmo {
 
-/// Where the benchmarks drive: a straight street without end, with parked cars (4.5 m long, gaps of
-/// 1.5 m) in front of houses on both sides. It is made here, of seeded noise alone.
+/// The benchmarks' simulated scene: an endless straight street with parked cars (4.5 m long, gaps
+/// of 1.5 m) in front of houses on both sides, with seeded noise.
 struct StreetOptions {
   int beams = 81;      ///< over 160 degrees
   double speed = 8.0;  ///< m/s; 0: standing
 };
 
-/// The drive as an endless sequence of scans: the street repeats itself, and so do the scans, but
-/// for their stamps.
+/// The drive as an endless sequence of scans: the street repeats itself, and so do the scans,
+/// except for their stamps.
 class StreetDrive {
  public:
   explicit StreetDrive(const StreetOptions& options);
 
-  /// Goes on to the next scan; it holds until the next call.
+  /// Advances to the next scan, which is valid until the next call.
   const Scan& next();
 
   /// Exact odometry at the stamp of that scan.
@@ -34,7 +34,7 @@ class StreetDrive {
   std::size_t step_ = 0;  ///< of the last scan
 };
 
-/// All end points of a scan, as if the map had said this of each of them.
+/// All end points of a scan, each with this state in the map.
 LabeledScan labeledScan(const Scan& scan, PointState state);
 
 }  // namespace datmo

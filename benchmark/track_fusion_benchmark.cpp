@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Track-level fusion: two lists of tracks of one street, new ones in every step.
+// Track-level fusion of two lists of tracks in one street, with new lists in every step.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace {
 constexpr double kStep = 0.1;  ///< s
 constexpr int kHistory = 30;   ///< points of a track
 
-/// All of the street's cars keep their distances, and the host vehicle goes along with them.
+/// All cars and the host vehicle drive at the same velocity.
 const Point2 kVelocity(8.0, 0.0);  ///< m/s
 
 /// One of the sensors with its tracker.
 struct Source {
   std::string name;
-  double sigma;              ///< m, of its tracks' positions
-  std::vector<Point2> cars;  ///< m, that it has tracks of, as they were at first
+  double sigma;              ///< m, standard deviation of its tracks' positions
+  std::vector<Point2> cars;  ///< m, initial positions of the cars that it tracks
 };
 
-/// On 100 m x 60 m, one in each cell of a grid, so that none are in one place.
+/// In 100 m x 60 m, one in each cell of a grid, so that no two coincide.
 std::vector<Point2> positionsOnStreet(std::size_t count, Random& random) {
   constexpr std::size_t kRows = 10;
   const std::size_t columns = count / kRows + 1;
@@ -92,7 +92,7 @@ SourceTracks tracksOf(const Source& source, double seconds, Random& random) {
   return {source.name, std::make_shared<const TrackList>(std::move(list))};
 }
 
-/// Of so many tracks of each source, those of `pairs` cars are of both.
+/// Arguments: tracks of each source, and `pairs`, the number of cars that both track.
 void trackFusion(benchmark::State& state, TrackCombinationMethod method) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const auto pairs = static_cast<std::size_t>(state.range(1));

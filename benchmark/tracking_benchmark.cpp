@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tracker: one step with a crowd of confirmed tracks and as many false alarms, by the number of
-// targets, with each kind of association.
+// The tracker: one step with many confirmed tracks and as many false alarms, by the number of
+// targets and by the kind of association.
 
 #include <string>
 
@@ -18,11 +18,11 @@ constexpr double kSpacing = 8.0;         // m, between the objects, along both a
 constexpr int kAbreast = 10;
 constexpr double kPositionSigma = 0.2;  // m
 
-/// Steps before the clock runs: all objects have confirmed tracks.
+/// Steps before the measurement, after which all objects have confirmed tracks.
 constexpr int kTrackerWarmUp = 30;
 
-/// A false alarm is followed until it was missed for long enough: there are more targets than
-/// vehicles.
+/// A false alarm remains a target until it has been missed often enough, so there are more targets
+/// than vehicles.
 constexpr int kTargetsEach = 10;
 
 Object vehicleAt(const Point2& position) {
@@ -35,7 +35,7 @@ Object vehicleAt(const Point2& position) {
   return object;
 }
 
-/// A block of vehicles that drive ahead together, as seen at one step, and false alarms among them.
+/// A group of vehicles that drive ahead, as detected in one step, with false alarms among them.
 ObjectList crowd(int targets, int false_alarms, int step, Random& random) {
   ObjectList list;
   list.stamp = Stamp::fromSeconds(1000.0 + kObjectsPeriod * step);
@@ -57,7 +57,7 @@ void trackerStep(benchmark::State& state, TrackerAssociation association) {
   const auto targets = static_cast<int>(state.range(0));
   TrackerOptions options;
   options.association = association;
-  // Room for all: the shipped limits are for what a step may take, which is measured here.
+  // Without the shipped limits, which bound the duration of a step: that is what is measured.
   options.gating.max_targets = kTargetsEach * targets;
   options.intake.max_objects = 2 * targets;
   Tracker tracker(options);

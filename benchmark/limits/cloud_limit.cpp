@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cloud cannot be used without: each point is read, brought into the vehicle's frame, and
-// compared with the height above which things stand.
+// Lower bound for using a cloud: each point is read, transformed to the vehicle's frame, and its
+// height is compared with the minimum height of obstacles.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +15,14 @@ namespace {
 
 constexpr float kLayerBottom = 0.3F;  // m
 
-/// What is left of a cloud.
+/// Sums over a cloud, so that the work cannot be optimized away.
 struct BareCloud {
   float along = 0.0F;  ///< m, sum
   float aside = 0.0F;  ///< m, sum
   int standing = 0;
 
-  /// `position`: x, y, z in the sensor's frame, m. A hole is above nothing, and costs no branch.
+  /// `position`: x, y, z in the sensor's frame, m. A hole (NaN) fails the comparison, without a
+  /// branch.
   void add(const float* position, const Eigen::Matrix<float, 3, 4>& pose) {
     const float x = position[0];
     const float y = position[1];

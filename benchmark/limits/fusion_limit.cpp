@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fusing so many tracks of two sources cannot do without: the distances of all pairs, and of
-// those that are one object the sum of two informations of six states.
+// Lower bound for fusing the tracks of two sources: the distances of all pairs, and for each pair
+// of one object the sum of two information matrices of six states.
 
 #include <algorithm>
 #include <cstddef>

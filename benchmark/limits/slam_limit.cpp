@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step of grid SLAM cannot do without: one look-up of each beam's end from each pose, and
-// one addition to each cell that a beam passes.
+// Lower bound for a step of grid SLAM: one look-up of each beam's end point from each pose, and one
+// addition to each cell that a beam passes.
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,11 @@
 namespace datmo {
 namespace {
 
-/// Poses that are scored lie this far (m, rad) apart.
+/// Spacing of the scored poses (m, rad).
 constexpr double kPoseStep = 1e-3;
 constexpr double kTurnStep = 1e-5;
 
-/// The least that a map can be: one number for each cell.
+/// The simplest map: one number per cell.
 class BareMap {
  public:
   explicit BareMap(const GridWindow& window)
@@ -61,7 +61,7 @@ Ends endsOf(const Scan& scan) {
   return ends;
 }
 
-/// The sum of the best pose.
+/// Returns the score of the best pose.
 float scoreAll(BareMap& map, const Ends& ends, int poses) {
   float best = 0.0F;
   for (int pose = 0; pose < poses; ++pose) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What following so many objects cannot do without: for each of them, and each mode of motion, a
-// prediction of six states and the update with a position.
+// Lower bound for tracking a number of objects: for each of them and each motion mode, a prediction
+// of six states and the update with a position.
 
 #include <array>
 #include <vector>
