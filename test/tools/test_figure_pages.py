@@ -73,6 +73,20 @@ class Pages(InFolder):
         self.assertIn("| | | 8 | `loop_closing`, at the end | 0.250 ± 0.100 |", after["doc/results.md"])
         self.assertIn("with loops closed", after["doc/results.md"])
 
+    def test_maps_by_level(self):
+        shares = dict.fromkeys(("occupied_right", "free_right", "things_found", "poles_found"), [0.9, 0.8, 1.0])
+        kinds = dict.fromkeys(("vanished", "new"), {"cells": 9, "cells_right": 7, "things": 3,
+                                                    "things_reported": 2, "wrong_cells": 1.5})  # fmt: skip
+        levels = {"scanner alone": shares, "map level": {**shares, "conflicts": [11.0, 10.0, 12.0]}}
+        found = {"sets": {"1": levels}, "changes": {"gone": kinds}}
+        done = results(maps=found)
+        done["steps"]["maps"]["seeds"] = [1, 2]
+        page = render.rendered(self.folder, done)["doc/results.md"]
+        self.assertIn("| data set 1 | scanner alone | 0.900 (0.800 to 1.000) |", page)
+        self.assertIn("| 0.900 (0.800 to 1.000) | 11 (10 to 12) |", page)
+        self.assertIn("| a fifth is gone | 9 | 7 | 3 | 2 | 9 | 2, 2 |", page)
+        self.assertNotIn("Velodyne", page)
+
     def test_risks_by_tracks_and_method(self):
         methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
         traffic = {"warnings": 8, "seconds": 410.0}

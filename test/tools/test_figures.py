@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import cameras, data_sets, results_file, risk
+from datmo_tools.figures import cameras, data_sets, maps, results_file, risk
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
@@ -96,6 +96,27 @@ class RiskFigures(unittest.TestCase):
         found = risk.figures([("own", {"futures": {}}), *drives, ("true", {})])
         self.assertEqual(found["traffic"], {"warnings": 4, "seconds": 150.0})
         self.assertEqual(sorted(found), ["own", "traffic", "true"])
+
+
+class MapFigures(unittest.TestCase):
+    def test_sets_have_a_spread_and_the_other_jobs_their_own_figures(self):
+        found = maps.figures([
+            ("2", {"map level": {"free_right": 0.5}}), (maps.CHANGES, {"gone": 1}),
+            ("2", {"map level": {"free_right": 0.7}})])  # fmt: skip
+        self.assertEqual(found["sets"], {"2": {"map level": {"free_right": [0.6, 0.5, 0.7]}}})
+        self.assertEqual(found[maps.CHANGES], {"gone": 1})
+        self.assertNotIn(maps.DRIVE_KITTI, found)
+
+    def test_every_fifth_parked_vehicle_is_gone(self):
+        def row(kinds, **rest):
+            return {"kinds": kinds, "from": 0.0, "to": 18.0, "spacing": 6.0, **rest}  # places 0 to 3
+
+        scene = {"speed": 8, "rows": [row(["car"], leave_out=[1]), row(["tree"]), row(["van", "car"])]}
+        changed = maps.without_parked(scene)
+        # Parked: 0, 2, 3 of the first row, 0 to 3 of the last one.
+        self.assertEqual([row.get("leave_out") for row in changed["rows"]], [[1], [], [1]])
+        self.assertEqual(scene["rows"][0]["leave_out"], [1])
+        self.assertEqual(changed["speed"], 8)
 
 
 class Pass(InFolder):

@@ -11,7 +11,6 @@
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/map_files.h"
-#include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
 #include "datmo_fusion/slam/keyframe_selector.h"
 
@@ -21,9 +20,6 @@ namespace {
 
 /// The source of the poses.
 constexpr char kPoses[] = "labeled_scan";
-
-/// Rows of a pose's covariance in ROS: x, y, z, roll, pitch, yaw.
-constexpr std::size_t kPoseAxes = 6;
 
 SourceMatcherOptions matcherOptions(const MapFusionStageOptions& options) {
   SourceMatcherOptions matcher;
@@ -131,11 +127,6 @@ void MapFusionStage::takeLabeledScan(const LabeledScanMessage& message, Stamp no
     if (message.map_frame != options_.frames.map) {
       throw InputError("wrong_frame", "labeled scan in a map '" + message.map_frame +
                                           "': expected '" + options_.frames.map + "'");
-    }
-    if (!isCovariance(message.pose.covariance.data(), kPoseAxes)) {
-      throw InputError("bad_pose",
-                       "labeled scan whose pose has an invalid covariance: expected finite "
-                       "numbers, symmetric, without a negative variance");
     }
     inputs_.take(kPoses, message.header, now);
     const Stamp stamp = scan.stamp;
