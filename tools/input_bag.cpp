@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_bag.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -42,6 +43,13 @@ std::vector<std::string> topicsOf(const rosbag::Bag& bag) {
 
 bool holdsTopic(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size() > 0;
+}
+
+bool holdsTopic(const rosbag::Bag& bag, const std::string& topic, const std::string& type) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  const std::vector<const rosbag::ConnectionInfo*> connections = view.getConnections();
+  return view.size() > 0 && std::all_of(connections.begin(), connections.end(),
+                                        [&](const auto* each) { return each->datatype == type; });
 }
 
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message) {

@@ -25,6 +25,9 @@ std::vector<std::string> topicsOf(const rosbag::Bag& bag);
 
 bool holdsTopic(const rosbag::Bag& bag, const std::string& topic);
 
+/// Whether it has messages of this type (`sensor_msgs/Imu`) on the topic, and no others.
+bool holdsTopic(const rosbag::Bag& bag, const std::string& topic, const std::string& type);
+
 /// Throws std::runtime_error that names the file and what is `missing` in it, and lists its topics.
 [[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing);
 

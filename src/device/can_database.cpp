@@ -88,4 +88,25 @@ CanSignal canSignalOf(const std::string& option, const std::string& file, const 
   return canSignal(named, canId(named, entry.id), entry.form);
 }
 
+CanSignal canSignalFrom(const std::string& name, const std::string& text, const std::string& dbc) {
+  if (text.find('|') == std::string::npos) {
+    if (dbc.empty()) {
+      throw OptionError(name + " is '" + text +
+                        "': expected `0x1A0 8|16@1+ (0.01,0) [0|250] \"km/h\"`, or a file in "
+                        "can/dbc that has a signal of that name");
+    }
+    return canSignalOf(name, dbc, text);
+  }
+  static const std::regex form(R"(\s*(0[xX][0-9a-fA-F]{1,8}|\d{1,10})\s*:?\s+(.*))");
+  std::smatch part;
+  if (!std::regex_match(text, part, form)) {
+    throw OptionError(name + " is '" + text +
+                      "': expected the message's id first, `0x1A0 8|16@1+ "
+                      "(0.01,0) [0|250] \"km/h\"`");
+  }
+  const std::string id = part[1];
+  const bool is_hexadecimal = id.size() > 1 && (id[1] == 'x' || id[1] == 'X');
+  return canSignal(name, canId(name, std::stoull(id, nullptr, is_hexadecimal ? 16 : 10)), part[2]);
+}
+
 }  // namespace datmo

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <utility>
 
 #include "can_units.h"
@@ -15,33 +14,11 @@ namespace datmo {
 
 namespace {
 
-constexpr std::array<const char*, 8> kSignalNames = {"speed",     "yaw_rate",   "steering",
-                                                     "direction", "front_left", "front_right",
-                                                     "rear_left", "rear_right"};
+constexpr std::array<const char*, 9> kSignalNames = {"speed",       "yaw_rate",     "steering",
+                                                     "direction",   "acceleration", "front_left",
+                                                     "front_right", "rear_left",    "rear_right"};
 
 std::string optionName(const std::string& option) { return "can/" + option; }
-
-/// Parses a signal; `text`: see CanOptions. Throws OptionError.
-CanSignal signalOf(const std::string& name, const std::string& text, const std::string& dbc) {
-  if (text.find('|') == std::string::npos) {
-    if (dbc.empty()) {
-      throw OptionError(name + " is '" + text +
-                        "': expected `0x1A0 8|16@1+ (0.01,0) [0|250] \"km/h\"`, or a file in "
-                        "can/dbc that has a signal of that name");
-    }
-    return canSignalOf(name, dbc, text);
-  }
-  static const std::regex form(R"(\s*(0[xX][0-9a-fA-F]{1,8}|\d{1,10})\s*:?\s+(.*))");
-  std::smatch part;
-  if (!std::regex_match(text, part, form)) {
-    throw OptionError(name + " is '" + text +
-                      "': expected the message's id first, `0x1A0 8|16@1+ "
-                      "(0.01,0) [0|250] \"km/h\"`");
-  }
-  const std::string id = part[1];
-  const bool is_hexadecimal = id.size() > 1 && (id[1] == 'x' || id[1] == 'X');
-  return canSignal(name, canId(name, std::stoull(id, nullptr, is_hexadecimal ? 16 : 10)), part[2]);
-}
 
 }  // namespace
 
@@ -51,6 +28,7 @@ CanMotion::CanMotion(const Checked<CanOptions>& options, Warn warn)
   add(kYawRate, "yaw_rate", options_.yaw_rate, "rate");
   add(kSteering, "steering", options_.steering, "angle");
   add(kDirection, "direction", options_.direction, "");
+  add(kAcceleration, "acceleration", options_.acceleration, "acceleration");
   const std::array<const std::string*, 4> wheels = {&options_.front_left, &options_.front_right,
                                                     &options_.rear_left, &options_.rear_right};
   for (std::size_t i = 0; i < wheels.size(); ++i) {
@@ -72,7 +50,7 @@ void CanMotion::add(Role role, const char* name, const std::string& text, const 
     return;
   }
   Channel channel;
-  channel.signal = signalOf(optionName(name), text, options_.dbc);
+  channel.signal = canSignalFrom(optionName(name), text, options_.dbc);
   const std::string kind = quantity;
   const std::string& unit = channel.signal.unit;
   Units units = kind.empty() ? Units{{unit, 1.0}} : unitsOf(kind == "wheel" ? "speed" : kind);
@@ -98,7 +76,7 @@ void CanMotion::addCounter(const char* name, const std::string& text, int first,
     return;
   }
   Counter counter;
-  counter.signal = signalOf(optionName(name), text, options_.dbc);
+  counter.signal = canSignalFrom(optionName(name), text, options_.dbc);
   std::string guarded;
   bool is_guard = false;
   for (int role = first; role <= last; ++role) {
@@ -156,7 +134,8 @@ std::optional<CanMotion::Motion> CanMotion::take(const CanFrame& frame, Stamp st
   if (!yaw_rate) {
     return std::nullopt;
   }
-  return Motion{{*speed, *yaw_rate, other_frames_}, std::exchange(missed_, 0)};
+  return Motion{{*speed, *yaw_rate, other_frames_, steeringAt(stamp), fresh(kAcceleration, stamp)},
+                std::exchange(missed_, 0)};
 }
 
 bool CanMotion::isCounting(const CanFrame& frame) {
@@ -222,11 +201,18 @@ void CanMotion::read(Role role, const CanFrame& frame, Stamp stamp) {
   }
 }
 
+std::optional<double> CanMotion::fresh(int role, Stamp stamp) const {
+  const std::optional<Channel>& channel = channels_[role];
+  return channel && std::abs(secondsBetween(channel->stamp, stamp)) <= options_.max_age
+             ? channel->value
+             : std::nullopt;
+}
+
 std::optional<double> CanMotion::newest(int role, Stamp stamp) const {
-  const Channel& channel = *channels_[role];
-  if (channel.value && std::abs(secondsBetween(channel.stamp, stamp)) <= options_.max_age) {
-    return channel.value;
+  if (const std::optional<double> value = fresh(role, stamp)) {
+    return value;
   }
+  const Channel& channel = *channels_[role];
   if (!(channel.signal.id == pace_)) {  // otherwise the fault has already been reported
     warn_({"stale_signal", optionName(kSignalNames[role]) + " (" + toText(channel.signal.id) +
                                ") has had no valid value for " + std::to_string(options_.max_age) +
@@ -260,6 +246,13 @@ std::optional<double> CanMotion::speedAt(Stamp stamp) const {
   }
   constexpr double kSame = 1e-6;
   return std::abs(*direction - options_.reverse) < kSame ? -std::abs(sum / count) : sum / count;
+}
+
+std::optional<double> CanMotion::steeringAt(Stamp stamp) const {
+  const std::optional<double> angle = fresh(kSteering, stamp);
+  return angle && options_.yaw_from != CanYaw::kSteering
+             ? std::optional<double>(*angle / options_.steering_ratio)
+             : std::nullopt;
 }
 
 std::optional<double> CanMotion::yawRateAt(Stamp stamp, double speed) const {

@@ -26,12 +26,19 @@ void visitSignals(CanOptions& options, OptionVisitor& visitor) {
   wheel("rear_right", "rear right", options.rear_right);
   visitor.text({"yaw_rate", "", "the same for the yaw rate (rad/s, deg/s), positive to the left"},
                options.yaw_rate, {});
-  visitor.text({"steering", "", "the same for the steering wheel (rad, deg), positive to the left"},
+  visitor.text({"steering", "",
+                "the same for the steering wheel (rad, deg), positive to the left; empty: not "
+                "published"},
                options.steering, {});
   visitor.text({"direction", "",
                 "the same for the gear or the direction of travel; empty: the speed has a sign, or "
                 "the vehicle does not reverse"},
                options.direction, {});
+  visitor.text(
+      {"acceleration", "",
+       "the same for the acceleration along the vehicle (m/s^2, g), positive ahead; empty: "
+       "not published"},
+      options.acceleration, {});
   visitor.text({"counter", "",
                 "the same for the counter in the speed's message: while it does not change, the "
                 "message is not used; empty: it has none"},

@@ -13,6 +13,7 @@
 
 #include "datmo_fusion/device/device_events.h"
 #include "datmo_fusion/ros/convert/device_conversion.h"
+#include "datmo_fusion/ros/convert/host_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/device_diagnostics.h"
 #include "datmo_fusion/ros/device_options.h"
@@ -73,13 +74,41 @@ class DeviceNodelet : public nodelet::Nodelet {
         break;
       case DeviceKind::kCan:
         output_ = node.advertise<geometry_msgs::TwistStamped>("twist", kCanQueue);
+        advertiseDriver(node, options_.device.can);
         break;
     }
   }
 
+  /// What a bus tells of the driver in addition to the motion.
+  void advertiseDriver(ros::NodeHandle& node, const CanOptions& can) {
+    if (!can.steering.empty() && can.yaw_from != CanYaw::kSteering) {
+      steering_ = node.advertise<sensor_msgs::JointState>("steering", kCanQueue);
+    }
+    if (!can.acceleration.empty()) {
+      acceleration_ =
+          node.advertise<geometry_msgs::AccelWithCovarianceStamped>("acceleration", kCanQueue);
+    }
+  }
+
   std::vector<std::string> topics() const {
-    return velocities_ ? std::vector<std::string>{output_.getTopic(), velocities_.getTopic()}
-                       : std::vector<std::string>{output_.getTopic()};
+    std::vector<std::string> topics;
+    for (const ros::Publisher* each : {&output_, &velocities_, &steering_, &acceleration_}) {
+      if (*each) {
+        topics.push_back(each->getTopic());
+      }
+    }
+    return topics;
+  }
+
+  template <typename Data>
+  void publishDriver(const Data& /*data*/, Stamp /*stamp*/) {}
+  void publishDriver(const VehicleTwist& twist, Stamp stamp) {
+    if (twist.steering) {
+      steering_.publish(toSteering(*twist.steering, stamp));
+    }
+    if (twist.acceleration) {
+      acceleration_.publish(toAcceleration({*twist.acceleration, 0.0}, stamp));
+    }
   }
 
   template <typename Data>
@@ -120,6 +149,7 @@ class DeviceNodelet : public nodelet::Nodelet {
     std::visit(
         [this, stamp](const auto& data) {
           outputOf(data).publish(toMessage(data, stamp, options_.frame));
+          publishDriver(data, stamp);
         },
         event.measurement.data);
     monitor_->processed({stamp, watch.seconds()});
@@ -131,7 +161,9 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
   ros::Publisher output_;
-  ros::Publisher velocities_;  ///< only of a satellite receiver
+  ros::Publisher velocities_;    ///< only of a satellite receiver
+  ros::Publisher steering_;      ///< only of a bus
+  ros::Publisher acceleration_;  ///< the same
   std::unique_ptr<DeviceEventQueue> events_;
   std::unique_ptr<CallbackPoster> callbacks_;
   std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before the objects it calls

@@ -24,8 +24,8 @@ class DriverVariation {
   DriverVariation(const HostFutureOptions& options, double step)
       : options_(options), step_(step), kept_(std::exp(-step / options.acceleration_time)) {}
 
-  /// Starts with the first step's acceleration; `normal`: standard normal.
-  void begin(double normal) { acceleration_ = options_.acceleration_spread * normal; }
+  /// Starts with the first step's acceleration, m/s^2, in addition to the current one.
+  void begin(double acceleration) { acceleration_ = acceleration; }
 
   void advance(double first, double second) {
     acceleration_ = kept_ * acceleration_ +
@@ -214,7 +214,8 @@ BodyPath HostFutures::path(double steering, std::uint32_t future, const RandomDr
   path.poses.reserve(horizon_.steps() + 1);
   path.poses.push_back(outlineOf(state, vehicle_));
   DriverVariation driver(options_, horizon_.step);
-  driver.begin(draws.normal({kHost, future, 0, kDrawAcceleration}));
+  driver.begin(host_.acceleration_sigma.value_or(options_.acceleration_spread) *
+               draws.normal({kHost, future, 0, kDrawAcceleration}));
   for (std::size_t i = 0; i < horizon_.steps(); ++i) {
     const StepDraws drawn =
         draws.step({kHost, future, static_cast<std::uint32_t>(i), kDrawVariation});

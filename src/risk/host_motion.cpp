@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
@@ -70,6 +73,26 @@ double steeringOf(double speed, double yaw_rate, const HostVehicleOptions& vehic
   }
   return std::clamp(std::atan(vehicle.wheelbase * yaw_rate / speed), -vehicle.max_steering,
                     vehicle.max_steering);
+}
+
+double steeringVariance(const Twist2& twist, const Eigen::Matrix2d& covariance,
+                        const HostVehicleOptions& vehicle) {
+  const double speed = twist.forward_speed;
+  if (std::abs(speed) < kRolling) {
+    return std::numeric_limits<double>::infinity();
+  }
+  // The tangent of the angle is this slope; its derivatives are slope / speed and wheelbase /
+  // speed.
+  const double slope = vehicle.wheelbase * twist.yaw_rate / speed;
+  const double of_slope =
+      (square(slope) * covariance(0, 0) + square(vehicle.wheelbase) * covariance(1, 1)) /
+      square(speed);
+  return of_slope / square(1.0 + square(slope));
+}
+
+double combined(const Estimate& a, const Estimate& b) {
+  const double weight = std::isinf(a.variance) ? 1.0 : a.variance / (a.variance + b.variance);
+  return a.value + weight * (b.value - a.value);
 }
 
 BicycleState bicycleState(const HostState& host) {

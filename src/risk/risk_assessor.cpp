@@ -161,9 +161,10 @@ std::vector<Track> RiskAssessor::admitted(const RiskInput& input, RiskCounts& co
 /// Worst case: both move toward each other, and accelerate as hard as they can.
 bool RiskAssessor::reachable(const Track& track, const HostState& host) const {
   const double time = options_.horizon.horizon;
-  const double acceleration =
-      options_.objects.max_acceleration +
-      std::max(0.0, std::abs(host.acceleration) + kReachSigmas * options_.host.acceleration_spread);
+  const double spread =
+      std::max(options_.host.acceleration_spread, host.acceleration_sigma.value_or(0.0));
+  const double acceleration = options_.objects.max_acceleration +
+                              std::max(0.0, std::abs(host.acceleration) + kReachSigmas * spread);
   const double speed = std::abs(host.speed) + track.state.segment<2>(2).norm() +
                        kReachSigmas * largestDeviation(track.covariance, 2);
   const double size = options_.vehicle.size().radius() + options_.vehicle.middleAhead() +

@@ -6,6 +6,7 @@
 #include "stereo_pair_sample.h"
 #include <boost/make_shared.hpp>
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
@@ -21,9 +22,10 @@ namespace datmo::campaign {
 
 namespace {
 
-constexpr int kImageSteps = 4;         // from image to image
-constexpr double kWheelRadius = 0.3;   // m
-constexpr double kFixVariance = 0.01;  // m^2, as of a receiver with corrections
+constexpr int kImageSteps = 4;                  // from image to image
+constexpr double kWheelRadius = 0.3;            // m
+constexpr double kAccelerationVariance = 0.04;  // m^2/s^4
+constexpr double kFixVariance = 0.01;           // m^2, as of a receiver with corrections
 constexpr std::uint32_t kStation = 7;
 
 template <typename Message>
@@ -116,6 +118,15 @@ void CampaignSensors::addMotion(double seconds, std::vector<Publication>& sent) 
   imu.header = twist.header;
   imu.angular_velocity = odometry.twist.twist.angular;
   add("imu", imu, sent);
+  sensor_msgs::JointState steering;
+  steering.header = twist.header;
+  steering.name = {"front_left_steering", "front_right_steering"};
+  steering.position.assign(2, odometry.twist.twist.angular.z);  // straight, if the drive is
+  add("steering", steering, sent);
+  geometry_msgs::AccelWithCovarianceStamped acceleration;
+  acceleration.header = twist.header;
+  acceleration.accel.covariance[0] = kAccelerationVariance;
+  add("acceleration", acceleration, sent);
 }
 
 void CampaignSensors::addScans(double seconds, std::vector<Publication>& sent) const {

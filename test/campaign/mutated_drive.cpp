@@ -10,6 +10,7 @@
 #include "message_mutation.h"
 #include <boost/make_shared.hpp>
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
@@ -81,6 +82,7 @@ const std::map<std::string, MutatedDrive::Mutate>& MutatedDrive::mutations() {
       mutationOf<sensor_msgs::Imu>(),
       mutationOf<sensor_msgs::JointState>(),
       mutationOf<sensor_msgs::NavSatFix>(),
+      mutationOf<geometry_msgs::AccelWithCovarianceStamped>(),
       mutationOf<geometry_msgs::TwistStamped>(),
       mutationOf<geometry_msgs::TwistWithCovarianceStamped>(),
       mutationOf<geometry_msgs::PoseWithCovarianceStamped>(),

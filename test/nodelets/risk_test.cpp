@@ -9,6 +9,7 @@
 #include "ros/risk_samples.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/convert/host_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 
 namespace datmo::risk_test {
@@ -26,12 +27,20 @@ class RiskHarness : public LabeledScanHarness {
   bool waitForNodelet() {
     return LabeledScanHarness::waitForNodelet() && waitFor([this] {
              return risks_.getNumPublishers() >= 1 && tracks_.getNumSubscribers() >= 1 &&
-                    odometry_.getNumSubscribers() >= 1;
+                    odometry_.getNumSubscribers() >= 1 && steering_.getNumSubscribers() >= 1 &&
+                    acceleration_.getNumSubscribers() >= 1;
            });
   }
 
   void sendOdometry(double seconds) {
     odometry_.publish(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
+  }
+
+  /// Front wheels to the left, full braking.
+  void sendDriver(double seconds) {
+    const Stamp stamp = Stamp::fromSeconds(samples::kStart + seconds);
+    steering_.publish(toSteering(0.2, stamp));
+    acceleration_.publish(toAcceleration({-6.0, 0.01}, stamp));
   }
 
   void sendTracks(const TrackArray& list) { tracks_.publish(list); }
@@ -40,6 +49,9 @@ class RiskHarness : public LabeledScanHarness {
 
  private:
   ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odometry", kQueue);
+  ros::Publisher steering_ = node_.advertise<sensor_msgs::JointState>("steering", kQueue);
+  ros::Publisher acceleration_ =
+      node_.advertise<geometry_msgs::AccelWithCovarianceStamped>("acceleration", kQueue);
   ros::Publisher tracks_ = node_.advertise<TrackArray>("tracks", kQueue);
   ros::Subscriber risks_ = node_.subscribe<RiskArray>(
       "risks", kQueue, [this](const RiskArrayConstPtr& risk) { risks.push_back(risk); });
@@ -113,6 +125,19 @@ TEST_F(RiskTest, InvalidTracksAreCounted) {
   harness_->sendTracks(tracks);
   EXPECT_TRUE(harness_->waitForCount("warned: bad_track", 1.0));
   now_ += kLongStep;
+}
+
+TEST_F(RiskTest, MeasuredSteeringAndBrakingChangeTheExpectedPath) {
+  const auto lengthOf = [](const RiskArray& risks) {
+    return risks.host_path.back().x - risks.host_path.front().x;
+  };
+  for (int i = 0; i < 5 && lengthOf(*harness_->risks.back()) > 3.0; ++i) {  // they may come late
+    harness_->sendDriver(now_);
+    ASSERT_NO_FATAL_FAILURE(step());
+  }
+  const RiskArray& last = *harness_->risks.back();
+  EXPECT_LT(lengthOf(last), 3.0) << "5 m/s at 6 m/s^2";
+  EXPECT_GT(last.host_path.back().theta, 0.05);
 }
 
 TEST_F(RiskTest, ALoopedBagStartsOver) {

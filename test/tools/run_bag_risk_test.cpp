@@ -7,6 +7,7 @@
 #include "run_bag_drive.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/convert/host_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 
 namespace datmo::run_bag_risk_test {
@@ -47,6 +48,32 @@ TEST_F(RiskRun, TheSensorSetConfiguresIt) {
   writeConfig("{risk: {methods: thesis}}");
   const std::string message = failure();
   EXPECT_NE(message.find("risk: methods"), std::string::npos) << message;
+}
+
+TEST_F(RiskRun, TheMeasuredBrakingOfTheHostIsUsed) {
+  const auto pathLength = [&] {
+    run();
+    rosbag::Bag bag(arguments_.output);
+    RiskArrayPtr last;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/risks"))) {
+      last = message.instantiate<RiskArray>();
+    }
+    return last->host_path.back().x - last->host_path.front().x;
+  };
+  EXPECT_NEAR(pathLength(), 4.0 * kSpeed, 1.0);
+  {
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
+    for (int i = 0; i < kScans; ++i) {
+      const Stamp stamp = kStart + i * kPeriod;
+      bag.write("/brakes", toTime(stamp), *toAcceleration({-6.0, 0.01}, stamp));
+    }
+  }
+  EXPECT_NEAR(pathLength(), 4.0 * kSpeed, 1.0) << "nobody has named it";
+  arguments_.remappings["/acceleration"] = "/brakes";
+  EXPECT_LT(pathLength(), 3.0);
+  arguments_.remappings["/acceleration"] = "/none";
+  std::filesystem::remove(arguments_.output);
+  EXPECT_NE(failure().find("AccelWithCovarianceStamped on /none"), std::string::npos);
 }
 
 TEST_F(RiskRun, WithoutTheSwitchThereAreNone) {

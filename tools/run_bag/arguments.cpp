@@ -32,6 +32,8 @@ const std::vector<std::string> kInputTopics = {
     "stations",
     "front_scan",
     "rear_scan",
+    "steering",
+    "acceleration",
 };
 
 const Choices<LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
@@ -59,7 +61,7 @@ constexpr char kFooter[] =
     "scan, cloud (of a 3D lidar, instead of scans), object_cloud (for --cloud-objects, with\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
     "point_velocities, left_image, right_image, left_camera_info, right_camera_info, radar, gnss,\n"
-    "stations, front_scan or rear_scan.\n"
+    "stations, front_scan, rear_scan, steering or acceleration.\n"
     "Exit code: 0 on success; 1 for an invalid command line, yaml file or bag, a missing topic,\n"
     "and when interrupted; 2 when all messages on a topic were rejected, no scan could be used or\n"
     "no tracks were published. After 1 and 2 no output bag is left.";

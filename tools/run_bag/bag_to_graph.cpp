@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
@@ -42,6 +43,8 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
   on<RadarScanMessage>(topics.radar, "radar");
   on<sensor_msgs::NavSatFix>(topics.v2x.gnss, "gnss");
   on<StationTracksMessage>(topics.v2x.stations, "stations");
+  on<sensor_msgs::JointState>(topics.host.steering, "steering");
+  on<geometry_msgs::AccelWithCovarianceStamped>(topics.host.acceleration, "acceleration");
   readSources(topics);
 }
 

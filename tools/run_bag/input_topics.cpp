@@ -6,7 +6,9 @@
 #include "camera_topics.h"
 #include "input_bag.h"
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
 
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/map_fusion_stage.h"
@@ -174,6 +176,25 @@ V2xTopics v2xTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   return topics;
 }
 
+/// The topic of an optional input, if the bag has it; one of another type only if the command line
+/// names it.
+template <typename Message>
+std::string optionalTopic(const rosbag::Bag& bag, const Arguments& arguments,
+                          const std::string& topic) {
+  const std::string name = arguments.inputTopic(topic);
+  const std::string type = ros::message_traits::datatype<Message>();
+  const bool asked = arguments.remappings.count("/" + topic) > 0;
+  if (asked && !holdsTopic(bag, name)) {
+    failForTopic(bag, "no " + type + " on " + name);
+  }
+  return asked || holdsTopic(bag, name, type) ? name : "";
+}
+
+HostTopics hostTopics(const rosbag::Bag& bag, const Arguments& arguments) {
+  return {optionalTopic<sensor_msgs::JointState>(bag, arguments, "steering"),
+          optionalTopic<geometry_msgs::AccelWithCovarianceStamped>(bag, arguments, "acceleration")};
+}
+
 }  // namespace
 
 std::vector<std::string> MotionTopics::all() const {
@@ -194,7 +215,7 @@ std::vector<std::string> InputTopics::all() const {
   for (const std::string& topic :
        {scan, echoes, cloud, object_cloud, stereo.points, stereo.velocities, stereo.left_image,
         stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info, radar,
-        v2x.gnss, v2x.stations}) {
+        v2x.gnss, v2x.stations, host.steering, host.acceleration}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -236,6 +257,9 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
   if (arguments.v2x) {
     topics.v2x = v2xTopics(bag, arguments);
+  }
+  if (arguments.risk) {
+    topics.host = hostTopics(bag, arguments);
   }
   if (arguments.mono) {
     topics.mono = monoTopics(bag, arguments);

@@ -51,6 +51,12 @@ struct MotionTopics {
   std::vector<std::string> all() const;
 };
 
+/// Those of what the host itself measures, for --risk; empty: not read.
+struct HostTopics {
+  std::string steering;
+  std::string acceleration;
+};
+
 /// The names that our inputs have in the bag.
 struct InputTopics {
   std::string scan;
@@ -63,6 +69,7 @@ struct InputTopics {
   MonoTopics mono;
   std::string radar;  ///< empty: not read
   V2xTopics v2x;
+  HostTopics host;
   std::map<std::string, std::string> grids;    ///< of sources that no stage provides: topic ->
                                                ///< source
   std::map<std::string, std::string> objects;  ///< the same for objects

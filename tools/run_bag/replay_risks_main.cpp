@@ -16,8 +16,10 @@
 #include "sensor_set.h"
 #include "yaml_options.h"
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
@@ -26,6 +28,9 @@
 namespace {
 
 using namespace datmo;  // NOLINT: a program
+
+using Steering = sensor_msgs::JointState;
+using Acceleration = geometry_msgs::AccelWithCovarianceStamped;
 
 constexpr char kStage[] = "risk";
 constexpr char kTruth[] = "/ground_truth/";
@@ -36,6 +41,8 @@ struct Arguments {
   std::string output;
   std::string config;
   std::string odometry = "/odometry";
+  std::string steering = "/steering";
+  std::string acceleration = "/acceleration";
   OptionValues overrides;
 };
 
@@ -45,8 +52,9 @@ Arguments parse(const std::vector<std::string>& words) {
   CommandLine line(
       "replay_risks",
       "Assesses the risks of a run of run_bag again, from its tracks, scans and borders and the\n"
-      "odometry of the drive, and writes /risks and the ground truth. With the run's options\n"
-      "the risks are the same bit for bit. Only for sensor sets with `motion: {source: odometry}`.",
+      "odometry, steering and acceleration of the drive, and writes /risks and the ground truth.\n"
+      "With the run's options the risks are the same bit for bit. Only for sensor sets with\n"
+      "`motion: {source: odometry}`.",
       "bags");
   line.addFile("RUN.bag", arguments.run, "output of run_bag, with the ground truth by --with-truth")
       ->required();
@@ -56,6 +64,10 @@ Arguments parse(const std::vector<std::string>& words) {
       ->required();
   line.addFile("--odometry", arguments.odometry, "its topic in DRIVE.bag (default /odometry)",
                "TOPIC");
+  line.addFile("--steering", arguments.steering, "its topic, if there is one (default /steering)",
+               "TOPIC");
+  line.addFile("--acceleration", arguments.acceleration,
+               "its topic, if there is one (default /acceleration)", "TOPIC");
   line.addRepeated("--set", overrides, "an option of the risk assessment, e.g. method=thesis",
                    "KEY=VALUE");
   line.read(words);
@@ -102,6 +114,8 @@ class Replay {
         output_(arguments.output) {
     // Messages of one time, in the order of the stage's inputs; in run_bag odometry precedes scans.
     on<nav_msgs::Odometry>(arguments.odometry, "odometry");
+    on<Steering>(arguments.steering, "steering");
+    on<Acceleration>(arguments.acceleration, "acceleration");
     on<RoadBorders>("/road_borders", "road_borders");
     on<LabeledScanMessage>("/labeled_scan", "labeled_scan");
     on<TrackArray>("/tracks", "tracks");
@@ -157,9 +171,16 @@ void replay(const Arguments& arguments) {
   }
   Replay replayed(arguments, run);
   rosbag::View results(run);
-  rosbag::View odometry(drive, rosbag::TopicQuery(arguments.odometry));
+  std::vector<std::string> topics{arguments.odometry};
+  if (holdsTopic(drive, arguments.steering, ros::message_traits::datatype<Steering>())) {
+    topics.push_back(arguments.steering);
+  }
+  if (holdsTopic(drive, arguments.acceleration, ros::message_traits::datatype<Acceleration>())) {
+    topics.push_back(arguments.acceleration);
+  }
+  rosbag::View motion(drive, rosbag::TopicQuery(topics));
   replayed.add(results);
-  replayed.add(odometry);
+  replayed.add(motion);
   replayed.finish();
 }
 

@@ -11,6 +11,7 @@
 #include "simulator/odometer.h"
 #include "simulator/stereo_camera.h"
 #include "simulator/traffic.h"
+#include "simulator/vehicle_sensors.h"
 #include "simulator/world.h"
 
 #include "datmo_fusion/common/options.h"
@@ -27,6 +28,7 @@ struct SimulationOptions {
   StereoCameraOptions stereo;
   ClassCameraOptions mono;
   OdometerOptions odometer;
+  VehicleSensorOptions vehicle_sensors;
   GroundTruthOptions ground_truth;
   TrafficOptions traffic;
 

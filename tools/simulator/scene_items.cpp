@@ -87,6 +87,7 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.group("stereo", [&] { stereo.visit(visitor); });
   visitor.group("mono", [&] { mono.visit(visitor); });
   visitor.group("odometer", [&] { odometer.visit(visitor); });
+  visitor.group("vehicle_sensors", [&] { vehicle_sensors.visit(visitor); });
   visitor.group("ground_truth", [&] { ground_truth.visit(visitor); });
   visitor.group("traffic", [&] { traffic.visit(visitor); });
 }

@@ -10,8 +10,10 @@
 #include "simulator/feature_flow.h"
 #include "simulator/simulation_messages.h"
 #include "simulator/stereo_messages.h"
+#include "simulator/vehicle_sensors.h"
 #include <tf2_msgs/TFMessage.h>
 
+#include "datmo_fusion/ros/convert/host_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/velocity_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -41,7 +43,8 @@ class Recording {
         bag_(bag),
         map_in_world_(scene.world.at(0.0).base),
         scanner_(scene.options.scanner, stream("scanner")),
-        odometer_(scene.options.odometer, stream("odometer")) {
+        odometer_(scene.options.odometer, stream("odometer")),
+        vehicle_sensors_(scene.options.vehicle_sensors, stream("vehicle_sensors")) {
     if (scene.options.stereo.enabled) {
       const auto seed = static_cast<std::uint64_t>(scene.options.seed);
       stereo_.emplace(scene.options.stereo, seed);
@@ -79,6 +82,10 @@ class Recording {
                                  [this](double time, Stamp stamp) { recordOdometry(time, stamp); }},
                                 {scene_.options.scanner.scan_rate,
                                  [this](double time, Stamp stamp) { recordScan(time, stamp); }}};
+    if (scene_.options.vehicle_sensors.enabled) {
+      sources.push_back({scene_.options.vehicle_sensors.rate,
+                         [this](double time, Stamp stamp) { recordCommand(time, stamp); }});
+    }
     if (stereo_) {
       sources.push_back({scene_.options.stereo.rate,
                          [this](double time, Stamp stamp) { recordStereo(time, stamp); }});
@@ -106,6 +113,13 @@ class Recording {
     transform.transforms.push_back(toTransform(odometry.pose.pose, stamp, "odom", "base_link"));
     write("/odometry", stamp, toMessage(odometry, stamp));
     write("/tf", stamp, transform);
+  }
+
+  void recordCommand(double time, Stamp stamp) {
+    const DriverCommand command = vehicle_sensors_.measure(scene_.world.at(time));
+    const double noise = scene_.options.vehicle_sensors.acceleration_noise;
+    write("/steering", stamp, *toSteering(command.steering, stamp));
+    write("/acceleration", stamp, *toAcceleration({command.acceleration, noise * noise}, stamp));
   }
 
   void recordScan(double time, Stamp stamp) {
@@ -164,6 +178,7 @@ class Recording {
   Pose2 map_in_world_;
   LaserScanner scanner_;
   Odometer odometer_;
+  VehicleSensors vehicle_sensors_;
   std::optional<StereoCamera> stereo_;
   std::optional<FeatureFlow> features_;
   std::optional<ClassCamera> mono_;

@@ -13,4 +13,8 @@ namespace datmo {
 /// the error message.
 CanSignal canSignalOf(const std::string& option, const std::string& file, const std::string& name);
 
+/// Returns the signal that an option specifies, as CanOptions describes it. `name`: of the option;
+/// `dbc`: the DBC file for names, empty: none. Throws OptionError.
+CanSignal canSignalFrom(const std::string& name, const std::string& text, const std::string& dbc);
+
 }  // namespace datmo

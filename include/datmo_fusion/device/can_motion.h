@@ -32,6 +32,7 @@ struct CanOptions {
   std::string yaw_rate;
   std::string steering;
   std::string direction;
+  std::string acceleration;
   std::string counter;
   std::string yaw_counter;
   CanYaw yaw_from = CanYaw::kSignal;
@@ -76,7 +77,7 @@ class CanMotion {
 
  private:
   /// What a signal measures; wheels from the front left one on.
-  enum Role { kSpeed, kYawRate, kSteering, kDirection, kWheel, kRoles = kWheel + 4 };
+  enum Role { kSpeed, kYawRate, kSteering, kDirection, kAcceleration, kWheel, kRoles = kWheel + 4 };
 
   struct Channel {
     CanSignal signal;
@@ -100,10 +101,15 @@ class CanMotion {
   bool isCounting(const CanFrame& frame);
   bool step(Counter& counter, std::uint64_t value);
   void read(Role role, const CanFrame& frame, Stamp stamp);
-  /// Returns the value if it is not older than `max_age`; otherwise warns and returns none.
+  /// Returns the value if there is one and it is not older than `max_age`.
+  std::optional<double> fresh(int role, Stamp stamp) const;
+  /// The same of a signal that there is; otherwise warns and returns none.
   std::optional<double> newest(int role, Stamp stamp) const;
   std::optional<double> speedAt(Stamp stamp) const;
   std::optional<double> yawRateAt(Stamp stamp, double speed) const;
+  /// Returns the angle of the front wheels, unless the yaw rate is derived from it: then it tells
+  /// nothing more.
+  std::optional<double> steeringAt(Stamp stamp) const;
 
   CanOptions options_;
   Warn warn_;

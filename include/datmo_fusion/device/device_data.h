@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -65,9 +66,11 @@ struct GroundVelocity {
 
 /// Motion of the vehicle, as reported on its bus.
 struct VehicleTwist {
-  double speed = 0.0;              ///< m/s, ahead
-  double yaw_rate = 0.0;           ///< rad/s, positive to the left; NaN: unknown
-  std::uint64_t other_frames = 0;  ///< on the bus so far that are not used
+  double speed = 0.0;                  ///< m/s, ahead
+  double yaw_rate = 0.0;               ///< rad/s, positive to the left; NaN: unknown
+  std::uint64_t other_frames = 0;      ///< on the bus so far that are not used
+  std::optional<double> steering;      ///< rad, of the front wheels, positive to the left
+  std::optional<double> acceleration;  ///< m/s^2, ahead
 };
 
 using DeviceData =

@@ -44,11 +44,11 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
                                              const HostFutureOptions& options);
 
 /// Possible futures of the host: it keeps its acceleration and its steering, or steers to the
-/// course of the road. Its acceleration varies about the current one (first-order Gauss-Markov). It
-/// sways about its course like a driver who keeps the lane: the deviation is pulled back, so that
-/// it stays within a lane however far the futures reach (critically damped, driven by white noise).
-/// The uncertainty of the course itself is a constant lateral acceleration, which leads away from
-/// it.
+/// course of the road. Its acceleration varies about the current one (first-order Gauss-Markov),
+/// and begins within the noise of that one if it is measured. It sways about its course like a
+/// driver who keeps the lane: the deviation is pulled back, so that it stays within a lane however
+/// far the futures reach (critically damped, driven by white noise). The uncertainty of the course
+/// itself is a constant lateral acceleration, which leads away from it.
 class HostFutures {
  public:
   /// `course`: the intended steering; none: the current one.

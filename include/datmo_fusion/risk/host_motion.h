@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/risk/box_contact.h"
 
 namespace datmo {
@@ -29,14 +31,30 @@ struct HostVehicleOptions {
 /// State of the host at one time: base_link in the fixed frame.
 struct HostState {
   Pose2 pose;
-  double speed = 0.0;         ///< m/s, forward; negative: it reverses
-  double steering = 0.0;      ///< rad, of the front wheels, positive to the left
-  double acceleration = 0.0;  ///< m/s^2, along the heading
+  double speed = 0.0;                        ///< m/s, forward; negative: it reverses
+  double steering = 0.0;                     ///< rad, of the front wheels, positive to the left
+  double acceleration = 0.0;                 ///< m/s^2, along the heading
+  std::optional<double> acceleration_sigma;  ///< m/s^2, of a measured one; none: it is not measured
 };
 
 /// Returns the steering angle (rad, within the vehicle's limits) that gives this yaw rate (rad/s).
 /// 0 for a vehicle that hardly moves: it cannot be observed.
 double steeringOf(double speed, double yaw_rate, const HostVehicleOptions& vehicle);
+
+/// Returns the variance of that angle, rad^2; infinite for a vehicle that hardly moves.
+/// `covariance`: of speed (m/s) and yaw rate (rad/s); only its diagonal is used.
+double steeringVariance(const Twist2& twist, const Eigen::Matrix2d& covariance,
+                        const HostVehicleOptions& vehicle);
+
+/// An estimate of one quantity.
+struct Estimate {
+  double value = 0.0;
+  double variance = 0.0;  ///< at least 0; infinite: nothing is known
+};
+
+/// Returns the mean of two independent estimates of one quantity, weighted by the inverse of their
+/// variances. That of `b` must be finite and more than 0.
+double combined(const Estimate& a, const Estimate& b);
 
 /// Inputs of the bicycle model, both constant over a step.
 struct HostCommand {

@@ -49,7 +49,8 @@ RiskStage::RiskStage(const Checked<RiskStageOptions>& options, StageMonitor& mon
       monitor_(monitor),
       assessor_(options->risk),
       runner_(monitor, options->input, "starts over", [this] { reset(); }),
-      host_(options->host_state, options->motion, options->frames, runner_) {}
+      host_(options->host_state, options->motion, options->frames, options->risk.vehicle, runner_) {
+}
 
 void RiskStage::reset() {
   assessor_.reset();
@@ -70,6 +71,14 @@ void RiskStage::takeLabeledScan(const LabeledScanMessage& message) {
 }
 
 void RiskStage::takeOdometry(const nav_msgs::Odometry& message) {
+  runner_.serve([&] { host_.take(message); });
+}
+
+void RiskStage::takeSteering(const sensor_msgs::JointState& message) {
+  runner_.serve([&] { host_.take(message); });
+}
+
+void RiskStage::takeAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message) {
   runner_.serve([&] { host_.take(message); });
 }
 
@@ -105,7 +114,7 @@ RiskArrayPtr RiskStage::takeTracks(const TrackArray& message) {
     RiskInput input;
     input.tracks = fromMessage(message);
     input.stamp = input.tracks.stamp;
-    input.host = host_.at(input.stamp, options_.risk.vehicle);
+    input.host = host_.at(input.stamp);
     if (message.header.frame_id != map_frame_) {
       throw InputError("wrong_frame", "tracks in '" + message.header.frame_id + "': expected '" +
                                           map_frame_ + "', the map of labeled_scan");
@@ -152,6 +161,11 @@ void RiskStage::connect(StagePorts& ports) {
         options_.motion.odometryTopic(),
         [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
   }
+  ports.optionalIn<sensor_msgs::JointState>(
+      "steering", [this](const auto& steering, Stamp /*now*/) { takeSteering(*steering); });
+  ports.optionalIn<geometry_msgs::AccelWithCovarianceStamped>(
+      "acceleration",
+      [this](const auto& acceleration, Stamp /*now*/) { takeAcceleration(*acceleration); });
   if (options_.road_borders) {
     ports.in<RoadBorders>(
         "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });

@@ -219,6 +219,32 @@ TEST_F(CanMotionTest, TheSteeringGivesTheYawRateOfABicycle) {
   EXPECT_NEAR(motion->twist.yaw_rate, 10.0 * std::tan(5.0 * kDegree) / 2.5, 1e-9);
 }
 
+TEST_F(CanMotionTest, SteeringAndAccelerationComeWithTheMotion) {
+  options_.steering = "0x1D0 7|16@0- (0.1,0) [-720|720] \"deg\"";
+  options_.acceleration = "0x1E0 0|8@1- (0.01,0) [-1|1] \"g\"";
+  options_.steering_ratio = 16.0;
+  const auto without = takeBoth(1.0, 0.0);
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(without->twist.steering);
+  EXPECT_FALSE(without->twist.acceleration);
+  take(canFrame(0x1D0, {0x03, 0x20}));  // 80 deg: 5 deg of the road wheels
+  take(canFrame(0x1E0, {0xCE}));        // -50
+  const auto motion = take(speedFrame(10.0, counter_++));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->twist.steering.value(), 5.0 * kDegree, 1e-9);
+  EXPECT_NEAR(motion->twist.acceleration.value(), -0.5 * 9.80665, 1e-9);
+}
+
+TEST_F(CanMotionTest, ASteeringThatGivesTheYawRateTellsNothingMore) {
+  options_.steering = "0x1D0 7|16@0- (0.1,0) [-720|720] \"deg\"";
+  options_.yaw_from = CanYaw::kSteering;
+  takeBoth(1.0, 0.0);
+  take(canFrame(0x1D0, {0x03, 0x20}));
+  const auto motion = take(speedFrame(10.0, counter_++));
+  ASSERT_TRUE(motion);
+  EXPECT_FALSE(motion->twist.steering);
+}
+
 TEST_F(CanMotionTest, OptionsThatDoNotFitAreRefusedByName) {
   EXPECT_EQ(refusal(), "none");
   options_.yaw_rate.clear();

@@ -67,6 +67,32 @@ TEST(HostFutures, AnAccelerationThatVariesLeadsLessFarThanOneThatStays) {
   EXPECT_NEAR(spreadAt(20, options).along, 3.2, 0.35);
 }
 
+TEST(HostFutures, AMeasuredAccelerationBeginsWithItsOwnNoise) {
+  constexpr std::size_t kStep = 2;  // 0.4 s: hardly any time for the driver to vary it
+  HostFutureOptions options = onlyLane();
+  options.lane_deviation = 0.0;
+  options.acceleration_spread = 0.5;
+  HorizonOptions horizon;
+  horizon.futures = 2000;
+  const auto spread = [&](std::optional<double> sigma) {
+    HostState host;
+    host.speed = kSpeed;
+    host.acceleration = -6.0;
+    host.acceleration_sigma = sigma;
+    const HostVehicleOptions vehicle;
+    const HostFutures futures(host, std::nullopt, vehicle, options, horizon, RandomDraws(1));
+    // 10^2 / (2 6) m
+    EXPECT_NEAR(futures.nominal().poses.back().center.x() - vehicle.middleAhead(), 8.33, 0.1);
+    double sum = 0.0;
+    for (const BodyPath& path : futures.paths()) {
+      sum += std::pow(path.poses[kStep].center.x() - futures.nominal().poses[kStep].center.x(), 2);
+    }
+    return std::sqrt(sum / static_cast<double>(futures.paths().size()));
+  };
+  EXPECT_NEAR(spread(std::nullopt), 0.5 * 0.5 * 0.4 * 0.4, 0.01);
+  EXPECT_LT(spread(0.05), 0.7 * spread(std::nullopt));
+}
+
 // More than half a turn within the horizon, to either side.
 TEST(HostFutures, CurvatureIsThatOfTheCircleDriven) {
   constexpr double kRadius = 5.5;  // m, at 4.5 m/s^2, less than what tires hold

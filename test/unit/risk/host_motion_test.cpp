@@ -2,6 +2,7 @@
 #include "datmo_fusion/risk/host_motion.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,32 @@ TEST(Steering, IsThatOfTheYawRate) {
   EXPECT_NEAR(steeringOf(-5.0, -5.0 * std::tan(0.2) / kVehicle.wheelbase, kVehicle), 0.2, 1e-12);
   EXPECT_EQ(steeringOf(0.1, 0.5, kVehicle), 0.0);
   EXPECT_EQ(steeringOf(1.0, 10.0, kVehicle), kVehicle.max_steering);
+}
+
+TEST(Steering, TheFasterTheMoreTheYawRateTells) {
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  covariance(1, 1) = 0.02 * 0.02;
+  const auto sigma = [&](double speed) {
+    return std::sqrt(steeringVariance({speed, 0.0}, covariance, kVehicle));
+  };
+  EXPECT_NEAR(sigma(10.0), 2.7 / 10.0 * 0.02, 1e-12);
+  EXPECT_NEAR(sigma(-2.0), 2.7 / 2.0 * 0.02, 1e-12);
+  EXPECT_TRUE(std::isinf(sigma(0.1)));
+}
+
+// Against the difference of two angles.
+TEST(Steering, TheErrorOfTheSpeedCountsInABend) {
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  covariance(0, 0) = 0.01 * 0.01;
+  const double change = steeringOf(5.01, 0.5, kVehicle) - steeringOf(5.0, 0.5, kVehicle);
+  EXPECT_NEAR(std::sqrt(steeringVariance({5.0, 0.5}, covariance, kVehicle)), std::abs(change),
+              1e-6);
+}
+
+TEST(Combined, IsWeightedByTheInverseOfTheVariances) {
+  EXPECT_NEAR(combined({0.1, 0.03}, {0.5, 0.01}), 0.4, 1e-12);
+  EXPECT_EQ(combined({0.1, std::numeric_limits<double>::infinity()}, {0.5, 0.01}), 0.5);
+  EXPECT_EQ(combined({0.1, 0.0}, {0.5, 0.01}), 0.1);
 }
 
 RoadModel roadAlong(const std::vector<Point2>& points, double probability = 0.9) {

@@ -54,7 +54,7 @@ TEST(DeviceConversionTest, APositionIsConvertedAndAMissingOneRefused) {
 }
 
 TEST(DeviceConversionTest, AVehiclesTwistIsInItsOwnFrame) {
-  const auto message = toMessage(VehicleTwist{-2.0, 0.1, 0}, kStamp, "laser");
+  const auto message = toMessage(VehicleTwist{-2.0, 0.1, 0, {}, {}}, kStamp, "laser");
   EXPECT_EQ(toStamp(message->header.stamp), kStamp);
   EXPECT_TRUE(message->header.frame_id.empty());
   EXPECT_EQ(message->twist.linear.x, -2.0);

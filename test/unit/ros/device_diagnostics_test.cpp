@@ -74,7 +74,7 @@ TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
 TEST_F(DeviceDiagnosticsTest, OfABusTheRateAndTheGapsAreReported) {
   diagnostics_.connected("a bus", now_);
   DeviceMeasurement twist;
-  twist.data = VehicleTwist{1.0, 0.0, 42};
+  twist.data = VehicleTwist{1.0, 0.0, 42, {}, {}};
   for (int i = 0; i < 10; ++i) {
     const double time = 0.02 * i + (i > 4 ? 0.3 : 0.0);
     twist.stamp = now_ + time;

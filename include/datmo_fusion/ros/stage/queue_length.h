@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -28,6 +29,7 @@ constexpr std::uint32_t queueLength() {
   if constexpr (is_any_of(std::is_same_v<Message, nav_msgs::Odometry>,
                           std::is_same_v<Message, sensor_msgs::Imu>,
                           std::is_same_v<Message, sensor_msgs::JointState>,
+                          std::is_same_v<Message, geometry_msgs::AccelWithCovarianceStamped>,
                           std::is_same_v<Message, geometry_msgs::TwistStamped>,
                           std::is_same_v<Message, geometry_msgs::TwistWithCovarianceStamped>)) {
     return 200;

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/JointState.h>
 
 #include "datmo_fusion/risk/risk_assessor.h"
 #include "datmo_fusion/ros/convert/messages.h"
@@ -34,6 +36,7 @@ struct RiskStageOptions {
 
 /// Runs RiskAssessor on messages, for both the nodelet and the bag runner. Each list of tracks
 /// yields one list of risks at its stamp, with the newest labeled scan, odometry and borders.
+/// Steering and acceleration of the host may be measured as well (HostInput).
 ///
 /// Without odometry the host's motion is from its poses, which is reported. Tracks that are
 /// invalid, unseen for too long or too many are dropped and reported. The state is reset when the
@@ -47,6 +50,8 @@ class RiskStage : public Stage {
 
   void takeLabeledScan(const LabeledScanMessage& message);
   void takeOdometry(const nav_msgs::Odometry& message);
+  void takeSteering(const sensor_msgs::JointState& message);
+  void takeAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message);
   void takeRoadBorders(const RoadBorders& message);
 
   /// Null if the message was dropped.

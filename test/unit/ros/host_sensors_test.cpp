@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The risk stage with measured steering and acceleration of the host.
+#include <cmath>
+#include <limits>
+
+#include "labeled_scan_samples.h"
+#include "monitor_counts.h"
+#include "risk_samples.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/risk_stage.h"
+
+namespace datmo::host_sensors_test {
+namespace {
+
+/// A drive straight ahead at 5 m/s according to the odometry, without any track.
+class HostSensorsTest : public testing::Test {
+ protected:
+  void steeringAt(double seconds, double angle) {
+    sensor_msgs::JointState message;
+    message.header.stamp = ros::Time(samples::kStart + seconds);
+    message.position = {angle};
+    stage_.takeSteering(message);
+  }
+
+  void accelerationAt(double seconds, double along) {
+    geometry_msgs::AccelWithCovarianceStamped message;
+    message.header.stamp = ros::Time(samples::kStart + seconds);
+    message.header.frame_id = "base_link";
+    message.accel.accel.linear.x = along;
+    message.accel.covariance[0] = 0.01;
+    stage_.takeAcceleration(message);
+  }
+
+  /// The host's expected path: from the center of its outline now to that 4 s later.
+  std::vector<geometry_msgs::Pose2D> pathAt(double seconds) {
+    stage_.takeOdometry(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
+    stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
+    TrackArray none = samples::standingCar(seconds, 50.0);
+    none.tracks.clear();
+    const RiskArrayPtr risks = stage_.takeTracks(none);
+    EXPECT_NE(risks, nullptr);
+    return risks->host_path;
+  }
+
+  static double lengthOf(const std::vector<geometry_msgs::Pose2D>& path) {
+    return std::hypot(path.back().x - path.front().x, path.back().y - path.front().y);
+  }
+
+  StageMonitor monitor_{"risk"};
+  RiskStage stage_{RiskStageOptions(), monitor_};
+};
+
+TEST_F(HostSensorsTest, AHostThatBrakesStopsSooner) {
+  EXPECT_NEAR(lengthOf(pathAt(0.0)), 20.0, 0.01);
+  accelerationAt(0.1, -6.0);
+  // 5^2 / (2 6) m, although the odometry shows no braking yet; the last step of the model stops.
+  EXPECT_NEAR(lengthOf(pathAt(0.1)), 2.08, 0.1);
+}
+
+TEST_F(HostSensorsTest, ASteeringAngleTurnsThePathAtOnce) {
+  constexpr double kAngle = 0.2;
+  steeringAt(0.0, kAngle);
+  const auto path = pathAt(0.0);
+  // Yaw rate 0 +- 0.02 rad/s at 5 m/s and a wheelbase of 2.7 m: 0.0108 rad; the angle itself 0.01.
+  const double weight = 0.0108 * 0.0108 / (0.0108 * 0.0108 + 0.01 * 0.01);
+  const double yaw_rate = 5.0 * std::tan(weight * kAngle) / 2.7;
+  EXPECT_NEAR(path[5].theta - path[0].theta, yaw_rate, 1e-3) << "in 1 s";
+  EXPECT_GT(path[5].y, 0.2);
+}
+
+TEST_F(HostSensorsTest, ASlowHostHasTheSteeringThatIsMeasured) {
+  steeringAt(0.0, 0.2);
+  stage_.takeOdometry(samples::odometry(samples::kStart, 0.6));
+  stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(0.0), "base_link", "map"));
+  TrackArray none = samples::standingCar(0.0, 50.0);
+  none.tracks.clear();
+  const auto path = stage_.takeTracks(none)->host_path;
+  // At 0.6 m/s the yaw rate tells 0.09 rad: hardly anything.
+  EXPECT_NEAR(path.back().theta, 4.0 * 0.6 * std::tan(0.2) / 2.7, 0.01);
+}
+
+TEST_F(HostSensorsTest, StaleInputsFallBackToOdometryAndAreReported) {
+  steeringAt(0.0, 0.2);
+  accelerationAt(0.0, -6.0);
+  EXPECT_LT(lengthOf(pathAt(0.4)), 3.0);
+  EXPECT_EQ(monitor_.warningCount(), 0U);
+  const auto path = pathAt(0.6);
+  EXPECT_NEAR(lengthOf(path), 20.0, 0.01);
+  EXPECT_NEAR(path.back().theta, 0.0, 1e-9);
+  EXPECT_EQ(samples::warnings(monitor_, "old_steering"), 1U);
+  EXPECT_EQ(samples::warnings(monitor_, "old_acceleration"), 1U);
+}
+
+TEST_F(HostSensorsTest, InputsThatNeverCameAreNotMissed) {
+  pathAt(0.0);
+  EXPECT_EQ(monitor_.warningCount(), 0U);
+}
+
+TEST_F(HostSensorsTest, BadMessagesAreCountedAndNotUsed) {
+  steeringAt(0.0, 8.0);
+  accelerationAt(0.0, std::numeric_limits<double>::quiet_NaN());
+  steeringAt(0.02, 0.0);
+  steeringAt(0.01, 0.2);
+  EXPECT_EQ(samples::drops(monitor_, "bad_steering"), 1U);
+  EXPECT_EQ(samples::drops(monitor_, "bad_acceleration"), 1U);
+  EXPECT_EQ(samples::drops(monitor_, "old_stamp"), 1U);
+  EXPECT_NEAR(lengthOf(pathAt(0.1)), 20.0, 0.01);
+}
+
+TEST_F(HostSensorsTest, AClockJumpBackForgetsThem) {
+  steeringAt(20.0, 0.2);
+  accelerationAt(20.0, -6.0);
+  pathAt(20.0);
+  EXPECT_NEAR(lengthOf(pathAt(0.0)), 20.0, 0.01);
+  EXPECT_EQ(samples::warnings(monitor_, "old_steering"), 0U);
+}
+
+}  // namespace
+}  // namespace datmo::host_sensors_test
