@@ -71,6 +71,7 @@ class ListWithTruth(NamedTuple):
     objects: list  # of Seen
     truths: list  # of TrueState
     viewpoint: tuple = (0.0, 0.0)  # of the sensor, m
+    stamp: int = 0  # ns
 
 
 def score_lists(lists):
@@ -88,7 +89,7 @@ def score_lists(lists):
 
 def _distances(given):
     """Returns scaled_distance of each object from each true one; infinite: surely not near."""
-    objects, truths, viewpoint = given
+    objects, truths, viewpoint = given.objects, given.truths, given.viewpoint
     distances = np.full((len(objects), len(truths)), np.inf)
     positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
     velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
@@ -121,7 +122,7 @@ def _along_gate(point, viewpoint):
 
 def _costs(given, distances):
     """Returns the distances of what is near, ordered by centers if they are equal; else infinite."""
-    objects, truths, _ = given
+    objects, truths = given.objects, given.truths
     centers = [[np.hypot(*(item.pose[:2] - truth.pose[:2])) for truth in truths] for item in objects]
     costs = distances + CENTER_WEIGHT * np.reshape(centers, distances.shape)
     return np.where(distances <= 1.0, costs, np.inf)
