@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All steps of scripts/figures: those for README first, those that need an idle machine last."""
 
-from datmo_tools.figures import cameras, data_sets, measurements, recordings, risk
+from datmo_tools.figures import cameras, data_sets, measurements, mono, recordings, risk
 from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
@@ -23,6 +23,8 @@ STEPS = (
          cameras.grid_jobs, by_name),
     Step("stereo_grids", "stereo grids against the Velodyne", "evaluate stereo_grids",
          cameras.stereo_grid_jobs, only, (recordings.DRIVE_0005,)),
+    Step("mono", "a single camera: classes, tracks and grids", "run_bag --mono, evaluate classes",
+         mono.jobs, mono.figures, (recordings.DRIVE_0005,)),
     Step("risk", "risk of contact: encounters by all methods, false warnings", "scripts/encounters",
          risk.jobs, risk.figures),
     Step("robustness", "pose among moving vehicles", "scripts/robustness --seeds 5",
