@@ -7,7 +7,9 @@ import unittest
 import numpy as np
 import yaml
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.box_crops import Box
 from datmo_tools.evaluate.calibrate_classes import as_yaml, curve, mistaken, rising
+from datmo_tools.evaluate.class_mistakes import worst
 from datmo_tools.evaluate.class_tally import (
     NOTHING,
     Report,
@@ -19,10 +21,12 @@ from datmo_tools.evaluate.class_tally import (
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState, score_lists
 from datmo_tools.evaluate.truth import Region
+from datmo_tools.pose_path import PosePath
 
 from datmo_fusion.msg import Object
 
 CAR = np.array([4.0, 2.0])
+STANDING = PosePath([0, 10], [(100.0, 0.0, 0.0)] * 2)
 
 
 def seen(x, classification, probability=0.8):
@@ -43,10 +47,11 @@ class Tally(unittest.TestCase):
                    seen(30.0, Object.CLASS_VEHICLE), seen(40.0, Object.CLASS_UNKNOWN),
                    seen(90.0, Object.CLASS_VEHICLE)]  # fmt: skip
         truths = [true(10.0, Object.CLASS_VEHICLE), true(20.0, Object.CLASS_CYCLIST)]
-        score = score_lists([ListWithTruth(objects, truths)])[0]
-        found = reports_of(objects, truths, score, Region(50.0))
+        judged = ListWithTruth(objects, truths, stamp=5)
+        found = reports_of(judged, score_lists([judged])[0], Region(50.0), STANDING)
         self.assertEqual([(item.said, item.true) for item in found],
                          [("vehicle", "vehicle"), ("pedestrian", "cyclist"), ("vehicle", NOTHING)])
+        self.assertEqual((found[1].stamp, found[1].box.pose.tolist()), (5, [120.0, 0.0, 0.0]))
 
     def test_confusion_is_by_range(self):
         near = reports(3, 1, 0.9, instead="cyclist")
@@ -65,6 +70,27 @@ class Tally(unittest.TestCase):
 
     def test_a_list_without_classes_has_no_sections(self):
         self.assertEqual(class_sections({"calibration": []}), [])
+
+
+class Mistakes(unittest.TestCase):
+    def report(self, said, true, probability, x=0.0, true_id=None):
+        return Report(said, probability, true, 10.0, 0, Box(np.array([x, 0.0, 0.0]), (1.0, 1.0, 1.0), np.zeros(2)),
+                      true_id=true_id)  # fmt: skip
+
+    def test_wrong_classes_come_first_and_the_most_confident_of_each(self):
+        found = worst([self.report("vehicle", NOTHING, 0.9), self.report("vehicle", "cyclist", 0.3, true_id=1),
+                       self.report("vehicle", "cyclist", 0.5, true_id=2), self.report("cyclist", "cyclist", 0.9)], 9)
+        self.assertEqual([item.probability for item in found], [0.5, 0.3, 0.9])
+
+    def test_one_thing_is_one_mistake(self):
+        """Of one object and class, or at one place."""
+        found = worst([self.report("vehicle", "cyclist", 0.3, 0.0, 1), self.report("vehicle", "cyclist", 0.5, 9.0, 1),
+                       self.report("pedestrian", "cyclist", 0.2, 0.0, 1), self.report("vehicle", NOTHING, 0.9, 0.0),
+                       self.report("vehicle", NOTHING, 0.8, 1.5), self.report("vehicle", NOTHING, 0.7, 4.0)], 9)
+        self.assertEqual([item.probability for item in found], [0.5, 0.2, 0.9, 0.7])
+
+    def test_what_the_truth_does_not_know_is_no_mistake(self):
+        self.assertEqual(worst([self.report("vehicle", "unknown", 0.9, true_id=1)], 9), [])
 
 
 class Calibrate(unittest.TestCase):

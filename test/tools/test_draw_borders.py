@@ -9,11 +9,12 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from datmo_tools.evaluate.border_images import draw_image, read_images
+from datmo_tools.evaluate.border_images import draw_image
 from datmo_tools.evaluate.border_lists import SeenBorder
 from datmo_tools.evaluate.border_recordings import Run, edge
 from datmo_tools.evaluate.outlines import corners
 from datmo_tools.evaluate.border_views import FAINTEST, line_style, opacity, title
+from datmo_tools.evaluate.camera_images import read_images
 from datmo_tools.evaluate.draw_borders import main
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.nearest_messages import nearest_messages, stamps_of
@@ -132,9 +133,9 @@ class Images(Folder):
         write_images(self.drive)
         image = read_images(self.drive, CAMERA, [START])[START]
         self.assertEqual(image.stamp, START + STEP // 4)
-        self.assert_points(image.seen(np.array([(10.0, 2.0), (20.0, -4.0)])),
+        self.assert_points(image.camera.road_pixels(np.array([(10.0, 2.0), (20.0, -4.0)])),
                            [(30.0, 55.0), (70.0, 47.5)])  # fmt: skip
-        self.assertTrue(np.isnan(image.seen(np.array([(0.5, 0.0), (-10.0, 0.0)]))).all())
+        self.assertTrue(np.isnan(image.camera.road_pixels(np.array([(0.5, 0.0), (-10.0, 0.0)]))).all())
 
     def test_each_stamp_has_its_image(self):
         write_images(self.drive)

@@ -80,15 +80,6 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(self.evaluate(bag, "--attainable", "drive.bag")[0], 0)
         self.assertEqual(self.calls(), [[str(bag), "--attainable", "drive.bag", "--out"]])
 
-    def test_classes(self):
-        code, out, _ = self.evaluate(self.bag("a.bag"), subcommand="classes")
-        self.assertEqual(code, 0)
-        rows = [line.split() for line in out.splitlines()]
-        self.assertIn(["pedestrian", "75.0", "4", "0"], rows)
-        self.assertIn(["all", "75.0", "8", "1"], rows)
-        report = json.loads((self.out / "classes.json").read_text())
-        self.assertEqual(report["runs"][0]["classes"]["right"], 6)
-
     def test_truth_and_options_are_passed_on(self):
         bag = self.bag("a.bag")
         options = ["--options", "o.yaml", "--set", "region/range=30", "--set", "align=none"]

@@ -10,6 +10,7 @@ from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.convert import kitti_messages
 from datmo_tools.convert.kitti_calibration import Camera
+from datmo_tools.evaluate import camera_images
 from datmo_tools.evaluate.free_cells import Image, count
 from datmo_tools.evaluate.grid_scores import Grid
 from evaluate_case import EvaluateCase
@@ -23,8 +24,8 @@ START = 1000 * 10**9
 # the road; the road is in the image from 1.7 * 100 / 50 = 3.4 m on.
 OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 MOUNT = transforms.rigid(OPTICAL, [0.0, 0.0, 1.7])
-PROJECTION = np.array([[100.0, 0.0, 100.0], [0.0, 100.0, 50.0], [0.0, 0.0, 1.0]])
-IMAGE = Image(MOUNT, PROJECTION, (201, 100))
+PROJECTION = np.array([[100.0, 0.0, 100.0, 0.0], [0.0, 100.0, 50.0, 0.0], [0.0, 0.0, 1.0, 0.0]])
+IMAGE = Image(camera_images.Camera(transforms.inverse(MOUNT), PROJECTION), (201, 100))
 
 # 60 x 40 cells of half a meter, ahead of the vehicle.
 ROWS, COLUMNS, CELL = 40, 60, 0.5
@@ -70,14 +71,13 @@ class Tool(EvaluateCase):
         velodyne = transforms.rigid(np.eye(3), [0.0, 0.0, 1.73])
         mounts = ((kitti_messages.VELODYNE, velodyne), (kitti_messages.LEFT_CAMERA, MOUNT))
         road = [(x + 0.25, y + 0.25, -1.73, 0.0) for x in range(3, 40) for y in range(-8, 8)]
-        projection = np.column_stack([PROJECTION, np.zeros(3)])
         with whole_bag(self.folder / "drive.bag", "test") as bag:
             bag.write("/tf_static", START, TFMessage([
                 bag_messages.transform(START, "base_link", frame, mount,
                                        transforms.quaternion_of(mount[:3, :3]))
                 for frame, mount in mounts]))  # fmt: skip
             bag.write("/stereo/left/camera_info", START,
-                      kitti_messages.camera_info(START, Camera(projection, 201, 100)))  # fmt: skip
+                      kitti_messages.camera_info(START, Camera(PROJECTION, 201, 100)))  # fmt: skip
             for stamp in (START, START + 10**8):
                 bag.write("/ground_truth/pose", stamp, bag_messages.planar_odometry(
                     stamp, "map", "base_link", np.zeros(3), 0.0, 0.0))  # fmt: skip

@@ -87,6 +87,23 @@ class Pages(InFolder):
         self.assertIn("| a fifth is gone | 9 | 7 | 3 | 2 | 9 | 2, 2 |", page)
         self.assertNotIn("Velodyne", page)
 
+    def test_a_single_camera_with_and_without_a_network(self):
+        scored = {"right": {kind: {"0 to 10 m": [3, 4]} for kind in ("vehicle", "cyclist", "pedestrian")},
+                  "reported": 9, "on_nothing": 2, "calibration": [[0.8, 0.7, 9]]}  # fmt: skip
+        run = {"mota": 0.883, "id_switches": 0, "false_movers_per_frame": 0.01, "delay_mean_s": 0.31,
+               "brief": {"objects": 3, "found": 1}, "class_right": {"cyclist": 1.0, "vehicle": 0.99},
+               "tracks": scored}  # fmt: skip
+        grids = {"mono": {"5 to 10 m": {"precision": 0.997, "recall": 0.69}}}
+        without = self.pages(mono={"runs": {"2": {"none": run}}, "grids": grids})["doc/results.md"]
+        self.assertIn("| 2 deg | none | 88.3 | 0 | 0.01 | 1 of 3 | 0.31 | 100.0, 99.0 |", without)
+        self.assertIn("| `/grids/mono` | 99.7, 69.0 |", without)
+        self.assertNotIn("YOLOX", without)
+        runs = {"2": {"none": run, "dnn": {**run, "objects": scored}}}
+        with_network = self.pages(mono={"runs": runs, "grids": grids})["doc/results.md"]
+        self.assertIn("| cyclist | 75 of 4 |", with_network)
+        self.assertIn("Of 9 classified objects 2 are", with_network)
+        self.assertIn("| tracks | 80 | 70 | 9 |", with_network)
+
     def test_risks_by_tracks_and_method(self):
         methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
         traffic = {"warnings": 8, "seconds": 410.0}

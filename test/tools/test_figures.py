@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import cameras, data_sets, maps, results_file, risk
+from datmo_tools.figures import cameras, data_sets, maps, mono, results_file, risk
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
@@ -117,6 +117,42 @@ class MapFigures(unittest.TestCase):
         self.assertEqual([row.get("leave_out") for row in changed["rows"]], [[1], [], [1]])
         self.assertEqual(scene["rows"][0]["leave_out"], [1])
         self.assertEqual(changed["speed"], 8)
+
+
+class MonoFigures(InFolder):
+    def jobs(self):
+        """Returns the names of the jobs, and what is printed."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            found = mono.jobs(Bench(ROOT, self.folder, self.folder, self.folder / "data", (1,)))
+        return {job.name for job in found}, said.getvalue()
+
+    def test_the_network_is_left_out_if_its_file_is_missing(self):
+        names, said = self.jobs()
+        self.assertEqual(names, {"grids", "none_1", "none_2", "hog_1", "hog_2"})
+        self.assertRegex(said, "mono: dnn left out, .*yolox_nano.onnx is not there")
+        model = self.folder / mono.MODEL
+        model.parent.mkdir(parents=True)
+        model.write_text("")
+        names, said = self.jobs()
+        self.assertEqual((len(names), said), (7, ""))
+
+    def test_runs_are_by_resolution_and_detector(self):
+        found = mono.figures([("dnn", 1, "a"), ("grids", None, "b"), ("none", 1, "c"), ("none", 2, "d")])
+        self.assertEqual(found, {"runs": {"2": {"none": "d"}, "1": {"none": "c", "dnn": "a"}}, "grids": "b"})
+        self.assertEqual([list(run) for run in found["runs"].values()], [["none"], ["none", "dnn"]])
+
+    def test_classes_by_range(self):
+        def row(vehicle, cyclist):
+            return {"vehicle": vehicle, "cyclist": cyclist, "pedestrian": 0}
+
+        table = {"vehicle": row(8, 2), "cyclist": row(1, 3), "pedestrian": row(0, 0), "nothing": row(4, 0)}
+        found = mono.class_figures({"bands_m": [[0.0, 10.0]], "confusion": [table],
+                                    "calibration": [{"said": 0.8, "right": 0.7, "count": 18}]})  # fmt: skip
+        self.assertEqual(found["right"], {"vehicle": {"0 to 10 m": [8, 10]}, "cyclist": {"0 to 10 m": [3, 4]},
+                                          "pedestrian": {"0 to 10 m": [0, 0]}})  # fmt: skip
+        self.assertEqual((found["reported"], found["on_nothing"]), (18, 4))
+        self.assertEqual(found["calibration"], [[0.8, 0.7, 18]])
 
 
 class Pass(InFolder):

@@ -100,7 +100,7 @@ def _reports(run, drive, topic, region):
         raise InputError(f"{run}: nothing on {topic}, expected a bag of run_bag --mono")
     judged = truth.beside(lists, Asked(region, NONE))
     return [report for item, score in zip(judged, score_lists(judged))
-            for report in reports_of(item.objects, item.truths, score, region)]  # fmt: skip
+            for report in reports_of(item, score, region, truth.path)]  # fmt: skip
 
 
 def _run(values):

@@ -22,8 +22,8 @@ Measures the errors of a stereo camera's objects in range and bearing, by range 
 From bags with the objects of both sensors (run_bag --object-fusion) it pairs the lidar's objects
 that are tracked as moving (parts of stationary objects may be missing because of the map) with the
 camera's, by their near sides (thesis 3.3.2), predicted to one time by the vehicle's poses and the
-tracks' velocities: each one the other's nearest within 1 m across the line of sight, and within 1
-m, or 5 m x range / 36 m if that is more, along it, with compatible classes and sizes. The
+tracks' velocities: one to one, as score_run matches, within 1 m across the line of sight, and
+within 1 m, or 5 m x range / 36 m if that is more, along it, with compatible classes and sizes. The
 comparison is of what both saw: the near side along the line of sight, and the bearings of its
 corners.
 

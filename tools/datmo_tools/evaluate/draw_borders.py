@@ -7,6 +7,7 @@ import numpy as np
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.camera_images import CAMERA, read_images
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
@@ -22,7 +23,6 @@ displaced accordingly. A border is fainter the less probable it is."""
 PERIOD = 5.0  # s
 HISTORY = 3.0  # s
 ROWS = 4
-CAMERA = "/stereo/left"
 
 
 def main(arguments=None):
@@ -35,7 +35,6 @@ def _run(values):
     # Matplotlib is not needed for --help.
     try:
         # pylint: disable=import-outside-toplevel
-        from datmo_tools.evaluate.border_images import read_images
         from datmo_tools.evaluate.border_recordings import Run
         from datmo_tools.evaluate.border_sheets import sheets
         from datmo_tools.evaluate.plot_style import KINDS

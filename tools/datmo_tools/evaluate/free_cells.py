@@ -11,11 +11,11 @@ from datmo_tools.convert import kitti_scans
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate import cloud_grids, road_plane
 from datmo_tools.evaluate.arguments import add_grids
+from datmo_tools.evaluate.camera_images import Camera, camera_of
 from datmo_tools.evaluate.cloud_grids import CLOUDS
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
-    mount_of,
     mounts_of,
 )
 from datmo_tools.evaluate.grid_scores import UNDECIDED
@@ -41,20 +41,15 @@ SUMS = ((0.0, 20.0), (0.0, BAND_EDGES[-1]))
 class Image(NamedTuple):
     """What an image shows of the road."""
 
-    camera_in_base: np.ndarray  # 4 x 4, of the optical frame
-    projection: np.ndarray  # 3 x 3
+    camera: Camera
     size: tuple  # px: columns, rows
 
     def ranges(self, points):
         """Returns ground distances (n, m) of road points (n x 2, base_link); inf: not in view."""
-        on_road = np.column_stack([points, np.zeros(len(points))])
-        seen = transforms.apply(transforms.inverse(self.camera_in_base), on_road)
-        ahead = seen[:, 2] > 0.0
-        pixels = seen @ self.projection.T
-        pixels = pixels[:, :2] / np.where(ahead, pixels[:, 2], 1.0)[:, np.newaxis]
-        inside = ahead & np.all((pixels >= 0.0) & (pixels < self.size), axis=1)
-        ranges = np.linalg.norm(points - self.camera_in_base[:2, 3], axis=1)
-        return np.where(inside, ranges, np.inf)
+        pixels = self.camera.road_pixels(points)
+        inside = np.all((pixels >= 0.0) & (pixels < self.size), axis=1)
+        position = transforms.inverse(self.camera.camera_from_base)[:2, 3]
+        return np.where(inside, np.linalg.norm(points - position, axis=1), np.inf)
 
 
 class Counts(NamedTuple):
@@ -127,9 +122,7 @@ def _read_drive(path):
             )
     mounts = mounts_of(kept[MOUNTS])
     info = kept[CAMERA_INFOS[0]][0]
-    projection = np.array(info.P).reshape(3, 4)[:, :3]
-    image = Image(mount_of(path, mounts, info.header.frame_id), projection,
-                  (info.width, info.height))  # fmt: skip
+    image = Image(camera_of(path, info, mounts), (info.width, info.height))
     return cloud_grids.points_by_stamp(path, kept[CLOUDS], mounts, _parted), image
 
 

@@ -22,6 +22,7 @@ class Seen(NamedTuple):
     classification: int  # Object.CLASS_*
     delay: float  # s after the list's stamp
     class_probability: float = 0.0  # of the classification, 0 to 1
+    height: float = 0.0  # m; 0: not measured
 
     @property
     def range(self):
@@ -108,6 +109,7 @@ def _seen_list(message):
             item.classification,
             item.delay,
             item.class_probability,
+            item.size.z,
         )
         for item in message.objects
     ]

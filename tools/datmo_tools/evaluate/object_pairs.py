@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predicts objects of two sensors to one time, and pairs them by position."""
+"""Predicts objects of two sensors to one time, and pairs them by position with score_run's matcher."""
 
 from typing import NamedTuple
 
@@ -7,9 +7,10 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from datmo_tools.evaluate.object_lists import Seen
+from datmo_tools.evaluate.object_lists import Seen, SeenList
 from datmo_tools.evaluate.object_scores import NEAR_ACROSS, NEAR_ALONG, THESIS_GATE
 from datmo_tools.evaluate.outlines import Outline, offset
+from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.stamps import NANOSECONDS
 
 # s, from an image to the scan nearest in time: more than half a turn of a slow scanner.
@@ -33,7 +34,7 @@ class Counts(NamedTuple):
     """What happened to the lidar's objects that are tracked as moving, at the stamps of images."""
 
     objects: int = 0
-    alone: int = 0  # no object of the camera is near, or it is nearer to another one
+    alone: int = 0  # no object of the camera is near, or it is another one's
     unlike: int = 0  # class or size differ
     hidden: int = 0  # no part of them was seen by both
     paired: int = 0
@@ -55,6 +56,16 @@ class Observation(NamedTuple):
         return self.item._replace(pose=self.item.pose + np.append(displacement, 0.0))
 
 
+class View(NamedTuple):
+    """The objects of both sensors at the stamp of one image."""
+
+    observations: list  # n of Observation
+    camera: SeenList  # of m objects
+    outlines: list  # m of Outline
+    others: list  # n x m of Outline: the observations at the camera's times
+    distances: np.ndarray  # n x m, scaled to 1 at the gate; infinite: beyond
+
+
 def paired_objects(lidar_lists, camera_lists, tracks, path):
     """Returns a list of Pair, and Counts.
 
@@ -63,16 +74,19 @@ def paired_objects(lidar_lists, camera_lists, tracks, path):
     """
     tracked = [item for item in lidar_lists if item.stamp in tracks]
     times = np.array([item.stamp + _delay(item) for item in tracked])
-    pairs, counts = [], Counts()
+    views = []
     for camera in camera_lists if tracked else ():
         apart = np.abs(times - camera.stamp)
         nearest = int(np.argmin(apart))
         if apart[nearest] <= MAX_GAP * NANOSECONDS:
             lidar = tracked[nearest]
             observations = _observations(lidar, tracks[lidar.stamp], camera.stamp, path)
-            new_pairs, new_counts = _pairs(observations, camera)
-            pairs += new_pairs
-            counts += new_counts
+            views.append(_view(observations, camera))
+    pairs, counts = [], Counts()
+    for view, found in zip(views, nearest_pairs([view.distances for view in views])):
+        new_pairs, new_counts = _pairs(view, found)
+        pairs += new_pairs
+        counts += new_counts
     return pairs, counts
 
 
@@ -116,8 +130,8 @@ def _box_on(pose, boxes):
     return boxes[min(near)[1]] if near else None
 
 
-def _pairs(observations, camera):
-    """Returns the pairs of one image."""
+def _view(observations, camera):
+    """Returns the View of one image."""
     outlines = [Outline(item, camera.viewpoint) for item in camera.objects]
     others = [
         [Outline(observation.at(item.delay), camera.viewpoint) for item in camera.objects]
@@ -128,31 +142,22 @@ def _pairs(observations, camera):
         for row in others
     ]).reshape(len(observations), len(outlines))  # fmt: skip
     distances[distances > 1.0] = np.inf
-    found = _mutual(distances)
+    return View(observations, camera, outlines, others, distances)
+
+
+def _pairs(view, found):
+    """Returns the list of Pair and the Counts of one image; found: of nearest_pairs."""
     pairs, unlike = [], 0
     for i, j in found:
-        if not _alike(observations[i].item, camera.objects[j]):
+        if not _alike(view.observations[i].item, view.camera.objects[j]):
             unlike += 1
             continue
-        apart = offset(outlines[j], others[i][j])
+        apart = offset(view.outlines[j], view.others[i][j])
         if not np.all(np.isnan(apart.value)):
-            pairs.append(_pair(camera.objects[j], apart, camera.viewpoint))
+            pairs.append(_pair(view.camera.objects[j], apart, view.camera.viewpoint))
     hidden = len(found) - unlike - len(pairs)
-    return pairs, Counts(
-        len(observations), len(observations) - len(found), unlike, hidden, len(pairs)
-    )
-
-
-def _mutual(distances):
-    """Returns (row, column) of those that are each other's nearest."""
-    if distances.size == 0:
-        return []
-    nearest = distances.argmin(axis=1)
-    return [
-        (row, column)
-        for row, column in enumerate(nearest)
-        if np.isfinite(distances[row, column]) and distances[:, column].argmin() == row
-    ]
+    total = len(view.observations)
+    return pairs, Counts(total, total - len(found), unlike, hidden, len(pairs))
 
 
 def _scaled_distance(seen, position):

@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scores objects of one measurement against true ones: found, false, and their errors."""
 
-import json
-import sys
-import tempfile
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from shapely.geometry import MultiPoint, Point
 
-from datmo_tools import programs
-from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.outlines import Outline, corners, offset
+from datmo_tools.evaluate.pair_choice import nearest_pairs
 
 # An object is near a true one within this distance of its box: across the line of sight, and along
 # it, where it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
@@ -76,6 +71,7 @@ class ListWithTruth(NamedTuple):
     objects: list  # of Seen
     truths: list  # of TrueState
     viewpoint: tuple = (0.0, 0.0)  # of the sensor, m
+    stamp: int = 0  # ns
 
 
 def score_lists(lists):
@@ -83,17 +79,17 @@ def score_lists(lists):
     with the least sum of distances; of equal ones, that with the nearer centers. Raises
     InputError."""
     distances = [_distances(item) for item in lists]
-    candidates = [_candidates(*both) for both in zip(lists, distances)]
+    chosen_pairs = nearest_pairs([_costs(*both) for both in zip(lists, distances)])
     return [
         ListScore([(i, j, _errors(item.objects[i], item.truths[j], item.viewpoint)) for i, j in chosen],
                   np.any(apart <= 1.0, axis=1))
-        for item, apart, chosen in zip(lists, distances, _chosen(candidates))
+        for item, apart, chosen in zip(lists, distances, chosen_pairs)
     ]  # fmt: skip
 
 
 def _distances(given):
     """Returns scaled_distance of each object from each true one; infinite: surely not near."""
-    objects, truths, viewpoint = given
+    objects, truths, viewpoint = given.objects, given.truths, given.viewpoint
     distances = np.full((len(objects), len(truths)), np.inf)
     positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
     velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
@@ -124,28 +120,12 @@ def _along_gate(point, viewpoint):
     return max(NEAR_ALONG, THESIS_GATE * reach)
 
 
-def _candidates(given, distances):
-    """Returns what is near: list of [object, true one, gain]."""
-    objects, truths, _ = given
-    is_near = distances <= 1.0
+def _costs(given, distances):
+    """Returns the distances of what is near, ordered by centers if they are equal; else infinite."""
+    objects, truths = given.objects, given.truths
     centers = [[np.hypot(*(item.pose[:2] - truth.pose[:2])) for truth in truths] for item in objects]
-    costs = np.where(is_near, distances + CENTER_WEIGHT * np.reshape(centers, is_near.shape), 0.0)
-    # Worth more than any sum of distances: one more match always pays.
-    gains = 1.0 + len(truths) + np.sum(costs.max(axis=0, initial=0.0)) - costs
-    return [[int(i), int(j), float(gains[i, j])] for i, j in zip(*np.nonzero(is_near))]
-
-
-def _chosen(candidates):
-    """Returns for each list the pairs (object, true one) chosen by score_run's matcher."""
-    with tempfile.TemporaryDirectory(prefix="choose_pairs_") as folder:
-        file = Path(folder) / "lists.json"
-        file.write_text(json.dumps(candidates), encoding="utf-8")
-        program = Path(programs.find("choose_pairs", sys.argv[0]))
-        try:
-            indices = json.loads(programs.output_of(program, file))
-        except programs.StepFailed as error:
-            raise InputError(str(error)) from error
-    return [[pairs[index][:2] for index in taken] for pairs, taken in zip(candidates, indices)]
+    costs = distances + CENTER_WEIGHT * np.reshape(centers, distances.shape)
+    return np.where(distances <= 1.0, costs, np.inf)
 
 
 def _errors(item, truth, viewpoint):

@@ -15,6 +15,7 @@ CLASSES = {
 }
 NAMES = {number: name for name, number in CLASSES.items()}
 MOVING, ALL = "moving", "all"
+BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they are within the range that counts
 TRUE_GROUPS = (*CLASSES, MOVING, ALL)
 SEEN_GROUPS = (*CLASSES, ALL)
 

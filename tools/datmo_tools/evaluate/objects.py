@@ -2,15 +2,19 @@
 """evaluate objects."""
 
 from pathlib import Path
+from typing import NamedTuple
 
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate import class_mistakes
 from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
+from datmo_tools.evaluate.class_mistakes import as_dictionaries, mistakes_section, worst
 from datmo_tools.evaluate.class_tally import calibration, class_sections, confusion, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_lists
-from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
+from datmo_tools.evaluate.object_tally import ALL, BANDS, CLASSES, MOVING, ObjectTally
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.truth import ANY, NONE, Asked, Region, Truth
+from datmo_tools.pose_path import PosePath
 from datmo_tools.text_table import NO_VALUE, percent, rounded
 
 DESCRIPTION = """\
@@ -21,7 +25,8 @@ before tracking, against the true objects of the drive that the run was made fro
   precision    share of the objects near a true one, moving or not; stationary things that are no
                true object (walls, fences, things that KITTI does not label) are false
   class right  of the objects that are found, by true class; the confusion of classes by range, and
-               how often a class is right at which probability
+               how often a class is right at which probability; the worst mistakes, with --images
+               in the camera's images
   error        of the near side along the line of sight (positive: too far), and of its corners
                across it (to the left), as far as they are seen; mean and standard deviation
   NEES         of both by the object's own covariance: 2 in the mean and 1.39 in the median if it is
@@ -38,12 +43,19 @@ KITTI's labels cover only the camera's view, and do not state which sensor sees 
 SENSORS = {"/objects": "scanner", "/objects/stereo": "stereo", "/objects/mono": ANY,
            "/objects/fused": ANY}  # fmt: skip
 
-BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they are within --range
 RANGE = 36.0  # m; thesis 3.3.3
 
 
+class Reports(NamedTuple):
+    """The classes of the scored objects."""
+
+    by_topic: dict  # topic -> list of Report
+    path: PosePath  # true, of base_link
+
+
 def score(run, drive=None, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
-    """Returns the score of the objects in the bag `run` (Path) as a dictionary that JSON can hold.
+    """Returns the score of the objects in the bag `run` (Path) as a dictionary that JSON can hold,
+    and Reports: the classes reported on each topic.
 
     drive: bag with the truth (Path), by default `run`; topics: by default those of SENSORS in the
     bag; visible_to: sensor that must see a true object, by default that of SENSORS; moving_only:
@@ -57,18 +69,20 @@ def score(run, drive=None, topics=None, visible_to=None, region=Region(RANGE), m
     if not lists:
         raise InputError(f"{run}: nothing on {', '.join(SENSORS)}, expected lists of objects")
     truth = Truth(drive)
-    scores = {
+    scored = {
         topic: _score_topic(
             lists[topic], truth, Asked(region, visible_to or SENSORS.get(topic, ANY), moving_only)
         )
         for topic in topics or SENSORS
         if topic in lists
     }
+    scores = {topic: item for topic, (item, _) in scored.items()}
     if not any(item["lists"] for item in scores.values()):
         raise InputError(f"{run}: no list has a stamp near one of the truth in {drive}")
-    return {"run": str(run), "drive": str(drive), "range_m": region.range,
-            "half_angle_rad": region.half_angle, "moving_only": moving_only,
-            "topics": scores}  # fmt: skip
+    result = {"run": str(run), "drive": str(drive), "range_m": region.range,
+              "half_angle_rad": region.half_angle, "moving_only": moving_only,
+              "topics": scores}  # fmt: skip
+    return result, Reports({topic: reports for topic, (_, reports) in scored.items()}, truth.path)
 
 
 def _score_topic(lists, truth, asked):
@@ -79,11 +93,12 @@ def _score_topic(lists, truth, asked):
     judged = truth.beside(lists, asked)
     for item, result in zip(judged, score_lists(judged)):
         tally.add(item.objects, item.truths, result, region)
-        reports += reports_of(item.objects, item.truths, result, region)
+        reports += reports_of(item, result, region, truth.path)
     without = len(lists) - tally.lists
-    return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result(),
-            "confusion": confusion(reports, tally.edges),
-            "calibration": calibration(reports)}  # fmt: skip
+    result = {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result(),
+              "confusion": confusion(reports, tally.edges),
+              "calibration": calibration(reports)}  # fmt: skip
+    return result, reports
 
 
 def sections(result):
@@ -140,9 +155,14 @@ def _mean_and_sd(item, key):
 
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
-    result = score(values.run, values.truth, values.topic, values.visible_to, region_of(values),
-                   values.moving_only)  # fmt: skip
-    return result, sections(result)
+    result, reports = score(values.run, values.truth, values.topic, values.visible_to,
+                            region_of(values), values.moving_only)  # fmt: skip
+    mistakes = {topic: worst(items, values.mistakes) for topic, items in reports.by_topic.items()}
+    for topic, items in mistakes.items():
+        result["topics"][topic]["mistakes"] = as_dictionaries(items)
+    shown = [section for topic, items in mistakes.items()
+             for section in mistakes_section(items, reports.path, values, f"Worst mistakes of {topic}")]  # fmt: skip
+    return result, [*sections(result), *shown]
 
 
 def add_arguments(parser):
@@ -157,3 +177,4 @@ def add_arguments(parser):
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
     add("--moving-only", action="store_true", help="stationary true objects need not be found")
     add_region(parser, RANGE)
+    class_mistakes.add_arguments(parser)

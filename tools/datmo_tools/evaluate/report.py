@@ -15,6 +15,13 @@ BEST = "*"  # suffix of the best cell in its row
 MISSED = "MISSED"  # the last cell of a row for what was not found
 
 
+class Picture(NamedTuple):
+    """A picture for a page, with what it shows."""
+
+    url: str  # of the picture, with its data
+    caption: str
+
+
 class Section(NamedTuple):
     """A part of a report. A page shows all of it, a terminal rows and lines."""
 
@@ -24,6 +31,7 @@ class Section(NamedTuple):
     lines: tuple = ()  # of text
     tiles: tuple = ()  # of (name, figure, unit): for a page
     picture: str = ""  # an <svg> element: for a page
+    pictures: tuple = ()  # of Picture: for a page
     is_narrow: bool = False  # a page has room for two side by side
     for_page: bool = False  # only
 

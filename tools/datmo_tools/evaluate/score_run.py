@@ -50,11 +50,16 @@ def matches(run, truth, options):
 
     truth: see score(); options: dictionary of score_run's. Raises InputError if it fails.
     """
-    settings = [word for key, value in options.items() for word in ("--set", f"{key}={value}")]
+    words = [word for key, value in options.items() for word in ("--set", f"{key}={value}")]
+    return matches_by(run, truth, words)
+
+
+def matches_by(run, truth, settings, program=None):
+    """Like matches(), with `settings` as in score(); program: score_run, by default the found one."""
 
     def call(words):
         try:
-            programs.call(Path(find_score_run()), *words)
+            programs.call(Path(program or find_score_run()), *words)
         except programs.StepFailed as error:
             raise InputError(str(error)) from error
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_fusion.msg import TrackArray
+from datmo_fusion.msg import Object, TrackArray
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import planar
@@ -21,6 +21,9 @@ class SeenTrack(NamedTuple):
     moving: bool
     sources: tuple  # of (source, id): the tracks that it was fused from
     classes: tuple = ()  # probability by Object.CLASS_*; none: unknown
+    classification: int = Object.CLASS_UNKNOWN
+    class_probability: float = 0.0  # of the classification, 0 to 1
+    size: tuple = (0.0, 0.0, 0.0)  # m: length, width, height; 0: not measured
 
     def position_at(self, seconds):
         """Returns x, y (m) predicted by this time (s) at its velocity."""
@@ -76,6 +79,9 @@ def _finite_tracks(message):
             track.moving,
             tuple((member.source, member.id) for member in track.sources),
             tuple(track.class_probabilities),
+            track.classification,
+            track.class_probability,
+            (track.size.x, track.size.y, track.size.z),
         )
         for track in message.tracks
     ]

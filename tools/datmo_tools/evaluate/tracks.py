@@ -25,10 +25,17 @@ def evaluate(values):
 def score_runs(values):
     """Returns a list of what score_run writes for runs on the same drive. Raises InputError."""
     program = values.score_run or find_score_run()
-    bags = values.compare or [values.run]
-    runs = [score(program, bag, values.truth, _settings(values)) for bag in bags]
+    words = settings_of(values)
+    if values.attainable is not None:
+        words += ["--attainable", str(values.attainable)]
+    runs = [score(program, bag, values.truth, words) for bag in bags_of(values)]
     _check_same_drive(runs)
     return runs
+
+
+def bags_of(values):
+    """Returns the bags (Path) of the runs."""
+    return values.compare or [values.run]
 
 
 def _check_same_drive(runs):
@@ -42,13 +49,11 @@ def _check_same_drive(runs):
             )
 
 
-def _settings(values):
-    """Returns the words for score_run besides its bags."""
+def settings_of(values):
+    """Returns the words for score_run that set its options."""
     words = [] if values.options is None else ["--options", str(values.options)]
     for assignment in values.set:
         words += ["--set", assignment]
-    if values.attainable is not None:
-        words += ["--attainable", str(values.attainable)]
     return words
 
 

@@ -95,12 +95,17 @@ class Truth:
     def beside(self, lists, asked):
         """Returns a list of ListWithTruth, for each list (SeenList) with truth near in time."""
         states = [(item, self.at(item.stamp, asked)) for item in lists]
-        return [ListWithTruth(item.objects, truths, item.viewpoint)
+        return [ListWithTruth(item.objects, truths, item.viewpoint, item.stamp)
                 for item, truths in states if truths is not None]  # fmt: skip
 
     def base_at(self, stamp):
         """Returns the true pose of base_link in the map (x, y, yaw) at `stamp` (ns)."""
         return self._poses.at(stamp)
+
+    @property
+    def path(self):
+        """Returns the true PosePath of base_link in the map."""
+        return self._poses
 
     def movers(self):
         """Returns the ids of the objects that move at some time."""

@@ -6,6 +6,7 @@ import collections
 import numpy as np
 
 from datmo_tools import transforms
+from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.pose_path import planar, read_messages, read_path
 
 TRUTH = "/ground_truth/pose"
@@ -45,16 +46,13 @@ def kept_ids(computed, recorded, begin, end, sensor="stereo"):
 def _ids_of(tracks, truth, seen, paths):
     """Returns track id by object id, of those objects that have a track near them."""
     own, true = (path.at(tracks.header.stamp.to_nsec()) for path in paths)
-    positions = [(track.id, transforms.relative(own, planar(track.pose))[:2]) for track in tracks.tracks]
-    found = {}
-    for each in truth.objects:
-        if each.id in seen:
-            at = transforms.relative(true, planar(each.pose))[:2]
-            distance, track = min(((float(np.hypot(*np.subtract(position, at))), track) for track, position in positions),
-                                  default=(np.inf, 0))  # fmt: skip
-            if distance < NEAR:
-                found[each.id] = track
-    return found
+    objects = [each for each in truth.objects if each.id in seen]
+    at = [transforms.relative(true, planar(each.pose))[:2] for each in objects]
+    positions = [transforms.relative(own, planar(track.pose))[:2] for track in tracks.tracks]
+    apart = np.reshape([[np.hypot(*(mine - its)) for its in positions] for mine in at],
+                       (len(at), len(positions)))  # fmt: skip
+    (pairs,) = nearest_pairs([np.where(apart < NEAR, apart, np.inf)])
+    return {objects[i].id: tracks.tracks[j].id for i, j in pairs}
 
 
 def gap_effect(stamps, errors, clean, gap, distance_m):

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import command_line
+from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.experiments import pole_camera_bag, simulated_run
 from datmo_tools.experiments.pole_camera_bag import PEDESTRIAN
 from datmo_tools.pose_path import planar, read_messages
@@ -111,17 +112,22 @@ def _first_track(bag, truth):
 
 
 def _nees(bag, truth):
-    values, own = [], MapOfRun(bag, truth)
+    """Returns the NEES of each foreign track that is matched to an object; no gate, so that a
+    large error counts."""
+    own, lists = MapOfRun(bag, truth), []
     for message, _ in read_messages(bag, FOREIGN):
         stamp = message.header.stamp.to_nsec()
-        for track in message.tracks:
-            near = [own.position_of(item, stamp) for item in truth.moving(stamp)]
-            errors = [position - _position(track) for position in near]
-            if errors:
-                error = min(errors, key=np.linalg.norm)
-                covariance = np.reshape(track.covariance, (6, 6))[:2, :2]
-                values.append(float(error @ np.linalg.solve(covariance, error)))
-    return values
+        positions = [own.position_of(item, stamp) for item in truth.moving(stamp)]
+        errors = [[position - _position(track) for position in positions] for track in message.tracks]
+        lists.append((message.tracks, np.reshape(errors, (len(message.tracks), len(positions), 2))))
+    chosen = nearest_pairs([np.linalg.norm(errors, axis=2) for _, errors in lists])
+    return [_squared_mahalanobis(errors[i, j], tracks[i])
+            for (tracks, errors), pairs in zip(lists, chosen) for i, j in pairs]  # fmt: skip
+
+
+def _squared_mahalanobis(error, track):
+    covariance = np.reshape(track.covariance, (6, 6))[:2, :2]
+    return float(error @ np.linalg.solve(covariance, error))
 
 
 def _false_lists(bag, truth):

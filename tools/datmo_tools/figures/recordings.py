@@ -19,6 +19,8 @@ OVERLAPS = (0.25, 0.5, 0.7)  # IoU, of KITTI tracking
 MODEL_CAR_SCORE = ("matching/gate=0.4", "matching/distance=to_center")
 PEOPLE_LABELS = "/ground_truth_people_tracks"
 
+VELODYNE_NOISE = "attainable/range_noise=0.02"  # option of score_run
+
 NO_ODOMETRY = "no_odometry.yaml"  # a preset
 
 WHOLE_DRIVE = 0.9  # share of the frames: an object in so many is there for the whole drive
@@ -44,7 +46,7 @@ def _drive_0005(bench, name, resolution, words, folder):
     recorded = folder / "drive.bag"
     bench.call("kitti_to_bag", bench.data / DRIVE_0005, recorded,
                "--scan-resolution", resolution, *ODOMETRY_ERRORS)  # fmt: skip
-    options = (*LABELED, "attainable/range_noise=0.02")
+    options = (*LABELED, VELODYNE_NOISE)
     report = simulated_run.run_recorded(
         recorded, bench.programs, bench.config("kitti"), folder, options, words, recorded)  # fmt: skip
     return name, drive_figures(report)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All steps of scripts/figures: those for README first, those that need an idle machine last."""
 
-from datmo_tools.figures import cameras, data_sets, maps, measurements, recordings, risk
+from datmo_tools.figures import cameras, data_sets, maps, measurements, mono, recordings, risk
 from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
@@ -25,6 +25,8 @@ STEPS = (
          cameras.stereo_grid_jobs, only, (recordings.DRIVE_0005,)),
     Step("maps", "maps of low-level and map-level fusion, changes since a map was made",
          "evaluate maps, evaluate changes", maps.jobs, maps.figures, seeded=True),
+    Step("mono", "a single camera: classes, tracks and grids", "run_bag --mono, evaluate classes",
+         mono.jobs, mono.figures, (recordings.DRIVE_0005,)),
     Step("risk", "risk of contact: encounters by all methods, false warnings", "scripts/encounters",
          risk.jobs, risk.figures),
     Step("robustness", "pose among moving vehicles", "scripts/robustness --seeds 5",
