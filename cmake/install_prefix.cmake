@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# catkin writes setup.* and the Python package to the prefix that is known when CMake configures. So
-# that `cmake --install BUILD --prefix X` puts them into X as well, a prefix that differs is configured
-# first (seconds; nothing is compiled again), and all of it is installed after that. To be included
-# before anything installs. In a catkin workspace the prefix is the workspace's.
+# catkin writes setup.* and the Python package for the prefix that is known at configuration time.
+# So that `cmake --install BUILD --prefix X` installs them to X as well, a different prefix is
+# configured first (takes seconds; nothing is recompiled), and then everything is installed. Include
+# this file before any install command. In a catkin workspace the workspace determines the prefix.
 if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR)
   install(CODE "
     get_filename_component(prefix \"\${CMAKE_INSTALL_PREFIX}\" ABSOLUTE)

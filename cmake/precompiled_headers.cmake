@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Precompiled headers: a third of the compiler's time went into the same headers again and again. CMake
-# 3.16 and later; without, or with -DDATMO_FUSION_PRECOMPILE=OFF, all is compiled as it is written.
+# Precompiled headers: a third of the compile time was spent on the same headers again and again.
+# Requires CMake 3.16; with older versions, or with -DDATMO_FUSION_PRECOMPILE=OFF, no header is
+# precompiled.
 option(DATMO_FUSION_PRECOMPILE "precompile headers that most files include" ON)
 
 set(DATMO_FUSION_CORE_HEADERS
@@ -11,8 +12,8 @@ set(DATMO_FUSION_NODELET_HEADERS ${DATMO_FUSION_ROS_HEADERS} <ros/ros.h> <nodele
 set(DATMO_FUSION_BAG_HEADERS ${DATMO_FUSION_ROS_HEADERS} <ros/ros.h> <rosbag/bag.h> <rosbag/view.h>)
 set(DATMO_FUSION_TEST_HEADERS ${DATMO_FUSION_CORE_HEADERS} <gtest/gtest.h>)
 
-# datmo_fusion_precompile_headers(TARGET HEADER...): but where files are compiled together, a target of
-# two batches or less gains less than its header takes.
+# datmo_fusion_precompile_headers(TARGET HEADER...): precompiles the headers for TARGET, except in a
+# unity build of at most two batches, which gains less than the precompilation takes.
 function(datmo_fusion_precompile_headers target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources files)
@@ -22,14 +23,16 @@ function(datmo_fusion_precompile_headers target)
   endif()
 endfunction()
 
-# datmo_fusion_share_headers(TARGET HEADER...): however few files, as other targets reuse them.
+# datmo_fusion_share_headers(TARGET HEADER...): precompiles the headers for TARGET regardless of its
+# number of files, because other targets reuse them.
 function(datmo_fusion_share_headers target)
   if(DATMO_FUSION_PRECOMPILE AND NOT CMAKE_VERSION VERSION_LESS 3.16)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
-# datmo_fusion_reuse_headers(TARGET FROM): those that FROM has had compiled, with the same options.
+# datmo_fusion_reuse_headers(TARGET FROM): TARGET reuses the precompiled headers of FROM, which must
+# have the same compile options.
 function(datmo_fusion_reuse_headers target from)
   if(DATMO_FUSION_PRECOMPILE AND NOT CMAKE_VERSION VERSION_LESS 3.16 AND NOT target STREQUAL from)
     target_precompile_headers(${target} REUSE_FROM ${from})

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The stages, read from nodelets.xml: a class `datmo_fusion/NAME` there, of type `datmo::ClassNodelet`, is
-# a stage where there is src/ros/stage/NAME_stage.cpp, whose header declares ClassStage. So an entry of
-# nodelets.xml and the stage's files are all that it takes to compile a stage, to export it as a nodelet,
-# to run it on a bag and to list its options (doc/development.md).
+# The stages, read from nodelets.xml: a class `datmo_fusion/NAME` of type `datmo::ClassNodelet` is a
+# stage if src/ros/stage/NAME_stage.cpp exists, whose header declares ClassStage. An entry in
+# nodelets.xml and the stage's files are therefore sufficient to compile a stage, to export it as a
+# nodelet, to run it on a bag and to list its options (doc/development.md).
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/nodelets.xml)
 
-# datmo_fusion_read_stages(NAMES CLASSES [LIBRARY]): of each stage, or of those of one library of nodelets.
+# datmo_fusion_read_stages(NAMES CLASSES [LIBRARY]): returns the names and classes of all stages, or
+# of those in one library of nodelets.
 function(datmo_fusion_read_stages out_names out_classes)
   file(STRINGS ${PROJECT_SOURCE_DIR}/nodelets.xml lines REGEX "<(library|class) ")
   set(names "")
@@ -34,14 +35,15 @@ function(datmo_fusion_read_stages out_names out_classes)
   set(${out_classes} ${classes} PARENT_SCOPE)
 endfunction()
 
-# datmo_fusion_stage_sources(OUT LIBRARY): those of its stages, relative to src.
+# datmo_fusion_stage_sources(OUT LIBRARY): returns the source files of the library's stages,
+# relative to src.
 function(datmo_fusion_stage_sources out library)
   datmo_fusion_read_stages(names classes ${library})
   list(TRANSFORM names REPLACE "(.+)" "ros/stage/\\1_stage.cpp")
   set(${out} ${names} PARENT_SCOPE)
 endfunction()
 
-# datmo_fusion_stage_headers(OUT NAME...): the lines that include them.
+# datmo_fusion_stage_headers(OUT NAME...): returns the lines that include the headers of the stages.
 function(datmo_fusion_stage_headers out)
   set(lines ${ARGN})
   list(TRANSFORM lines REPLACE "(.+)" "#include \"${PROJECT_NAME}/ros/stage/\\1_stage.h\"")
@@ -50,7 +52,7 @@ function(datmo_fusion_stage_headers out)
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# datmo_fusion_export_stages(LIBRARY): makes nodelets of its stages.
+# datmo_fusion_export_stages(LIBRARY): exports the library's stages as nodelets.
 function(datmo_fusion_export_stages library)
   datmo_fusion_read_stages(names classes ${library})
   datmo_fusion_stage_headers(headers ${names})
@@ -66,7 +68,8 @@ function(datmo_fusion_export_stages library)
   target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR}/src/nodelets)
 endfunction()
 
-# datmo_fusion_add_stage_list(TARGET): the list of all stages, stage_list.h, for those that link TARGET.
+# datmo_fusion_add_stage_list(TARGET): generates stage_list.h, the list of all stages, for targets
+# that link TARGET.
 function(datmo_fusion_add_stage_list target)
   datmo_fusion_read_stages(names classes)
   datmo_fusion_stage_headers(headers ${names})
