@@ -44,7 +44,7 @@ start_virtual_display() {
   chmod 700 "$XDG_RUNTIME_DIR"
 }
 
-# An empty display has one color, rviz's window has many.
+# An empty display has one color, while rviz's window has many.
 rviz_is_drawn() {
   (($(import -window root png:- | identify -format '%k' -) > 50))
 }

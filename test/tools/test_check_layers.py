@@ -97,7 +97,7 @@ class CheckLayers(unittest.TestCase):
             "src/detection/b.cpp": '#include "datmo_fusion/slam/a.h"\n',
         })
         self.assertEqual(code, 1, output)
-        self.assertIn("circle: detection -> slam -> detection", output)
+        self.assertIn("cycle: detection -> slam -> detection", output)
 
     def test_folder_without_sources_is_named(self):
         done = subprocess.run([str(SCRIPT), "/nonexistent"], stderr=subprocess.PIPE, check=False)
