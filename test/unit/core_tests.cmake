@@ -67,7 +67,7 @@ datmo_fusion_add_core_test(tracking
 datmo_fusion_add_core_test(tracking_memory
   tracking/steady_memory_test.cpp
 )
-# They include sources of tracking in a namespace of their own.
+# The wide_clone files include sources of tracking in a namespace of their own.
 set_source_files_properties(tracking/wide_clone_avx2.cpp tracking/wide_clone_default.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/src/tracking)
 target_include_directories(unit_tracking PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
