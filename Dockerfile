@@ -7,7 +7,7 @@ ARG BASE=debian:12
 FROM ${BASE}
 
 WORKDIR /src/datmo_fusion
-# The packages first: they are kept while only sources change.
+# Packages are installed first, so that their layer is reused if only sources change.
 COPY scripts/lib.sh scripts/setup scripts/packages_debian_12.txt scripts/packages_ubuntu_20.04.txt scripts/
 RUN scripts/setup build run && rm -rf /var/lib/apt/lists/*
 COPY . .

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the core is made of, by room: no ROS (design rule 1).
+# Source files of the core, by room; they do not use ROS (design rule 1).
 set(DATMO_FUSION_CORE_SOURCES
   common/box2.cpp
   common/box_extent.cpp
