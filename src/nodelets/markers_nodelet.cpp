@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/ros/display/legend.h"
 #include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/display/meshes.h"
 #include "datmo_fusion/ros/display/risk_style.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
@@ -17,7 +18,8 @@
 namespace datmo {
 
 /// Publishes markers for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks,
-/// risks, ground_truth/objects. Out: markers, while there are subscribers; legend, once.
+/// risks, ground_truth/objects. Out: markers and host_vehicle, while there are subscribers; legend,
+/// once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -28,6 +30,7 @@ class MarkersNodelet : public nodelet::Nodelet {
         [this](const OptionValues& values) { options_ = withLiveValues(options_, values); });
     ros::NodeHandle& node = getNodeHandle();
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+    host_ = node.advertise<visualization_msgs::Marker>("host_vehicle", 1);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
     // The first subscriber to a topic determines the transport for its whole process (risk
@@ -48,6 +51,9 @@ class MarkersNodelet : public nodelet::Nodelet {
     last_scan_ = message;
     draw("labeled_scan", *message);
     publishGuarded("vehicle", [&] { return vehicleMarkers(message->header, options_.vehicle); });
+    if (host_.getNumSubscribers() > 0) {
+      host_.publish(hostMesh(message->header, options_.vehicle));
+    }
   }
 
   void takeBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
@@ -120,6 +126,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   StaleMarkers stale_;
   LabeledScanConstPtr last_scan_;
   ros::Publisher markers_;
+  ros::Publisher host_;
   ros::Publisher legend_;
   ros::Subscriber labeled_scan_;
   ros::Subscriber borders_;

@@ -101,13 +101,15 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
     return property;
   }
 
- private:
-  /// s, between checks for publishers; connecting takes less.
-  static constexpr float kStatusPeriod = 1.0F;
-
   void set(const char* name, const StatusLine& line) {
     this->setStatusStd(line.level, name, line.text);
   }
+
+  Meshes meshes_;  ///< which draw() may refer to
+
+ private:
+  /// s, between checks for publishers; connecting takes less.
+  static constexpr float kStatusPeriod = 1.0F;
 
   void showStatus() {
     // Without a subscriber rviz's own line says why: the topic's name is invalid.
@@ -143,7 +145,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
 
   void drawLast() {
     try {
-      const Drawing drawing = drawingOf(draw(*last_));
+      const Drawing drawing = drawingOf(draw(*last_), meshes_);
       scene_->show(drawing);
       messages_.setDrawn(drawing.left_out);
     } catch (const std::exception& error) {

@@ -27,7 +27,8 @@ constexpr double kFullBar = 4.0;
 constexpr double kMinIcon = 1.2;
 
 /// Pixels.
-constexpr int kBanner = 64;
+constexpr int kBanner = 88;
+constexpr int kTitle = 36;  // of it, above the reason
 constexpr int kBar = 26;
 constexpr int kMargin = 8;
 
@@ -168,16 +169,16 @@ void paintContact(QPainter& painter, const Ground& ground, const Point2& contact
 void paintBanner(QPainter& painter, int width, const DriverView& view) {
   const QRect banner(0, 0, width, kBanner);
   painter.fillRect(banner, toQt(colorOfLevel(view.level)));
-  painter.setPen(Qt::white);
+  painter.setPen(view.level == RiskArray::LEVEL_INFORMATION ? Qt::black : Qt::white);
   QFont font = painter.font();
   font.setBold(true);
   font.setPixelSize(18);
   painter.setFont(font);
-  const int half = view.reason.empty() ? kBanner : kBanner / 2 - 4;
+  const int half = view.reason.empty() ? kBanner : kTitle;
   painter.drawText(QRect(kMargin, 0, width - 2 * kMargin, half), Qt::AlignCenter,
                    nameOfLevel(view.level));
   font.setBold(false);
-  font.setPixelSize(12);
+  font.setPixelSize(14);
   painter.setFont(font);
   painter.drawText(QRect(kMargin, half, width - 2 * kMargin, kBanner - half),
                    Qt::AlignCenter | Qt::TextWordWrap, QString::fromStdString(view.reason));

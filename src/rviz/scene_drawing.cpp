@@ -37,6 +37,19 @@ Ogre::MaterialPtr makeMaterial(const std::string& name, bool translucent) {
   return material;
 }
 
+/// Blends the front only: a first pass finds its depth, so that the inside of a mesh is not seen.
+Ogre::MaterialPtr makeFrontMaterial(const std::string& name) {
+  Ogre::MaterialPtr material = makeMaterial(name, false);
+  Ogre::Technique& technique = *material->getTechnique(0);
+  technique.getPass(0)->setColourWriteEnabled(false);
+  Ogre::Pass& blended = *technique.createPass();
+  blended.setLightingEnabled(false);
+  blended.setCullingMode(Ogre::CULL_NONE);
+  blended.setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  blended.setDepthWriteEnabled(false);
+  return material;
+}
+
 std::string uniqueName() {
   static std::atomic<unsigned> count{0};
   return "datmo_fusion/drawing" + std::to_string(count++);
@@ -48,10 +61,15 @@ SceneDrawing::SceneDrawing(Ogre::SceneManager& scene, Ogre::SceneNode& parent)
     : scene_(scene), node_(parent.createChildSceneNode()) {
   const std::string name = uniqueName();
   triangles_ = scene_.createManualObject(name);
-  triangles_->setDynamic(true);
-  node_->attachObject(triangles_);
+  meshes_ = scene_.createManualObject(name + "/meshes");
+  meshes_->setRenderQueueGroup(Ogre::RENDER_QUEUE_MAIN + 1);
+  for (Ogre::ManualObject* object : {triangles_, meshes_}) {
+    object->setDynamic(true);
+    node_->attachObject(object);
+  }
   solid_ = makeMaterial(name + "/solid", false);
   translucent_ = makeMaterial(name + "/translucent", true);
+  front_ = makeFrontMaterial(name + "/front");
 }
 
 SceneDrawing::~SceneDrawing() {
@@ -62,31 +80,34 @@ SceneDrawing::~SceneDrawing() {
   }
   node_->detachAllObjects();
   scene_.destroyManualObject(triangles_);
+  scene_.destroyManualObject(meshes_);
   scene_.destroySceneNode(node_);
-  for (const Ogre::MaterialPtr& material : {solid_, translucent_}) {
+  for (const Ogre::MaterialPtr& material : {solid_, translucent_, front_}) {
     Ogre::MaterialManager::getSingleton().remove(material->getHandle());
   }
 }
 
 void SceneDrawing::show(const Drawing& drawing) {
   triangles_->clear();
-  addBatch(drawing.solid, solid_);
-  addBatch(drawing.translucent, translucent_);
+  meshes_->clear();
+  addBatch(drawing.solid, solid_, *triangles_);
+  addBatch(drawing.translucent, translucent_, *triangles_);
+  addBatch(drawing.meshes, front_, *meshes_);
   showLabels(drawing.labels);
 }
 
 void SceneDrawing::addBatch(const std::vector<DrawnVertex>& vertices,
-                            const Ogre::MaterialPtr& material) {
+                            const Ogre::MaterialPtr& material, Ogre::ManualObject& object) {
   if (vertices.empty()) {
     return;
   }
-  triangles_->estimateVertexCount(vertices.size());
-  triangles_->begin(material->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
+  object.estimateVertexCount(vertices.size());
+  object.begin(material->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
   for (const DrawnVertex& vertex : vertices) {
-    triangles_->position(toOgre(vertex.position));
-    triangles_->colour(toOgre(vertex.color));
+    object.position(toOgre(vertex.position));
+    object.colour(toOgre(vertex.color));
   }
-  triangles_->end();
+  object.end();
 }
 
 void SceneDrawing::showLabels(const std::vector<DrawnLabel>& labels) {

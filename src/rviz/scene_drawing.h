@@ -21,7 +21,8 @@ class MovableText;
 
 namespace datmo {
 
-/// Shows a Drawing in rviz's scene, below a node: all triangles as one object with two batches.
+/// Shows a Drawing in rviz's scene, below a node: all triangles as two objects with three
+/// batches.
 class SceneDrawing {
  public:
   /// Both must outlive this.
@@ -41,14 +42,17 @@ class SceneDrawing {
     std::unique_ptr<rviz::MovableText> text;
   };
 
-  void addBatch(const std::vector<DrawnVertex>& vertices, const Ogre::MaterialPtr& material);
+  static void addBatch(const std::vector<DrawnVertex>& vertices, const Ogre::MaterialPtr& material,
+                       Ogre::ManualObject& object);
   void showLabels(const std::vector<DrawnLabel>& labels);
 
   Ogre::SceneManager& scene_;
   Ogre::SceneNode* node_;
   Ogre::ManualObject* triangles_;
+  Ogre::ManualObject* meshes_;  ///< translucent, drawn after all other translucent objects
   Ogre::MaterialPtr solid_;
   Ogre::MaterialPtr translucent_;
+  Ogre::MaterialPtr front_;    ///< translucent, without what is behind the front
   std::vector<Label> labels_;  ///< those beyond the shown ones are hidden
 };
 

@@ -6,15 +6,21 @@
 #include <rviz/properties/enum_property.h>
 
 #include <pluginlib/class_list_macros.hpp>
+#include <ros/package.h>
 
 #include "datmo_fusion/ros/display/track_style.h"
 
 namespace datmo {
 
-/// Tracks as boxes or bodies by class, with ids, velocities, covariances, past and predicted paths.
+/// Tracks as boxes or meshes by class, with ids, velocities, covariances, past and predicted paths.
 class TracksDisplay : public DrawingDisplay<TrackArray> {
  public:
   TracksDisplay() {
+    shape_ = watched(new rviz::EnumProperty(
+        "Shape", "mesh",
+        "Meshes of vehicles, pedestrians and cyclists in the size of the track, or boxes.", this));
+    shape_->addOption("box", static_cast<int>(TrackShape::kBox));
+    shape_->addOption("mesh", static_cast<int>(TrackShape::kMesh));
     color_by_ = watched(new rviz::EnumProperty("Color by", "class", "What the colors mean.", this));
     color_by_->addOption("class", static_cast<int>(TrackColor::kClass));
     color_by_->addOption("id", static_cast<int>(TrackColor::kId));
@@ -41,9 +47,18 @@ class TracksDisplay : public DrawingDisplay<TrackArray> {
   }
 
  private:
+  void onInitialize() override {
+    DrawingDisplay::onInitialize();
+    try {
+      meshes_ = readClassMeshes(ros::package::getPath("datmo_fusion"));
+    } catch (const MeshError& error) {
+      set("Meshes", {rviz::StatusProperty::Error, std::string("boxes instead: ") + error.what()});
+    }
+  }
+
   /// Adds properties for the parts of the picture, by marker namespace.
   void addParts() {
-    rviz::Property* bodies = toggle("Bodies", true, "Boxes, and shapes of people, by class.");
+    rviz::Property* bodies = toggle("Bodies", true, "Boxes or meshes by class.");
     parts_["track bodies"] = bodies;
     parts_["track heads"] = bodies;
     parts_["track outlines"] = toggle("Outlines", true, "The outline of the box on the ground.");
@@ -62,6 +77,9 @@ class TracksDisplay : public DrawingDisplay<TrackArray> {
 
   TrackStyle style() const {
     TrackStyle style;
+    if (!meshes_.empty()) {
+      style.shape = static_cast<TrackShape>(shape_->getOptionInt());
+    }
     style.color_by = static_cast<TrackColor>(color_by_->getOptionInt());
     style.fade_by_existence = fade_->getBool();
     style.min_existence = static_cast<double>(min_existence_->getFloat());
@@ -87,6 +105,7 @@ class TracksDisplay : public DrawingDisplay<TrackArray> {
   }
 
   std::map<std::string, rviz::Property*> parts_;
+  rviz::EnumProperty* shape_;
   rviz::EnumProperty* color_by_;
   rviz::BoolProperty* fade_;
   rviz::FloatProperty* min_existence_;

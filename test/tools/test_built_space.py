@@ -106,7 +106,7 @@ class BuiltSpace(unittest.TestCase):
     @unittest.skipUnless(INSTALLED, "a devel space uses the files of the sources")
     def test_files_beside_programs_are_installed(self):
         share = SPACE / "share" / "datmo_fusion"
-        for folder in ("config", "launch", "rosbag_fixtures"):
+        for folder in ("config", "launch", "meshes", "rosbag_fixtures"):
             names = {path.name for path in (SOURCE / folder).iterdir()}
             self.assertEqual({path.name for path in (share / folder).iterdir()}, names)
         self.assertTrue((share / "nodelets.xml").is_file())

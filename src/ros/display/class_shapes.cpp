@@ -5,6 +5,8 @@
 
 #include "marker_parts.h"
 
+#include "datmo_fusion/ros/display/meshes.h"
+
 namespace datmo {
 
 namespace {
@@ -16,6 +18,16 @@ constexpr double kHeadShare = 0.2;
 
 /// m; thickness of thin shapes.
 constexpr double kThin = 0.2;
+
+/// Size as drawn: a size of 0 is not known.
+geometry_msgs::Vector3 drawnSize(const geometry_msgs::Vector3& size,
+                                 const MarkersOptions& options) {
+  geometry_msgs::Vector3 whole;
+  whole.x = std::max(size.x, options.min_size);
+  whole.y = std::max(size.y, options.min_size);
+  whole.z = size.z > 0.0 ? size.z : options.default_height;
+  return whole;
+}
 
 /// Upright, standing on the ground.
 Marker standing(const std_msgs::Header& header, const std::string& name, int type,
@@ -42,10 +54,7 @@ Marker headOn(const Marker& body, const std::string& name, double diameter) {
 ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
                    ObjectClass object_class, const geometry_msgs::Pose& pose,
                    const geometry_msgs::Vector3& size, const MarkersOptions& options) {
-  geometry_msgs::Vector3 whole;
-  whole.x = std::max(size.x, options.min_size);
-  whole.y = std::max(size.y, options.min_size);
-  whole.z = size.z > 0.0 ? size.z : options.default_height;
+  geometry_msgs::Vector3 whole = drawnSize(size, options);
   const double diameter = kHeadShare * whole.z;
   geometry_msgs::Vector3 below_head = whole;
   below_head.z -= diameter;
@@ -68,6 +77,21 @@ ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
       break;
   }
   return {standing(header, name, Marker::CUBE, pose, whole), std::nullopt};
+}
+
+std::optional<Marker> meshOf(const std_msgs::Header& header, const std::string& name,
+                             ObjectClass object_class, const geometry_msgs::Pose& pose,
+                             const geometry_msgs::Vector3& size, const MarkersOptions& options) {
+  const std::string resource = meshResourceOf(object_class);
+  if (resource.empty()) {
+    return std::nullopt;
+  }
+  Marker marker = makeMarker(header, name + " bodies", Marker::MESH_RESOURCE);
+  marker.mesh_resource = resource;
+  marker.pose = pose;
+  marker.pose.position.z = 0.0;
+  marker.scale = drawnSize(size, options);
+  return marker;
 }
 
 std_msgs::ColorRGBA colorOfSensors(const std::vector<std::string>& sensors, float opacity) {

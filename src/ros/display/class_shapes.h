@@ -29,6 +29,14 @@ ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
                    ObjectClass object_class, const geometry_msgs::Pose& pose,
                    const geometry_msgs::Vector3& size, const MarkersOptions& options);
 
+/// Returns the mesh of a class in the namespace "<name> bodies", in the object's size; none if the
+/// class has no mesh.
+std::optional<visualization_msgs::Marker> meshOf(const std_msgs::Header& header,
+                                                 const std::string& name, ObjectClass object_class,
+                                                 const geometry_msgs::Pose& pose,
+                                                 const geometry_msgs::Vector3& size,
+                                                 const MarkersOptions& options);
+
 /// Color of the sensors: violet lidar, cyan stereo (as in thesis figure 3.13), yellow two or more,
 /// gray any other one.
 std_msgs::ColorRGBA colorOfSensors(const std::vector<std::string>& sensors, float opacity);

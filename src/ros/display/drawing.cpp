@@ -48,7 +48,9 @@ class Pencil {
     const auto& q = marker.pose.orientation;
     const Eigen::Quaternionf turn(static_cast<float>(q.w), static_cast<float>(q.x),
                                   static_cast<float>(q.y), static_cast<float>(q.z));
-    turn_ = turn.norm() > 0.0F ? turn.normalized() : Eigen::Quaternionf::Identity();
+    if (turn.norm() > 0.0F) {
+      turn_ = turn.normalized().toRotationMatrix();
+    }
     origin_ = pointOf(marker.pose.position);
     scale_ = Vector(static_cast<float>(marker.scale.x), static_cast<float>(marker.scale.y),
                     static_cast<float>(marker.scale.z));
@@ -59,7 +61,7 @@ class Pencil {
                 const std::array<std_msgs::ColorRGBA, 3>& colors) {
     const Vector normal = (turn_ * (b - a).cross(c - a)).normalized();
     const float light = kAmbient + (1.0F - kAmbient) * std::max(0.0F, normal.dot(kLight));
-    std::vector<DrawnVertex>& list = colors[0].a >= kOpaque ? drawing_.solid : drawing_.translucent;
+    std::vector<DrawnVertex>& list = listFor(colors[0].a);
     const std::array<const Vector*, 3> corners{&a, &b, &c};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       DrawnVertex vertex{origin_ + turn_ * *corners[i], colors[i]};
@@ -85,9 +87,16 @@ class Pencil {
   const Vector& scale() const { return scale_; }
 
  private:
+  std::vector<DrawnVertex>& listFor(float opacity) {
+    if (opacity >= kOpaque) {
+      return drawing_.solid;
+    }
+    return marker_.type == Marker::MESH_RESOURCE ? drawing_.meshes : drawing_.translucent;
+  }
+
   const Marker& marker_;
   Drawing& drawing_;
-  Eigen::Quaternionf turn_ = Eigen::Quaternionf::Identity();
+  Eigen::Matrix3f turn_ = Eigen::Matrix3f::Identity();
   Vector origin_;
   Vector scale_;
 };
@@ -194,6 +203,16 @@ void drawTriangles(const Marker& marker, const Vectors& points, Pencil& pencil) 
   }
 }
 
+void drawMesh(const Mesh& mesh, const std_msgs::ColorRGBA& paint, Pencil& pencil) {
+  for (const MeshTriangle& triangle : mesh) {
+    std_msgs::ColorRGBA color = triangle.color.value_or(paint);
+    color.a = paint.a;
+    const auto& [a, b, c] = triangle.corners;
+    pencil.triangle(pencil.scale().cwiseProduct(a), pencil.scale().cwiseProduct(b),
+                    pencil.scale().cwiseProduct(c), {color, color, color});
+  }
+}
+
 bool isFinite(const Marker& marker, const Vectors& points) {
   const auto& p = marker.pose.position;
   const auto& q = marker.pose.orientation;
@@ -203,7 +222,7 @@ bool isFinite(const Marker& marker, const Vectors& points) {
                                            [](const Vector& point) { return point.allFinite(); });
 }
 
-void draw(const Marker& marker, Drawing& drawing) {
+void draw(const Marker& marker, const Meshes& meshes, Drawing& drawing) {
   Vectors points;
   std::transform(marker.points.begin(), marker.points.end(), std::back_inserter(points), pointOf);
   if (!isFinite(marker, points)) {
@@ -229,6 +248,11 @@ void draw(const Marker& marker, Drawing& drawing) {
       return;
     case Marker::TRIANGLE_LIST:
       return drawTriangles(marker, points, pencil);
+    case Marker::MESH_RESOURCE:
+      if (const auto mesh = meshes.find(marker.mesh_resource); mesh != meshes.end()) {
+        drawMesh(mesh->second, marker.color, pencil);
+      }
+      return;
     case Marker::TEXT_VIEW_FACING:
       drawing.labels.push_back({pointOf(marker.pose.position), marker.text,
                                 static_cast<float>(marker.scale.z), marker.color});
@@ -240,11 +264,11 @@ void draw(const Marker& marker, Drawing& drawing) {
 
 }  // namespace
 
-Drawing drawingOf(const visualization_msgs::MarkerArray& markers) {
+Drawing drawingOf(const visualization_msgs::MarkerArray& markers, const Meshes& meshes) {
   Drawing drawing;
   for (const Marker& marker : markers.markers) {
     if (marker.action == Marker::ADD) {
-      draw(marker, drawing);
+      draw(marker, meshes, drawing);
     }
   }
   return drawing;

@@ -21,6 +21,12 @@ inline std_msgs::ColorRGBA color(float red, float green, float blue, float alpha
   return result;
 }
 
+/// The color for lines and text, dark enough to be read on a white map.
+inline std_msgs::ColorRGBA inkOf(const std_msgs::ColorRGBA& paint) {
+  constexpr float kBrightness = 0.45F;
+  return color(kBrightness * paint.r, kBrightness * paint.g, kBrightness * paint.b);
+}
+
 inline visualization_msgs::Marker makeMarker(const std_msgs::Header& header,
                                              const std::string& name, int type) {
   visualization_msgs::Marker marker;

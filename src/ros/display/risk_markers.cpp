@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <string>
 
 #include "marker_parts.h"
 
@@ -102,6 +104,14 @@ void addContact(const RiskArray& risks, const RiskMessage& risk, const RiskStyle
   markers.markers.push_back(label);
 }
 
+/// What is likely to happen, and below it what to do: a whole sentence is wider than the view.
+std::string inTwoLines(std::string reason) {
+  if (const std::size_t colon = reason.find(": "); colon != std::string::npos) {
+    reason[colon + 1] = '\n';
+  }
+  return reason;
+}
+
 void addLevel(const RiskArray& risks, const RiskStyle& style, MarkerArray& markers) {
   if (risks.level == RiskArray::LEVEL_NONE || risks.host_path.empty()) {
     return;
@@ -110,8 +120,8 @@ void addLevel(const RiskArray& risks, const RiskStyle& style, MarkerArray& marke
   const geometry_msgs::Pose2D& host = risks.host_path.front();
   label.pose.position = pointAt(host.x, host.y, kLevelLabel);
   label.scale.z = kSentence * style.text_height;
-  label.text = risks.reason;
-  label.color = colorOfLevel(risks.level);
+  label.text = inTwoLines(risks.reason);
+  label.color = inkOf(colorOfLevel(risks.level));
   markers.markers.push_back(label);
 }
 

@@ -14,9 +14,6 @@ namespace datmo {
 
 namespace {
 
-/// Brightness of lines and text relative to the color.
-constexpr float kInk = 0.45F;
-
 /// The golden section: its multiples modulo 1 are evenly spread for any number.
 constexpr double kGoldenSection = 0.618033988749895;
 
@@ -50,8 +47,7 @@ std_msgs::ColorRGBA colorOf(const TrackMessage& track, TrackColor color_by, floa
 }
 
 std_msgs::ColorRGBA inkOf(const TrackMessage& track, TrackColor color_by) {
-  const auto full = paintOf(track, color_by, true, 1.0F);
-  return color(kInk * full.r, kInk * full.g, kInk * full.b);
+  return inkOf(paintOf(track, color_by, true, 1.0F));
 }
 
 }  // namespace datmo

@@ -113,12 +113,23 @@ Marker groundOutline(const std_msgs::Header& header, const std::string& name,
   return outline;
 }
 
-/// The class as a shape, and on the ground its outline, and one in the color of the sensors.
+/// The class as a shape or mesh.
+ClassShape bodyOf(const std_msgs::Header& header, const TrackMessage& track,
+                  const TrackStyle& style) {
+  const ObjectClass object_class = classFromMessage(track.classification);
+  if (style.shape == TrackShape::kMesh) {
+    if (auto mesh = meshOf(header, "track", object_class, track.pose, track.size, style.sizes)) {
+      return {*mesh, std::nullopt};
+    }
+  }
+  return shapeOf(header, "track", object_class, track.pose, track.size, style.sizes);
+}
+
+/// The body, and on the ground its outline, and one in the color of the sensors.
 void addBody(const std_msgs::Header& header, const TrackMessage& track, const TrackStyle& style,
              MarkerArray& markers) {
   const MarkersOptions& options = style.sizes;
-  const ObjectClass object_class = classFromMessage(track.classification);
-  const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
+  const ClassShape shape = bodyOf(header, track, style);
   const float opacity =
       style.fade_by_existence ? kFaint + (kSolid - kFaint) * track.existence_probability : kSolid;
   const std_msgs::ColorRGBA paint = colorOf(track, style.color_by, opacity);

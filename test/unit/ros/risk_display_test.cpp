@@ -92,6 +92,16 @@ TEST(RiskMarkers, AContactIsADiscWithItsTime) {
   EXPECT_EQ(reason->text, "pedestrian 7 at the front");
 }
 
+TEST(RiskMarkers, TheReasonIsInTwoDarkLines) {
+  RiskArray risks = northward();
+  risks.reason = "vehicle 2 at the front (86 %): brake within 2.4 s";
+  const MarkerArray markers = markersOf(risks, RiskStyle());
+  const Marker* reason = find(markers, "risk level", 0);
+  ASSERT_NE(reason, nullptr);
+  EXPECT_EQ(reason->text, "vehicle 2 at the front (86 %):\nbrake within 2.4 s");
+  EXPECT_LT(reason->color.r, 0.5F) << "to be read on a white map";
+}
+
 TEST(RiskMarkers, UnlikelyContactsAndNoLevelAreNotDrawn) {
   RiskArray risks = northward();
   risks.level = RiskArray::LEVEL_NONE;

@@ -18,12 +18,19 @@ enum class TrackColor : std::uint8_t {
   kSensors  ///< sensors that saw it last: violet lidar, cyan stereo, yellow several, gray others
 };
 
+/// What a track looks like.
+enum class TrackShape : std::uint8_t {
+  kBox,  ///< boxes, cylinders and heads by class, as the markers are
+  kMesh  ///< meshes of vehicles, pedestrians and cyclists
+};
+
 /// m/s, speed at which the color scale saturates.
 inline constexpr double kFastColored = 15.0;
 
 /// User settings for drawing tracks (rviz); the defaults match the markers.
 struct TrackStyle {
   MarkersOptions sizes;
+  TrackShape shape = TrackShape::kBox;
   TrackColor color_by = TrackColor::kClass;
   double min_existence = 0.0;     ///< 0 to 1; less certain tracks are not drawn
   bool fade_by_existence = true;  ///< more transparent the less certain
