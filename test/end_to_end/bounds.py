@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bounds of the figures of simulated scenes, from their spread over seeds, in bounds.yaml, which
-measure_bounds.py writes.
+"""Bounds of the figures of simulated scenes and of recordings, from their spread over seeds, in
+bounds.yaml, which measure_bounds.py writes.
 
 A bound is as far beyond the worst of the measured seeds as that is beyond their median: three
 standard deviations of a normal figure, if ten seeds were measured. If a scene requires more

@@ -20,7 +20,7 @@ from datmo_tools.evaluate.report import as_text
 from datmo_tools.evaluate.stereo_grids import score, sections
 from drive_0005 import DRIVE, needs_drive_0005
 from evaluated_run import RUN_BAG, evaluated
-from test_drive_0005 import ASKED, CONFIG, ODOMETRY_ERRORS, WHOLE_DRIVE
+from recorded_figures import KITTI, KITTI_ASKED, ODOMETRY_ERRORS, whole_drive
 
 KEPT_PAIRS = 2  # one of so many
 
@@ -51,7 +51,7 @@ def thin_out(recorded, thinned):
 class StereoDrive(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        settings = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+        settings = yaml.safe_load(KITTI.read_text(encoding="utf-8"))
         first_column = settings["stereo_image_proc"]["disparity_range"]
         with tempfile.TemporaryDirectory() as name:
             recorded, thinned, computed = (Path(name) / f"{i}.bag" for i in range(3))
@@ -60,12 +60,12 @@ class StereoDrive(unittest.TestCase):
                 raise RuntimeError("kitti_to_bag failed")
             thin_out(recorded, thinned)
             subprocess.run(
-                [RUN_BAG, str(thinned), str(computed), "--config", str(CONFIG), "--quiet",
+                [RUN_BAG, str(thinned), str(computed), "--config", str(KITTI), "--quiet",
                  "--low-level-fusion", "--write-grids"], check=True)  # fmt: skip
             cls.in_view = cls.scored(computed, thinned)
             cls.matched = cls.scored(computed, thinned, first_column=first_column)
             cls.fused = cls.scored(computed, thinned, topic="/grids/fused")
-            cls.result = evaluated(computed, thinned, ASKED)
+            cls.result = evaluated(computed, thinned, KITTI_ASKED)
 
     @staticmethod
     def scored(computed, thinned, **settings):
@@ -90,12 +90,7 @@ class StereoDrive(unittest.TestCase):
 
     def test_van_and_cyclist_are_tracked(self):
         for kind, share in MIN_COMPLETENESS.items():
-            items = [
-                item
-                for item in self.result["objects"]
-                if item["class"] == kind
-                and item["required_frames"] >= WHOLE_DRIVE * self.result["frames"]
-            ]
+            items = whole_drive(self.result, kind)
             self.assertTrue(items, kind)
             for item in items:
                 self.assertGreaterEqual(item["completeness"], share, kind)

@@ -22,8 +22,9 @@ HITS = ("pedestrian_near_40_hit", "pedestrian_far_30_hit", "cyclist_across_40_hi
         "car_slower_40_hit")  # fmt: skip
 NEAR_MISSES = ("pedestrian_near_40_space", "pedestrian_far_30_time", "cyclist_across_40_space",
                "cyclist_along_40_space", "car_standing_50_space", "turn_across_45_15_space")  # fmt: skip
-# Errors of the time to contact (s) from true tracks, of all frames within 3 s of a contact.
-MEDIAN_TTC, LARGE_TTC = 0.1, 0.3
+# Errors of the time to contact (s) from true tracks, of all frames within 3 s of a contact; median and
+# 95 %. Measured are 0.017 and 0.065, for all of six seeds: half more fails.
+MEDIAN_TTC, LARGE_TTC = 0.025, 0.097
 
 
 def drive_of(name, tracks="true"):
