@@ -56,7 +56,7 @@ GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
       random_(static_cast<std::uint64_t>(options->seed)),
       tracker_(options->pose, options->motion, options->odometry_hold),
       maps_(options->map, options->recovery, tracker_.filter().scalePrior()),
-      kidnapping_(options->recovery.min_contradiction_rise, options->recovery.kidnapped_after) {}
+      kidnapping_(options->recovery.min_kidnapped_log_ratio, options->recovery.kidnapped_after) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) { follow(tracker_.addOdometry(sample)); }
 

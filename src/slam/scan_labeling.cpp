@@ -39,12 +39,13 @@ std::vector<PointState> judgeRays(const Scan& scan, const OccupancyMap& map,
 
 MapAgreement agreementOf(const Scan& scan, const std::vector<PointState>& states,
                          const OccupancyMap& map, const Pose2& base_in_map) {
-  MapAgreement agreement{static_cast<int>(scan.rays.size()), 0};
+  MapAgreement agreement{static_cast<int>(scan.rays.size()), 0, 0};
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const bool is_contradicted =
         states[i] == PointState::kMoving ||
         (states[i] == PointState::kUnknown && map.seesThrough(scan.rays[i], base_in_map));
     agreement.contradicted += is_contradicted ? 1 : 0;
+    agreement.confirmed += states[i] == PointState::kStatic ? 1 : 0;
   }
   return agreement;
 }

@@ -7,6 +7,7 @@
 #include "grazing.h"
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/log_beta.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/beam_positions.h"
 
@@ -44,14 +45,6 @@ class Coverage {
   Pose2 fixed_in_box_;
   double range_sigma_;
 };
-
-/// std::lgamma writes a global variable that threads share.
-double logGamma(double value) {
-  int sign = 0;
-  return lgamma_r(value, &sign);
-}
-
-double logBeta(double a, double b) { return logGamma(a) + logGamma(b) - logGamma(a + b); }
 
 /// Beams that crossed positions of a target; partial counts for weighted beams.
 struct CrossingBeams {

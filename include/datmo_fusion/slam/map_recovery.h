@@ -29,8 +29,8 @@ struct MapRecoveryOptions {
   double search_period = 0.8;                ///< s
   double give_up_after = 5.0;                ///< s
   double lost_from_sigma = 15.0;             ///< m
-  double min_contradiction_rise = 0.2;       ///< 0 to 1
-  double kidnapped_after = 1.0;              ///< s
+  double min_kidnapped_log_ratio = 5.0;
+  double kidnapped_after = 1.0;  ///< s
   int boxes_per_scan = 600;
   MapSearchOptions search;
   int prior_boxes_per_second = 400000;

@@ -13,7 +13,7 @@ namespace datmo {
 std::vector<PointState> judgeRays(const Scan& scan, const OccupancyMap& map,
                                   const Pose2& base_in_map);
 
-/// Counts the beams of a scan, whose ends have these states, that the map contradicts.
+/// Counts the beams of a scan, whose ends have these states, that the map contradicts or confirms.
 MapAgreement agreementOf(const Scan& scan, const std::vector<PointState>& states,
                          const OccupancyMap& map, const Pose2& base_in_map);
 

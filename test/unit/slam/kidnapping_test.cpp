@@ -119,7 +119,7 @@ TEST(KidnappingTest, WithoutKidnappingItStaysLocated) {
 
 TEST(KidnappingTest, WithoutTheTestThePoseIsConfidentAndWrong) {
   GridSlamOptions options;
-  options.recovery.min_contradiction_rise = 1.0;
+  options.recovery.min_kidnapped_log_ratio = 1000.0;
   const Step last = drive(kKnown.front(), 20, options).back();
   EXPECT_EQ(last.result.localization, Localization::kLocated);
   EXPECT_GT(errorOf(last), 3.0 * sigmaOf(last));
