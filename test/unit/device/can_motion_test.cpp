@@ -223,6 +223,7 @@ TEST_F(CanMotionTest, SteeringAndAccelerationComeWithTheMotion) {
   options_.steering = "0x1D0 7|16@0- (0.1,0) [-720|720] \"deg\"";
   options_.acceleration = "0x1E0 0|8@1- (0.01,0) [-1|1] \"g\"";
   options_.steering_ratio = 16.0;
+  takeBoth(1.0, 0.0);  // the first counter gives no motion
   const auto without = takeBoth(1.0, 0.0);
   ASSERT_TRUE(without);
   EXPECT_FALSE(without->twist.steering);

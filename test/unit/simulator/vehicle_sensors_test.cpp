@@ -18,8 +18,8 @@ VehicleSensorOptions ideal() {
 
 /// Brakes from 8 m/s at 2 m/s^2 to a stop, in a bend of 14 m radius to the left.
 World brakingInABend() {
-  const Mover ego{objectKind("car"), Path({{0.0, 0.0}, {14.0, 0.0}, {14.0, 50.0}}, 14.0),
-                  SpeedProfile({{0.0, 8.0}, {4.0, 0.0}}), 0.0};
+  const Mover ego{objectKind("car"), Path({{0.0, 0.0}, {28.0, 0.0}, {28.0, 80.0}}, 14.0),
+                  SpeedProfile({{0.0, 8.0}, {4.0, 0.0}}), 14.0};
   return World(RoadNetwork(), ego);
 }
 
