@@ -13,8 +13,8 @@
 /// false with everything.
 namespace datmo {
 
-/// An age (s) fits into a message's duration; a variance this large (rad^2) means unknown, and sums
-/// of them stay far from the limits of a double.
+/// An age (s) fits into a message's duration; a variance this large (rad^2) means unknown; nothing
+/// is seen as far (m); and sums of them stay far from the limits of a double.
 inline constexpr double kMaxAmount = 1e9;
 
 inline bool isPosition(const Point2& point) { return isWithin(point, kMaxCoordinate); }

@@ -107,7 +107,7 @@ class Tool(EvaluateCase):
         scale = wrong.shape[0] / 64.0
         self.assertAlmostEqual(np.ptp(columns) / scale, 18.2, delta=1.0)
         self.assertAlmostEqual(columns.mean(), wrong.shape[1] / 2, delta=scale)
-        self.assertIn("below", out)
+        self.assertIn("on the page", out)
 
     def test_a_mistake_without_an_image_is_reported(self):
         write_images(self.drive, count=1, delay=0)

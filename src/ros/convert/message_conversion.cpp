@@ -51,12 +51,13 @@ ScanPoint fromMessage(const ScanPointMessage& message) {
   const bool near = point.position.norm() <= kMaxReach + kMaxMountDistance &&
                     isReach(point.range) && std::abs(point.bearing) <= kMaxBearing;
   if (!near || message.state > ScanPointMessage::UNKNOWN) {
-    throw InputError("bad_point", "labeled scan with beam " + std::to_string(message.beam) +
-                                      " at " + std::to_string(message.x) + ", " +
-                                      std::to_string(message.y) + " in state " +
-                                      std::to_string(message.state) +
-                                      ": expected finite numbers within a scanner's range, and a "
-                                      "state from 0 to 2");
+    throw InputError("bad_point",
+                     "labeled scan with beam " + std::to_string(message.beam) + " at " +
+                         std::to_string(message.x) + ", " + std::to_string(message.y) +
+                         ", bearing " + std::to_string(message.bearing) + ", in state " +
+                         std::to_string(message.state) +
+                         ": expected a point within a scanner's range, a bearing within two turns, "
+                         "and a state from 0 to 2");
   }
   return point;
 }
@@ -87,10 +88,10 @@ ScanField fromMessage(const ScanFieldMessage& message) {
         "labeled scan of " + std::to_string(field.beams) + " beams from " +
             std::to_string(field.first_bearing) + " rad every " +
             std::to_string(field.beam_spacing) + " rad up to " + std::to_string(field.range) +
-            " m, one each " + std::to_string(field.beam_time) +
+            " m, one every " + std::to_string(field.beam_time) +
             " s: expected angles within two turns, ranges up to " + std::to_string(kMaxReach) +
-            " m, a spacing other than 0, at most " + std::to_string(kMaxBeams) + " beams and " +
-            std::to_string(kMaxSweep) + " s");
+            " m, a spacing other than 0, at most " + std::to_string(kMaxBeams) +
+            " beams, and from 0 to " + std::to_string(kMaxSweep) + " s for all of them");
   }
   return field;
 }

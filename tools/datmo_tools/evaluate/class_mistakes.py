@@ -113,4 +113,4 @@ def _caption(item):
 def _row(item, fault):
     ids = [NO_VALUE if number is None else str(number) for number in (item.track, item.true_id)]
     return (item.said, item.true, percent(item.probability), f"{item.distance:.1f}",
-            f"{item.stamp / NANOSECONDS:.3f}", *ids, fault or "below")  # fmt: skip
+            f"{item.stamp / NANOSECONDS:.3f}", *ids, fault or "on the page")  # fmt: skip

@@ -23,7 +23,7 @@ geometry_msgs::Pose toMessage(const Pose2& pose);
 geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
 
 /// Returns the planar pose; roll and pitch are dropped. Throws InputError (`bad_pose`) if it is not
-/// finite, farther away than 1e9 m, or its quaternion does not have length 1.
+/// finite, farther away than kMaxCoordinate, or its quaternion does not have length 1.
 Pose2 fromMessage(const geometry_msgs::Pose& pose);
 
 /// Returns the covariance of x, y and yaw, unchecked.
