@@ -12,8 +12,7 @@ import unittest
 
 import simulated_recording as simulated
 from check_bag_case import Tool, each, odometry_of, of_topic, ranges, shifted, without
-from geometry_msgs.msg import AccelWithCovarianceStamped, TwistStamped
-from sensor_msgs.msg import JointState
+from geometry_msgs.msg import TwistStamped
 
 from datmo_tools import transforms
 from datmo_tools.check_bag.main import main
@@ -136,30 +135,6 @@ class Motion(Tool):
         _, out, content = self.run_tool(without(items, "/odometry"))
         self.assertEqual(content["motion"]["source"], "imu_and_twist")
         self.assertIn("twist:=/speed", out)
-
-    def test_joints_with_velocities_are_wheels(self):
-        items = without(simulated.recording(), "/odometry", "/tf")
-        for item in of_topic(items, "/imu"):
-            joints = JointState(header=item.message.header, velocity=[1.0])
-            items.append(simulated.Item(item.recorded, "/wheels", joints))
-        _, out, content = self.run_tool(items)
-        self.assertEqual(content["motion"]["source"], "imu_and_wheels")
-        self.assertIn("joint_states:=/wheels", out)
-        self.assertNotIn("steering:=", out)
-
-    def test_steering_and_acceleration_are_no_wheels(self):
-        items = without(simulated.recording(), "/odometry", "/tf")
-        for item in of_topic(items, "/imu"):
-            joints = JointState(header=item.message.header, name=["steer"], position=[0.1])
-            items.append(simulated.Item(item.recorded, "/front/joint_states", joints))
-            along = AccelWithCovarianceStamped(header=item.message.header)
-            items.append(simulated.Item(item.recorded, "/accel/filtered", along))
-        kinds, out, content = self.run_tool(items)
-        self.assertEqual(content["motion"]["source"], "imu")
-        self.assertNotIn("wheel_speeds", kinds)
-        for line in ("run_bag", "replay.launch"):
-            command = next(each for each in out.splitlines() if f"datmo_fusion {line}" in each)
-            self.assertIn("steering:=/front/joint_states acceleration:=/accel/filtered", command)
 
     def test_scale(self):
         kinds, out, _ = self.run_tool(odometry_of(simulated.recording(), speed_scale=1.2))
