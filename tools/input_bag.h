@@ -31,6 +31,18 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic, const std::str
 /// Throws std::runtime_error that names the file and what is `missing` in it, and lists its topics.
 [[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing);
 
+/// Returns the topic of an optional input, empty if the bag lacks it. `asked`: the user has named
+/// it; then one of another type is returned, too, and read() refuses it. Throws like failForTopic
+/// if the bag lacks a topic that was asked for.
+template <typename Message>
+std::string optionalTopic(const rosbag::Bag& bag, const std::string& topic, bool asked) {
+  const std::string type = ros::message_traits::datatype<Message>();
+  if (asked && !holdsTopic(bag, topic)) {
+    failForTopic(bag, "no " + type + " on " + topic);
+  }
+  return asked || holdsTopic(bag, topic, type) ? topic : "";
+}
+
 /// The bytes of a message as recorded in the bag.
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message);
 

@@ -134,8 +134,12 @@ std::optional<CanMotion::Motion> CanMotion::take(const CanFrame& frame, Stamp st
   if (!yaw_rate) {
     return std::nullopt;
   }
-  return Motion{{*speed, *yaw_rate, other_frames_, steeringAt(stamp), fresh(kAcceleration, stamp)},
+  Motion motion{{*speed, *yaw_rate, other_frames_, {}, takeNew(kAcceleration, 1.0)},
                 std::exchange(missed_, 0)};
+  if (options_.publishesSteering()) {
+    motion.twist.steering = takeNew(kSteering, 1.0 / options_.steering_ratio);
+  }
+  return motion;
 }
 
 bool CanMotion::isCounting(const CanFrame& frame) {
@@ -198,6 +202,7 @@ void CanMotion::read(Role role, const CanFrame& frame, Stamp stamp) {
   } else {
     channel.value = *value * channel.scale;
     channel.stamp = stamp;
+    channel.is_new = true;
   }
 }
 
@@ -248,11 +253,12 @@ std::optional<double> CanMotion::speedAt(Stamp stamp) const {
   return std::abs(*direction - options_.reverse) < kSame ? -std::abs(sum / count) : sum / count;
 }
 
-std::optional<double> CanMotion::steeringAt(Stamp stamp) const {
-  const std::optional<double> angle = fresh(kSteering, stamp);
-  return angle && options_.yaw_from != CanYaw::kSteering
-             ? std::optional<double>(*angle / options_.steering_ratio)
-             : std::nullopt;
+std::optional<StampedValue> CanMotion::takeNew(Role role, double scale) {
+  std::optional<Channel>& channel = channels_[role];
+  if (!channel || !std::exchange(channel->is_new, false) || !channel->value) {
+    return std::nullopt;
+  }
+  return StampedValue{*channel->value * scale, channel->stamp};
 }
 
 std::optional<double> CanMotion::yawRateAt(Stamp stamp, double speed) const {

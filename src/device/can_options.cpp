@@ -26,10 +26,12 @@ void visitSignals(CanOptions& options, OptionVisitor& visitor) {
   wheel("rear_right", "rear right", options.rear_right);
   visitor.text({"yaw_rate", "", "the same for the yaw rate (rad/s, deg/s), positive to the left"},
                options.yaw_rate, {});
-  visitor.text({"steering", "",
-                "the same for the steering wheel (rad, deg), positive to the left; empty: not "
-                "published"},
-               options.steering, {});
+  visitor.text(
+      {"steering", "",
+       "the same for the steering wheel (rad, deg), positive to the left; published as the "
+       "angle of the front wheels (over steering_ratio), unless yaw_from is steering; "
+       "empty: the bus has none"},
+      options.steering, {});
   visitor.text({"direction", "",
                 "the same for the gear or the direction of travel; empty: the speed has a sign, or "
                 "the vehicle does not reverse"},

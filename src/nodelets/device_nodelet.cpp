@@ -74,14 +74,14 @@ class DeviceNodelet : public nodelet::Nodelet {
         break;
       case DeviceKind::kCan:
         output_ = node.advertise<geometry_msgs::TwistStamped>("twist", kCanQueue);
-        advertiseDriver(node, options_.device.can);
+        advertiseHostSensors(node, options_.device.can);
         break;
     }
   }
 
-  /// What a bus tells of the driver in addition to the motion.
-  void advertiseDriver(ros::NodeHandle& node, const CanOptions& can) {
-    if (!can.steering.empty() && can.yaw_from != CanYaw::kSteering) {
+  /// What a bus measures of the host in addition to its motion.
+  void advertiseHostSensors(ros::NodeHandle& node, const CanOptions& can) {
+    if (can.publishesSteering()) {
       steering_ = node.advertise<sensor_msgs::JointState>("steering", kCanQueue);
     }
     if (!can.acceleration.empty()) {
@@ -101,13 +101,14 @@ class DeviceNodelet : public nodelet::Nodelet {
   }
 
   template <typename Data>
-  void publishDriver(const Data& /*data*/, Stamp /*stamp*/) {}
-  void publishDriver(const VehicleTwist& twist, Stamp stamp) {
+  void publishHostSensors(const Data& /*data*/) {}
+  void publishHostSensors(const VehicleTwist& twist) {
     if (twist.steering) {
-      steering_.publish(toSteering(*twist.steering, stamp));
+      steering_.publish(toSteering(twist.steering->value, twist.steering->stamp));
     }
     if (twist.acceleration) {
-      acceleration_.publish(toAcceleration({*twist.acceleration, 0.0}, stamp));
+      acceleration_.publish(
+          toAcceleration({twist.acceleration->value, 0.0}, twist.acceleration->stamp));
     }
   }
 
@@ -149,7 +150,7 @@ class DeviceNodelet : public nodelet::Nodelet {
     std::visit(
         [this, stamp](const auto& data) {
           outputOf(data).publish(toMessage(data, stamp, options_.frame));
-          publishDriver(data, stamp);
+          publishHostSensors(data);
         },
         event.measurement.data);
     monitor_->processed({stamp, watch.seconds()});

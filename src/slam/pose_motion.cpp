@@ -37,8 +37,8 @@ std::optional<PoseStep> PoseMotion::add(Stamp stamp, const PoseWithCovariance& p
   // The twist of an arc ignores a sideways jump.
   step.twist = {std::copysign(motion.position().norm() / seconds, motion.x()),
                 twistOf(motion, seconds).yaw_rate};
-  const Eigen::Vector2d sigma = twistSigma(before->pose.covariance, pose.covariance, seconds);
-  step.jumped = !isPlausible(step.twist) || !gate_.passes(stamp, step.twist, sigma);
+  step.sigma = twistSigma(before->pose.covariance, pose.covariance, seconds);
+  step.jumped = !isPlausible(step.twist) || !gate_.passes(stamp, step.twist, step.sigma);
   if (!step.jumped) {
     twist_ = twistOf(motion, seconds);
     step.twist = twist_;

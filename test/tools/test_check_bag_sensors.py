@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_bag finds each fault of scans and cameras."""
+"""check_bag finds each fault of scans and cameras, and what joints measure."""
 
 import math
 import unittest
 
 import numpy as np
 import simulated_recording as simulated
-from check_bag_case import Tool, each, masked, ranges, shifted, without
-from sensor_msgs.msg import PointCloud2, PointField
+from check_bag_case import Tool, each, masked, of_topic, ranges, shifted, without
+from geometry_msgs.msg import AccelWithCovarianceStamped
+from sensor_msgs.msg import JointState, PointCloud2, PointField
 
 
 class Scans(Tool):
@@ -84,6 +85,32 @@ class Scans(Tool):
         kinds, out, _ = self.run_tool(items, code=1)
         self.assertEqual(kinds["only_3d_lidar"], "error")
         self.assertIn("cloud_to_scan", out)
+
+
+class Joints(Tool):
+    def test_joints_with_velocities_are_wheels(self):
+        items = without(simulated.recording(), "/odometry", "/tf")
+        for item in of_topic(items, "/imu"):
+            joints = JointState(header=item.message.header, velocity=[1.0])
+            items.append(simulated.Item(item.recorded, "/wheels", joints))
+        _, out, content = self.run_tool(items)
+        self.assertEqual(content["motion"]["source"], "imu_and_wheels")
+        self.assertIn("joint_states:=/wheels", out)
+        self.assertNotIn("steering:=", out)
+
+    def test_steering_and_acceleration_are_no_wheels(self):
+        items = without(simulated.recording(), "/odometry", "/tf")
+        for item in of_topic(items, "/imu"):
+            joints = JointState(header=item.message.header, name=["steer"], position=[0.1])
+            items.append(simulated.Item(item.recorded, "/front/joint_states", joints))
+            along = AccelWithCovarianceStamped(header=item.message.header)
+            items.append(simulated.Item(item.recorded, "/accel/filtered", along))
+        kinds, out, content = self.run_tool(items)
+        self.assertEqual(content["motion"]["source"], "imu")
+        self.assertNotIn("wheel_speeds", kinds)
+        for line in ("run_bag", "replay.launch"):
+            command = next(each for each in out.splitlines() if f"datmo_fusion {line}" in each)
+            self.assertIn("steering:=/front/joint_states acceleration:=/accel/filtered", command)
 
 
 class Cameras(Tool):

@@ -69,22 +69,24 @@ void BagToGraph::takeStaticTransforms(const rosbag::Bag& bag) {
 }
 
 void BagToGraph::take(const rosbag::MessageInstance& message) {
-  const auto reader = readers_.find(message.getTopic());
-  if (reader == readers_.end()) {
+  const auto readers = readers_.find(message.getTopic());
+  if (readers == readers_.end()) {
     output_.copy(message);
     report_.noteTruth();
     return;
   }
-  Publications published;
-  guarded(graph_.inputs(), message.getTopic(),
-          [&] { published = reader->second(message, toStamp(message.getTime())); });
-  write(message.getTime(), published);
+  for (const auto& [graph_topic, reader] : readers->second) {
+    Publications published;
+    guarded(graph_.inputs(), message.getTopic(),
+            [&, &reader = reader] { published = reader(message, toStamp(message.getTime())); });
+    write(message.getTime(), published);
+  }
   refusals_.book(message.getTopic());
   report_.book(message.getTopic(), toStamp(message.getTime()), graph_);
 }
 
 void BagToGraph::readMotion(const InputTopics& topics) {
-  readers_["/tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
+  readers_["/tf"]["tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
     return graph_.takeTransforms(*plain<tf2_msgs::TFMessage>(message), now);
   };
   const MotionTopics& motion = topics.motion;

@@ -45,13 +45,15 @@ class BagToGraph {
  private:
   using Reader = std::function<Publications(const rosbag::MessageInstance&, Stamp now)>;
 
-  /// Connects a topic of the bag to one of the graph; a topic without a name is not read.
+  /// Connects a topic of the bag to one of the graph, in addition to others that read it: the
+  /// wheels and the steering may be joints of one message. A topic without a name is not read.
   template <typename Message>
   void on(const std::string& topic, const std::string& graph_topic) {
     if (!topic.empty()) {
-      readers_[topic] = [this, graph_topic](const rosbag::MessageInstance& message, Stamp now) {
-        return graph_.take(graph_topic, plain<Message>(message), now);
-      };
+      readers_[topic].try_emplace(
+          graph_topic, [this, graph_topic](const rosbag::MessageInstance& message, Stamp now) {
+            return graph_.take(graph_topic, plain<Message>(message), now);
+          });
     }
   }
 
@@ -85,7 +87,7 @@ class BagToGraph {
   InputRefusals refusals_;
   TextOutputs text_;
   RunReport report_;
-  std::map<std::string, Reader> readers_;  ///< by topic
+  std::map<std::string, std::map<std::string, Reader>> readers_;  ///< by topic, and graph topic
 };
 
 }  // namespace datmo

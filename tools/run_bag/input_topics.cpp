@@ -176,23 +176,17 @@ V2xTopics v2xTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   return topics;
 }
 
-/// The topic of an optional input, if the bag has it; one of another type only if the command line
-/// names it.
+/// One of another type only if the command line names it.
 template <typename Message>
-std::string optionalTopic(const rosbag::Bag& bag, const Arguments& arguments,
-                          const std::string& topic) {
-  const std::string name = arguments.inputTopic(topic);
-  const std::string type = ros::message_traits::datatype<Message>();
-  const bool asked = arguments.remappings.count("/" + topic) > 0;
-  if (asked && !holdsTopic(bag, name)) {
-    failForTopic(bag, "no " + type + " on " + name);
-  }
-  return asked || holdsTopic(bag, name, type) ? name : "";
+std::string hostTopic(const rosbag::Bag& bag, const Arguments& arguments,
+                      const std::string& topic) {
+  return optionalTopic<Message>(bag, arguments.inputTopic(topic),
+                                arguments.remappings.count("/" + topic) > 0);
 }
 
 HostTopics hostTopics(const rosbag::Bag& bag, const Arguments& arguments) {
-  return {optionalTopic<sensor_msgs::JointState>(bag, arguments, "steering"),
-          optionalTopic<geometry_msgs::AccelWithCovarianceStamped>(bag, arguments, "acceleration")};
+  return {hostTopic<sensor_msgs::JointState>(bag, arguments, "steering"),
+          hostTopic<geometry_msgs::AccelWithCovarianceStamped>(bag, arguments, "acceleration")};
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace {
@@ -41,8 +42,8 @@ struct Arguments {
   std::string output;
   std::string config;
   std::string odometry = "/odometry";
-  std::string steering = "/steering";
-  std::string acceleration = "/acceleration";
+  std::string steering;      ///< empty: /steering, if there is one
+  std::string acceleration;  ///< the same
   OptionValues overrides;
 };
 
@@ -146,8 +147,9 @@ class Replay {
   void on(const std::string& topic, const std::string& graph_topic) {
     ranks_[topic] = readers_.size();
     readers_.push_back([this, graph_topic](const rosbag::MessageInstance& message) {
-      return graph_.take(graph_topic, boost::shared_ptr<const Message>(read<Message>(message)),
-                         toStamp(message.getTime()));
+      const boost::shared_ptr<const Message> plain =
+          withPlainFrames<Message>(message.getTopic(), read<Message>(message), graph_.inputs());
+      return graph_.take(graph_topic, plain, toStamp(message.getTime()));
     });
   }
 
@@ -158,7 +160,14 @@ class Replay {
   std::multimap<std::pair<ros::Time, std::size_t>, rosbag::MessageInstance> messages_;
 };
 
-void replay(const Arguments& arguments) {
+/// `asked`: as the user named it; empty: `usual`, if the drive has it.
+template <typename Message>
+std::string hostTopic(const rosbag::Bag& drive, const std::string& asked,
+                      const std::string& usual) {
+  return optionalTopic<Message>(drive, asked.empty() ? usual : asked, !asked.empty());
+}
+
+void replay(Arguments arguments) {
   rosbag::Bag run;
   rosbag::Bag drive;
   openInput(arguments.run, run);
@@ -169,14 +178,15 @@ void replay(const Arguments& arguments) {
       failForTopic(*bag, "no " + topic);
     }
   }
+  arguments.steering = hostTopic<Steering>(drive, arguments.steering, "/steering");
+  arguments.acceleration = hostTopic<Acceleration>(drive, arguments.acceleration, "/acceleration");
   Replay replayed(arguments, run);
   rosbag::View results(run);
   std::vector<std::string> topics{arguments.odometry};
-  if (holdsTopic(drive, arguments.steering, ros::message_traits::datatype<Steering>())) {
-    topics.push_back(arguments.steering);
-  }
-  if (holdsTopic(drive, arguments.acceleration, ros::message_traits::datatype<Acceleration>())) {
-    topics.push_back(arguments.acceleration);
+  for (const std::string& topic : {arguments.steering, arguments.acceleration}) {
+    if (!topic.empty()) {
+      topics.push_back(topic);
+    }
   }
   rosbag::View motion(drive, rosbag::TopicQuery(topics));
   replayed.add(results);

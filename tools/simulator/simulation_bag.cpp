@@ -84,7 +84,7 @@ class Recording {
                                  [this](double time, Stamp stamp) { recordScan(time, stamp); }}};
     if (scene_.options.vehicle_sensors.enabled) {
       sources.push_back({scene_.options.vehicle_sensors.rate,
-                         [this](double time, Stamp stamp) { recordCommand(time, stamp); }});
+                         [this](double time, Stamp stamp) { recordHostSensors(time, stamp); }});
     }
     if (stereo_) {
       sources.push_back({scene_.options.stereo.rate,
@@ -115,11 +115,11 @@ class Recording {
     write("/tf", stamp, transform);
   }
 
-  void recordCommand(double time, Stamp stamp) {
-    const DriverCommand command = vehicle_sensors_.measure(scene_.world.at(time));
+  void recordHostSensors(double time, Stamp stamp) {
+    const HostMeasurement measured = vehicle_sensors_.measure(scene_.world.at(time));
     const double noise = scene_.options.vehicle_sensors.acceleration_noise;
-    write("/steering", stamp, *toSteering(command.steering, stamp));
-    write("/acceleration", stamp, *toAcceleration({command.acceleration, noise * noise}, stamp));
+    write("/steering", stamp, *toSteering(measured.steering, stamp));
+    write("/acceleration", stamp, *toAcceleration({measured.acceleration, noise * noise}, stamp));
   }
 
   void recordScan(double time, Stamp stamp) {

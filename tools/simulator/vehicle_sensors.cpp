@@ -14,8 +14,9 @@ void VehicleSensorOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"steering_noise", "deg", "standard deviation of the angle of the front wheels; assumed"},
       steering_noise, {0.0, 10.0});
+  // Not 0: its message would have the covariance 0, which means unknown.
   visitor.number({"acceleration_noise", "m/s^2", "standard deviation; assumed"}, acceleration_noise,
-                 {0.0, 10.0});
+                 {1e-3, 10.0});
   visitor.number({"wheelbase", "m", "distance between the axles"}, wheelbase, {0.1, 15.0});
 }
 
@@ -24,7 +25,7 @@ VehicleSensors::VehicleSensors(const VehicleSensorOptions& options, const Random
   checkOptions(options_);
 }
 
-DriverCommand VehicleSensors::measure(const WorldState& state) {
+HostMeasurement VehicleSensors::measure(const WorldState& state) {
   const double speed = state.twist.forward_speed;
   if (speed != 0.0) {
     steering_ = std::atan(options_.wheelbase * state.twist.yaw_rate / speed);

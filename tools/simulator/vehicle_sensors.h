@@ -10,7 +10,7 @@
 
 namespace datmo::simulator {
 
-/// What the vehicle measures of its driver's commands: the angle of the front wheels and the
+/// What the host vehicle measures besides its odometry: the angle of the front wheels and the
 /// acceleration. The noises are assumed: a steering angle sensor behind the steering gear, and an
 /// accelerometer on a level road.
 struct VehicleSensorOptions {
@@ -24,7 +24,7 @@ struct VehicleSensorOptions {
 };
 
 /// One measurement.
-struct DriverCommand {
+struct HostMeasurement {
   double steering = 0.0;      ///< rad, of the front wheels of a bicycle, positive to the left
   double acceleration = 0.0;  ///< m/s^2, along the heading
 };
@@ -37,7 +37,7 @@ class VehicleSensors {
   VehicleSensors(const VehicleSensorOptions& options, const RandomStream& random);
 
   /// States must be given in order of time.
-  DriverCommand measure(const WorldState& state);
+  HostMeasurement measure(const WorldState& state);
 
  private:
   struct StampedSpeed {

@@ -47,11 +47,14 @@ struct CanOptions {
   int frozen_after = 3;
 
   void visit(OptionVisitor& visitor);
+
+  /// Whether the steering is published: it tells nothing more if the yaw rate is derived from it.
+  bool publishesSteering() const { return !steering.empty() && yaw_from != CanYaw::kSteering; }
 };
 
 /// Computes the vehicle's motion from the frames of its CAN bus. Each frame with the speed (the
 /// last wheel's frame if the speed is that of the wheels) gives one motion, with the newest values
-/// of the other signals.
+/// of the other signals; steering and acceleration are passed on once, with their own stamps.
 class CanMotion {
  public:
   /// Reports a faulty frame, which is ignored.
@@ -83,7 +86,8 @@ class CanMotion {
     CanSignal signal;
     double scale = 1.0;  ///< of a value of the signal, to m, s and rad
     std::optional<double> value;
-    Stamp stamp;  ///< of the value
+    Stamp stamp;          ///< of the value
+    bool is_new = false;  ///< it has not been passed on by takeNew
   };
 
   /// The rolling counter of a message.
@@ -107,9 +111,8 @@ class CanMotion {
   std::optional<double> newest(int role, Stamp stamp) const;
   std::optional<double> speedAt(Stamp stamp) const;
   std::optional<double> yawRateAt(Stamp stamp, double speed) const;
-  /// Returns the angle of the front wheels, unless the yaw rate is derived from it: then it tells
-  /// nothing more.
-  std::optional<double> steeringAt(Stamp stamp) const;
+  /// Returns the value times `scale`, with its own stamp, once: none until there is a new one.
+  std::optional<StampedValue> takeNew(Role role, double scale);
 
   CanOptions options_;
   Warn warn_;

@@ -64,13 +64,20 @@ struct GroundVelocity {
   double course = 0.0;  ///< rad, clockwise from north
 };
 
+/// A value with its own stamp.
+struct StampedValue {
+  double value = 0.0;
+  Stamp stamp;
+};
+
 /// Motion of the vehicle, as reported on its bus.
 struct VehicleTwist {
-  double speed = 0.0;                  ///< m/s, ahead
-  double yaw_rate = 0.0;               ///< rad/s, positive to the left; NaN: unknown
-  std::uint64_t other_frames = 0;      ///< on the bus so far that are not used
-  std::optional<double> steering;      ///< rad, of the front wheels, positive to the left
-  std::optional<double> acceleration;  ///< m/s^2, ahead
+  double speed = 0.0;              ///< m/s, ahead
+  double yaw_rate = 0.0;           ///< rad/s, positive to the left; NaN: unknown
+  std::uint64_t other_frames = 0;  ///< on the bus so far that are not used
+  /// rad, of the front wheels, positive to the left; none: no new one since the last motion.
+  std::optional<StampedValue> steering;
+  std::optional<StampedValue> acceleration;  ///< m/s^2, ahead; none: the same
 };
 
 using DeviceData =

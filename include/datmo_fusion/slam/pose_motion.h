@@ -11,7 +11,9 @@ namespace datmo {
 
 /// The motion since the previous pose.
 struct PoseStep {
-  Twist2 twist;         ///< its speed is that of the position, including sideways
+  Twist2 twist;  ///< its speed is that of the position, including sideways
+  /// Standard deviations of speed (m/s) and yaw rate (rad/s), from those of the poses.
+  Eigen::Vector2d sigma = Eigen::Vector2d::Zero();
   bool jumped = false;  ///< implausible for a vehicle: the pose was corrected
   Pose2 traveled;       ///< motion since the first pose, without jumps
 };

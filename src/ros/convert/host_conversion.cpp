@@ -35,15 +35,7 @@ Estimate steeringFrom(const sensor_msgs::JointState& message, const SteeringForm
     if (!format.joint.empty() && message.name[i].find(format.joint) == std::string::npos) {
       continue;
     }
-    const double angle = message.position[i];
-    if (!isReachable(angle, format.max, format.sigma)) {
-      throw InputError("bad_steering",
-                       "steering angle of " + std::to_string(angle) + " rad: expected at most " +
-                           std::to_string(format.max) +
-                           " rad (vehicle/max_steering), the angle of the front wheels, not of "
-                           "the steering wheel");
-    }
-    sum += angle;
+    sum += message.position[i];
     ++count;
   }
   if (count == 0) {
@@ -54,11 +46,21 @@ Estimate steeringFrom(const sensor_msgs::JointState& message, const SteeringForm
                                   : "a joint with '" + format.joint + "' in its name") +
             ": expected the angles of the front wheels (host_state/steering_joint)");
   }
-  return {sum / static_cast<double>(count), square(format.sigma)};
+  // Of a car's front wheels, the inner one turns farther than that of the bicycle, the outer one
+  // less: only their mean has its limit. It is not finite if one of them is not.
+  const double angle = sum / static_cast<double>(count);
+  if (!isReachable(angle, format.max, format.sigma)) {
+    throw InputError("bad_steering",
+                     "steering angle of " + std::to_string(angle) + " rad: expected at most " +
+                         std::to_string(format.max) +
+                         " rad (vehicle/max_steering), the mean angle of the front wheels, not of "
+                         "the steering wheel");
+  }
+  return {angle, square(format.sigma)};
 }
 
-Estimate accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& message,
-                          const AccelerationFormat& format) {
+std::optional<Estimate> accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& message,
+                                         const AccelerationFormat& format) {
   const std::string& frame = message.header.frame_id;
   if (!frame.empty() && frame != format.frame) {
     throw InputError("wrong_frame", "acceleration in '" + frame + "': expected it in '" +
@@ -67,8 +69,9 @@ Estimate accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& messa
   const double along = message.accel.accel.linear.x;
   const double given = message.accel.covariance[0];
   const double variance = given == 0.0 ? square(format.sigma) : given;
+  const double sigma = std::sqrt(std::max(variance, 0.0));
   if (!(variance > 0.0) || !std::isfinite(variance) ||
-      !isReachable(along, format.max, std::sqrt(variance))) {
+      !isReachable(along, format.max, std::min(sigma, format.max))) {
     throw InputError("bad_acceleration",
                      "acceleration of " + std::to_string(along) + " m/s^2 with variance " +
                          std::to_string(given) + ": expected at most " +
@@ -76,7 +79,7 @@ Estimate accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& messa
                          " m/s^2 (motion/max_acceleration), and a variance that is positive, or 0 "
                          "if unknown");
   }
-  return {along, variance};
+  return sigma <= format.max ? std::make_optional(Estimate{along, variance}) : std::nullopt;
 }
 
 sensor_msgs::JointStatePtr toSteering(double angle, Stamp stamp) {

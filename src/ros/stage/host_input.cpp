@@ -69,7 +69,7 @@ void HostInput::add(Twists& twists, const StampedTwist& twist) const {
 void HostInput::take(const nav_msgs::Odometry& message) {
   const OdometrySample sample = reader_.read(message);
   if (sample.twist_measured) {
-    add(odometry_, {sample.stamp, sample.twist});
+    add(odometry_, {sample.stamp, sample.twist, motion_.noise.covariance(sample.twist)});
   }
 }
 
@@ -80,9 +80,19 @@ void HostInput::take(const sensor_msgs::JointState& message) {
 }
 
 void HostInput::take(const geometry_msgs::AccelWithCovarianceStamped& message) {
-  const Estimate along = accelerationFrom(message, acceleration_format_);
+  const std::optional<Estimate> along = accelerationFrom(message, acceleration_format_);
   runner_.check(kAcceleration, message.header.stamp);
-  acceleration_ = {toStamp(message.header.stamp), along};
+  acceleration_.reset();
+  if (along) {
+    acceleration_ = {toStamp(message.header.stamp), *along};
+  } else {
+    runner_.monitor().warned(
+        {"unknown_acceleration",
+         "acceleration with a variance of " + std::to_string(message.accel.covariance[0]) +
+             " (m/s^2)^2: expected a standard deviation of at most " +
+             std::to_string(acceleration_format_.max) +
+             " m/s^2 (motion/max_acceleration); it is derived from the host's motion"});
+  }
 }
 
 void HostInput::take(const LabeledScan& scan) {
@@ -91,7 +101,7 @@ void HostInput::take(const LabeledScan& scan) {
   }
   const std::optional<PoseStep> step = poses_.add(scan.stamp, scan.base_in_map);
   if (step && !step->jumped) {
-    add(from_poses_, {scan.stamp, step->twist});
+    add(from_poses_, {scan.stamp, step->twist, step->sigma.cwiseAbs2().asDiagonal()});
   }
   last_pose_ = {scan.stamp, scan.base_in_map.pose};
 }
@@ -111,9 +121,9 @@ std::optional<Estimate> HostInput::near(const std::optional<StampedEstimate>& me
     return std::nullopt;
   }
   if (std::abs(secondsBetween(measured->stamp, stamp)) > options_.max_age) {
-    runner_.monitor().warned({"old_" + name, "no " + name + " within " +
-                                                 std::to_string(options_.max_age) +
-                                                 " s of the tracks: derives it from odometry"});
+    runner_.monitor().warned(
+        {"old_" + name, "no " + name + " within " + std::to_string(options_.max_age) +
+                            " s of the tracks: it is derived from the host's motion"});
     return std::nullopt;
   }
   runner_.monitor().announce(name, "uses the host's measured " + name);
@@ -137,7 +147,7 @@ HostState HostInput::at(Stamp stamp) const {
   host.speed = twist.forward_speed;
   host.steering = steeringOf(twist.forward_speed, twist.yaw_rate, vehicle_);
   if (const auto steering = near(steering_, stamp, kSteering)) {
-    const double variance = steeringVariance(twist, motion_.noise.covariance(twist), vehicle_);
+    const double variance = steeringVariance(twist, twists.back().covariance, vehicle_);
     host.steering = std::clamp(combined({host.steering, variance}, *steering),
                                -vehicle_.max_steering, vehicle_.max_steering);
   }

@@ -232,8 +232,27 @@ TEST_F(CanMotionTest, SteeringAndAccelerationComeWithTheMotion) {
   take(canFrame(0x1E0, {0xCE}));        // -50
   const auto motion = take(speedFrame(10.0, counter_++));
   ASSERT_TRUE(motion);
-  EXPECT_NEAR(motion->twist.steering.value(), 5.0 * kDegree, 1e-9);
-  EXPECT_NEAR(motion->twist.acceleration.value(), -0.5 * 9.80665, 1e-9);
+  EXPECT_NEAR(motion->twist.steering.value().value, 5.0 * kDegree, 1e-9);
+  EXPECT_NEAR(motion->twist.acceleration.value().value, -0.5 * 9.80665, 1e-9);
+}
+
+TEST_F(CanMotionTest, AnAccelerationIsPassedOnOnceWithItsOwnStamp) {
+  options_.acceleration = "0x1E0 0|8@1- (0.01,0) [-1|1] \"g\"";
+  takeBoth(1.0, 0.0);
+  take(canFrame(0x1E0, {0xCE}));
+  now_ += 0.1;
+  const auto motion = takeBoth(1.0, 0.0);
+  ASSERT_TRUE(motion && motion->twist.acceleration);
+  EXPECT_EQ(motion->twist.acceleration->stamp, Stamp::fromSeconds(1000.0));
+  for (int i = 0; i < 3; ++i) {  // its message has stopped
+    now_ += 0.1;
+    EXPECT_FALSE(takeBoth(1.0, 0.0)->twist.acceleration);
+  }
+  take(canFrame(0x1E0, {0xCE}));
+  EXPECT_TRUE(takeBoth(1.0, 0.0)->twist.acceleration) << "the same value, but a new message";
+  take(canFrame(0x1E0, {0xCE}));
+  take(canFrame(0x1E0, {0x7F}));  // 1.27 g: not valid
+  EXPECT_FALSE(takeBoth(1.0, 0.0)->twist.acceleration);
 }
 
 TEST_F(CanMotionTest, ASteeringThatGivesTheYawRateTellsNothingMore) {

@@ -76,15 +76,33 @@ TEST(Steering, WhatNoFrontWheelReachesIsRejected) {
     EXPECT_EQ(reasonOf(message, kWheels), "bad_steering") << angle;
   }
   sensor_msgs::JointState lock = joints();
-  lock.position[1] = 0.62;  // at full lock, with noise
+  lock.position = {250.0, 0.62, 0.62};  // at full lock, with noise
   EXPECT_EQ(reasonOf(lock, kWheels), "");
 }
 
+// An Ackermann steering at full lock.
+TEST(Steering, TheInnerWheelMayTurnFartherThanTheBicycle) {
+  sensor_msgs::JointState message = joints();
+  message.position = {250.0, 0.65, 0.49};
+  EXPECT_NEAR(steeringFrom(message, kWheels).value, 0.57, 1e-12);
+  message.position = {250.0, 0.75, 0.6};
+  EXPECT_EQ(reasonOf(message, kWheels), "bad_steering");
+}
+
 TEST(Acceleration, HasTheVarianceOfItsMessage) {
-  const Estimate along = accelerationFrom(acceleration(-6.0, 0.04), kAlong);
+  const Estimate along = accelerationFrom(acceleration(-6.0, 0.04), kAlong).value();
   EXPECT_EQ(along.value, -6.0);
   EXPECT_EQ(along.variance, 0.04);
-  EXPECT_NEAR(accelerationFrom(acceleration(-6.0, 0.0), kAlong).variance, 0.09, 1e-12);
+  EXPECT_NEAR(accelerationFrom(acceleration(-6.0, 0.0), kAlong)->variance, 0.09, 1e-12);
+}
+
+// As drivers write for what they do not measure.
+TEST(Acceleration, ALargeVarianceMeansNotMeasured) {
+  for (const double variance : {1e6, 1e300}) {
+    EXPECT_FALSE(accelerationFrom(acceleration(0.0, variance), kAlong)) << variance;
+    EXPECT_EQ(reasonOf(acceleration(1000.0, variance)), "bad_acceleration") << variance;
+  }
+  EXPECT_TRUE(accelerationFrom(acceleration(0.0, 143.0), kAlong));
 }
 
 TEST(Acceleration, AnotherFrameIsRejected) {
@@ -109,7 +127,7 @@ TEST(HostConversion, WhatADriverSendsIsRead) {
   const auto steering = toSteering(0.1, stamp);
   EXPECT_EQ(steering->header.stamp, ros::Time(1000.0));
   EXPECT_EQ(steeringFrom(*steering, {"", 0.01, 0.6}).value, 0.1);
-  const Estimate along = accelerationFrom(*toAcceleration({-2.0, 0.5}, stamp), kAlong);
+  const Estimate along = accelerationFrom(*toAcceleration({-2.0, 0.5}, stamp), kAlong).value();
   EXPECT_EQ(along.value, -2.0);
   EXPECT_EQ(along.variance, 0.5);
 }

@@ -2,6 +2,7 @@
 // The risk stage with measured steering and acceleration of the host.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "labeled_scan_samples.h"
 #include "monitor_counts.h"
@@ -24,12 +25,12 @@ class HostSensorsTest : public testing::Test {
     stage_.takeSteering(message);
   }
 
-  void accelerationAt(double seconds, double along) {
+  void accelerationAt(double seconds, double along, double variance = 0.01) {
     geometry_msgs::AccelWithCovarianceStamped message;
     message.header.stamp = ros::Time(samples::kStart + seconds);
     message.header.frame_id = "base_link";
     message.accel.accel.linear.x = along;
-    message.accel.covariance[0] = 0.01;
+    message.accel.covariance[0] = variance;
     stage_.takeAcceleration(message);
   }
 
@@ -57,6 +58,35 @@ TEST_F(HostSensorsTest, AHostThatBrakesStopsSooner) {
   accelerationAt(0.1, -6.0);
   // 5^2 / (2 6) m, although the odometry shows no braking yet; the last step of the model stops.
   EXPECT_NEAR(lengthOf(pathAt(0.1)), 2.08, 0.1);
+}
+
+TEST_F(HostSensorsTest, AnAccelerationOfALargeVarianceIsNotUsed) {
+  accelerationAt(0.0, -6.0);
+  for (const auto& [seconds, variance] : {std::make_pair(0.1, 1e6), std::make_pair(0.2, 1e300)}) {
+    accelerationAt(seconds, -6.0, variance);
+    EXPECT_NEAR(lengthOf(pathAt(seconds)), 20.0, 0.01) << variance;
+  }
+  EXPECT_EQ(samples::warnings(monitor_, "unknown_acceleration"), 2U);
+}
+
+// Without odometry, a yaw rate from poses is as certain as these.
+TEST_F(HostSensorsTest, SteeringIsWeighedAgainstTheNoiseOfThePoses) {
+  const auto turnWith = [this](double sigma, double start) {
+    for (const double seconds : {start, start + 0.1}) {
+      LabeledScan scan = samples::scanBetweenWalls(seconds);
+      scan.base_in_map.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+      scan.base_in_map.covariance(2, 2) = sigma * sigma;
+      stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+    }
+    steeringAt(start + 0.1, 0.2);
+    TrackArray none = samples::standingCar(start + 0.1, 50.0);
+    none.tracks.clear();
+    const auto path = stage_.takeTracks(none)->host_path;
+    return path[5].theta - path[0].theta;
+  };
+  // Differences of headings over 0.1 s: 14 and 0.014 rad/s; the angle itself 0.01 rad.
+  EXPECT_NEAR(turnWith(1.0, 0.0), 5.0 * std::tan(0.2) / 2.7, 0.01);
+  EXPECT_NEAR(turnWith(1e-4, 0.2), 0.0, 0.01);
 }
 
 TEST_F(HostSensorsTest, ASteeringAngleTurnsThePathAtOnce) {

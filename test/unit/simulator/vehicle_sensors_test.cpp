@@ -12,7 +12,7 @@ namespace {
 VehicleSensorOptions ideal() {
   VehicleSensorOptions options;
   options.steering_noise = 0.0;
-  options.acceleration_noise = 0.0;
+  options.acceleration_noise = 1e-3;
   return options;
 }
 
@@ -23,22 +23,29 @@ World brakingInABend() {
   return World(RoadNetwork(), ego);
 }
 
-TEST(VehicleSensors, MeasureWhatTheDriverDoes) {
+TEST(VehicleSensors, MeasureTheMotionOfTheHost) {
   const World world = brakingInABend();
   VehicleSensors sensors(ideal(), RandomStream(1, "vehicle_sensors"));
   sensors.measure(world.at(0.98));
-  const DriverCommand command = sensors.measure(world.at(1.0));
-  EXPECT_NEAR(command.steering, std::atan(2.7 / 14.0), 1e-9);
-  EXPECT_NEAR(command.acceleration, -2.0, 1e-9);
+  const HostMeasurement measured = sensors.measure(world.at(1.0));
+  EXPECT_NEAR(measured.steering, std::atan(2.7 / 14.0), 1e-9);
+  EXPECT_NEAR(measured.acceleration, -2.0, 0.01);
 }
 
 TEST(VehicleSensors, AStationaryVehicleKeepsItsSteering) {
   const World world = brakingInABend();
   VehicleSensors sensors(ideal(), RandomStream(1, "vehicle_sensors"));
   const double before = sensors.measure(world.at(3.5)).steering;
-  const DriverCommand at_rest = sensors.measure(world.at(5.0));
+  const HostMeasurement at_rest = sensors.measure(world.at(5.0));
   EXPECT_EQ(at_rest.steering, before);
-  EXPECT_EQ(sensors.measure(world.at(5.02)).acceleration, 0.0);
+  EXPECT_NEAR(sensors.measure(world.at(5.02)).acceleration, 0.0, 0.01);
+}
+
+// Its message would state the covariance 0: unknown.
+TEST(VehicleSensors, AnAccelerationWithoutNoiseIsRefused) {
+  VehicleSensorOptions options = ideal();
+  options.acceleration_noise = 0.0;
+  EXPECT_THROW(VehicleSensors(options, RandomStream(1, "vehicle_sensors")), OptionError);
 }
 
 TEST(VehicleSensors, NoiseIsAsStated) {
@@ -51,9 +58,9 @@ TEST(VehicleSensors, NoiseIsAsStated) {
   double acceleration = 0.0;
   constexpr int kMeasurements = 20000;
   for (int i = 0; i < kMeasurements; ++i) {
-    const DriverCommand command = sensors.measure(world.at(i / options.rate));
-    steering += std::pow(command.steering, 2);
-    acceleration += std::pow(command.acceleration, 2);
+    const HostMeasurement measured = sensors.measure(world.at(i / options.rate));
+    steering += std::pow(measured.steering, 2);
+    acceleration += std::pow(measured.acceleration, 2);
   }
   EXPECT_NEAR(std::sqrt(steering / kMeasurements), degrees(0.5), 1e-4);
   EXPECT_NEAR(std::sqrt(acceleration / kMeasurements), 0.2, 0.005);

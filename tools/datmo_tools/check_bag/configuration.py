@@ -6,6 +6,7 @@ import shlex
 from datmo_tools.check_bag.camera_checks import pair_offset
 from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.motion_checks import poses_are_better
+from datmo_tools.check_bag.roles import is_wheel_joints
 from datmo_tools.check_bag.sizing import is_small, settings
 from datmo_tools.check_bag.yaml_text import frames_section, mounts_section
 
@@ -97,9 +98,9 @@ def topic_arguments(roles, recording):
         names["twist_with_covariance" if covariance else "twist"] = roles.twist
     if "wheels" in source.split("_"):
         names["joint_states"] = next(
-            name for name in roles.wheels
-            if recording.topics[name].type == "sensor_msgs/JointState"
-        )  # fmt: skip
+            name for name in roles.wheels if is_wheel_joints(recording, name)
+        )
+    names["steering"], names["acceleration"] = roles.steering, roles.acceleration
     if roles.camera_clouds:
         names["points2"] = _named(roles.camera_clouds, "/stereo/points2")
     return {ours: theirs for ours, theirs in names.items() if theirs and theirs != "/" + ours}

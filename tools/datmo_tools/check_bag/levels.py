@@ -3,6 +3,8 @@
 
 from typing import NamedTuple
 
+from datmo_tools.check_bag.roles import is_wheel_joints
+
 
 class Level(NamedTuple):
     """A level of fusion, and what it lacks."""
@@ -71,9 +73,7 @@ def motion_source(roles, recording):
     """Returns the first value of motion/source that the recording has the topics for."""
     if roles.odometry:
         return "odometry"
-    joint_states = [
-        name for name in roles.wheels if recording.topics[name].type == "sensor_msgs/JointState"
-    ]
+    joint_states = any(is_wheel_joints(recording, name) for name in roles.wheels)
     if roles.twist:
         return "imu_and_twist" if roles.imu else "twist"
     if roles.imu:

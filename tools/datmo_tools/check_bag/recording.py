@@ -7,13 +7,15 @@ from collections import Counter
 import numpy as np
 
 from datmo_tools.check_bag.motion_signal import ImuSamples, OdometrySamples, TwistSamples
-from datmo_tools.check_bag.samples import cloud_sample, image_shape, scan_sample
+from datmo_tools.check_bag.samples import cloud_sample, image_shape, joint_sample, scan_sample
 from datmo_tools.check_bag.transform_table import TransformTable
 
 SCANS = "sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"
 ODOMETRY = "nav_msgs/Odometry"
 TWISTS = "geometry_msgs/TwistStamped", "geometry_msgs/TwistWithCovarianceStamped"
 IMU = "sensor_msgs/Imu"
+JOINTS = "sensor_msgs/JointState"
+ACCELERATION = "geometry_msgs/AccelWithCovarianceStamped"
 CLOUD = "sensor_msgs/PointCloud2"
 IMAGE = "sensor_msgs/Image"
 CAMERA_INFO = "sensor_msgs/CameraInfo"
@@ -68,6 +70,7 @@ class Recording:
         self.odometry = {}  # topic -> OdometrySamples
         self.twists = {}  # topic -> TwistSamples
         self.imus = {}  # topic -> ImuSamples
+        self.joints = {}  # topic -> JointSample
         self.clouds = {}  # topic -> CloudSample
         self.images = {}  # topic -> ImageShape
         self.camera_infos = {}  # topic -> list of CameraInfo
@@ -150,7 +153,7 @@ def _is_decoded(topic, index, count):
         return count <= MAX_MOTIONS or index % (count // MAX_MOTIONS + 1) == 0
     if topic.type == CAMERA_INFO:
         return index < MAX_CAMERA_INFOS
-    return topic.type in (CLOUD, IMAGE) and index == 0
+    return topic.type in (CLOUD, IMAGE, JOINTS) and index == 0
 
 
 def _decode(recording, topic, pytype, data, stamp, index):
@@ -180,6 +183,8 @@ def _keep(recording, topic, message, stamp, index):
         recording.imus.setdefault(name, ImuSamples()).add(message, at)
     elif topic.type == CAMERA_INFO:
         recording.camera_infos.setdefault(name, []).append(message)
+    elif topic.type == JOINTS:
+        recording.joints[name] = joint_sample(message)
     elif topic.type == CLOUD:
         recording.clouds[name] = cloud_sample(message)
     else:

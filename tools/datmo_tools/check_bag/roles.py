@@ -25,6 +25,8 @@ class Roles:
         self.twist = _preferred(recording, _names(recording, *kinds.TWISTS), "/twist")
         self.imu = _preferred(recording, _names(recording, kinds.IMU), "/imu/data")
         self.wheels = _wheel_topics(recording)
+        self.steering = _preferred(recording, _steering_topics(recording), "/steering")
+        self.acceleration = _preferred(recording, _names(recording, kinds.ACCELERATION), "/acceleration")
         self.camera_clouds, self.lidar_clouds = _clouds(recording)
         self.depth_images = _depth_images(recording)
         self.left_image, self.right_image = _stereo_pair(recording)
@@ -59,14 +61,32 @@ def _preferred(recording, names, usual):
 
 
 def _wheel_topics(recording):
-    """Returns topics that look like wheel speeds: joint states, and other types named that way."""
+    """Returns topics that look like wheel speeds: joint states with velocities, and other types
+    named that way."""
     named = ("wheel", "encoder", "joint_states")
     return [
         topic.name
         for topic in recording.topics.values()
-        if topic.type == "sensor_msgs/JointState"
-        or (any(word in topic.name.lower() for word in named)
+        if is_wheel_joints(recording, topic.name)
+        or (topic.type != kinds.JOINTS
+            and any(word in topic.name.lower() for word in named)
             and topic.type.split("/")[0] not in ("visualization_msgs", "tf2_msgs"))
+    ]  # fmt: skip
+
+
+def is_wheel_joints(recording, name):
+    """Returns whether a topic has joint states with velocities, as of wheels."""
+    return name in recording.joints and recording.joints[name].has_velocity
+
+
+def _steering_topics(recording):
+    """Returns topics of joint states whose positions are all those of front wheels, by their names:
+    others would need risk/host_state/steering_joint."""
+    return [
+        name for name, joints in recording.joints.items()
+        if joints.has_position
+        and ("steer" in name.lower()
+             or (joints.names and all("steer" in joint.lower() for joint in joints.names)))
     ]  # fmt: skip
 
 

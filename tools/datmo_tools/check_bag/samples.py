@@ -53,6 +53,14 @@ class CloudSample(NamedTuple):
     points: np.ndarray  # n x 3, m, finite ones only, subsampled
 
 
+class JointSample(NamedTuple):
+    """One message of joint states."""
+
+    names: tuple
+    has_position: bool
+    has_velocity: bool
+
+
 class ImageShape(NamedTuple):
     """The first image of a topic."""
 
@@ -112,6 +120,11 @@ def _points(message, offsets):
     count = min(message.width * message.height, len(message.data) // max(message.point_step, 1))
     values = np.frombuffer(message.data, dtype=layout, count=count)
     return np.column_stack([values["x"], values["y"], values["z"]]).astype(float)
+
+
+def joint_sample(message):
+    """Returns the JointSample of a JointState."""
+    return JointSample(tuple(message.name), bool(message.position), bool(message.velocity))
 
 
 def image_shape(message):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <geometry_msgs/AccelWithCovarianceStamped.h>
@@ -20,7 +21,7 @@ struct SteeringFormat {
 
 /// Returns the steering angle of the bicycle model, rad, positive to the left: the mean of the
 /// joints' positions. Throws InputError: `no_steering` if no joint of that name has a position,
-/// `bad_steering` if one is not finite or beyond `max` by more than its noise.
+/// `bad_steering` if one is not finite, or their mean is beyond `max` by more than its noise.
 Estimate steeringFrom(const sensor_msgs::JointState& message, const SteeringFormat& format);
 
 /// How a longitudinal acceleration is read.
@@ -31,11 +32,12 @@ struct AccelerationFormat {
 };
 
 /// Returns the acceleration over ground along the vehicle's heading, m/s^2. An empty frame_id is
-/// assumed to be the vehicle's. Throws InputError: `wrong_frame` in another frame,
+/// assumed to be the vehicle's. None if its standard deviation exceeds `max`: drivers write a large
+/// variance for what they do not measure. Throws InputError: `wrong_frame` in another frame,
 /// `bad_acceleration` if it is not finite, beyond `max` by more than its noise, or its variance is
 /// invalid.
-Estimate accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& message,
-                          const AccelerationFormat& format);
+std::optional<Estimate> accelerationFrom(const geometry_msgs::AccelWithCovarianceStamped& message,
+                                         const AccelerationFormat& format);
 
 /// Returns the steering angle of a bicycle (rad) as that of its one front wheel.
 sensor_msgs::JointStatePtr toSteering(double angle, Stamp stamp);

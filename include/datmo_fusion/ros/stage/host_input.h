@@ -35,9 +35,9 @@ struct HostInputOptions {
 /// odometry or, without it, from the poses, excluding their jumps.
 ///
 /// Its steering follows from the yaw rate and, if it is also measured, from both, as two
-/// measurements of one angle with the noise of each: the faster the host, the more the yaw rate
-/// counts. Its acceleration is the measured one, otherwise that of its recent speeds, which lags
-/// behind by half of acceleration_time.
+/// measurements of one angle with the noise of each (that of the poses if the yaw rate is from
+/// them): the faster the host, the more the yaw rate counts. Its acceleration is the measured one,
+/// otherwise that of its recent speeds, which lags behind by half of acceleration_time.
 class HostInput {
  public:
   /// `runner`: of the stage, which must call reset() when it is reset itself; it must outlive the
@@ -69,6 +69,7 @@ class HostInput {
   struct StampedTwist {
     Stamp stamp;
     Twist2 twist;
+    Eigen::Matrix2d covariance;  ///< of speed (m/s) and yaw rate (rad/s)
   };
   struct StampedPose {
     Stamp stamp;
