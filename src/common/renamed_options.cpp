@@ -26,6 +26,7 @@ const std::map<std::string, std::string> kRenamed = {
     {"longest_wait", "max_wait"},
     {"loyalty", "association_hysteresis"},
     {"memory_way", "memory_distance"},
+    {"min_contradiction_rise", "min_kidnapped_log_ratio"},
     {"most_else", "max_other"},
     {"most_in_scan", "max_per_scan"},
     {"most_places", "max_points"},

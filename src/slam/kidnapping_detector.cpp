@@ -11,7 +11,7 @@ namespace datmo {
 
 namespace {
 
-/// Scans before the rise that tell the usual share of contradicted beams.
+/// Scans before the rise, whose mean is the usual share of contradicted beams.
 constexpr std::size_t kScansBefore = 5;
 
 /// Beams that end on one object err together: a scan has at most this many independent
@@ -32,8 +32,8 @@ KidnappingDetector::Observations KidnappingDetector::observationsOf(const MapAgr
 KidnappingDetector::Observations KidnappingDetector::before() const {
   Observations sum;
   for (const Observations& scan : before_) {
-    sum.contradicted += scan.contradicted;
-    sum.confirmed += scan.confirmed;
+    sum.contradicted += scan.contradicted / kScansBefore;
+    sum.confirmed += scan.confirmed / kScansBefore;
   }
   return sum;
 }
@@ -56,6 +56,11 @@ void KidnappingDetector::add(Stamp stamp, const MapAgreement& agreement) {
     return;
   }
   const Observations now = observationsOf(agreement);
+  const bool is_informative = agreement.contradicted + agreement.confirmed >= kMinBeams;
+  if (isSuspected() && !is_informative) {
+    is_confirmed_ = secondsBetween(*suspected_since_, stamp) >= confirmed_after_;
+    return;
+  }
   const double log_ratio = before_.size() == kScansBefore ? logRatio(before(), now) : 0.0;
   if (isSuspected() ? log_ratio >= 0.0 : log_ratio > min_log_ratio_) {
     suspected_since_ = suspected_since_.value_or(stamp);

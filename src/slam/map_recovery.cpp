@@ -44,13 +44,13 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
       {"lost_from_sigma", "m", "standard deviation of the position above which no search is made"},
       lost_from_sigma, {0.01, 1000.0});
   visitor.number({"min_kidnapped_log_ratio", "1",
-                  "the vehicle may have been kidnapped if the map contradicts more of a scan than "
-                  "of the scans before, by this log-likelihood ratio (5: 'very strong' evidence, "
-                  "Kass & Raftery 1995); 1000: never"},
+                  "log-likelihood ratio of a scan having been taken elsewhere, above which the "
+                  "vehicle may have been kidnapped (5: 'very strong' evidence, Kass & Raftery "
+                  "1995); 1000: never"},
                  min_kidnapped_log_ratio, {1.0, 1000.0});
   visitor.number({"kidnapped_after", "s",
-                  "and if no scan is likelier to be taken where it was for this long; a vehicle "
-                  "that pitches at a bump, or when it brakes, does so for less"},
+                  "the vehicle has been kidnapped if for this long no scan fits its former place "
+                  "better; pitching at a bump, or when braking, is over sooner"},
                  kidnapped_after, {0.0, 60.0});
   visitor.integer(
       {"boxes_per_scan", "1", "maximum number of boxes of poses that a search examines per scan"},

@@ -150,6 +150,7 @@ TEST_F(StereoImagesTest, InvalidCalibrationsAreDropped) {
     image.data.resize(image.data.size() / 2);
   });
   expectDrop("bad_calibration", [](auto&, auto& info) { info.binning_x = 2; });
+  expectDrop("bad_calibration", [](auto&, auto& info) { info.roi.y_offset = 8; });
   expectDrop("bad_calibration", [](auto&, auto& info) { info.K[0] = 0.0; });
   expectDrop("bad_calibration", [](auto&, auto& info) { info.P[0] += 1.0; });
   expectDrop("bad_calibration", [](auto&, auto& info) { info.P[3] = 0.0; });

@@ -73,6 +73,20 @@ image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
                                           right.header.frame_id +
                                           "': expected both in the left camera's (REP 104)");
   }
+  // Binning and region of interest change the matrices; the library asserts that they still agree.
+  image_geometry::PinholeCameraModel left_model;
+  image_geometry::PinholeCameraModel right_model;
+  left_model.fromCameraInfo(left);
+  right_model.fromCameraInfo(right);
+  if (left_model.fx() != right_model.fx() || left_model.fy() != right_model.fy() ||
+      left_model.cy() != right_model.cy()) {
+    throw InputError("bad_calibration",
+                     "binning or region of interest differ between the left camera (rows from " +
+                         std::to_string(left.roi.y_offset) + ", binning " +
+                         std::to_string(left.binning_y) + ") and the right one (" +
+                         std::to_string(right.roi.y_offset) + ", " +
+                         std::to_string(right.binning_y) + "): expected the same");
+  }
   image_geometry::StereoCameraModel model;
   model.fromCameraInfo(left, right);
   return model;

@@ -70,6 +70,22 @@ TEST(KidnappingDetectorTest, DrivingOnIntoUnknownSpaceDoesNotEndASuspicion) {
   EXPECT_TRUE(scans.detector.isKidnapped());
 }
 
+TEST(KidnappingDetectorTest, AFewBeamsOnASurfaceDoNotEndASuspicion) {
+  Scans scans;
+  scans.add(50, 10);
+  scans.add(0, 1);
+  EXPECT_TRUE(scans.detector.isSuspected());
+  scans.add(10, 80);
+  EXPECT_FALSE(scans.detector.isSuspected());
+}
+
+TEST(KidnappingDetectorTest, AnObjectThatComesIntoViewIsNotSuspiciousInAnEmptyStreet) {
+  Scans scans;
+  scans.add(0, 90, 5);
+  scans.add(13, 87);
+  EXPECT_FALSE(scans.detector.isSuspected());
+}
+
 TEST(KidnappingDetectorTest, MoreBeamsOnTheSameObjectsAreNoMoreEvidence) {
   for (const int scale : {1, 10}) {
     Scans scans;
