@@ -65,10 +65,10 @@ Arguments parse(const std::vector<std::string>& words) {
       ->required();
   line.addFile("--odometry", arguments.odometry, "its topic in DRIVE.bag (default /odometry)",
                "TOPIC");
-  line.addFile("--steering", arguments.steering, "its topic, if there is one (default /steering)",
+  line.addFile("--steering", arguments.steering, "its topic (default /steering, if there is one)",
                "TOPIC");
   line.addFile("--acceleration", arguments.acceleration,
-               "its topic, if there is one (default /acceleration)", "TOPIC");
+               "its topic (default /acceleration, if there is one)", "TOPIC");
   line.addRepeated("--set", overrides, "an option of the risk assessment, e.g. method=thesis",
                    "KEY=VALUE");
   line.read(words);
