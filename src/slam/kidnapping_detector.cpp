@@ -11,7 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// Scans before the rise, whose mean is the usual share of contradicted beams.
+/// Scans before the rise that tell the usual share of contradicted beams. They observe mostly the
+/// same objects, so together they overstate how well the share is known; their mean in place of the
+/// sum would be honest, but leaves more kidnappings undetected (13 instead of 7 of 36 measured),
+/// and neither suspects any scan of 14 simulated drives in dense traffic.
 constexpr std::size_t kScansBefore = 5;
 
 /// Beams that end on one object err together: a scan has at most this many independent
@@ -32,8 +35,8 @@ KidnappingDetector::Observations KidnappingDetector::observationsOf(const MapAgr
 KidnappingDetector::Observations KidnappingDetector::before() const {
   Observations sum;
   for (const Observations& scan : before_) {
-    sum.contradicted += scan.contradicted / kScansBefore;
-    sum.confirmed += scan.confirmed / kScansBefore;
+    sum.contradicted += scan.contradicted;
+    sum.confirmed += scan.confirmed;
   }
   return sum;
 }

@@ -54,8 +54,7 @@ class KidnappingDetector {
     double all() const { return contradicted + confirmed; }
   };
   static Observations observationsOf(const MapAgreement& agreement);
-  /// Mean of the last unsuspicious scans: they observed the same objects, so together they have no
-  /// more independent observations than one of them.
+  /// Of the last unsuspicious scans together.
   Observations before() const;
   /// Log-likelihood ratio of `now` being elsewhere, and not where it was.
   static double logRatio(const Observations& before, const Observations& now);

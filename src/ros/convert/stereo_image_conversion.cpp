@@ -34,7 +34,9 @@ void checkInfo(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& im
                                        sizeText(info.width, info.height) +
                                        ": expected one for the image's size");
   }
-  if (info.binning_x > 1 || info.binning_y > 1 || info.roi.width != 0 || info.roi.height != 0) {
+  const auto& roi = info.roi;
+  const bool is_part = roi.width != 0 || roi.height != 0 || roi.x_offset != 0 || roi.y_offset != 0;
+  if (info.binning_x > 1 || info.binning_y > 1 || is_part) {
     throw InputError("bad_calibration",
                      "camera_info with binning or a region of interest:"
                      " expected whole images");
@@ -72,20 +74,6 @@ image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
     throw InputError("unknown_frame", "cameras in frames '" + left.header.frame_id + "' and '" +
                                           right.header.frame_id +
                                           "': expected both in the left camera's (REP 104)");
-  }
-  // Binning and region of interest change the matrices; the library asserts that they still agree.
-  image_geometry::PinholeCameraModel left_model;
-  image_geometry::PinholeCameraModel right_model;
-  left_model.fromCameraInfo(left);
-  right_model.fromCameraInfo(right);
-  if (left_model.fx() != right_model.fx() || left_model.fy() != right_model.fy() ||
-      left_model.cy() != right_model.cy()) {
-    throw InputError("bad_calibration",
-                     "binning or region of interest differ between the left camera (rows from " +
-                         std::to_string(left.roi.y_offset) + ", binning " +
-                         std::to_string(left.binning_y) + ") and the right one (" +
-                         std::to_string(right.roi.y_offset) + ", " +
-                         std::to_string(right.binning_y) + "): expected the same");
   }
   image_geometry::StereoCameraModel model;
   model.fromCameraInfo(left, right);

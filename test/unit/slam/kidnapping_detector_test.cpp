@@ -79,13 +79,6 @@ TEST(KidnappingDetectorTest, AFewBeamsOnASurfaceDoNotEndASuspicion) {
   EXPECT_FALSE(scans.detector.isSuspected());
 }
 
-TEST(KidnappingDetectorTest, AnObjectThatComesIntoViewIsNotSuspiciousInAnEmptyStreet) {
-  Scans scans;
-  scans.add(0, 90, 5);
-  scans.add(13, 87);
-  EXPECT_FALSE(scans.detector.isSuspected());
-}
-
 TEST(KidnappingDetectorTest, MoreBeamsOnTheSameObjectsAreNoMoreEvidence) {
   for (const int scale : {1, 10}) {
     Scans scans;
