@@ -59,13 +59,9 @@ void KidnappingDetector::add(Stamp stamp, const MapAgreement& agreement) {
     return;
   }
   const Observations now = observationsOf(agreement);
-  const bool is_informative = agreement.contradicted + agreement.confirmed >= kMinBeams;
-  if (isSuspected() && !is_informative) {
-    is_confirmed_ = secondsBetween(*suspected_since_, stamp) >= confirmed_after_;
-    return;
-  }
   const double log_ratio = before_.size() == kScansBefore ? logRatio(before(), now) : 0.0;
-  if (isSuspected() ? log_ratio >= 0.0 : log_ratio > min_log_ratio_) {
+  const bool is_informative = agreement.contradicted + agreement.confirmed >= kMinBeams;
+  if (isSuspected() ? log_ratio >= 0.0 || !is_informative : log_ratio > min_log_ratio_) {
     suspected_since_ = suspected_since_.value_or(stamp);
     is_confirmed_ = secondsBetween(*suspected_since_, stamp) >= confirmed_after_;
     return;

@@ -34,7 +34,8 @@ class KidnappingDetector {
   KidnappingDetector(double min_log_ratio, double confirmed_after)
       : min_log_ratio_(min_log_ratio), confirmed_after_(confirmed_after) {}
 
-  /// Adds the scan of this stamp. One with few beams is not evaluated, and ends a suspicion.
+  /// Adds the scan of this stamp. One with few beams is not evaluated, and ends a suspicion; one
+  /// with enough beams, few of which are contradicted or confirmed, does not end it.
   void add(Stamp stamp, const MapAgreement& agreement);
 
   /// Returns whether the last scan may have been taken elsewhere.
