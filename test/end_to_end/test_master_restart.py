@@ -18,13 +18,20 @@ from datmo_tools import registrations
 
 PACKAGE = Path(__file__).resolve().parents[2]
 MANAGER = "/perception"
-# Queried from a separate process, which a new master tells where the topic is.
+# A separate process, which a new master tells where the topic is. One subscription for all messages:
+# the publishers' phases are fixed, so one that subscribed anew after each message could forever
+# miss those that closely follow another.
 LISTEN = """
+import threading
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-rospy.init_node("listener", anonymous=True)
-while not any("stack" in status.name for status in rospy.wait_for_message("/diagnostics", DiagnosticArray).status):
-    pass
+heard = threading.Event()
+def hear(message):
+    if any("stack" in status.name for status in message.status):
+        heard.set()
+rospy.init_node("listener", anonymous=True, disable_signals=True)  # an interrupt ends the wait
+subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, hear)
+heard.wait()
 """
 
 
