@@ -117,6 +117,45 @@ class FieldSpoiler {
   std::size_t fields_ = 0;
 };
 
+/// Visits the fields of a message of any type and moves its time stamps.
+class StampShift {
+ public:
+  explicit StampShift(ros::Duration shift) : shift_(shift) {}
+
+  /// Called by ROS's serializers for each field.
+  template <typename Field>
+  void next(Field& field) {
+    if constexpr (ros::message_traits::IsMessage<Field>::value) {
+      ros::serialization::Serializer<Field>::read(*this, field);
+    } else if constexpr (std::is_same_v<Field, ros::Time>) {
+      field = field.isZero() ? field : field + shift_;
+    }
+  }
+
+  template <typename Element, typename Allocator>
+  void next(std::vector<Element, Allocator>& elements) {
+    if constexpr (ros::message_traits::IsMessage<Element>::value) {
+      std::for_each(elements.begin(), elements.end(), [this](Element& element) { next(element); });
+    }
+  }
+
+  template <typename Element, std::size_t count>
+  void next(boost::array<Element, count>& elements) {
+    std::for_each(elements.begin(), elements.end(), [this](Element& element) { next(element); });
+  }
+
+ private:
+  ros::Duration shift_;
+};
+
+/// Returns a copy of a message with all its time stamps, but for unset ones, moved by `shift`.
+template <typename Message>
+Message shifted(Message message, ros::Duration shift) {
+  StampShift visitor(shift);
+  ros::serialization::Serializer<Message>::read(visitor, message);
+  return message;
+}
+
 /// Returns a copy of a message with one to three of its fields corrupted.
 template <typename Message>
 Message mutated(Message message, std::mt19937& random) {

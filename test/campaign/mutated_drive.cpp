@@ -32,7 +32,7 @@ constexpr double kStep = CampaignSensors::kStep;
 constexpr int kMutatedSteps = 40;  // 2.5 s
 constexpr int kCleanSteps = 48;    // longer than a map that starts over needs for its tracks
 constexpr double kInPlace = 0.1;   // probability for each message; two or three a step
-constexpr double kCopies = 0.25;   // probability of a copy behind its message, a step
+constexpr int kCopies = 24;        // of messages of before, a step
 constexpr const char* kClock = "clock_answer";
 
 /// Reasons to drop a message before anything else in it is checked.
@@ -47,11 +47,12 @@ double processorSeconds() {
 }
 
 template <typename Message>
-std::pair<std::string, std::function<AnyMessage(const AnyMessage&, std::mt19937&)>> mutationOf() {
+std::pair<std::string, std::function<AnyMessage(const AnyMessage&, ros::Duration, std::mt19937&)>>
+mutationOf() {
   return {ros::message_traits::datatype<Message>(),
-          [](const AnyMessage& message, std::mt19937& random) -> AnyMessage {
-            return boost::make_shared<Message>(
-                mutated(*boost::static_pointer_cast<const Message>(message), random));
+          [](const AnyMessage& message, ros::Duration shift, std::mt19937& random) -> AnyMessage {
+            return boost::make_shared<Message>(mutated(
+                shifted(*boost::static_pointer_cast<const Message>(message), shift), random));
           }};
 }
 
@@ -134,8 +135,8 @@ void MutatedDrive::step(int index, bool mutates) {
     deliver(message);
   }
   askClock();
-  if (mutates && isTurn(kCopies)) {
-    sendCopy();
+  if (mutates) {
+    sendCopies();
   }
 }
 
@@ -144,11 +145,14 @@ bool MutatedDrive::isTurn(double probability) {
 }
 
 AnyMessage MutatedDrive::givenFor(const Publication& message) {
+  if (!mutates_) {
+    return message.message;
+  }
   samples_[message.topic] = message;
-  return mutates_ && isTurn(kInPlace) ? mutatedOf(message) : message.message;
+  return isTurn(kInPlace) ? mutatedOf(message, ros::Duration()) : message.message;
 }
 
-AnyMessage MutatedDrive::mutatedOf(const Publication& message) {
+AnyMessage MutatedDrive::mutatedOf(const Publication& message, ros::Duration shift) {
   const auto mutation = mutations().find(message.data_type);
   if (mutation == mutations().end()) {
     note("nothing mutates a " + message.data_type);
@@ -158,18 +162,23 @@ AnyMessage MutatedDrive::mutatedOf(const Publication& message) {
   ++tally_.mutated;
   ++tally_.mutated_on[message.topic];
   ++tally_.mutated_type[message.data_type];
-  return mutation->second(message.message, random_);
+  return mutation->second(message.message, shift, random_);
 }
 
-/// Sends a mutated copy of an earlier message.
-void MutatedDrive::sendCopy() {
-  auto sample = samples_.begin();
-  std::advance(sample, static_cast<std::ptrdiff_t>(random_() % samples_.size()));
-  Publication copy = sample->second;
-  copy.message = mutatedOf(copy);
-  ++tally_.messages;
-  mutates_ = false;
-  deliver(copy);
+/// Sends mutated copies of earlier messages, with stamps between this step and the next one.
+void MutatedDrive::sendCopies() {
+  mutates_ = false;  // what follows from them is not mutated again
+  const Stamp begin = now_;
+  for (int i = 1; i <= kCopies; ++i) {
+    const double shift = kStep * i / (kCopies + 1);
+    now_ = begin + shift;
+    auto sample = samples_.begin();
+    std::advance(sample, static_cast<std::ptrdiff_t>(random_() % samples_.size()));
+    Publication copy = sample->second;
+    copy.message = mutatedOf(copy, ros::Duration(shift));
+    ++tally_.messages;
+    deliver(copy);
+  }
 }
 
 /// Sends the clock answer of a part of the stack, which is no stage's input.

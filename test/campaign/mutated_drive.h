@@ -30,8 +30,8 @@ struct Tally {
 /// One drive with all sensors through one graph of stages, with mutated messages at its inputs and
 /// between its stages.
 ///
-/// Most mutated messages replace the original: a mutated copy sent after it has the same stamp and
-/// is dropped for that.
+/// Mutated messages replace originals, and mutated copies with later stamps follow after each step,
+/// as if all sensors and stages sent at a multiple of their rates.
 class MutatedDrive {
  public:
   /// `seed`: of all random draws, including the graph; `max_seconds`: of CPU time, for one message
@@ -43,16 +43,18 @@ class MutatedDrive {
   std::vector<std::string> run();
 
  private:
-  using Mutate = std::function<AnyMessage(const AnyMessage& message, std::mt19937& random)>;
+  /// Returns a copy whose stamps are moved by `shift`, with some fields mutated.
+  using Mutate = std::function<AnyMessage(const AnyMessage& message, ros::Duration shift,
+                                          std::mt19937& random)>;
 
   static const std::map<std::string, Mutate>& mutations();
 
   bool isTurn(double probability);
   /// Returns the message that a stage gets in place of the original.
   AnyMessage givenFor(const Publication& message);
-  AnyMessage mutatedOf(const Publication& message);
+  AnyMessage mutatedOf(const Publication& message, ros::Duration shift);
   void step(int index, bool mutates);
-  void sendCopy();
+  void sendCopies();
   void askClock();
   void deliver(const Publication& message);
   /// Records how long it took, and what was dropped.
