@@ -6,6 +6,7 @@
 #include <tf2/LinearMath/Vector3.h>
 
 #include "datmo_fusion/common/physical_bounds.h"
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 #include "datmo_fusion/ros/stage/stamp_range.h"
 
@@ -29,8 +30,8 @@ void check(const geometry_msgs::TransformStamped& stamped) {
   checkStampRange(stamped.header.stamp);
   const auto& t = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
-  const std::string& parent = stamped.header.frame_id;
-  const std::string& child = stamped.child_frame_id;
+  const std::string parent = withoutSlash(stamped.header.frame_id);
+  const std::string child = withoutSlash(stamped.child_frame_id);
   const std::string name = parent + " -> " + child;
   if (parent.empty() || child.empty() || parent == child) {
     throw InputError("bad_transform", "transform '" + parent + "' -> '" + child +

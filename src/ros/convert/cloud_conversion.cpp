@@ -87,7 +87,7 @@ void checkPoints(const PointsView& points) {
 }
 
 /// False for NaN.
-bool isWithin(double value, double min, double max) { return value >= min && value <= max; }
+bool isBetween(double value, double min, double max) { return value >= min && value <= max; }
 
 /// Focal length and image borders.
 StereoCamera pinholeCamera(const CameraInfo& info) {
@@ -104,9 +104,9 @@ StereoCamera pinholeCamera(const CameraInfo& info) {
 }
 
 bool isValid(const StereoCamera& camera) {
-  return isWithin(camera.focal_length, kMinFocalLength, kMaxFocalLength) &&
-         isWithin(camera.left_tangent, -kMaxTangent, kMaxTangent) &&
-         isWithin(camera.right_tangent, -kMaxTangent, kMaxTangent) &&
+  return isBetween(camera.focal_length, kMinFocalLength, kMaxFocalLength) &&
+         isBetween(camera.left_tangent, -kMaxTangent, kMaxTangent) &&
+         isBetween(camera.right_tangent, -kMaxTangent, kMaxTangent) &&
          camera.left_tangent < camera.right_tangent;
 }
 
@@ -172,7 +172,7 @@ void CloudPoints::keepDepths(double min_depth, double max_depth) {
   std::size_t size = 0;
   for (std::size_t i = 0; i < view_.count; ++i) {
     const Eigen::Vector3f point = view_[i];
-    if (isWithin(point.z(), min_depth, limit)) {
+    if (isBetween(point.z(), min_depth, limit)) {
       std::memcpy(kept.data() + size, point.data(), kPackedStep);
       size += kPackedStep;
     }
@@ -198,7 +198,7 @@ void CloudPoints::replace(std::vector<std::uint8_t> packed) {
 StereoCamera stereoCamera(const CameraInfo& right) {
   StereoCamera camera = pinholeCamera(right);
   camera.baseline = -right.P[kBaseline] / right.P[kFocalLength];
-  if (!isValid(camera) || !isWithin(camera.baseline, kMinBaseline, kMaxBaseline)) {
+  if (!isValid(camera) || !isBetween(camera.baseline, kMinBaseline, kMaxBaseline)) {
     refuse("bad_camera_info", "camera info with a focal length of ", camera.focal_length,
            " px, a baseline of ", camera.baseline, " m, and a view from ", camera.left_tangent,
            " to ", camera.right_tangent, " (tangents): expected the right camera's, with ",

@@ -9,6 +9,7 @@
 
 #include "message_parts.h"
 
+#include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
@@ -43,15 +44,15 @@ void checkPoints(const RoadBorderMessage& border) {
                     "one for each point");
   }
   for (const auto& point : border.points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+    if (!isWithin(Point2(point.x, point.y), kMaxCoordinate)) {
       throw badBorder("at " + std::to_string(point.x) + ", " + std::to_string(point.y),
-                      "finite numbers");
+                      "coordinates within 20000 km");
     }
   }
   for (const float sigma : border.sigma) {
-    if (!std::isfinite(sigma) || sigma < 0.0F) {
+    if (!(sigma >= 0.0F && sigma <= kMaxCoordinate)) {
       throw badBorder("with a standard deviation of " + std::to_string(sigma) + " m",
-                      "a finite one of at least 0");
+                      "0 to 20000 km");
     }
   }
 }

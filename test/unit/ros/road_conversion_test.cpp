@@ -80,6 +80,8 @@ TEST(RoadConversion, BordersOfFewerThanTwoPointsAreRefused) {
 TEST(RoadConversion, PointsMustBeFiniteWithAStandardDeviationEach) {
   EXPECT_EQ(reasonAfterBorder([](auto& border) { border.points[1].x = kNaN; }), "bad_border");
   EXPECT_EQ(reasonAfterBorder([](auto& border) { border.points[2].y = kInfinity; }), "bad_border");
+  EXPECT_EQ(reasonAfterBorder([](auto& border) { border.points[2].x = 1e30F; }), "bad_border");
+  EXPECT_EQ(reasonAfterBorder([](auto& border) { border.sigma[0] = 1e30F; }), "bad_border");
   EXPECT_EQ(reasonAfterBorder([](auto& border) { border.sigma.pop_back(); }), "bad_border");
   EXPECT_EQ(reasonAfterBorder([](auto& border) { border.sigma[0] = -0.1F; }), "bad_border");
   EXPECT_EQ(reasonAfterBorder([](auto& border) { border.sigma[0] = kNaN; }), "bad_border");

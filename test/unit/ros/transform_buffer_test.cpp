@@ -136,6 +136,11 @@ TEST_F(BadTransformTest, InvalidFrames) {
   buffer_.add(bad);
   buffer_.add(tf("", 0.1));
   EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 4U);
+  // tf2 removes a slash at the front.
+  buffer_.add(tf("/", 0.1));
+  bad.transforms[0].child_frame_id = "/base_link";
+  buffer_.add(bad);
+  EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 6U);
 }
 
 TEST_F(MountedBufferTest, AMountBeyondAnyVehicleIsRefused) {
