@@ -30,10 +30,9 @@ inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 /// Finite, symmetric and positive definite.
 template <int size>
 bool isCovariance(const Eigen::Matrix<double, size, size>& matrix) {
-  // A larger difference, relative to the variances, is not due to rounding.
+  // As strict as the check of published messages: what enters can also leave.
   constexpr double kAsymmetry = 1e-6;
-  const double difference = (matrix - matrix.transpose()).cwiseAbs().maxCoeff();
-  return std::isfinite(matrix.sum()) && difference <= kAsymmetry * matrix.trace() &&
+  return matrix.allFinite() && matrix.isApprox(matrix.transpose(), kAsymmetry) &&
          matrix.llt().info() == Eigen::Success;
 }
 

@@ -58,6 +58,7 @@ void CameraInput::check(const sensor_msgs::Image& image) const {
 
 MountedCamera CameraInput::mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
                                    const TransformBuffer& transforms) const {
+  check(image);  // the info may have changed while the image waited
   MountedCamera camera;
   camera.pinhole = pinhole();
   camera.width = width();

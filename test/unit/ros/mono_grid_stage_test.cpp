@@ -97,6 +97,17 @@ TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
   EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
 }
 
+TEST_F(MonoGridStageTest, AnImageThatWaitsWhileTheCameraChangesIsDropped) {
+  mount();
+  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  auto wider = kCamera.info();
+  ++wider.width;
+  stage_.takeCameraInfo(wider);
+  stage_.takeScan(scanAt(kStart));
+  EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
+  EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
+}
+
 TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsNotUsed) {
   mount();
   stage_.takeScan(scanAt(kStart - 0.05));

@@ -88,6 +88,8 @@ TEST(TrackCheck, CovarianceIsSymmetricAndPositiveDefinite) {
   Track track = goodTrack();
   track.covariance(0, 2) = 0.5;
   EXPECT_FALSE(isValid(track)) << "skew";
+  track.covariance(0, 2) = 3e-6;
+  EXPECT_FALSE(isValid(track)) << "more than the check of published messages allows";
   track.covariance(2, 0) = 0.5;
   EXPECT_TRUE(isValid(track));
   track.covariance(0, 2) = track.covariance(2, 0) = 1.0;

@@ -22,8 +22,9 @@ class CameraInput {
   /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
   void check(const sensor_msgs::Image& image) const;
 
-  /// Returns the camera of an image on the vehicle, with its mount from tf. Throws InputError
-  /// (`missing_transform`), and std::bad_optional_access before the first info.
+  /// Returns the camera of an image on the vehicle, with its mount from tf. Throws InputError if
+  /// the image is not of the camera of the last info, as check(), or without its mount
+  /// (`missing_transform`).
   MountedCamera mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
                         const TransformBuffer& transforms) const;
 
