@@ -27,10 +27,10 @@ Point2 Box2::beyond(const Point2& point) const {
 }
 
 bool Box2::contains(const Point2& point) const {
-  // Quick test for most points: half the sum of both sides reaches beyond the corners, and half
-  // the shorter side is the distance to the nearest side.
+  // Quick test for most points: the corners are half the diagonal away, and the nearest side half
+  // the shorter side.
   const double distance2 = (point - center.position()).squaredNorm();
-  const double reach = 0.5 * (length + width) + kRounding;
+  const double reach = 0.5 * std::sqrt(length * length + width * width) + kRounding;
   const double inside = 0.5 * std::min(length, width) - kRounding;
   if (distance2 > reach * reach) {
     return false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/wide.h"
+
 namespace datmo {
 
 namespace {
@@ -20,6 +22,17 @@ constexpr double kRounding = 1e-6;
 constexpr double kSearchShare = 0.1;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// Same as in GridWindow::cellAt, in a vectorizable loop.
+template <std::size_t kCount>
+inline std::array<int, kCount> floorOf(const std::array<double, kCount>& numbers) {
+  std::array<int, kCount> result;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const int whole = static_cast<int>(numbers[i]);
+    result[i] = whole - (numbers[i] < static_cast<double>(whole) ? 1 : 0);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -48,50 +61,32 @@ Point2 PoseScorer::pointAt(std::size_t index) const {
   return map_.window().cell_size * Point2(x_[index], y_[index]);
 }
 
-/// Same as GridWindow::cellAt, in vectorizable loops without a division.
-PoseScorer::Cells PoseScorer::cellsOfBlock(std::size_t begin, const Pose2& pose,
-                                           const Eigen::Matrix2d& rotation) const {
-  const Point2 from = pose.position() / map_.window().cell_size;
-  const double c = rotation(0, 0);
-  const double s = rotation(1, 0);
-  const double* x = &x_[begin];
-  const double* y = &y_[begin];
-  std::array<double, kBlock> across;
-  std::array<double, kBlock> along;
-  Cells cells;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    across[i] = from.x() + (c * x[i] - s * y[i]);
-  }
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    along[i] = from.y() + (s * x[i] + c * y[i]);
-  }
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const int whole = static_cast<int>(across[i]);
-    cells.columns[i] = whole - (across[i] < static_cast<double>(whole) ? 1 : 0);
-  }
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const int whole = static_cast<int>(along[i]);
-    cells.rows[i] = whole - (along[i] < static_cast<double>(whole) ? 1 : 0);
-  }
-  return cells;
-}
-
+DATMO_FUSION_WIDE
 double PoseScorer::sumOfBlock(std::size_t begin, const Pose2& pose,
                               const Eigen::Matrix2d& rotation) const {
   const std::size_t count = std::min(kBlock, count_ - begin);
-  double sum = 0.0;
   // With the comparison in this order NaN counts as far away.
   if (std::abs(pose.x()) + std::abs(pose.y()) + max_range_ < max_distance_ &&
       std::isfinite(pose.heading())) {
-    const Cells cells = cellsOfBlock(begin, pose, rotation);
-    for (std::size_t i = 0; i < count; ++i) {
-      sum += map_.occupancy({cells.columns[i], cells.rows[i]});
+    const Point2 from = pose.position() / map_.window().cell_size;
+    const double c = rotation(0, 0);
+    const double s = rotation(1, 0);
+    const double* x = &x_[begin];
+    const double* y = &y_[begin];
+    Block across;
+    Block along;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      across[i] = from.x() + (c * x[i] - s * y[i]);
     }
-  } else {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Point2 end = pose.position() + rotation * pointAt(begin + i);
-      sum += map_.occupancy(map_.window().cellAt(end));
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      along[i] = from.y() + (s * x[i] + c * y[i]);
     }
+    return map_.occupancySum(floorOf(across), floorOf(along), count);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point2 end = pose.position() + rotation * pointAt(begin + i);
+    sum += map_.occupancy(map_.window().cellAt(end));
   }
   return sum;
 }

@@ -149,21 +149,19 @@ HypothesisCluster singleTarget(TrackTree tree) {
   return cluster;
 }
 
-HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max) {
-  assert(max > 0 && isSorted(a) && isSorted(b) && !haveCommonTarget(a, b));
-  const std::size_t pairs = a.hypotheses.size() * b.hypotheses.size();
-  if (b.hypotheses.size() == 1 && pairs <= max) {
-    append(b.hypotheses.front(),
-           a.hypotheses);  // the common case: nothing to decide in the other cluster
+void merge(HypothesisCluster other, std::size_t max, HypothesisCluster& cluster) {
+  assert(max > 0 && isSorted(cluster) && isSorted(other) && !haveCommonTarget(cluster, other));
+  const std::size_t pairs = cluster.hypotheses.size() * other.hypotheses.size();
+  if (other.hypotheses.size() == 1 && pairs <= max) {
+    append(other.hypotheses.front(), cluster.hypotheses);  // the common case: nothing to decide
   } else {
-    a.hypotheses = likeliestPairs(a.hypotheses, b.hypotheses, max);
+    cluster.hypotheses = likeliestPairs(cluster.hypotheses, other.hypotheses, max);
   }
-  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(a.trees));
-  a.links.insert(a.links.end(), b.links.begin(), b.links.end());
-  if (a.hypotheses.size() < pairs) {
-    canonicalize(a);
+  std::move(other.trees.begin(), other.trees.end(), std::back_inserter(cluster.trees));
+  cluster.links.insert(cluster.links.end(), other.links.begin(), other.links.end());
+  if (cluster.hypotheses.size() < pairs) {
+    canonicalize(cluster);
   }
-  return a;
 }
 
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost) {

@@ -116,7 +116,7 @@ void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   for (const std::vector<std::size_t>& group : groups.sets(2)) {
     HypothesisCluster& all = clusters_[group.front()];
     for (std::size_t i = 1; i < group.size(); ++i) {
-      all = merge(std::move(all), std::exchange(clusters_[group[i]], HypothesisCluster()), max);
+      merge(std::exchange(clusters_[group[i]], HypothesisCluster()), max, all);
     }
     findObjects(all);  // leaves may have been removed
   }

@@ -33,6 +33,7 @@ SWITCHES = printed("--switches")
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
 OTHERS = ("cloud", *(name for name in SWITCHES if name not in (*LEVELS, "merge_scans")))
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
+SMALL_IMAGE = 640 * 480  # bytes
 PARTS = ("sensors", "stereo", "perception", "risk")
 # Nodelets that are no stages of the graph, by part; stereo_points and those of raw images belong to
 # stereo_image_proc.
@@ -226,6 +227,13 @@ class Parts(unittest.TestCase):
     def test_there_is_a_thread_for_each_nodelet(self):
         self.loaded(PARTS, [*LEVELS, *OTHERS], "stereo_images:=raw")
         self.check_threads(self.config, len(PARTS))
+
+    def test_each_process_returns_the_memory_of_images_to_the_system(self):
+        nodes = self.loaded(PARTS, [*LEVELS, *OTHERS])
+        managers = [dict(node.env_args) for node in nodes if node.args == "manager"]
+        self.assertEqual(len(managers), len(PARTS))
+        for environment in managers:
+            self.assertLess(int(environment["MALLOC_MMAP_THRESHOLD_"]), SMALL_IMAGE)
 
     def test_there_is_a_thread_for_each_nodelet_of_one_process_with_devices(self):
         words = [f"{switch}:=true" for switch in (*LEVELS, *OTHERS, "v2x_wire") if switch != "cloud"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -102,6 +103,18 @@ class OccupancyMap {
   /// Returns the occupancy probability of a cell, 0 to 1; 0.5 if nothing is known.
   double occupancy(CellIndex cell) const {
     return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
+  }
+
+  /// Returns the sum of the occupancies of the first `count` of many cells.
+  template <std::size_t kMany>
+  double occupancySum(const std::array<int, kMany>& columns, const std::array<int, kMany>& rows,
+                      std::size_t count) const {
+    const std::array<unsigned, kMany> indices = cells_.indicesOf(columns, rows);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      sum += static_cast<double>(cells_.atIndex(indices[i]).occupancy);
+    }
+    return sum;
   }
 
   /// Returns the state of a beam end at this point (m) in the map (thesis 3.3.1; there without

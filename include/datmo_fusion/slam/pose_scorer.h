@@ -32,6 +32,7 @@ class PoseScorer {
  private:
   /// Points whose cells are computed together.
   static constexpr std::size_t kBlock = 16;
+  using Block = std::array<double, kBlock>;
 
   /// How far at most the ends move relative to the first pose.
   struct Reach {
@@ -47,13 +48,6 @@ class PoseScorer {
 
   /// m
   Point2 pointAt(std::size_t index) const;
-
-  struct Cells {
-    std::array<int, kBlock> columns;
-    std::array<int, kBlock> rows;
-  };
-  /// Cells of the points from `begin` on; all of them must be nearer than max_distance_.
-  Cells cellsOfBlock(std::size_t begin, const Pose2& pose, const Eigen::Matrix2d& rotation) const;
 
   /// Sum of the occupancies of at most kBlock points from `begin` on.
   double sumOfBlock(std::size_t begin, const Pose2& pose, const Eigen::Matrix2d& rotation) const;

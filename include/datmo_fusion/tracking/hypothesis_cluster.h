@@ -35,10 +35,11 @@ struct HypothesisCluster {
 /// Returns a cluster of a single target that was just detected for the first time.
 HypothesisCluster singleTarget(TrackTree tree);
 
-/// Merges two clusters, keeping the `max` (1 or more) most likely pairs of their hypotheses. The
-/// clusters have no target in common, and at least one hypothesis each, sorted and without unused
-/// leaves (canonicalize). The `objects` must be determined again: those of the first one are kept.
-HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max);
+/// Merges another cluster into this one, keeping the `max` (1 or more) most likely pairs of their
+/// hypotheses. The clusters have no target in common, and at least one hypothesis each, sorted and
+/// without unused leaves (canonicalize). The `objects` must be determined again: those of the first
+/// one are kept.
+void merge(HypothesisCluster other, std::size_t max, HypothesisCluster& cluster);
 
 /// Removes leaves for which `isLost` is true, in all hypotheses.
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost);

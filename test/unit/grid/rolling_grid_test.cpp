@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/grid/rolling_grid.h"
 
+#include <array>
 #include <limits>
 #include <set>
 
@@ -115,6 +116,25 @@ TEST_F(RollingGridTest, OutsideReadsAsEmpty) {
   fill();
   EXPECT_EQ(grid_.atOrEmpty({1000, 0}), kEmpty);
   EXPECT_EQ(grid_.atOrEmpty({1, 1}), tag({1, 1}));
+}
+
+TEST_F(RollingGridTest, ManyCellsAreReadAsSingleOnes) {
+  constexpr int kFar = GridWindow::kMaxCell;
+  for (const Point2& center : {Point2(0.0, 0.0), Point2(1.0, -0.5), Point2(-200.0, 70.0)}) {
+    grid_.centerOn(center);
+    fill();
+    const CellIndex corner = grid_.window().corner;
+    for (int column = -2; column < 9; ++column) {
+      const int x = corner.column + column;
+      const std::array<int, 8> columns{x, x, x, x, x, x, kFar, -kFar};
+      const std::array<int, 8> rows{corner.row - 1, corner.row,     corner.row + 3, corner.row + 4,
+                                    corner.row + 5, corner.row + 9, corner.row + 1, -kFar};
+      const std::array<unsigned, 8> indices = grid_.indicesOf(columns, rows);
+      for (std::size_t i = 0; i < indices.size(); ++i) {
+        EXPECT_EQ(grid_.atIndex(indices[i]), grid_.atOrEmpty({columns[i], rows[i]}));
+      }
+    }
+  }
 }
 
 }  // namespace

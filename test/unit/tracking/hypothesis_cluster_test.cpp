@@ -89,13 +89,15 @@ TEST(HypothesisCluster, MergedHasAllPairsBestFirst) {
   b.trees = {treeOf(2, {{3}, {4}}), treeOf(3, {{5}})};
   b.hypotheses = {hypothesisOf(1.0, {0, 0}), hypothesisOf(0.1, {1, kAbsent})};
   b.links = {{8, 2, 3}};
-  const HypothesisCluster both = merge(a, b, 10);
+  HypothesisCluster both = a;
+  merge(b, 10, both);
   EXPECT_EQ(numbersOf(both), (std::vector<std::uint64_t>{1, 2, 3}));
   expectHypotheses(both, {1.0 / 1.65, 0.5 / 1.65, 0.1 / 1.65, 0.05 / 1.65},
                    {{1, 0, 0}, {0, 0, 0}, {1, 1, kAbsent}, {0, 1, kAbsent}});
   EXPECT_EQ(both.links.size(), 2U);
 
-  const HypothesisCluster few = merge(a, b, 2);
+  HypothesisCluster few = a;
+  merge(b, 2, few);
   expectHypotheses(few, {1.0 / 1.5, 0.5 / 1.5}, {{1, 0, 0}, {0, 0, 0}});
   EXPECT_EQ(few.trees[1].leaves.size(), 1U) << "the other one is in no pair that is left";
 }
