@@ -30,9 +30,12 @@ inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 /// Finite, symmetric and positive definite.
 template <int size>
 bool isCovariance(const Eigen::Matrix<double, size, size>& matrix) {
-  // As strict as the check of published messages: what enters can also leave.
+  // As strict as the check of published messages, which compares Frobenius norms; those of elements
+  // near the limits of a double would overflow here.
   constexpr double kAsymmetry = 1e-6;
-  return matrix.allFinite() && matrix.isApprox(matrix.transpose(), kAsymmetry) &&
+  const double max_difference = kAsymmetry * matrix.trace() / (size * std::sqrt(size));
+  return matrix.allFinite() &&
+         (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= max_difference &&
          matrix.llt().info() == Eigen::Success;
 }
 

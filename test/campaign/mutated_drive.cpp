@@ -32,7 +32,7 @@ constexpr double kStep = CampaignSensors::kStep;
 constexpr int kMutatedSteps = 40;  // 2.5 s
 constexpr int kCleanSteps = 48;    // longer than a map that starts over needs for its tracks
 constexpr double kInPlace = 0.1;   // probability for each message; two or three a step
-constexpr int kCopies = 24;        // of messages of before, a step
+constexpr int kCopies = 24;        // mutated copies of earlier messages, after each step
 constexpr const char* kClock = "clock_answer";
 
 /// Reasons to drop a message before anything else in it is checked.
@@ -132,7 +132,7 @@ void MutatedDrive::step(int index, bool mutates) {
   for (const Publication& message : sensors_.at(index)) {
     last_ = message.topic;
     ++tally_.messages;
-    deliver(message);
+    deliver(message, tally_.mutated);
   }
   askClock();
   if (mutates) {
@@ -148,7 +148,7 @@ AnyMessage MutatedDrive::givenFor(const Publication& message) {
   if (!mutates_) {
     return message.message;
   }
-  samples_[message.topic] = message;
+  samples_[message.topic] = {now_, message};
   return isTurn(kInPlace) ? mutatedOf(message, ros::Duration()) : message.message;
 }
 
@@ -170,14 +170,14 @@ void MutatedDrive::sendCopies() {
   mutates_ = false;  // what follows from them is not mutated again
   const Stamp begin = now_;
   for (int i = 1; i <= kCopies; ++i) {
-    const double shift = kStep * i / (kCopies + 1);
-    now_ = begin + shift;
+    now_ = begin + kStep * i / (kCopies + 1);
     auto sample = samples_.begin();
     std::advance(sample, static_cast<std::ptrdiff_t>(random_() % samples_.size()));
-    Publication copy = sample->second;
-    copy.message = mutatedOf(copy, ros::Duration(shift));
-    ++tally_.messages;
-    deliver(copy);
+    const auto& [at, original] = sample->second;
+    const std::uint64_t mutated_before = tally_.mutated;
+    Publication copy = original;
+    copy.message = mutatedOf(original, ros::Duration(secondsBetween(at, now_)));
+    deliver(copy, mutated_before);
   }
 }
 
@@ -188,12 +188,12 @@ void MutatedDrive::askClock() {
   answer.asked = toTime(now_ + -0.002);
   answer.answered = toTime(now_ + -0.001);
   deliver(
-      {kClock, ros::message_traits::datatype<PartClock>(), boost::make_shared<PartClock>(answer)});
+      {kClock, ros::message_traits::datatype<PartClock>(), boost::make_shared<PartClock>(answer)},
+      tally_.mutated);
 }
 
-void MutatedDrive::deliver(const Publication& message) {
+void MutatedDrive::deliver(const Publication& message, std::uint64_t mutated_before) {
   const double begin = processorSeconds();
-  const std::uint64_t mutated_before = tally_.mutated;
   try {
     if (message.topic == "/tf_static") {
       runner_.takeStaticTransforms(

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign_sensors.h"
@@ -16,7 +17,7 @@ namespace datmo::campaign {
 
 /// Totals of a campaign so far.
 struct Tally {
-  std::uint64_t messages = 0;  ///< of sensors, valid or mutated
+  std::uint64_t messages = 0;  ///< of sensors, valid or mutated in place
   std::uint64_t mutated = 0;   ///< those between stages included
   /// Of these, dropped for their stamp alone: the rest of them was not tested.
   std::uint64_t stopped_by_stamp = 0;
@@ -56,7 +57,8 @@ class MutatedDrive {
   void step(int index, bool mutates);
   void sendCopies();
   void askClock();
-  void deliver(const Publication& message);
+  /// `mutated_before`: number of mutated messages before this one.
+  void deliver(const Publication& message, std::uint64_t mutated_before);
   /// Records how long it took, and what was dropped.
   void finish(double seconds, std::uint64_t mutated_before);
   std::uint64_t stampDrops() const;
@@ -72,7 +74,8 @@ class MutatedDrive {
   PartClocks clocks_;
   double max_seconds_;
   Tally& tally_;
-  std::map<std::string, Publication> samples_;  ///< the last good message by topic
+  /// The last good message by topic, and when it was given.
+  std::map<std::string, std::pair<Stamp, Publication>> samples_;
   bool mutates_ = false;
   Stamp now_;
   std::string step_;               ///< in words

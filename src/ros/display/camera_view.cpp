@@ -122,6 +122,7 @@ sensor_msgs::ImagePtr CameraView::draw(const sensor_msgs::ImageConstPtr& image,
   if (wait_for_tracks && !newer) {
     return nullptr;
   }
+  camera_.check(*image);  // the info may have changed while the image waited
   const Stopwatch watch;
   const TrackArray* tracks = nearestTracks(stamp);
   const cv_bridge::CvImagePtr canvas = colorCopy(*image);

@@ -115,6 +115,18 @@ TEST_F(CameraViewTest, AnImageWaitsForItsTransformAndIsDroppedWithoutOne) {
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
 }
 
+TEST_F(CameraViewTest, AnImageThatWaitsWhileTheCameraChangesIsDropped) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  EXPECT_FALSE(show(image(kStart)));
+  auto wider = cameraInfo();
+  ++wider.width;
+  view_.takeCameraInfo(wider);
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  EXPECT_FALSE(view_.next(Stamp::fromSeconds(kStart)));
+  EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
+}
+
 TEST_F(CameraViewTest, OldTracksAreNotDrawn) {
   view_.takeCameraInfo(cameraInfo());
   mountCamera(kStart);

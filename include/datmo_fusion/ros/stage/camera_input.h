@@ -22,9 +22,8 @@ class CameraInput {
   /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
   void check(const sensor_msgs::Image& image) const;
 
-  /// Returns the camera of an image on the vehicle, with its mount from tf. Throws InputError if
-  /// the image is not of the camera of the last info, as check(), or without its mount
-  /// (`missing_transform`).
+  /// Returns the camera of an image on the vehicle, with its mount from tf. Throws InputError for
+  /// the same reasons as check(), since the info may have changed, and `missing_transform`.
   MountedCamera mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
                         const TransformBuffer& transforms) const;
 
