@@ -63,7 +63,8 @@ class RollingGrid {
       const unsigned next_row = row + row_of_corner;
       const unsigned index = (next_row < all_rows ? next_row : next_row - all_rows) * all_columns +
                              (next_column < all_columns ? next_column : next_column - all_columns);
-      indices[i] = (column < all_columns) & (row < all_rows) ? index : kOutside;
+      const bool inside = (column < all_columns) & (row < all_rows);  // no &&: no branch
+      indices[i] = inside ? index : kOutside;
     }
     return indices;
   }
