@@ -105,7 +105,8 @@ class OccupancyMap {
     return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
   }
 
-  /// Returns the sum of the occupancies of the first `count` of many cells.
+  /// Returns the sum of the occupancies of the first `count` (at most kMany) of many cells, of
+  /// which those outside the window count as unknown.
   template <std::size_t kMany>
   double occupancySum(const std::array<int, kMany>& columns, const std::array<int, kMany>& rows,
                       std::size_t count) const {
