@@ -110,10 +110,14 @@ class PartsTest : public testing::Test {
 PartsChain* PartsTest::chain_ = nullptr;
 
 TEST_F(PartsTest, EachProcessHasItsNodeletsAndTogetherTheyPublishRisks) {
-  EXPECT_TRUE(hasNodelet("/perception_sensors", "/motion"));
-  EXPECT_TRUE(hasNodelet("/perception_stereo", "/stereo_objects"));
-  EXPECT_TRUE(hasNodelet("/perception", "/tracker"));
-  EXPECT_TRUE(hasNodelet("/perception_risk", "/risk"));
+  // A manager lists a nodelet some time after the nodelet has advertised its topics.
+  const auto isListed = [](const std::string& manager, const std::string& name) {
+    return chain_->waitFor([&] { return hasNodelet(manager, name); });
+  };
+  EXPECT_TRUE(isListed("/perception_sensors", "/motion"));
+  EXPECT_TRUE(isListed("/perception_stereo", "/stereo_objects"));
+  EXPECT_TRUE(isListed("/perception", "/tracker"));
+  EXPECT_TRUE(isListed("/perception_risk", "/risk"));
   EXPECT_TRUE(chain_->driveUntil([] {
     return chain_->risks > 0 && chain_->stereo_objects > 0 && !chain_->tracks.empty();
   })) << chain_->diagnosticMessage("stack");
