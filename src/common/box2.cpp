@@ -26,11 +26,13 @@ Point2 Box2::beyond(const Point2& point) const {
           std::max(0.0, std::abs(local.y()) - 0.5 * width)};
 }
 
+double Box2::halfDiagonal() const { return 0.5 * std::sqrt(length * length + width * width); }
+
 bool Box2::contains(const Point2& point) const {
   // Quick test for most points: the corners are half the diagonal away, and the nearest side half
   // the shorter side.
   const double distance2 = (point - center.position()).squaredNorm();
-  const double reach = 0.5 * std::sqrt(length * length + width * width) + kRounding;
+  const double reach = halfDiagonal() + kRounding;
   const double inside = 0.5 * std::min(length, width) - kRounding;
   if (distance2 > reach * reach) {
     return false;

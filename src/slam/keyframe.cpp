@@ -12,8 +12,8 @@ namespace {
 constexpr double kStep = 0.005;  // m
 
 /// m; limit of what 16 bits of steps can hold.
-constexpr double kMaxCoordinate = 160.0;
-static_assert(kMaxCoordinate / kStep < std::numeric_limits<std::int16_t>::max());
+constexpr double kMaxStored = 160.0;
+static_assert(kMaxStored / kStep < std::numeric_limits<std::int16_t>::max());
 
 std::int16_t inSteps(double meters) {
   return static_cast<std::int16_t>(std::lround(meters / kStep));
@@ -32,8 +32,7 @@ KeptScan::KeptScan(const LabeledScan& scan)
   std::for_each(scan.blind_beams.begin(), scan.blind_beams.end(), not_free);
   for (const ScanPoint& point : scan.points) {
     not_free(point.beam);
-    if (point.state != PointState::kMoving &&
-        point.position.cwiseAbs().maxCoeff() <= kMaxCoordinate) {
+    if (point.state != PointState::kMoving && point.position.cwiseAbs().maxCoeff() <= kMaxStored) {
       ends_.push_back({inSteps(point.position.x()), inSteps(point.position.y())});
     }
   }

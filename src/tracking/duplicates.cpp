@@ -77,8 +77,7 @@ std::vector<std::uint64_t> findDuplicates(const std::vector<BestTarget>& targets
     if (!(std::isfinite(box.center.x()) && std::isfinite(box.center.y()))) {
       continue;  // it is lost, and cannot be sorted
     }
-    const double diagonal = std::sqrt(box.length * box.length + box.width * box.width);
-    all.push_back({target, box, kSlack + 0.5 * options.reach * diagonal});
+    all.push_back({target, box, kSlack + options.reach * box.halfDiagonal()});
     if (target->confirmed()) {
       confirmed.push_back(all.back());
       max_reach = std::max(max_reach, all.back().reach);

@@ -30,10 +30,9 @@ inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 /// Finite, symmetric and positive definite.
 template <int size>
 bool isCovariance(const Eigen::Matrix<double, size, size>& matrix) {
-  // As strict as the check of published messages, which compares Frobenius norms; those of elements
-  // near the limits of a double would overflow here.
-  constexpr double kAsymmetry = 1e-6;
-  const double max_difference = kAsymmetry * matrix.trace() / (size * std::sqrt(size));
+  // The check of published messages compares Frobenius norms; those of elements near the limits of
+  // a double would overflow here.
+  const double max_difference = kMaxAsymmetry * matrix.trace() / (size * std::sqrt(size));
   return matrix.allFinite() &&
          (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= max_difference &&
          matrix.llt().info() == Eigen::Success;

@@ -16,6 +16,9 @@ struct Box2 {
   /// Returns the corners: front left, rear left, rear right, front right.
   std::array<Point2, 4> corners() const;
 
+  /// Returns the distance from the center to the corners, m.
+  double halfDiagonal() const;
+
   /// Returns whether the point is inside; points on the border are.
   bool contains(const Point2& point) const;
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arithmetic on four doubles at a time, for wide registers that many processors have but not all:
-// compiled for both and selected at startup. Results are identical: the same additions and
-// multiplications are done on more elements at a time, and AVX2 does not fuse the two. If the
-// compiler could fuse them (-march with FMA, AArch64), -ffp-contract=off prevents it.
+// Arithmetic and array look-ups on several numbers at a time, for wide registers that many
+// processors have but not all: compiled for both and selected at startup. Results are identical:
+// the same additions and multiplications are done on more elements at a time, and AVX2 does not
+// fuse them. If the compiler could fuse them (-march with FMA, AArch64), -ffp-contract=off prevents
+// it.
 #pragma once
 
-/// Put before a function that spends its time in short loops over doubles. A test that compares the
+/// Put before a function that spends its time in short loops over numbers. A test that compares the
 /// two versions defines it itself.
 #if defined(DATMO_FUSION_WIDE)
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \

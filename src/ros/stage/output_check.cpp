@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "datmo_fusion/common/physical_bounds.h"
+
 namespace datmo {
 
 namespace {
@@ -22,7 +24,7 @@ bool isCovariance(const double* values, std::size_t size) {
   const auto rows = static_cast<Eigen::Index>(size);
   const Eigen::Map<const Eigen::MatrixXd> matrix(values, rows, rows);
   const double tolerance = kRounding * matrix.cwiseAbs().maxCoeff();
-  if (!matrix.allFinite() || !matrix.isApprox(matrix.transpose(), kRounding)) {
+  if (!matrix.allFinite() || !matrix.isApprox(matrix.transpose(), kMaxAsymmetry)) {
     return false;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
