@@ -2,6 +2,7 @@
 #include "datmo_fusion/common/class_belief.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <numeric>
 
@@ -10,6 +11,11 @@ namespace datmo {
 namespace {
 
 constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
+
+/// All but kUnknown, which is the first.
+constexpr std::size_t kKnownClasses = kObjectClasses - 1;
+constexpr std::size_t kFirstKnown = 1;
+static_assert(static_cast<std::size_t>(ObjectClass::kUnknown) < kFirstKnown);
 
 /// Share of the uniform distribution that is mixed in with every observation: no class falls below
 /// a fifth of it, so that two or three clear observations overturn any belief.
@@ -47,6 +53,47 @@ ClassProbabilities orEqual(const ClassProbabilities& belief) {
 }
 
 }  // namespace
+
+ObjectClass mostLikelyClass(const ClassProbabilities& probabilities) {
+  const auto best = std::max_element(probabilities.begin(), probabilities.end());
+  return static_cast<ObjectClass>(best - probabilities.begin());
+}
+
+double probabilityOf(ObjectClass object_class, const ClassProbabilities& probabilities) {
+  return probabilities[indexOf(object_class)];
+}
+
+ClassProbabilities reportedClass(ObjectClass object_class, double probability) {
+  ClassProbabilities result{};
+  if (object_class != ObjectClass::kUnknown) {
+    result[indexOf(object_class)] = probability;
+  }
+  return result;
+}
+
+bool indicatesClass(const ClassProbabilities& observed) {
+  const ObjectClass best = mostLikelyClass(observed);
+  return best != ObjectClass::kUnknown && probabilityOf(best, observed) > kChance;
+}
+
+ClassProbabilities classLikelihoods(const ClassProbabilities& observed) {
+  if (!indicatesClass(observed)) {
+    return normalized({});
+  }
+  const std::size_t best = indexOf(mostLikelyClass(observed));
+  const double sum = std::accumulate(observed.begin(), observed.end(), 0.0);
+  const double missing = std::max(0.0, 1.0 - sum) / static_cast<double>(kObjectClasses - 1);
+  ClassProbabilities result = observed;
+  double others = 0.0;
+  for (std::size_t i = kFirstKnown; i < kObjectClasses; ++i) {
+    if (i != best) {
+      result[i] += missing;
+      others += result[i];
+    }
+  }
+  result[indexOf(ObjectClass::kUnknown)] = others / static_cast<double>(kKnownClasses - 1);
+  return normalized(result);
+}
 
 ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods) {
   const double mean = (likelihoods.pedestrian + likelihoods.cyclist + likelihoods.vehicle) / 3.0;
@@ -91,25 +138,21 @@ bool tellsAnything(const ClassProbabilities& belief) {
 
 ClassBelief::ClassBelief() { probabilities_.fill(kChance); }
 
-void ClassBelief::update(ObjectClass observed, double probability) {
-  if (observed == ObjectClass::kUnknown || probability <= kChance) {
+void ClassBelief::update(const ClassProbabilities& observed) {
+  if (!indicatesClass(observed)) {
     return;
   }
-  const double other = (1.0 - probability) / static_cast<double>(kObjectClasses - 1);
-  for (std::size_t i = 0; i < kObjectClasses; ++i) {
-    probabilities_[i] *= i == indexOf(observed) ? probability : other;
-  }
+  const ClassProbabilities likelihoods = classLikelihoods(observed);
+  std::transform(probabilities_.begin(), probabilities_.end(), likelihoods.begin(),
+                 probabilities_.begin(), std::multiplies<>());
   probabilities_ = normalizedWithDoubt(probabilities_);
 }
 
 double ClassBelief::probability(ObjectClass object_class) const {
-  return probabilities_[indexOf(object_class)];
+  return probabilityOf(object_class, probabilities_);
 }
 
-ObjectClass ClassBelief::mostLikely() const {
-  const auto best = std::max_element(probabilities_.begin(), probabilities_.end());
-  return static_cast<ObjectClass>(best - probabilities_.begin());
-}
+ObjectClass ClassBelief::mostLikely() const { return mostLikelyClass(probabilities_); }
 
 bool ClassBelief::compatible(ObjectClass object_class) const {
   const ObjectClass own = mostLikely();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/detection/cloud_object_detector.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "cloud_outline.h"
@@ -109,15 +108,6 @@ void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
     return SurfaceEnd{0.5 * end.gap, kUniformVariance * square(end.gap)};
   };
   setSides(object, fit, {seen_variance, end_beyond});
-}
-
-void setClass(Object& object, const SeenSize& size, const ObjectClassifier& classifier,
-              double max_doubt) {
-  const ClassProbabilities probabilities = classifier.probabilities(size);
-  const auto best = std::max_element(probabilities.begin(), probabilities.end());
-  object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
-  object.class_probability = *best;
-  object.log_odds = std::clamp(classifier.logOddsOfKnown(probabilities), -max_doubt, 0.0);
 }
 
 }  // namespace
@@ -235,7 +225,7 @@ CloudObjects CloudObjectDetector::detect(const LidarCloud& cloud, Stamp stamp,
     object.position_covariance *= square(options_.position_sigma);
     setBox(object, outline, lidar, options_);
     const bool cut = outline.top > options_.max_height - options_.row_spacing * outline.range;
-    setClass(object, outline.seenSize(options_.row_spacing, cut), classifier_, options_.max_doubt);
+    classifier_.classify(outline.seenSize(options_.row_spacing, cut), options_.max_doubt, object);
     result.list.objects.push_back(std::move(object));
   }
   return result;

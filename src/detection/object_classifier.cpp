@@ -157,4 +157,9 @@ double ObjectClassifier::logOddsOfKnown(const ClassProbabilities& probabilities)
   return std::log((1.0 - other) / other) - std::log(std::max(kSure, known) / o.other_share);
 }
 
+void ObjectClassifier::classify(const SeenSize& seen, double max_doubt, Object& object) const {
+  object.class_probabilities = probabilities(seen);
+  object.log_odds = std::clamp(logOddsOfKnown(object.class_probabilities), -max_doubt, 0.0);
+}
+
 }  // namespace datmo

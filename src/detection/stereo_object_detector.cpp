@@ -57,7 +57,7 @@ class StereoObjectDetector::State {
         continue;
       }
       Object object = maker.objectOf(outline);
-      if (object.object_class != ObjectClass::kUnknown || object.class_probability <= kMaxOther) {
+      if (probabilityOf(ObjectClass::kUnknown, object.class_probabilities) <= kMaxOther) {
         result.list.objects.push_back(std::move(object));
       }
     }

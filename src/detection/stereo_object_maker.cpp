@@ -55,7 +55,7 @@ Object StereoObjectMaker::objectOf(const GroupOutline& outline) const {
   object.height = outline.top;
   object.position_covariance = covarianceOf(outline);
   setBox(object, outline);
-  setClass(object, outline);
+  classifier_.classify(sizeOf(outline), options_.max_doubt, object);
   return object;
 }
 
@@ -148,16 +148,6 @@ SeenSize StereoObjectMaker::sizeOf(const GroupOutline& outline) const {
   seen.along_sigma = std::hypot(kExtentSigma, std::sqrt(kBothEnds) * noise);
   seen.wider = !outline.left.seen || !outline.right.seen;
   return seen;
-}
-
-void StereoObjectMaker::setClass(Object& object, const GroupOutline& outline) const {
-  const ClassProbabilities probabilities = classifier_.probabilities(sizeOf(outline));
-  const auto best = std::max_element(probabilities.begin(), probabilities.end());
-  object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
-  object.class_probability = *best;
-  // Relative to the prior odds, from the kinds' shares.
-  const double odds = classifier_.logOddsOfKnown(probabilities);
-  object.log_odds = std::clamp(odds, -options_.max_doubt, 0.0);
 }
 
 }  // namespace datmo

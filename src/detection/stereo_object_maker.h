@@ -35,7 +35,6 @@ class StereoObjectMaker {
   std::vector<Point2> pointsOf(const GroupOutline& outline) const;
   void setBox(Object& object, const GroupOutline& outline) const;
   SeenSize sizeOf(const GroupOutline& outline) const;
-  void setClass(Object& object, const GroupOutline& outline) const;
   Eigen::Matrix2d covarianceOf(const GroupOutline& outline) const;
 
   /// m, depth noise of one column of points relative to the others of the same object.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo {
 
 namespace {
@@ -72,11 +74,6 @@ MotionMode modeAt(const Cumulated& cumulated, double uniform) {
 
 }  // namespace
 
-ObjectClass likeliestClass(const Track& track) {
-  const auto& shares = track.class_probabilities;
-  return static_cast<ObjectClass>(std::max_element(shares.begin(), shares.end()) - shares.begin());
-}
-
 MotionMode likeliestMode(const Track& track) {
   const auto& shares = track.mode_probabilities;
   return static_cast<MotionMode>(std::max_element(shares.begin(), shares.end()) - shares.begin());
@@ -89,7 +86,7 @@ ObjectFutures::ObjectFutures(const Track& track, const std::optional<RoadCourse>
       options_(options),
       horizon_(horizon),
       draws_(draws),
-      class_(likeliestClass(track)),
+      class_(mostLikelyClass(track.class_probabilities)),
       start_(startOf(track, kMaxHeadingSigma)),
       cumulated_(transitionMatrix(countsOfSojourns(options.transitions), horizon.step)) {
   for (int mode = 1; mode < kMotionModes; ++mode) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -26,6 +30,16 @@ inline bool isRate(double value) { return std::abs(value) <= kMaxRate; }
 inline bool isAmount(double value) { return value >= 0.0 && value <= kMaxAmount; }
 
 inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
+
+/// Rounding error of a sum of probabilities, which messages have as floats.
+inline constexpr double kShareRounding = 1e-3;
+
+/// Probabilities of exclusive alternatives; all are 0 if nothing is known.
+template <std::size_t count>
+bool areShares(const std::array<double, count>& values) {
+  return std::all_of(values.begin(), values.end(), isShare) &&
+         std::accumulate(values.begin(), values.end(), 0.0) <= 1.0 + kShareRounding;
+}
 
 /// Finite, symmetric and positive definite.
 template <int size>

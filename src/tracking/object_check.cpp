@@ -56,7 +56,7 @@ bool isValid(const Object& object) {
          std::abs(object.log_odds) <= kMaxLogOdds &&
          std::abs(object.motion_log_odds) <= kMaxLogOdds && isExtent(object.height) &&
          std::abs(object.delay) <= kMaxDelay && isShare(object.moving_fraction) &&
-         isShare(object.class_probability) && isPrecise(object.position_covariance) &&
+         areShares(object.class_probabilities) && isPrecise(object.position_covariance) &&
          (!object.velocity || isVelocity(*object.velocity));
 }
 

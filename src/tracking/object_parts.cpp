@@ -56,8 +56,7 @@ Box2 boxHolding(const std::vector<Point2>& points, double heading) {
 /// The class of an object tells little about the whole that it is a part of, or about its own
 /// parts; and along the axes of a target it carries no information on the target's heading.
 void forgetKind(Object& object) {
-  object.object_class = ObjectClass::kUnknown;
-  object.class_probability = 0.0;
+  object.class_probabilities = {};
   object.heading_variance = kUnknownHeadingVariance;
 }
 

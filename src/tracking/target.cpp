@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/association_scan.h"
 
@@ -20,7 +22,8 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
   estimate.covariance.topLeftCorner<2, 2>() = measured.covariance;
   estimate.covariance.diagonal().segment<2>(2).setConstant(options.birth_speed_std *
                                                            options.birth_speed_std);
-  const double acceleration = options.filter.motionOf(object.object_class).acceleration_std;
+  const double acceleration =
+      options.filter.motionOf(mostLikelyClass(object.class_probabilities)).acceleration_std;
   estimate.covariance.diagonal().tail<2>().setConstant(acceleration * acceleration);
   return {carriedOn(estimate, -measured.delay), priorModeProbabilities(options.filter),
           transitions};
@@ -45,6 +48,9 @@ void SensorClassOptions::visit(OptionVisitor& visitor) {
                   "whether the classes of its objects are inferred from their size, so that size "
                   "is not counted twice; sensors not listed: true"},
                  class_by_size);
+  visitor.toggle({"measures_size", "",
+                  "whether it measures the size of its objects; sensors not listed: true"},
+                 measures_size);
 }
 
 void TargetOptions::visit(OptionVisitor& visitor) {
@@ -63,12 +69,16 @@ void TargetOptions::visit(OptionVisitor& visitor) {
 }
 
 bool TargetOptions::hasClassBySize(const Object& object) const {
-  const auto by_size = [this](const std::string& sensor) {
+  bool by_size = object.sensors.empty();
+  bool measured_otherwise = false;
+  for (const std::string& sensor : object.sensors) {
     const auto found = sensors.find(sensor);
-    return found == sensors.end() || found->second.class_by_size;
-  };
-  return object.sensors.empty() ||
-         std::any_of(object.sensors.begin(), object.sensors.end(), by_size);
+    const SensorClassOptions options =
+        found == sensors.end() ? SensorClassOptions() : found->second;
+    by_size = by_size || options.class_by_size;
+    measured_otherwise = measured_otherwise || (options.measures_size && !options.class_by_size);
+  }
+  return by_size && !measured_otherwise;
 }
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
@@ -164,13 +174,9 @@ double Target::trackedVelocityEvidence(double false_motion, const TargetOptions&
 }
 
 double Target::sameClassProbability(const Object& object) const {
-  const double said = object.class_probability;
-  if (object.object_class == ObjectClass::kUnknown || said <= kChanceOfClass) {
-    return kChanceOfClass;
-  }
-  // The other classes share the rest equally, as in ClassBelief.
-  const double own = class_.probability(object.object_class);
-  return own * said + (1.0 - own) * (1.0 - said) / static_cast<double>(kObjectClasses - 1);
+  const ClassProbabilities& own = class_.probabilities();
+  const ClassProbabilities observed = classLikelihoods(object.class_probabilities);
+  return std::inner_product(own.begin(), own.end(), observed.begin(), 0.0);
 }
 
 void Target::confirm(std::uint64_t order, bool moves) {
@@ -180,9 +186,9 @@ void Target::confirm(std::uint64_t order, bool moves) {
 }
 
 void Target::takeClass(const Object& object, const TargetOptions& options) {
-  class_.update(object.object_class, object.class_probability);
-  if (object.object_class != ObjectClass::kUnknown && options.hasClassBySize(object)) {
-    class_by_size_.update(object.object_class, object.class_probability);
+  class_.update(object.class_probabilities);
+  if (options.hasClassBySize(object)) {
+    class_by_size_.update(object.class_probabilities);
   }
 }
 

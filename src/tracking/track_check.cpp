@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "number_checks.h"
 
@@ -25,16 +24,6 @@ bool isState(const TrackState& state, const TrackCovariance& covariance) {
   return isPosition(state.head<2>()) && isWithin(state.tail<kTrackState - 2>(), kMaxRate) &&
          isCovariance(covariance) &&
          covariance.diagonal().maxCoeff() <= kMaxCoordinate * kMaxCoordinate;
-}
-
-/// Rounding error of a sum of probabilities, which messages have as floats.
-constexpr double kRounding = 1e-3;
-
-/// Probabilities of exclusive alternatives; all are 0 if nothing is known.
-template <std::size_t count>
-bool areShares(const std::array<double, count>& values) {
-  return std::all_of(values.begin(), values.end(), isShare) &&
-         std::accumulate(values.begin(), values.end(), 0.0) <= 1.0 + kRounding;
 }
 
 }  // namespace

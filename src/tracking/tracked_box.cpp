@@ -178,7 +178,8 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   const SeenBox seen = seenFrom(heading_, object);
   const Eigen::Vector2d share = sharesOf(seen, size_, anchor_share_);
   const Point2 before = offset();
-  size_.classify(object.object_class, object.class_probability);
+  const ObjectClass object_class = mostLikelyClass(object.class_probabilities);
+  size_.classify(object_class, probabilityOf(object_class, object.class_probabilities));
   // The apparent width of a rotated box is partly its length.
   const double slant_variance = std::min(object.heading_variance, kUnknownAxisVariance);
   const Eigen::Matrix2d axes = axesOf(seen.heading);

@@ -225,7 +225,6 @@ std::optional<Object> objectOf(const MountedCamera& camera, const ImageDetection
   object.side_variance = {kHiddenSide, square(kNearCorner * size.width), of_edge(box.min().x()),
                           of_edge(box.max().x())};
   object.height = size.height;
-  object.object_class = detection.object_class;
   return object;
 }
 

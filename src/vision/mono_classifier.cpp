@@ -11,6 +11,7 @@
 #include "image_check.h"
 #include <opencv2/core.hpp>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/object_check.h"
 #include "datmo_fusion/vision/image_region.h"
 
@@ -33,6 +34,9 @@ std::unique_ptr<ImageDetector> makeDetector(const MonoClassifierOptions& options
   }
   return std::make_unique<HogDetector>(options.hog);
 }
+
+/// A detection of score 0 has a class, too.
+constexpr double kMinScore = 1e-6;
 
 /// m, horizontal, from the camera to the object's nearest point.
 double rangeTo(const MountedCamera& camera, const Box2& box) {
@@ -192,9 +196,10 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
       continue;
     }
     alone->sensors = {kSensor};
-    classify(detections[i], *alone);
-    if (alone->object_class != ObjectClass::kUnknown &&
-        alone->class_probability >= options_.min_alone) {
+    alone->class_probabilities = probabilities(detections[i]);
+    const ObjectClass most_likely = mostLikelyClass(alone->class_probabilities);
+    if (most_likely != ObjectClass::kUnknown &&
+        probabilityOf(most_likely, alone->class_probabilities) >= options_.min_alone) {
       result.list.objects.push_back(std::move(*alone));
       ++result.alone;
     }
@@ -252,24 +257,18 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
   classified.sensors = object.sensors;
   // So that it is not associated with a moving object where the scanner's is static.
   classified.dynamic_state = object.dynamic_state;
-  classify(detection, classified);
-  if (classified.object_class != ObjectClass::kUnknown) {
+  classified.class_probabilities = probabilities(detection);
+  if (mostLikelyClass(classified.class_probabilities) != ObjectClass::kUnknown) {
     result.list.objects.push_back(std::move(classified));
     ++result.classified;
   }
 }
 
-void MonoClassifier::classify(const ImageDetection& detection, Object& object) const {
-  if (!options_.calibrated) {
-    object.object_class = detection.object_class;
-    object.class_probability = std::clamp(detection.score, 0.0, 1.0);
-    return;
+ClassProbabilities MonoClassifier::probabilities(const ImageDetection& detection) const {
+  if (options_.calibrated) {
+    return reliability_.probabilities(detection.object_class, detection.score);
   }
-  const ClassProbabilities probabilities =
-      reliability_.probabilities(detection.object_class, detection.score);
-  const auto best = std::max_element(probabilities.begin(), probabilities.end());
-  object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
-  object.class_probability = object.object_class == ObjectClass::kUnknown ? 0.0 : *best;
+  return reportedClass(detection.object_class, std::clamp(detection.score, kMinScore, 1.0));
 }
 
 }  // namespace datmo

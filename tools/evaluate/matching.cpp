@@ -123,7 +123,7 @@ std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& opti
   std::vector<Candidate> result;
   for (std::size_t i = 0; i < frame.truths.size(); ++i) {
     const TrueState& truth = frame.truths[i];
-    const double reach = options.gate + 0.5 * std::hypot(truth.box.length, truth.box.width);
+    const double reach = options.gate + truth.box.halfDiagonal();
     for (std::size_t j = 0; j < frame.tracks.size(); ++j) {
       const TrackState& track = frame.tracks[j];
       // Avoids computing the distance to the box for nearly all pairs.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo::kitti {
@@ -81,8 +82,7 @@ Object DetectionModel::object(const Detection& detection, const CameraMount& mou
   const double side = 0.5 * square(options_.width_sigma);
   object.side_variance = {end, end, side, side};
   object.height = detection.box.height;
-  object.object_class = classOf(detection.type);
-  object.class_probability = 1.0;
+  object.class_probabilities = reportedClass(classOf(detection.type), 1.0);
   object.log_odds = logOdds(detection.score);
   return object;
 }

@@ -76,7 +76,7 @@ Viewpoint ClassCamera::viewpoint() const {
           options_.field_of_view, options_.range};
 }
 
-ObjectClass ClassCamera::reportedClass(ObjectClass object_class) {
+ObjectClass ClassCamera::drawnReport(ObjectClass object_class) {
   const std::size_t row = indexOf(object_class);
   double left = random_.uniform();
   for (std::size_t column = 0; row < kClasses && column < kClasses; ++column) {
@@ -88,13 +88,18 @@ ObjectClass ClassCamera::reportedClass(ObjectClass object_class) {
   return ObjectClass::kUnknown;
 }
 
-double ClassCamera::probabilityOf(ObjectClass reported) const {
+ClassProbabilities ClassCamera::probabilitiesOf(ObjectClass reported) const {
   const std::size_t column = indexOf(reported);
   double sum = 0.0;
   for (std::size_t row = 0; row < kClasses; ++row) {
     sum += options_.confusion[row * kClasses + column];
   }
-  return options_.confusion[column * kClasses + column] / sum;
+  ClassProbabilities result{};
+  for (std::size_t row = 0; row < kClasses; ++row) {
+    result[static_cast<std::size_t>(kReported[row])] =
+        options_.confusion[row * kClasses + column] / sum;
+  }
+  return result;
 }
 
 Object ClassCamera::seen(const ObjectState& object, const Pose2& base, ObjectClass reported) {
@@ -113,8 +118,7 @@ Object ClassCamera::seen(const ObjectState& object, const Pose2& base, ObjectCla
   result.position_covariance = square(depth_sigma) * ahead * ahead.transpose() +
                                square(side_sigma) * aside * aside.transpose();
   result.side_variance.fill(kHiddenSide);
-  result.object_class = reported;
-  result.class_probability = probabilityOf(reported);
+  result.class_probabilities = probabilitiesOf(reported);
   result.sensors = {viewpoint().sensor};
   return result;
 }
@@ -125,7 +129,7 @@ ObjectList ClassCamera::measure(const World& world, double time) {
   for (const ObjectState& object : state.objects) {
     // Drawn before the visibility is tested, so that whether one object is visible does not change
     // the draws of the others.
-    const ObjectClass reported = reportedClass(object.kind.object_class);
+    const ObjectClass reported = drawnReport(object.kind.object_class);
     if (reported != ObjectClass::kUnknown &&
         lookAt(object, viewpoint(), world, state).visible >= options_.min_visible_share) {
       list.objects.push_back(seen(object, state.base, reported));

@@ -51,8 +51,9 @@ class ClassCamera {
 
  private:
   /// The class reported for an object of this class; kUnknown: not reported.
-  ObjectClass reportedClass(ObjectClass object_class);
-  double probabilityOf(ObjectClass reported) const;
+  ObjectClass drawnReport(ObjectClass object_class);
+  /// Given this report, if pedestrians, cyclists and vehicles were equally frequent.
+  ClassProbabilities probabilitiesOf(ObjectClass reported) const;
   Object seen(const ObjectState& object, const Pose2& base, ObjectClass reported);
 
   ClassCameraOptions options_;

@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "datmo_fusion/common/object.h"
 
 namespace datmo {
 
-/// Probability of each ObjectClass, in the order of its values; they sum to 1. All zeros, as in the
-/// tracks of a source that does not report classes, means unknown, the same as all equal.
-using ClassProbabilities = std::array<double, kObjectClasses>;
+/// Returns the class with the highest probability; on a tie the first in the order of ObjectClass,
+/// so kUnknown if nothing is known.
+ObjectClass mostLikelyClass(const ClassProbabilities& probabilities);
+
+double probabilityOf(ObjectClass object_class, const ClassProbabilities& probabilities);
+
+/// Returns Object::class_probabilities of a sensor that reports one class and the probability (0 to
+/// 1) that it is right; all 0 for kUnknown.
+ClassProbabilities reportedClass(ObjectClass object_class, double probability);
+
+/// Returns whether an observation (Object::class_probabilities) is evidence for a class: the most
+/// likely one is known, and likelier than by chance (one in kObjectClasses).
+bool indicatesClass(const ClassProbabilities& observed);
+
+/// Returns the likelihood of an observation (Object::class_probabilities) for each class,
+/// normalized to sum 1; all equal if it does not indicate a class. Probability mass that is missing
+/// to 1 is spread evenly over all classes but the most likely one. Objects of unknown class cause
+/// the observation as often, on average, as those of known classes other than the most likely one:
+/// that an object is none of the known classes is expressed by its existence probability instead.
+ClassProbabilities classLikelihoods(const ClassProbabilities& observed);
 
 /// Returns the combined belief of independent ones (Bayes), in any order. Each started from a
 /// uniform prior, so their product is the posterior. As in ClassBelief, no class becomes
 /// impossible. If the beliefs contradict each other completely, or there are none, all classes are
-/// equally likely. A single belief is returned unchanged.
+/// equally likely. A single belief is returned unchanged. One of all zeros, as in the tracks of a
+/// source that does not report classes, is the same as all equal.
 ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs);
 
 /// Likelihoods of a measurement given each of the three kinds of road users, up to a common factor;
@@ -46,16 +63,14 @@ class ClassBelief {
  public:
   ClassBelief();
 
-  /// Adds one observation: the class, and the probability (0 to 1) that it is right; the other
-  /// classes share the rest equally. An unknown class carries no information, nor does a
-  /// probability that is not above chance (one in kObjectClasses).
-  void update(ObjectClass observed, double probability);
+  /// Updates with one observation: Object::class_probabilities. One that does not indicate a class
+  /// is ignored.
+  void update(const ClassProbabilities& observed);
 
   const ClassProbabilities& probabilities() const { return probabilities_; }
   double probability(ObjectClass object_class) const;
 
-  /// Returns the most likely class; on a tie, the first in the order of ObjectClass, so kUnknown
-  /// before any report.
+  /// Returns the most likely class; kUnknown before any observation.
   ObjectClass mostLikely() const;
 
   /// Returns whether an object of this class may be the same one: false if both classes are known

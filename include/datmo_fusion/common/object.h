@@ -22,6 +22,9 @@ namespace datmo {
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kCyclist, kVehicle, kPole };
 inline constexpr std::size_t kObjectClasses = 5;
 
+/// Probability of each ObjectClass, in the order of its values.
+using ClassProbabilities = std::array<double, kObjectClasses>;
+
 /// One lower-case word.
 const char* nameOf(ObjectClass object_class);
 
@@ -58,8 +61,9 @@ struct Object {
   /// box as a whole. 0 or more, or kHiddenSide.
   std::array<double, kBoxSides> side_variance{};
   double height = 0.0;  ///< m, 0: not measured
-  ObjectClass object_class = ObjectClass::kUnknown;
-  double class_probability = 0.0;  ///< 0 to 1
+  /// Of each class, from this measurement alone; of kUnknown: that it is none of the known ones.
+  /// Sum at most 1; the remainder is spread evenly over all classes but the most likely one.
+  ClassProbabilities class_probabilities{};
   DynamicState dynamic_state = DynamicState::kUnknown;
   std::optional<MeasuredVelocity> velocity;  ///< none: not measured
   double moving_fraction = 0.0;  ///< 0 to 1, share of its points in cells that the map has as free

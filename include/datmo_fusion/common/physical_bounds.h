@@ -16,8 +16,8 @@ inline constexpr double kMaxRate = 1000.0;       ///< m/s, m/s^2, rad/s, of anyt
 inline constexpr double kMaxBearing = 2.0 * kTurn;  ///< rad: drivers count from 0 or from -pi
 inline constexpr double kMaxSweep = 10.0;           ///< s, from a scan's first beam to its last
 
-/// Asymmetry of a covariance by rounding errors of sums, relative to its norm: as much is accepted
-/// in messages that arrive and in those that are published.
+/// Largest accepted asymmetry of a covariance, relative to its norm, in received and in published
+/// messages: it covers the rounding of sums.
 inline constexpr double kMaxAsymmetry = 1e-6;
 
 /// Returns whether no element is larger in magnitude; false if one is NaN.

@@ -61,6 +61,10 @@ class ObjectClassifier {
   /// Returns the log odds of one of the known kinds, relative to the prior ones.
   double logOddsOfKnown(const ClassProbabilities& probabilities) const;
 
+  /// Sets the class probabilities of an object, and these log odds as those of its existence: at
+  /// most 0, at least -`max_doubt`.
+  void classify(const SeenSize& seen, double max_doubt, Object& object) const;
+
  private:
   ObjectClassifierOptions options_;
 };

@@ -43,8 +43,7 @@ struct ObjectFutureOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Returns the most likely class of an object: the first of equally likely ones.
-ObjectClass likeliestClass(const Track& track);
+/// Returns the most likely motion mode of an object: the first of equally likely ones.
 MotionMode likeliestMode(const Track& track);
 
 /// Possible futures of one tracked object.

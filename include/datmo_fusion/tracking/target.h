@@ -29,6 +29,7 @@ struct Observation;
 /// How the classes of one sensor's objects are derived.
 struct SensorClassOptions {
   bool class_by_size = true;
+  bool measures_size = true;
 
   void visit(OptionVisitor& visitor);
 };
@@ -44,12 +45,12 @@ struct TargetOptions {
   double stop_speed = 0.4;       ///< m/s
   /// By Object::sensors. The classes of the scanner's objects come from the image (MonoClassifier).
   std::map<std::string, SensorClassOptions> sensors = {
-      {"lidar", {false}}, {"mono", {false}}, {"radar", {false}}};
+      {"lidar", {false, true}}, {"mono", {false, false}}, {"radar", {false, false}}};
 
   void visit(OptionVisitor& visitor);
 
   /// Returns whether the class of an object already includes its size: one of its sensors
-  /// classifies by size, or is unknown.
+  /// classifies by size, or is unknown, and no other kind of sensor measured the size as well.
   bool hasClassBySize(const Object& object) const;
 };
 

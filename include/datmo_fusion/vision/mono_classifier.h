@@ -60,7 +60,7 @@ struct MonoClassification {
 /// each object (`method: thesis`): the class whose rectangle contains the most certain detection is
 /// chosen, and objects that the scanner does not see are ignored.
 ///
-/// An object in the list is the scanner's, with its sensors, plus a class and its probability. Its
+/// An object in the list is the scanner's, with its sensors, plus class probabilities. Its
 /// position carries almost no information and its sides none: they are the scanner's own and must
 /// not be counted twice. Objects from the image alone have the sensor "mono".
 ///
@@ -95,8 +95,8 @@ class MonoClassifier {
                                 const std::vector<InView>& seen);
   void addClassified(const Object& object, const ImageDetection& detection,
                      MonoClassification& result) const;
-  /// Class and probability of an object.
-  void classify(const ImageDetection& detection, Object& object) const;
+  /// Class probabilities of the detected object.
+  ClassProbabilities probabilities(const ImageDetection& detection) const;
 
   MonoClassifierOptions options_;
   ClassReliability reliability_;

@@ -30,8 +30,7 @@ double squaredDistance(const Point2& difference, const Eigen::Matrix2d& covarian
 
 /// An object that is certainly not a vehicle cannot be ours.
 bool mayBeVehicle(const ClassProbabilities& classes) {
-  const auto likeliest = std::max_element(classes.begin(), classes.end()) - classes.begin();
-  const auto object_class = static_cast<ObjectClass>(likeliest);
+  const ObjectClass object_class = mostLikelyClass(classes);
   return object_class == ObjectClass::kVehicle || object_class == ObjectClass::kUnknown;
 }
 

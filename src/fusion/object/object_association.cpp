@@ -32,15 +32,14 @@ double motionVariance(const Object& a, const Object& b, const ObjectAssociationO
 
 ClassBelief beliefOf(const Object& object) {
   ClassBelief belief;
-  belief.update(object.object_class, object.class_probability);
+  belief.update(object.class_probabilities);
   return belief;
 }
 
 /// False if both classes are known and differ.
 bool mayBeOfOneClass(const Object& a, const Object& b) {
-  return a.object_class == b.object_class || a.object_class == ObjectClass::kUnknown ||
-         b.object_class == ObjectClass::kUnknown || beliefOf(a).compatible(b.object_class) ||
-         beliefOf(b).compatible(a.object_class);
+  return beliefOf(a).compatible(mostLikelyClass(b.class_probabilities)) ||
+         beliefOf(b).compatible(mostLikelyClass(a.class_probabilities));
 }
 
 /// An object that the scan knows to be static does not match one that may move: a person beside a
@@ -84,7 +83,7 @@ struct Extent {
 };
 
 Extent extentOf(const Object& object) {
-  const double radius = 0.5 * std::hypot(object.box.length, object.box.width);
+  const double radius = object.box.halfDiagonal();
   double side = 0.0;
   for (const double variance : object.side_variance) {
     side = std::max(side, std::isfinite(variance) ? variance : 0.0);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "fused_sides.h"
@@ -213,23 +212,15 @@ double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a
 }  // namespace
 
 void combineClass(const Object& a, const Object& b, Object& result) {
-  if (a.object_class == ObjectClass::kUnknown || b.object_class == ObjectClass::kUnknown) {
-    const Object& known = a.object_class == ObjectClass::kUnknown ? b : a;
-    result.object_class = known.object_class;
-    result.class_probability = known.class_probability;
-    return;
+  const ClassProbabilities& of_a = a.class_probabilities;
+  const ClassProbabilities& of_b = b.class_probabilities;
+  if (indicatesClass(of_a) && indicatesClass(of_b)) {
+    result.class_probabilities = jointBelief({classLikelihoods(of_a), classLikelihoods(of_b)});
+  } else if (indicatesClass(of_a) || indicatesClass(of_b)) {
+    result.class_probabilities = indicatesClass(of_a) ? of_a : of_b;
+  } else {
+    result.class_probabilities = {};
   }
-  // The more certain one last, in either order of arguments: the belief discounts what came before.
-  const auto order = [](const Object& object) {
-    return std::make_tuple(object.class_probability, object.object_class);
-  };
-  ClassBelief belief;
-  const bool a_first = order(a) <= order(b);
-  for (const Object* object : {a_first ? &a : &b, a_first ? &b : &a}) {
-    belief.update(object->object_class, object->class_probability);
-  }
-  result.object_class = belief.mostLikely();
-  result.class_probability = belief.probability(result.object_class);
 }
 
 Object combined(const Object& a, const Object& b) {

@@ -42,7 +42,7 @@ double positionStd(const Object& object) {
 }
 
 bool isPole(const Object& object) {
-  return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
+  return probabilityOf(ObjectClass::kPole, object.class_probabilities) > kKnownClass;
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ std::vector<PresentTracks> TrackFuser::ingest(Stamp stamp, const std::vector<Sou
     counts.refused += valid - own.tracks.size();
     for (Track& track : own.tracks) {
       track.class_probabilities =
-          reportedClass(track, options_.sources.at(source.source), withoutSpeed);
+          weightedClass(track, options_.sources.at(source.source), withoutSpeed);
       track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
                         options_.prediction);
       track.sources = {{source.source, track.id}};
@@ -139,7 +139,7 @@ std::vector<PresentTracks> TrackFuser::ingest(Stamp stamp, const std::vector<Sou
   return present;
 }
 
-ClassProbabilities TrackFuser::reportedClass(const Track& track, const TrackSourceOptions& source,
+ClassProbabilities TrackFuser::weightedClass(const Track& track, const TrackSourceOptions& source,
                                              decltype(withSpeed)* weigh) const {
   return source.class_by_speed && track.moving
              ? weigh(track.class_probabilities, speedOf({track.state, track.covariance}),

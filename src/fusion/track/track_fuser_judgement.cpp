@@ -116,7 +116,7 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     reports.push_back({track != nullptr,
                        track != nullptr
                            ? std::min(track->existence_probability,
-                                      own.true_share.of(reportedClass(*track, own, withSpeed)))
+                                      own.true_share.of(weightedClass(*track, own, withSpeed)))
                            : 0.0,
                        looked, own.detection.probability(target.track.class_probabilities, range),
                        by_two ? own.false_agreement_probability : kSurelyAgrees});

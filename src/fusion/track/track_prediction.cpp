@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
 
 namespace {
-
-ObjectClass mostLikelyClass(const ClassProbabilities& probabilities) {
-  const auto best = std::max_element(probabilities.begin(), probabilities.end());
-  return static_cast<ObjectClass>(best - probabilities.begin());
-}
 
 /// The same motion with reversed velocity.
 LinearMotion timeReversed(LinearMotion motion) {

@@ -130,9 +130,7 @@ std::optional<StationTrack> trackOf(const CpmObject& object, const Eigen::Matrix
   track.width = dimensionOf(object.width);
   track.height = dimensionOf(object.height);
   track.class_probabilities = classesOf(object.classes);
-  const auto& classes = track.class_probabilities;
-  const auto likeliest = std::max_element(classes.begin(), classes.end()) - classes.begin();
-  setSize(static_cast<ObjectClass>(likeliest), track);
+  setSize(mostLikelyClass(track.class_probabilities), track);
   const std::int64_t quality = object.quality.value_or(0);  // 0: could not be computed
   track.existence_probability =
       quality == 0 ? options.existence

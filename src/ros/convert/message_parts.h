@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Pose2D.h>
@@ -10,6 +17,7 @@
 #include <std_msgs/Header.h>
 
 #include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/convert/messages.h"
@@ -20,6 +28,36 @@ namespace datmo {
 /// No vehicle's scanner has a longer range (m); drivers also use arbitrarily large numbers for "no
 /// limit" and "no return".
 inline constexpr float kMaxReach = 1000.0F;
+
+template <typename Values>
+std::vector<float> toFloats(const Values& values) {
+  std::vector<float> result;
+  std::transform(values.begin(), values.end(), std::back_inserter(result),
+                 [](double value) { return static_cast<float>(value); });
+  return result;
+}
+
+/// All NaN if the message has another number of them.
+template <std::size_t count>
+std::array<double, count> fromFloats(const std::vector<float>& values) {
+  std::array<double, count> result;
+  if (values.size() == count) {
+    std::copy(values.begin(), values.end(), result.begin());
+  } else {
+    result.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
+/// Sets the most likely class of a message of an object or a track, and the probabilities of all.
+template <typename Message>
+void setClasses(const ClassProbabilities& probabilities, Message& message) {
+  const ObjectClass most_likely = mostLikelyClass(probabilities);
+  message.classification = static_cast<std::uint8_t>(most_likely);
+  message.class_probability =
+      static_cast<float>(probabilities[static_cast<std::size_t>(most_likely)]);
+  message.class_probabilities = toFloats(probabilities);
+}
 
 inline std_msgs::Header header(Stamp stamp, const std::string& frame) {
   std_msgs::Header result;

@@ -5,6 +5,7 @@
 
 #include "message_parts.h"
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
@@ -34,6 +35,16 @@ std::optional<MeasuredVelocity> velocityOf(const ObjectMessage& message) {
       {message.velocity.x, message.velocity.y}, covariance, message.velocity_wrong_probability};
 }
 
+/// All NaN if one is not a number, or if there is another number of classes.
+ClassProbabilities classProbabilitiesOf(const ObjectMessage& message) {
+  if (!std::isfinite(message.class_probability)) {
+    return fromFloats<kObjectClasses>({});
+  }
+  return message.class_probabilities.empty()
+             ? reportedClass(classFromMessage(message.classification), message.class_probability)
+             : fromFloats<kObjectClasses>(message.class_probabilities);
+}
+
 Object fromMessage(const ObjectMessage& message) {
   Object object;
   object.box = {boxCenter(message.pose), message.size.x, message.size.y};
@@ -42,8 +53,7 @@ Object fromMessage(const ObjectMessage& message) {
   std::copy(message.side_variance.begin(), message.side_variance.end(),
             object.side_variance.begin());
   object.height = message.size.z;
-  object.object_class = classFromMessage(message.classification);
-  object.class_probability = message.class_probability;
+  object.class_probabilities = classProbabilitiesOf(message);
   object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
   object.velocity = velocityOf(message);
   object.moving_fraction = message.moving_fraction;
@@ -94,8 +104,7 @@ ObjectMessage toMessage(const Object& object) {
   message.heading_variance = object.heading_variance;
   std::copy(object.side_variance.begin(), object.side_variance.end(),
             message.side_variance.begin());
-  message.classification = static_cast<std::uint8_t>(object.object_class);
-  message.class_probability = static_cast<float>(object.class_probability);
+  setClasses(object.class_probabilities, message);
   message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
   if (object.velocity) {
     message.velocity.x = object.velocity->velocity.x();

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
 #include <cstddef>
-#include <iterator>
-#include <limits>
 #include <vector>
 
 #include "message_parts.h"
@@ -17,26 +13,6 @@ namespace {
 
 /// Row by row, the layout of messages.
 using CovarianceMessage = Eigen::Matrix<double, kTrackState, kTrackState, Eigen::RowMajor>;
-
-template <typename Values>
-std::vector<float> toFloats(const Values& values) {
-  std::vector<float> result;
-  std::transform(values.begin(), values.end(), std::back_inserter(result),
-                 [](double value) { return static_cast<float>(value); });
-  return result;
-}
-
-/// All NaN if the message has another number of them.
-template <std::size_t count>
-std::array<double, count> fromFloats(const std::vector<float>& values) {
-  std::array<double, count> result;
-  if (values.size() == count) {
-    std::copy(values.begin(), values.end(), result.begin());
-  } else {
-    result.fill(std::numeric_limits<double>::quiet_NaN());
-  }
-  return result;
-}
 
 PathPointMessage toMessage(const PathPoint& point) {
   PathPointMessage message;
@@ -70,11 +46,7 @@ TrackMessage toMessage(const Track& track) {
   message.moving = track.moving;
   message.heading_variance = track.heading_variance;
   message.mode_probabilities = toFloats(track.mode_probabilities);
-  const auto& classes = track.class_probabilities;
-  const auto most_likely = std::max_element(classes.begin(), classes.end());
-  message.classification = static_cast<std::uint8_t>(most_likely - classes.begin());
-  message.class_probability = static_cast<float>(*most_likely);
-  message.class_probabilities = toFloats(classes);
+  setClasses(track.class_probabilities, message);
   message.existence_probability = static_cast<float>(track.existence_probability);
   message.age = ros::Duration(track.age);
   message.since_update = ros::Duration(track.since_update);

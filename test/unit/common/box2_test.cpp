@@ -24,6 +24,12 @@ TEST(Box2, CornersGoRoundFromFrontLeft) {
   }
 }
 
+TEST(Box2, CornersAreHalfTheDiagonalFromTheCenter) {
+  for (const Point2& corner : kCar.corners()) {
+    EXPECT_NEAR((corner - kCar.center.position()).norm(), kCar.halfDiagonal(), 1e-12);
+  }
+}
+
 TEST(Box2, ContainsInsideAndBorder) {
   const Box2 straight{{0.0, 0.0, 0.0}, 4.0, 2.0};
   EXPECT_TRUE(straight.contains({1.9, -0.9}));

@@ -24,7 +24,7 @@ TEST(ClassBelief, IsUniformInitially) {
 
 TEST(ClassBelief, OfOneObservationIsItsProbabilityWithSomeDoubt) {
   ClassBelief belief;
-  belief.update(ObjectClass::kVehicle, 0.8);
+  belief.update(reportedClass(ObjectClass::kVehicle, 0.8));
   // 0.95 of 0.8 and of the four others' 0.05, and 0.01 for each class.
   EXPECT_NEAR(belief.probability(ObjectClass::kVehicle), 0.77, kTolerance);
   EXPECT_NEAR(belief.probability(ObjectClass::kPole), 0.0575, kTolerance);
@@ -33,26 +33,70 @@ TEST(ClassBelief, OfOneObservationIsItsProbabilityWithSomeDoubt) {
 
 TEST(ClassBelief, GrowsWithEveryObservation) {
   ClassBelief belief;
-  belief.update(ObjectClass::kCyclist, 0.5);
+  belief.update(reportedClass(ObjectClass::kCyclist, 0.5));
   const double once = belief.probability(ObjectClass::kCyclist);
-  belief.update(ObjectClass::kCyclist, 0.5);
+  belief.update(reportedClass(ObjectClass::kCyclist, 0.5));
   EXPECT_GT(belief.probability(ObjectClass::kCyclist), once);
 }
 
 TEST(ClassBelief, LearnsNothingFromAnUnknownClassOrByChance) {
   ClassBelief belief;
-  belief.update(ObjectClass::kPole, 0.7);
+  belief.update(reportedClass(ObjectClass::kPole, 0.7));
   const ClassProbabilities before = belief.probabilities();
-  belief.update(ObjectClass::kUnknown, 1.0);
-  belief.update(ObjectClass::kPedestrian, 0.2);
-  belief.update(ObjectClass::kPedestrian, 0.0);
+  belief.update(reportedClass(ObjectClass::kUnknown, 1.0));
+  belief.update(reportedClass(ObjectClass::kPedestrian, 0.2));
+  belief.update(reportedClass(ObjectClass::kPedestrian, 0.0));
   EXPECT_EQ(belief.probabilities(), before);
+}
+
+TEST(ClassBelief, LearnsNothingFromSomethingElse) {
+  ClassBelief belief;
+  belief.update(reportedClass(ObjectClass::kPole, 0.7));
+  const ClassProbabilities before = belief.probabilities();
+  belief.update({0.5, 0.1, 0.3, 0.1, 0.0});
+  EXPECT_EQ(belief.probabilities(), before);
+}
+
+TEST(ClassBelief, DistinguishesClassesOtherThanTheMostLikelyOne) {
+  ClassBelief belief;
+  for (int i = 0; i < 2; ++i) {
+    belief.update({0.0, 0.48, 0.02, 0.5, 0.0});
+  }
+  EXPECT_GT(belief.probability(ObjectClass::kPedestrian),
+            10.0 * belief.probability(ObjectClass::kCyclist));
+}
+
+void expectNear(const ClassProbabilities& one, const ClassProbabilities& other) {
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    EXPECT_NEAR(one[i], other[i], kTolerance) << i;
+  }
+}
+
+TEST(ClassLikelihoods, OfAReportAllOthersShareTheRest) {
+  const ClassProbabilities reported = reportedClass(ObjectClass::kCyclist, 0.6);
+  EXPECT_EQ(mostLikelyClass(reported), ObjectClass::kCyclist);
+  expectNear(classLikelihoods(reported), {0.1, 0.1, 0.6, 0.1, 0.1});
+}
+
+TEST(ClassLikelihoods, OfAnUnknownClassIsTheMeanOfTheLessLikelyOnes) {
+  // 0.125, 0.5, 0.125 and 0, and the mean of the three smaller ones, 1/12: 5/6 in all.
+  expectNear(classLikelihoods({0.25, 0.125, 0.5, 0.125, 0.0}),
+             {1.0 / 10.0, 3.0 / 20.0, 3.0 / 5.0, 3.0 / 20.0, 0.0});
+}
+
+TEST(ClassLikelihoods, AreEqualIfNoClassIsIndicated) {
+  const ClassProbabilities equal = ClassBelief().probabilities();
+  expectNear(classLikelihoods({}), equal);
+  expectNear(classLikelihoods(equal), equal);
+  expectNear(classLikelihoods(reportedClass(ObjectClass::kCyclist, 0.2)), equal);
+  expectNear(classLikelihoods(reportedClass(ObjectClass::kUnknown, 1.0)), equal);
+  expectNear(classLikelihoods({0.5, 0.1, 0.3, 0.1, 0.0}), equal);  // something else
 }
 
 TEST(ClassBelief, StaysAProbabilityAndCanTurn) {
   ClassBelief belief;
   for (int i = 0; i < 1000; ++i) {
-    belief.update(ObjectClass::kPedestrian, 1.0);
+    belief.update(reportedClass(ObjectClass::kPedestrian, 1.0));
   }
   for (const double value : belief.probabilities()) {
     EXPECT_GE(value, 0.01 - kTolerance);
@@ -60,14 +104,14 @@ TEST(ClassBelief, StaysAProbabilityAndCanTurn) {
   const ClassProbabilities& all = belief.probabilities();
   EXPECT_NEAR(std::accumulate(all.begin(), all.end(), 0.0), 1.0, kTolerance);
   for (int i = 0; i < 3; ++i) {
-    belief.update(ObjectClass::kVehicle, 0.9);
+    belief.update(reportedClass(ObjectClass::kVehicle, 0.9));
   }
   EXPECT_EQ(belief.mostLikely(), ObjectClass::kVehicle);
 }
 
 TEST(ClassBelief, OfAKnownClassRefusesTheOtherKnownOnes) {
   ClassBelief belief;
-  belief.update(ObjectClass::kVehicle, 0.9);
+  belief.update(reportedClass(ObjectClass::kVehicle, 0.9));
   EXPECT_TRUE(belief.compatible(ObjectClass::kVehicle));
   EXPECT_TRUE(belief.compatible(ObjectClass::kUnknown));
   EXPECT_FALSE(belief.compatible(ObjectClass::kPedestrian));
@@ -77,7 +121,7 @@ TEST(ClassBelief, OfAKnownClassRefusesTheOtherKnownOnes) {
 
 TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
   ClassBelief belief;
-  belief.update(ObjectClass::kVehicle, 0.4);
+  belief.update(reportedClass(ObjectClass::kVehicle, 0.4));
   EXPECT_EQ(belief.mostLikely(), ObjectClass::kVehicle);
   EXPECT_TRUE(belief.compatible(ObjectClass::kPedestrian));
 }

@@ -6,6 +6,8 @@
 #include "made_road_users.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::camera_consistency_test {
 namespace {
 
@@ -77,7 +79,8 @@ TEST(StereoObjectDetector, DepthCamerasFindAPersonAndKnowHowWell) {
     scene.depth_noise = noise;
     const std::vector<Object> objects = objectsIn(scene, ofARoom());
     ASSERT_EQ(objects.size(), 1U) << noise.constant;
-    EXPECT_EQ(objects[0].object_class, ObjectClass::kPedestrian) << noise.constant;
+    EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kPedestrian)
+        << noise.constant;
     const Consistency consistency =
         consistencyOf(scene, 4.0, ofARoom(),
                       [](MadeScene& shaken, double sigmas) { shaken.depth_bias = sigmas; });
@@ -95,7 +98,7 @@ TEST(StereoObjectDetector, WithoutBaselineNothingIsHiddenFromASecondCamera) {
   MadeScene scene = sceneOf({pedestrianAt(3.0, -0.625), carAt(12.0, 0.0)});
   const auto rightOfTheCar = [](const std::vector<Object>& objects) {
     const auto car = std::find_if(objects.begin(), objects.end(), [](const Object& object) {
-      return object.object_class == ObjectClass::kVehicle;
+      return mostLikelyClass(object.class_probabilities) == ObjectClass::kVehicle;
     });
     return car == objects.end() ? -1.0 : rightOf(*car).variance;
   };

@@ -81,6 +81,17 @@ TEST(ObjectClassifier, ReportsTheEvidenceForOneOfItsKinds) {
   EXPECT_NEAR(classifier.logOddsOfKnown({1.0 - known, known, 0.0, 0.0, 0.0}), 0.0, 1e-9);
 }
 
+TEST(ObjectClassifier, OnlyDoubtsTheExistenceOfAnObject) {
+  const ObjectClassifier classifier{ObjectClassifierOptions()};
+  Object car;
+  classifier.classify(seen(1.5, 1.8), 3.0, car);
+  EXPECT_EQ(car.class_probabilities, classifier.probabilities(seen(1.5, 1.8)));
+  EXPECT_EQ(car.log_odds, 0.0);
+  Object hedge;
+  classifier.classify(seen(0.6, 3.0), 1.0, hedge);
+  EXPECT_EQ(hedge.log_odds, -1.0) << "at most this doubt";
+}
+
 TEST(ObjectClassifier, FollowsItsOptions) {
   ObjectClassifierOptions options;
   options.pedestrian.share = 0.0;

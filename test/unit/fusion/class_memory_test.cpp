@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::class_memory_test {
 namespace {
 
@@ -14,7 +16,7 @@ const ClassMemory::Member kNextStereo{"stereo", 8};
 
 ClassProbabilities reportedAs(ObjectClass object_class, double probability) {
   ClassBelief belief;
-  belief.update(object_class, probability);
+  belief.update(reportedClass(object_class, probability));
   return belief.probabilities();
 }
 

@@ -9,6 +9,7 @@
 #include "track_sources.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/track/track_comparison.h"
 #include "datmo_fusion/fusion/track/track_fuser.h"
@@ -74,7 +75,7 @@ TEST(FusedTargetsTest, TheCamerasClassIsKeptWhenTheScannerAloneTracksIt) {
   options.sources["stereo"].class_by_speed = false;
   TrackFuser fuser{options};
   ClassBelief person;
-  person.update(ObjectClass::kPedestrian, 0.9);
+  person.update(reportedClass(ObjectClass::kPedestrian, 0.9));
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
     const double x = 10.0 + 1.5 * t;

@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/class_belief.h"
 
 namespace datmo::object_association_test {
 namespace {
@@ -26,8 +27,7 @@ ObjectAssociationOptions nearest() {
 }
 
 Object classified(Object object, ObjectClass object_class, double probability) {
-  object.object_class = object_class;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(object_class, probability);
   return object;
 }
 

@@ -208,23 +208,6 @@ TEST(ObjectCombinationTest, TheTimeIsWeightedAsThePosition) {
   EXPECT_NEAR(fused.box.center.x(), 10.0 + 10.0 * fused.delay, 1e-6);
 }
 
-TEST(ObjectCombinationTest, ClassesAreFusedByBayes) {
-  Object a = pointObject(10.0, 0.0, 0.1);
-  Object b = pointObject(10.0, 0.0, 0.1, "stereo");
-  b.object_class = ObjectClass::kVehicle;
-  b.class_probability = 0.7;
-  EXPECT_EQ(combined(a, b).object_class, ObjectClass::kVehicle);
-  EXPECT_DOUBLE_EQ(combined(a, b).class_probability, 0.7);
-  a.object_class = ObjectClass::kVehicle;
-  a.class_probability = 0.6;
-  EXPECT_GT(combined(a, b).class_probability, 0.8);
-  a.object_class = ObjectClass::kPedestrian;
-  a.class_probability = 0.4;
-  EXPECT_EQ(combined(a, b).object_class, ObjectClass::kVehicle);
-  EXPECT_LT(combined(a, b).class_probability, 0.7);
-  EXPECT_DOUBLE_EQ(combined(a, b).class_probability, combined(b, a).class_probability);
-}
-
 TEST(ObjectCombinationTest, VelocitiesAreFusedByTheirInformation) {
   Object a = pointObject(10.0, 2.0, 0.1);
   Object b = pointObject(10.0, 2.0, 0.1, "stereo");

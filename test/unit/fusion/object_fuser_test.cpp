@@ -12,6 +12,7 @@
 #include "fusion_objects.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo::object_fuser_test {
@@ -24,8 +25,7 @@ SensorView ahead(const std::string& sensor) {
 
 Object poleAt(double x, double y, double probability) {
   Object object = pointObject(x, y, 0.3, "stereo");
-  object.object_class = ObjectClass::kPole;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(ObjectClass::kPole, probability);
   return object;
 }
 

@@ -6,6 +6,7 @@
 #include "fusion_objects.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/fusion/object/object_fuser.h"
 
 namespace datmo::object_names_test {
@@ -16,8 +17,7 @@ Object nameOfVehicle(const Object& of) {
   Object name = of;
   name.position_covariance *= 100.0;
   name.side_variance.fill(kHiddenSide);
-  name.object_class = ObjectClass::kVehicle;
-  name.class_probability = 0.8;
+  name.class_probabilities = reportedClass(ObjectClass::kVehicle, 0.8);
   return name;
 }
 
@@ -40,8 +40,7 @@ TEST(ObjectNames, ANameAddsOnlyAClass) {
   EXPECT_EQ(named.counts.fused, 1U);
   const Object& object = named.list.objects[0];
   const Object& expected = alone.list.objects[0];
-  EXPECT_EQ(object.object_class, ObjectClass::kVehicle);
-  EXPECT_EQ(object.class_probability, 0.8);
+  EXPECT_EQ(object.class_probabilities, reportedClass(ObjectClass::kVehicle, 0.8));
   EXPECT_EQ(object.log_odds, expected.log_odds) << "it exists no more surely";
   EXPECT_EQ(object.moving_fraction, expected.moving_fraction);
   EXPECT_EQ(object.position_covariance, expected.position_covariance);

@@ -4,6 +4,8 @@
 #include "made_camera.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::kitti::detection_model_test {
 namespace {
 
@@ -53,7 +55,7 @@ TEST(DetectionModelTest, ClassesHaveTheirNames) {
   const auto classOf = [&](ObjectType type) {
     Detection detection = detectionAt(0.0, 20.0);
     detection.type = type;
-    return model.object(detection, madeCamera()).object_class;
+    return mostLikelyClass(model.object(detection, madeCamera()).class_probabilities);
   };
   EXPECT_EQ(classOf(ObjectType::kCar), ObjectClass::kVehicle);
   EXPECT_EQ(classOf(ObjectType::kPedestrian), ObjectClass::kPedestrian);

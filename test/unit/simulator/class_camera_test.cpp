@@ -6,6 +6,8 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::simulator::class_camera_test {
 namespace {
 
@@ -27,7 +29,7 @@ std::map<ObjectClass, int> reportsOf(const std::string& kind) {
   std::map<ObjectClass, int> reports;
   for (int image = 0; image < kImages; ++image) {
     for (const Object& object : camera.measure(world, 0.0).objects) {
-      ++reports[object.object_class];
+      ++reports[mostLikelyClass(object.class_probabilities)];
     }
   }
   return reports;
@@ -43,14 +45,18 @@ TEST(ClassCameraTest, ReportsAsTheMatrixSays) {
   EXPECT_TRUE(reportsOf("pole").empty());
 }
 
-TEST(ClassCameraTest, TheProbabilityOfAReportIsItsShareOfRightOnes) {
+TEST(ClassCameraTest, TheProbabilitiesOfAReportAreTheSharesOfEachClassInIt) {
   ClassCamera camera = cameraOf();
   const World world = worldWith("cyclist", {20.0, 0.0, 0.0});
   ObjectList list;
-  while (list.objects.empty() || list.objects[0].object_class != ObjectClass::kCyclist) {
+  while (list.objects.empty() ||
+         mostLikelyClass(list.objects[0].class_probabilities) != ObjectClass::kCyclist) {
     list = camera.measure(world, 0.0);
   }
-  EXPECT_NEAR(list.objects[0].class_probability, 0.82 / (0.1 + 0.82 + 0.01), 1e-9);
+  const ClassProbabilities& all = list.objects[0].class_probabilities;
+  EXPECT_NEAR(all[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.1 / 0.93, 1e-9);
+  EXPECT_NEAR(all[static_cast<std::size_t>(ObjectClass::kCyclist)], 0.82 / 0.93, 1e-9);
+  EXPECT_NEAR(all[static_cast<std::size_t>(ObjectClass::kVehicle)], 0.01 / 0.93, 1e-9);
   EXPECT_EQ(list.objects[0].sensors, std::vector<std::string>{"mono"});
 }
 

@@ -6,6 +6,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/random.h"
 
 namespace datmo::association_test {
@@ -141,8 +142,7 @@ TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {
 
 Object ofClass(ObjectClass object_class, double probability) {
   Object object = objectAt(0.0, 0.0);
-  object.object_class = object_class;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(object_class, probability);
   return object;
 }
 

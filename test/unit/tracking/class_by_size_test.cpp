@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A track's class before it has moved.
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/association_scan.h"
 #include "datmo_fusion/tracking/target.h"
 
@@ -24,8 +27,7 @@ Object reportOf(double length, double width, const char* sensor, ObjectClass obj
                 double probability) {
   Object object = objectOf(length, width);
   object.sensors = {sensor};
-  object.object_class = object_class;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(object_class, probability);
   return object;
 }
 
@@ -68,7 +70,7 @@ TEST(ClassBySize, ADetectorsClassIsNotWeightedBySizeAgain) {
   const TargetOptions options;
   const Object object = reportOf(4.2, 1.75, "stereo", ObjectClass::kCyclist, 0.6);
   ClassBelief said;
-  said.update(object.object_class, object.class_probability);
+  said.update(object.class_probabilities);
   EXPECT_EQ(Target(object, 0, 1, options).track(options).class_probabilities, said.probabilities());
 }
 
@@ -85,17 +87,22 @@ TEST(ClassBySize, ImageReportsWinOverASizeThatFitsAnotherClass) {
   EXPECT_EQ(classOf(seen.target()), ObjectClass::kPedestrian);
 }
 
+bool hasClassBySize(const std::vector<std::string>& sensors) {
+  Object object = objectOf(4.2, 1.75);
+  object.sensors = sensors;
+  return TargetOptions().hasClassBySize(object);
+}
+
 TEST(ClassBySize, OneSensorThatClassifiesBySizeIsEnough) {
-  Object object = reportOf(4.2, 1.75, "lidar", ObjectClass::kCyclist, 0.6);
-  EXPECT_FALSE(TargetOptions().hasClassBySize(object));
-  object.sensors = {"lidar", "stereo"};
-  EXPECT_TRUE(TargetOptions().hasClassBySize(object));
-  object.sensors = {"mono", "radar"};
-  EXPECT_FALSE(TargetOptions().hasClassBySize(object));
-  object.sensors = {"somebody's"};
-  EXPECT_TRUE(TargetOptions().hasClassBySize(object));
-  object.sensors.clear();
-  EXPECT_TRUE(TargetOptions().hasClassBySize(object)) << "nobody knows";
+  EXPECT_FALSE(hasClassBySize({"lidar"}));
+  EXPECT_FALSE(hasClassBySize({"mono", "radar"}));
+  EXPECT_TRUE(hasClassBySize({"stereo", "mono"})) << "only stereo measures size";
+  EXPECT_TRUE(hasClassBySize({"somebody's"}));
+  EXPECT_TRUE(hasClassBySize({})) << "nobody knows";
+}
+
+TEST(ClassBySize, CountsAgainIfAnotherSensorMeasuredTheSizeAsWell) {
+  EXPECT_FALSE(hasClassBySize({"lidar", "stereo"}));
 }
 
 }  // namespace

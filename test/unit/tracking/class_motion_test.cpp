@@ -5,6 +5,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/target.h"
 
 namespace datmo::class_motion_test {
@@ -16,8 +17,7 @@ double turnRateOf(ObjectClass object_class) {
 
 Object measurementIndex(ObjectClass object_class, double probability, const Point2& position) {
   Object object = objectAt(position.x(), position.y());
-  object.object_class = object_class;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(object_class, probability);
   return object;
 }
 

@@ -6,6 +6,8 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::fused_objects_test {
 namespace {
 
@@ -34,8 +36,7 @@ Object stereoAt(double x, double y) {
 }
 
 Object classified(Object object, ObjectClass object_class, double probability) {
-  object.object_class = object_class;
-  object.class_probability = probability;
+  object.class_probabilities = reportedClass(object_class, probability);
   return object;
 }
 

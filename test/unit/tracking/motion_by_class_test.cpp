@@ -5,13 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo {
 namespace {
 
 ClassProbabilities reportedAs(ObjectClass object_class, double probability, int times) {
   ClassBelief belief;
   for (int i = 0; i < times; ++i) {
-    belief.update(object_class, probability);
+    belief.update(reportedClass(object_class, probability));
   }
   return belief.probabilities();
 }

@@ -6,6 +6,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/nearest_neighbor.h"
 
 namespace datmo::multiple_hypotheses_test {
@@ -148,8 +149,7 @@ TEST_F(MultipleHypothesesTest, LaterScansCorrectTheNearestNeighborsErrors) {
 TEST_F(MultipleHypothesesTest, ClearlyDifferentClassesAreNeverTheSameTarget) {
   const auto of = [](ObjectClass object_class) {
     Object object = objectAt(0.0, 0.0);
-    object.object_class = object_class;
-    object.class_probability = 0.99;
+    object.class_probabilities = reportedClass(object_class, 0.99);
     return object;
   };
   MultipleHypotheses result = targets();

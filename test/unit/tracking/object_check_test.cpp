@@ -57,13 +57,15 @@ TEST(ObjectCheck, AcceptsAGoodObjectAndRefusesAnAsymmetricCovariance) {
 TEST(ObjectCheck, SharesAreFromZeroToOne) {
   Object object = objectAt(1.0, 2.0);
   object.moving_fraction = 1.0;
-  object.class_probability = 1.0;
+  object.class_probabilities = {0.0, 0.3, 0.0, 0.7, 0.0};
   EXPECT_TRUE(isValid(object));
   object.moving_fraction = 1000.0;  // would outweigh all other evidence of motion
   EXPECT_FALSE(isValid(object));
   object.moving_fraction = 1.0;
-  object.class_probability = -0.5;
+  object.class_probabilities = {0.0, -0.5, 0.0, 0.7, 0.0};
   EXPECT_FALSE(isValid(object));
+  object.class_probabilities = {0.0, 0.7, 0.0, 0.7, 0.0};
+  EXPECT_FALSE(isValid(object)) << "more than one in all";
 }
 
 TEST(ObjectCheck, ItWasSeenAboutTheTimeOfItsList) {

@@ -5,6 +5,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/split_merge.h"
 
 namespace datmo::split_merge_readings_test {
@@ -65,8 +66,7 @@ class SplitMergeReadings : public testing::Test {
 TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   follow(box(0.0, 0.0, 5.0, 2.0));
   Object front = box(1.7, 0.0, 1.6, 2.0);
-  front.object_class = ObjectClass::kPedestrian;
-  front.class_probability = 0.9;
+  front.class_probabilities = reportedClass(ObjectClass::kPedestrian, 0.9);
   front.height = 1.5;
   read({box(-1.7, 0.0, 1.6, 2.0), front});
   ASSERT_EQ(readings_.size(), 2U);
@@ -81,7 +81,7 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   EXPECT_EQ(whole.object.points.size(), 8U);
   EXPECT_EQ(whole.object.height, 1.5);
   EXPECT_EQ(whole.object.heading_variance, kUnknownHeadingVariance) << "it has the target's own";
-  EXPECT_EQ(whole.object.object_class, ObjectClass::kUnknown) << "a part is not of the class";
+  EXPECT_EQ(whole.object.class_probabilities, ClassProbabilities{}) << "a part is not of the class";
   EXPECT_TRUE(isCandidate(0, 2));
   // One target instead of two objects of no target, and one more object than things within its
   // reach.
@@ -137,8 +137,7 @@ TEST_F(SplitMergeReadings, OneObjectAsTwoTargets) {
   follow(box(0.0, 0.6, 0.5, 0.5));
   Object both = box(0.0, 0.0, 0.5, 1.7);
   both.points = {Point2(-0.2, -0.8), Point2(0.2, -0.5), Point2(0.1, 0.4), Point2(-0.1, 0.9)};
-  both.object_class = ObjectClass::kVehicle;
-  both.class_probability = 0.9;
+  both.class_probabilities = reportedClass(ObjectClass::kVehicle, 0.9);
   both.side_variance.fill(0.01);
   read({both});
   ASSERT_EQ(readings_.size(), 2U);
@@ -152,7 +151,7 @@ TEST_F(SplitMergeReadings, OneObjectAsTwoTargets) {
   EXPECT_NEAR(right.object.box.center.y(), -0.65, 1e-12);
   EXPECT_NEAR(left.object.box.center.y(), 0.65, 1e-12);
   EXPECT_NEAR(left.object.box.width, 0.5, 1e-12);
-  EXPECT_EQ(right.object.object_class, ObjectClass::kUnknown);
+  EXPECT_EQ(right.object.class_probabilities, ClassProbabilities{});
   const auto side = [](const Observation& o, BoxSide which) {
     return o.object.side_variance[static_cast<std::size_t>(which)];
   };

@@ -7,6 +7,8 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::stereo_noise_test {
 namespace {
 
@@ -44,8 +46,7 @@ Object carAhead(double depth, double sigma, DepthError& error) {
   object.position_covariance << sigma * sigma, 0.0, 0.0, kAcross * kAcross;
   object.heading_variance = 0.05;
   object.side_variance = {kHiddenSide, 0.01, 0.01, 0.01};
-  object.object_class = ObjectClass::kVehicle;
-  object.class_probability = 0.9;
+  object.class_probabilities = reportedClass(ObjectClass::kVehicle, 0.9);
   object.sensors = {"stereo"};
   return object;
 }

@@ -5,6 +5,8 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::track_life_test {
 namespace {
 
@@ -135,8 +137,7 @@ TEST(TrackLife, ClassProbabilitiesFollowTheReports) {
   TrackingScene scene;
   for (int i = 0; i < 20; ++i) {
     Object object = objectAt(10.0 + kSpeed * (scene.nextTime() - 100.0), 0.0);
-    object.object_class = ObjectClass::kCyclist;
-    object.class_probability = 0.8;
+    object.class_probabilities = reportedClass(ObjectClass::kCyclist, 0.8);
     scene.scan({object});
   }
   ASSERT_EQ(scene.tracks().tracks.size(), 1U);

@@ -80,8 +80,8 @@ class WrongClasses {
     const auto other = std::uniform_int_distribution<std::size_t>(1, 2)(engine_);
     const auto own = static_cast<std::size_t>(
         std::find(kClasses.begin(), kClasses.end(), mover.object_class) - kClasses.begin());
-    object.object_class = kClasses[(own + (wrong ? other : 0)) % kClasses.size()];
-    object.class_probability = 1.0 - kWrongShare;
+    object.class_probabilities =
+        reportedClass(kClasses[(own + (wrong ? other : 0)) % kClasses.size()], 1.0 - kWrongShare);
     return object;
   }
 

@@ -164,7 +164,6 @@ TEST(ImageObject, IsAtItsBearingWithItsCovarianceAlongTheLineOfSight) {
   const double across = aside.dot(object->position_covariance * aside);
   EXPECT_GT(along, 10.0 * across);
   EXPECT_GT(across, 0.0);
-  EXPECT_EQ(object->object_class, ObjectClass::kPedestrian);
 }
 
 TEST(ImageObject, HasItsApparentWidthAtAnyHeading) {

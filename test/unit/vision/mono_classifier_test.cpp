@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo::mono_classifier_test {
 namespace {
 
@@ -50,8 +52,9 @@ TEST(MonoClassifier, ClassifiesTheScannersObject) {
   ASSERT_EQ(result.list.objects.size(), 1U);
   const Object& named = result.list.objects[0];
   EXPECT_EQ(result.list.stamp, objects.stamp);
-  EXPECT_EQ(named.object_class, ObjectClass::kPedestrian);
-  EXPECT_NEAR(named.class_probability, 0.8, 1e-9);
+  EXPECT_EQ(mostLikelyClass(named.class_probabilities), ObjectClass::kPedestrian);
+  EXPECT_NEAR(named.class_probabilities[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.8,
+              1e-9);
   EXPECT_EQ(named.sensors, std::vector<std::string>{"lidar"}) << "who saw where it is";
   EXPECT_EQ(named.dynamic_state, DynamicState::kMoving);
   EXPECT_NEAR(named.box.center.x(), 10.2, 1e-12);
@@ -74,6 +77,21 @@ TEST(MonoClassifier, AnUncertainDetectionAloneIsNoObject) {
   EXPECT_TRUE(classified({kPerson}, ObjectList(), options).list.objects.empty());
 }
 
+TEST(MonoClassifier, WithoutCalibrationEveryDetectionHasItsClassAndScore) {
+  MonoClassifierOptions options = dnnOptions();
+  options.calibrated = false;
+  options.min_alone = 0.0;
+  for (const double score : {0.0, 0.1, 0.9}) {
+    ImageDetection person = kPerson;
+    person.score = score;
+    const MonoClassification result = classified({person}, ObjectList(), options);
+    ASSERT_EQ(result.list.objects.size(), 1U) << score;
+    const ClassProbabilities& all = result.list.objects[0].class_probabilities;
+    EXPECT_EQ(mostLikelyClass(all), ObjectClass::kPedestrian) << score;
+    EXPECT_NEAR(probabilityOf(ObjectClass::kPedestrian, all), score, 1e-5);
+  }
+}
+
 TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   MonoClassifierOptions options = dnnOptions();
   options.method = MonoMethod::kThesis;
@@ -81,7 +99,7 @@ TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
   const MonoClassification result = classified({kPerson, kCar}, objects, options);
   ASSERT_EQ(result.list.objects.size(), 1U) << "what the scanner does not see is not there";
-  EXPECT_EQ(result.list.objects[0].object_class, ObjectClass::kPedestrian);
+  EXPECT_EQ(mostLikelyClass(result.list.objects[0].class_probabilities), ObjectClass::kPedestrian);
 }
 
 TEST(MonoClassifier, ObjectsThatAreNotValidAreLeftOut) {

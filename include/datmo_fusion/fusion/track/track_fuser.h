@@ -89,7 +89,7 @@ class TrackFuser {
 
   /// Class probabilities of a source's track, with (withSpeed) or without (withoutSpeed) the
   /// evidence of its speed.
-  ClassProbabilities reportedClass(const Track& track, const TrackSourceOptions& source,
+  ClassProbabilities weightedClass(const Track& track, const TrackSourceOptions& source,
                                    decltype(withSpeed)* weigh) const;
   std::vector<Track> fused(const std::vector<TrackGroup>& groups,
                            const std::vector<PresentTracks>& present,
