@@ -174,6 +174,9 @@ double Target::trackedVelocityEvidence(double false_motion, const TargetOptions&
 }
 
 double Target::sameClassProbability(const Object& object) const {
+  if (!indicatesClass(object.class_probabilities)) {
+    return kChanceOfClass;  // as for all objects of a scanner alone: computed for each pair
+  }
   const ClassProbabilities& own = class_.probabilities();
   const ClassProbabilities observed = classLikelihoods(object.class_probabilities);
   return std::inner_product(own.begin(), own.end(), observed.begin(), 0.0);

@@ -35,9 +35,9 @@ std::optional<MeasuredVelocity> velocityOf(const ObjectMessage& message) {
       {message.velocity.x, message.velocity.y}, covariance, message.velocity_wrong_probability};
 }
 
-/// All NaN if one is not a number, or if there is another number of classes.
+/// All NaN if one is no probability, or if there is another number of classes.
 ClassProbabilities classProbabilitiesOf(const ObjectMessage& message) {
-  if (!std::isfinite(message.class_probability)) {
+  if (!(message.class_probability >= 0.0F && message.class_probability <= 1.0F)) {
     return fromFloats<kObjectClasses>({});
   }
   return message.class_probabilities.empty()

@@ -97,6 +97,7 @@ TEST(ObjectConversion, ClassProbabilitiesThatAreNoneAreInvalid) {
   EXPECT_FALSE(isValidWith(0.5F, {0.0F, 0.5F, 0.5F, 0.5F, 0.0F})) << "1.5 in all";
   EXPECT_FALSE(isValidWith(0.5F, {0.0F, nan, 0.5F, 0.25F, 0.0F}));
   EXPECT_FALSE(isValidWith(nan, {0.0F, 0.25F, 0.5F, 0.25F, 0.0F}));
+  EXPECT_FALSE(isValidWith(7.0F, {0.0F, 0.25F, 0.5F, 0.25F, 0.0F}));
   EXPECT_FALSE(isValidWith(nan, {}));
   EXPECT_FALSE(isValidWith(-1.0F, {}));
 }
