@@ -9,14 +9,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "datmo_fusion/common/log_odds.h"
 #include "datmo_fusion/common/perpendicular.h"
 
 namespace datmo {
 
 namespace {
-
-/// Minimum road probability of a road pixel.
-constexpr double kMinProbability = 0.5;
 
 constexpr int kLevels = 256;   ///< of a channel
 constexpr int kColorStep = 8;  ///< size of a color cube that shares one probability
@@ -25,18 +23,18 @@ constexpr int kColorBins = kLevels / kColorStep;
 /// Minimum cosine of the axis's pitch: a steeper camera sees no usable horizon.
 constexpr double kMinLevel = 0.2;
 
-std::uint8_t isRoad(const RoadColor& color, const PixelColor& pixel) {
-  return color.probability(pixel) >= kMinProbability ? 1 : 0;
+float evidenceOf(const RoadColor& color, const PixelColor& pixel) {
+  return static_cast<float>(logOddsOf(color.probability(pixel)));
 }
 
-cv::Mat roadOfGray(const cv::Mat& image, const RoadColor& color) {
-  cv::Mat table(1, kLevels, CV_8UC1);
+cv::Mat evidenceOfGray(const cv::Mat& image, const RoadColor& color) {
+  cv::Mat table(1, kLevels, CV_32FC1);
   for (int level = 0; level < kLevels; ++level) {
-    table.at<std::uint8_t>(level) = isRoad(color, PixelColor::Constant(1, level));
+    table.at<float>(level) = evidenceOf(color, PixelColor::Constant(1, level));
   }
-  cv::Mat road;
-  cv::LUT(image, table, road);
-  return road;
+  cv::Mat evidence;
+  cv::LUT(image, table, evidence);
+  return evidence;
 }
 
 std::size_t binOf(const cv::Vec3b& pixel) {
@@ -47,25 +45,25 @@ std::size_t binOf(const cv::Vec3b& pixel) {
   return (bin(0) * kBins + bin(1)) * kBins + bin(2);
 }
 
-cv::Mat roadOfColor(const cv::Mat& image, const RoadColor& color) {
+cv::Mat evidenceOfColor(const cv::Mat& image, const RoadColor& color) {
   const auto middle = [](int bin) { return (bin + 0.5) * kColorStep; };
-  std::vector<std::uint8_t> table;
+  std::vector<float> table;
   for (int blue = 0; blue < kColorBins; ++blue) {
     for (int green = 0; green < kColorBins; ++green) {
       for (int red = 0; red < kColorBins; ++red) {
         PixelColor pixel(3);
         pixel << middle(blue), middle(green), middle(red);
-        table.push_back(isRoad(color, pixel));
+        table.push_back(evidenceOf(color, pixel));
       }
     }
   }
-  cv::Mat road(image.size(), CV_8UC1);
+  cv::Mat evidence(image.size(), CV_32FC1);
   for (int row = 0; row < image.rows; ++row) {
     const auto* from = image.ptr<cv::Vec3b>(row);
-    std::transform(from, from + image.cols, road.ptr<std::uint8_t>(row),
+    std::transform(from, from + image.cols, evidence.ptr<float>(row),
                    [&table](const cv::Vec3b& pixel) { return table[binOf(pixel)]; });
   }
-  return road;
+  return evidence;
 }
 
 }  // namespace
@@ -146,15 +144,15 @@ PixelColor colorAt(const cv::Mat& image, const cv::Point& pixel) {
 }
 
 RoadPixels::RoadPixels(const cv::Mat& image, const RoadColor& color) {
-  cv::integral(image.channels() == 1 ? roadOfGray(image, color) : roadOfColor(image, color), sums_,
-               CV_32S);
+  cv::integral(image.channels() == 1 ? evidenceOfGray(image, color) : evidenceOfColor(image, color),
+               sums_, CV_64F);
 }
 
-double RoadPixels::share(const cv::Rect& patch) const {
+double RoadPixels::evidence(const cv::Rect& patch) const {
   const cv::Point end = patch.br();
-  const int sum = sums_.at<int>(end) - sums_.at<int>(patch.y, end.x) -
-                  sums_.at<int>(end.y, patch.x) + sums_.at<int>(patch.tl());
-  return static_cast<double>(sum) / patch.area();
+  const double sum = sums_.at<double>(end) - sums_.at<double>(patch.y, end.x) -
+                     sums_.at<double>(end.y, patch.x) + sums_.at<double>(patch.tl());
+  return sum / patch.area();
 }
 
 }  // namespace datmo

@@ -48,17 +48,19 @@ class GroundView {
 /// Returns the color of a pixel of an 8 bit image, gray or BGR.
 PixelColor colorAt(const cv::Mat& image, const cv::Point& pixel);
 
-/// Share of road-colored pixels in any part of an image.
+/// What the colors of any part of an image say about whether it is road.
 class RoadPixels {
  public:
   /// `image`: 8 bit, gray or BGR; `color` must have learned that many channels.
   RoadPixels(const cv::Mat& image, const RoadColor& color);
 
-  /// Returns the share, 0 to 1. `patch`: in the image, not empty.
-  double share(const cv::Rect& patch) const;
+  /// Returns the mean log-likelihood ratio, road : other, of the pixels of a patch: neighboring
+  /// pixels are of the same surface, and together say no more than one. `patch`: in the image, not
+  /// empty.
+  double evidence(const cv::Rect& patch) const;
 
  private:
-  cv::Mat sums_;  ///< integral image of the road's pixels
+  cv::Mat sums_;  ///< integral image of the pixels' log-likelihood ratios
 };
 
 }  // namespace datmo

@@ -70,9 +70,10 @@ void MonoGridOptions::visit(OptionVisitor& visitor) {
        "the road's colors are learned from cells up to this range that the scanner sees free"},
       learning_range, {1.0, 100.0});
   visitor.number(
-      {"min_road_share", "1",
-       "a cell has the road's colors if at least this share of its pixels does (lines only)"},
-      min_road_share, {0.01, 1.0});
+      {"road_prior", "1",
+       "probability that a cell not hidden from the scanner is road, before its colors are looked "
+       "at (lines only)"},
+      road_prior, {0.01, 0.99});
   visitor.number(
       {"min_obstacle_height", "m", "lower objects are not obstacles: paint, curbs (lines only)"},
       min_obstacle_height, {0.01, 2.0});
@@ -131,11 +132,16 @@ std::size_t MonoGridModel::learn(const cv::Mat& image, const MountedCamera& came
                                  const SensorGrid& scanned) {
   const GroundView view(camera);
   PixelColors colors;
+  SensorGrid sampled(scanned.stamp(), window_);  // known: each cell counts once, near or far
   for (const Point2& direction :
        view.directions(options_.learning_range, options_.window.cell_size)) {
     const SightLine line = sightLine(view, direction, scanned, options_.learning_range, 0.0);
-    for (const SightLine::Step& step : line.open) {
-      if (isSurelyFree(scanned, step.cell)) {
+    for (const SightStep& step : line) {
+      if (step.is_hit) {
+        break;  // the camera may see the obstacle instead of what is beyond it
+      }
+      if (sampled.at(step.cell) == kUnknownPercent && isSurelyFree(scanned, step.cell)) {
+        sampled.at(step.cell) = kUndecidedPercent;
         addColors(image, step.patch, colors);
       }
     }

@@ -30,6 +30,10 @@ constexpr double kLikeness = 3.0;
 /// Components with less weight are removed.
 constexpr double kMinWeight = 1e-3;
 
+/// Share of the road's pixels of any other color: seams, leaves, noise. It bounds what a single
+/// pixel says against the road.
+constexpr double kOutlierShare = 0.05;
+
 double uniformDensity(Eigen::Index channels) {
   return std::pow(kLevels, -static_cast<double>(channels));
 }
@@ -174,8 +178,9 @@ double RoadColor::density(const PixelColor& color) const {
 }
 
 double RoadColor::probability(const PixelColor& color) const {
-  const double road = density(color);
-  return road / (road + uniformDensity(color.size()));
+  const double other = uniformDensity(color.size());
+  const double road = (1.0 - kOutlierShare) * density(color) + kOutlierShare * other;
+  return road / (road + other);
 }
 
 double RoadColor::distance(const PixelColor& color) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "datmo_fusion/common/log_odds.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/grid/ray_walk.h"
 
@@ -22,19 +23,18 @@ SightLine sightLine(const GroundView& view, const Point2& direction, const Senso
                     double range, double obstacle_height) {
   const GridWindow& window = scanned.window();
   SightLine line;
-  bool ended = false;
+  bool beyond = false;
   walkRay(window, view.position(), view.position() + range * direction, [&](CellIndex cell) {
-    if (ended || !window.contains(cell)) {
+    const Percent percent = scanned.atOrUnknown(cell);
+    const bool is_hit = isOccupied(percent);
+    if (!window.contains(cell) || (beyond && percent == kUnknownPercent)) {
       return;
     }
-    const bool is_hit = isOccupied(scanned.at(cell));
-    ended = !is_hit && !line.hits.empty();
+    beyond |= is_hit;
     const Point2 center = window.centerOf(cell);
     const auto patch = view.patch(center, window.cell_size, is_hit ? obstacle_height : 0.0);
-    if (is_hit && !patch) {
-      ended = true;  // seen only by the scanner, and whatever is behind it
-    } else if (!ended && patch) {
-      (is_hit ? line.hits : line.open).push_back({cell, (center - view.position()).norm(), *patch});
+    if (patch) {
+      line.push_back({cell, (center - view.position()).norm(), *patch, is_hit});
     }
   });
   return line;
@@ -51,37 +51,37 @@ void SightLines::fill(SensorGrid& grid) const {
 
 void SightLines::write(const SightLine& line, SensorGrid& grid) const {
   const Percent free = toPercent(options_.free_probability);
-  const auto mark = [&](std::size_t from, std::size_t to, Percent percent) {
-    for (std::size_t i = from; i < to; ++i) {
-      raise(line.open[i].cell, percent, grid);
-    }
-  };
   std::optional<std::size_t> other;  // the first cell of other color since the last road cell
-  for (std::size_t i = 0; i < line.open.size(); ++i) {
-    if (!isRoad(line.open[i])) {
-      other = other.value_or(i);
-      continue;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool is_road = isRoad(line[i]);
+    if (line[i].is_hit) {
+      raise(line[i].cell, is_road ? kUndecidedPercent : toPercent(options_.occupied_probability),
+            grid);
     }
-    raise(line.open[i].cell, free, grid);
-    if (other) {
-      const bool hides = mayHide(line.open[*other].distance, line.open[i].distance);
-      mark(*other, i, hides ? kUndecidedPercent : free);
+    if (!is_road) {
+      other = other.value_or(i);
+    } else if (!line[i].is_hit) {
+      const bool hides = other && mayHide(line[*other].distance, line[i].distance);
+      for (std::size_t j = other.value_or(i); j <= i; ++j) {
+        raise(line[j].cell, hides && j < i ? kUndecidedPercent : free, grid);
+      }
       other.reset();
     }
   }
   if (other) {
-    mark(*other, line.open.size(), kUndecidedPercent);
-    const double foot = line.open[*other].distance;
-    for (std::size_t i = 0; line.hits.empty() && i < *other; ++i) {
-      if (line.open[i].distance > foot - rangeSigma(foot)) {
-        raise(line.open[i].cell, kUndecidedPercent, grid);
-      }
-    }
+    writeEnd(line, *other, grid);
   }
-  const bool seen = std::any_of(line.hits.begin(), line.hits.end(),
-                                [this](const auto& step) { return !isRoad(step); });
-  for (const SightLine::Step& step : line.hits) {
-    raise(step.cell, seen ? toPercent(options_.occupied_probability) : kUndecidedPercent, grid);
+}
+
+void SightLines::writeEnd(const SightLine& line, std::size_t foot, SensorGrid& grid) const {
+  const bool is_located =
+      std::any_of(line.begin(), line.end(), [](const SightStep& step) { return step.is_hit; });
+  const double distance = line[foot].distance;
+  const double from = is_located ? distance : distance - rangeSigma(distance);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (i >= foot || line[i].distance > from) {
+      raise(line[i].cell, kUndecidedPercent, grid);
+    }
   }
 }
 
@@ -89,8 +89,8 @@ bool SightLines::mayHide(double from, double to) const {
   return view_.height() * (to - from) / to >= options_.min_obstacle_height;
 }
 
-bool SightLines::isRoad(const SightLine::Step& step) const {
-  return pixels_.share(step.patch) >= options_.min_road_share;
+bool SightLines::isRoad(const SightStep& step) const {
+  return pixels_.evidence(step.patch) + logOddsOf(options_.road_prior) >= 0.0;
 }
 
 double SightLines::rangeSigma(double distance) const {

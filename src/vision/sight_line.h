@@ -12,20 +12,21 @@
 
 namespace datmo {
 
-/// The visible cells along one line of sight over the road, starting at the camera.
-struct SightLine {
-  struct Step {
-    CellIndex cell;
-    double distance = 0.0;  ///< m, horizontal, from the camera
-    cv::Rect patch;         ///< px, of the cell in the image
-  };
-
-  std::vector<Step> open;  ///< up to the scanner's first echo
-  std::vector<Step> hits;  ///< the cells with echoes, each up to an obstacle's height
+/// A cell of a line of sight over the road.
+struct SightStep {
+  CellIndex cell;
+  double distance = 0.0;  ///< m, horizontal, from the camera
+  cv::Rect patch;         ///< px, of the cell in the image; of an echo, up to an obstacle's height
+  bool is_hit = false;    ///< an echo of the scanner
 };
 
+/// From the camera on; cells outside of the image are left out.
+using SightLine = std::vector<SightStep>;
+
 /// Returns the line from the camera of a view toward `direction` (unit vector, base frame) within a
-/// scan's grid, up to `range` (m); echo cells are examined up to `obstacle_height` (m).
+/// scan's grid, up to `range` (m); echo cells are examined up to `obstacle_height` (m). Beyond its
+/// first echo it has only cells that the scanner, from its own place, sees: camera and scanner are
+/// apart, and an echo is anywhere in its beam's width, so that the line may pass beside it.
 SightLine sightLine(const GroundView& view, const Point2& direction, const SensorGrid& scanned,
                     double range, double obstacle_height);
 
@@ -42,10 +43,13 @@ class SightLines {
 
  private:
   void write(const SightLine& line, SensorGrid& grid) const;
+  /// Makes the end of a line undecided that has other colors from step `foot` on, and no echo
+  /// before that says where they begin.
+  void writeEnd(const SightLine& line, std::size_t foot, SensorGrid& grid) const;
   /// Whether other colors between two distances (m) may be an obstacle, given the road that is
   /// visible behind them.
   bool mayHide(double from, double to) const;
-  bool isRoad(const SightLine::Step& step) const;
+  bool isRoad(const SightStep& step) const;
   /// m, apparent displacement at a distance because of the camera's pitch.
   double rangeSigma(double distance) const;
 

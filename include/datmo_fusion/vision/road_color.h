@@ -46,7 +46,8 @@ class RoadColor {
   }
 
   /// Returns the probability that a pixel of this color is road, with a prior of one half and a
-  /// uniform distribution of other colors. `color`: with the number of channels that was learned.
+  /// uniform distribution of other colors, which a small share of the road's pixels have, too: more
+  /// than 0. `color`: with the number of channels that was learned.
   double probability(const PixelColor& color) const;
 
   /// Mahalanobis distance to the nearest component; it replaces the thesis's threshold on the

@@ -55,6 +55,16 @@ Scan scanOf(double distance = std::numeric_limits<double>::infinity()) {
   return scan;
 }
 
+/// A post `distance` straight ahead, in one beam.
+Scan scanOfPost(double distance) {
+  Scan scan = scanOf();
+  Ray& ray = scan.rays.at(kBeams / 2);
+  ray.end = Point2(distance, 0.0);
+  ray.range = distance;
+  ray.hit = true;
+  return scan;
+}
+
 /// What images of a level camera and scans report about cells straight ahead.
 class MonoGridTest : public testing::Test {
  protected:
@@ -104,6 +114,40 @@ TEST_F(MonoGridTest, AnEchoOfTheRoadsColorIsUndecided) {
   EXPECT_TRUE(isFree(at(10.0)));
   EXPECT_EQ(at(12.1), kUndecidedPercent);
   EXPECT_EQ(at(15.0), kUnknownPercent) << "bounded by the scan's depth";
+}
+
+TEST_F(MonoGridTest, BeyondAnEchoTheRoadIsFreeWhereTheScannerSeesPastIt) {
+  MountedCamera camera = test::levelCamera();
+  camera.in_base.translation().y() = 1.0;  // its line over the post's cell reaches (16, -1)
+  const Scan scan = scanOfPost(8.0);
+  result_ = model_.grid(emptyRoad(), camera, scan, kScannerHeight);
+  EXPECT_TRUE(isFree(at(16.0, -1.0)));
+  cv::Mat image = emptyRoad();
+  image.rowRange(0, rowAt(8.0)).setTo(kDark);
+  result_ = model_.grid(image, camera, scan, kScannerHeight);
+  EXPECT_TRUE(isOccupied(at(8.0, 0.0)));
+  EXPECT_EQ(at(16.0, -1.0), kUndecidedPercent) << "the post hides it from the camera";
+}
+
+TEST_F(MonoGridTest, EachPixelOfACellCountsByItsLikelihood) {
+  look(emptyRoad(), scanOf());
+  cv::Mat image = emptyRoad();
+  for (int column = 0; column < image.cols; ++column) {
+    if (column % 5 < 3) {  // rare in the road, most of the cell
+      image.col(column).rowRange(kHorizon, image.rows).setTo(kRoad + 9);
+    }
+  }
+  look(image, scanOf());
+  EXPECT_TRUE(isFree(at(8.0)));
+}
+
+TEST_F(MonoGridTest, LearnsEachCellOnceNearOrFar) {
+  MonoGridOptions options;
+  options.effective_range = options.learning_range;
+  model_ = MonoGridModel(options);
+  look(emptyRoad(), scanOf());
+  constexpr std::size_t kSamplesOfCell = 5;
+  EXPECT_LE(result_.learned, kSamplesOfCell * result_.free);
 }
 
 TEST_F(MonoGridTest, PaintOnTheRoadIsFree) {

@@ -47,7 +47,8 @@ TEST(RoadColorTest, SunAndShadeAreRoadAndColorsBetweenThemAreNot) {
   EXPECT_GT(color.probability(gray(60.0)), 0.7);
   EXPECT_GT(color.probability(gray(160.0)), 0.7);
   EXPECT_LT(color.probability(gray(110.0)), 0.2);
-  EXPECT_LT(color.probability(gray(250.0)), 0.01);
+  EXPECT_LT(color.probability(gray(250.0)), 0.05);
+  EXPECT_GT(color.probability(gray(250.0)), 0.04) << "a speck on the road";
 }
 
 TEST(RoadColorTest, OneGaussianTakesColorsBetweenThemForRoad) {
