@@ -70,11 +70,6 @@ void MonoGridOptions::visit(OptionVisitor& visitor) {
        "the road's colors are learned from cells up to this range that the scanner sees free"},
       learning_range, {1.0, 100.0});
   visitor.number(
-      {"road_prior", "1",
-       "probability that a cell not hidden from the scanner is road, before its colors are looked "
-       "at (lines only)"},
-      road_prior, {0.01, 0.99});
-  visitor.number(
       {"min_obstacle_height", "m", "lower objects are not obstacles: paint, curbs (lines only)"},
       min_obstacle_height, {0.01, 2.0});
   visitor.number({"pitch_sigma", "rad",

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "datmo_fusion/common/log_odds.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/grid/ray_walk.h"
 
@@ -89,9 +88,7 @@ bool SightLines::mayHide(double from, double to) const {
   return view_.height() * (to - from) / to >= options_.min_obstacle_height;
 }
 
-bool SightLines::isRoad(const SightStep& step) const {
-  return pixels_.evidence(step.patch) + logOddsOf(options_.road_prior) >= 0.0;
-}
+bool SightLines::isRoad(const SightStep& step) const { return pixels_.evidence(step.patch) >= 0.0; }
 
 double SightLines::rangeSigma(double distance) const {
   return options_.pitch_sigma * (square(distance) + square(view_.height())) / view_.height();

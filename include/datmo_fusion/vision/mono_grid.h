@@ -28,7 +28,6 @@ struct MonoGridOptions {
   double beam_width = 0.0;           ///< rad
   double effective_range = 25.0;     ///< m
   double learning_range = 20.0;      ///< m
-  double road_prior = 0.7;           ///< 1
   double min_obstacle_height = 0.3;  ///< m
   double pitch_sigma = 0.01;         ///< rad
   double thesis_distance = 3.0;      ///< 1
@@ -53,12 +52,12 @@ struct MonoGridResult {
 ///
 /// Method `lines`, proposed in the thesis as future work (4.1.6): each cell on the road is a patch
 /// of the image, and what the patches along a line of sight say is limited by the scan's depth and
-/// by obstacles that may stand on the road. A patch is road by the likelihood ratio of its colors.
-/// Cells of road color are free up to the scanner's echo, and beyond it where the scanner sees past
-/// it; the echo's cell is occupied if it has another color, else undecided. Another color is
-/// free (paint) if road reappears so soon behind it that nothing of `min_obstacle_height` can be
-/// hidden there. Otherwise it is undecided, and so is the road before it, as far as the camera's
-/// pitch may shift it, unless the scanner determines where it ends.
+/// by obstacles that may stand on the road. A patch is road if its colors are likelier on the road
+/// than elsewhere. Cells of road color are free up to the scanner's echo, and beyond it where the
+/// scanner sees past it; the echo's cell is occupied if it has another color, else undecided.
+/// Another color is free (paint) if road reappears so soon behind it that nothing of
+/// `min_obstacle_height` can be hidden there. Otherwise it is undecided, and so is the road before
+/// it, as far as the camera's pitch may shift it, unless the scanner determines where it ends.
 ///
 /// Not thread safe. Deterministic.
 class MonoGridModel {
