@@ -7,6 +7,7 @@ setup(
     package_data={
         "datmo_tools.batch": ["Snakefile", "profiles/*/config.yaml"],
         "datmo_tools.evaluate": ["report.html"],
+        "datmo_tools.experiments": ["*.jinja"],
         "datmo_tools.figures": ["*.jinja"],
     },
     **generate_distutils_setup(

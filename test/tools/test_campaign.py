@@ -6,6 +6,7 @@ and what is reported of the poses."""
 import contextlib
 import io
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -19,7 +20,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
-from datmo_tools.experiments import soak
+from datmo_tools.experiments import campaign_compared, soak
 from datmo_tools.experiments.campaign import PROGRAMS, effect, main, page
 from datmo_tools.experiments.fault_bounds import beyond, read_bounds
 from datmo_tools.experiments.kept_ids import gap_effect
@@ -183,6 +184,50 @@ class Effect(unittest.TestCase):
         self.assertNotIn("Soak", text)
         self.assertIn("`scripts/campaign`, commit abc.", text)
         self.assertIn("- a.bag, scan silent: too far", text)
+        self.assertIn("[at the end](#beside-autoware-and-px4)", text)
+        self.assertIn("\n## Beside Autoware and PX4\n", text)
+
+
+class Compared(unittest.TestCase):
+    """The campaign's figures beside what Autoware and PX4 promise and test."""
+
+    PARTS = ("mutated", "soak", "load", "outages")
+
+    def report(self, **parts):
+        runs = [{"fault": fault, "error": error, "pose": {"largest_error_m": 0.5}, "tracks": {"mota": mota}}
+                for fault, error, mota in (("none", None, 0.7), ("scan silent for 3 s", None, 0.45), ("scan frozen for 3 s", "ended", None),
+                                           ("all clocks back by 100 s (a looped bag)", None, None))]  # fmt: skip
+        return {"drives": [{"drive": "a.bag", "runs": runs}], **dict.fromkeys(self.PARTS), **parts}
+
+    def test_what_was_measured(self):
+        text = campaign_compared.compared(self.report())
+        self.assertIn("Scanner silent for 3 s: 0.50 m, 0.450; frozen: (no result); late by 1 s: (not run); no fault: 0.50 m, 0.700.", text)
+        self.assertIn("all clocks back by 100 s: 0.50 m, in the new map", text)
+
+    def test_parts_of_the_campaign(self):
+        outages = [{"what": what, "loaded_s": loaded, "tracks_s": loaded + 0.1, "id_kept": kept}
+                   for what, loaded, kept in (("nothing", 0.0, True), ("tracker unloaded", 0.5, True), ("risk unloaded", 0.3, False),
+                                              ("the process killed", 1.8, None))]  # fmt: skip
+        times = {"median_s": 0.1, "percentile_99_s": 0.25}
+        samples = [{"hours": i / 60, "dropped": 0, "tracks": 9, "heap_mib": 100 + i / 60, "resident_mib": 200, "median_ms": 5,
+                    "percentile_99_ms": 9} for i in range(1, 61)]  # fmt: skip
+        text = campaign_compared.compared(self.report(
+            outages=outages, load={"nominal": times, "load": times}, soak={"samples": samples},
+            mutated={"mutated": 3000, "drives": 45, "faults": ["seed 21"]}))  # fmt: skip
+        self.assertIn("| 3000 messages with corrupted fields, in 45 drives; faults found: 1. ", text)
+        self.assertIn("Each of 2 nodelets, unloaded, is loaded again within 0.5 s, with tracks within 0.6 s; a track keeps its id in 1 of 2 "
+                      "cases; a killed process has tracks again after 1.9 s", text)  # fmt: skip
+        self.assertIn("at three times the rates: 0.10 s (0.25 s) instead of 0.10 s (0.25 s)", text)
+        self.assertIn("1.0 hours: allocated memory grows by 1.00 +- 0.00 MiB an hour, 0 messages dropped", text)
+
+    def test_every_source_is_cited_and_has_an_address(self):
+        text = campaign_compared.compared(self.report())
+        cited = set(re.findall(r"\]\[([\w-]+)\]", text))
+        self.assertEqual(cited, set(re.findall(r"^\[([\w-]+)\]: https://\S+$", text, re.MULTILINE)))
+        self.assertGreater(len(cited), 40)
+
+    def test_faults_are_those_of_the_campaign(self):
+        self.assertLessEqual(set(campaign_compared.FAULTS.values()), {fault.name for fault in faults()})
 
 
 class Chosen(unittest.TestCase):

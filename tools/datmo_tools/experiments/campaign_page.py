@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Formats the page of the campaign: what was done to the stack, and the results."""
 
+from datmo_tools.experiments.campaign_compared import compared
 from datmo_tools.experiments.soak import of_nodelets, of_stack
 from datmo_tools.text_table import NO_VALUE, percent, rounded
 
@@ -8,6 +9,7 @@ TRACK_FIGURES = ("mota", "misses", "false_positives", "id_switches")
 # A pose has recovered when its error is that of the clean drive again, within this (m).
 RECOVERED = 0.3
 IDS = {True: "yes", False: "no", None: NO_VALUE}
+BESIDE = "What Autoware and PX4 promise and test for such faults is [at the end](#beside-autoware-and-px4)."
 # Fewer hours of live nodelets than this do not determine a growth.
 SOAKED = 0.2
 
@@ -15,12 +17,13 @@ SOAKED = 0.2
 def page(report):
     """Formats the report (dict) as Markdown; parts that were not run are left out."""
     made = f", {report['made']}" if report["made"] else ""
-    parts = [["# Reliability", "", f"Written by `scripts/campaign`{made}.", *_beyond_lines(report["beyond"])]]
+    parts = [["# Reliability", "", f"Written by `scripts/campaign`{made}. {BESIDE}", *_beyond_lines(report["beyond"])]]
     parts += [_fault_lines(report, drive) for drive in report["drives"]]
     for part, lines in (("silent", _silent_lines), ("outages", _outage_lines), ("load", _load_lines),
                         ("soak", _soak_lines), ("mutated", _mutated_lines)):  # fmt: skip
         if report[part]:
             parts.append(lines(report[part]))
+    parts.append([compared(report)])
     return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
 
 
@@ -31,7 +34,7 @@ def _beyond_lines(beyond):
 def _fault_lines(report, drive):
     options = " ".join(("run_bag", *drive["options"]))
     lines = [
-        f"## Faults on line: {drive['drive']}",
+        f"## Faults of the inputs: {drive['drive']}",
         "",
         f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
         "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as accurate as",
