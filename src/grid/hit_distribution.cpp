@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/grid/hit_distribution.h"
 
+#include <algorithm>
+
 namespace datmo {
 
 void CellHits::add(const Eigen::Vector2f& offset, float max) {
@@ -14,6 +16,23 @@ void CellHits::add(const Eigen::Vector2f& offset, float max) {
   sum += offset;
   squares +=
       Eigen::Vector3f(offset.x() * offset.x(), offset.x() * offset.y(), offset.y() * offset.y());
+}
+
+void CellHits::add(const CellHits& hits, const Eigen::Matrix2f& rotation,
+                   const Eigen::Vector2f& shift, float max) {
+  const Eigen::Vector2f turned = rotation * hits.sum;
+  Eigen::Matrix2f products;
+  products << hits.squares[0], hits.squares[1], hits.squares[1], hits.squares[2];
+  products = (rotation * products * rotation.transpose() + turned * shift.transpose() +
+              shift * turned.transpose() + hits.count * shift * shift.transpose())
+                 .eval();
+  count += hits.count;
+  sum += turned + hits.count * shift;
+  squares += Eigen::Vector3f(products(0, 0), products(0, 1), products(1, 1));
+  const float keep = std::min(1.0F, max / std::max(count, 1.0F));
+  count *= keep;
+  sum *= keep;
+  squares *= keep;
 }
 
 void HitSums::add(const CellHits& cell, const Point2& shift, double maturity, double age) {

@@ -18,9 +18,6 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-/// Maximum number of hits in a cell, so that its surface follows recent measurements.
-constexpr float kMaxHits = 50.0F;
-
 }  // namespace
 
 OccupancyMap::OccupancyMap(const Checked<OccupancyMapOptions>& options)

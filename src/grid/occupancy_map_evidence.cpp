@@ -107,6 +107,62 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
   return map;
 }
 
+void OccupancyMap::merge(const OccupancyMap& other, const Pose2& other_in_map) {
+  if (!other.first_stamp_) {
+    return;
+  }
+  beginUpdate(*other.first_stamp_ + static_cast<double>(other.now_));
+  mergeFree(other, other_in_map);
+  const auto delay = static_cast<float>(secondsBetween(*first_stamp_, *other.first_stamp_));
+  other.forEachKnown([&](CellIndex index, const Cell& cell) {
+    if (isOccupied(cell)) {
+      mergeOccupied(cell, other.window().centerOf(index), other_in_map, delay);
+    }
+  });
+}
+
+void OccupancyMap::mergeFree(const OccupancyMap& other, const Pose2& other_in_map) {
+  const Pose2 map_in_other = other_in_map.inverse();
+  forEachCell(window(), [&](CellIndex index) {
+    const CellIndex there = other.window().cellAt(map_in_other * window().centerOf(index));
+    const Cell& from = other.cells_.atOrEmpty(there);
+    if (isKnown(from) && !isOccupied(from)) {
+      Cell& cell = cells_.at(index);
+      cell.updated = update_;
+      change(cell, from.log_odds);
+    }
+  });
+}
+
+void OccupancyMap::mergeOccupied(const Cell& from, const Point2& center, const Pose2& other_in_map,
+                                 float delay) {
+  const bool has_hits = from.hits.count > 0.0F;
+  const CellIndex index =
+      window().cellAt(other_in_map * (has_hits ? center + from.hits.mean() : center));
+  if (!window().contains(index)) {
+    return;
+  }
+  Cell& cell = cells_.at(index);
+  const bool is_new = !hasSurface(cell);
+  if (is_new) {
+    cell.hits = {};
+  }
+  cell.updated = update_;
+  change(cell, from.log_odds);
+  cell.refuted += from.refuted;
+  cell.believed += from.believed;
+  if (!has_hits) {
+    return;
+  }
+  cell.first_hit =
+      is_new ? from.first_hit + delay : std::min(cell.first_hit, from.first_hit + delay);
+  cell.last_hit = from.last_hit + delay;
+  const float share = from.hits.count / (from.hits.count + cell.hits.count);
+  cell.mean_hit += share * (from.mean_hit + delay - cell.mean_hit);
+  const Point2 shift = other_in_map * center - window().centerOf(index);
+  cell.hits.add(from.hits, other_in_map.rotation().cast<float>(), shift.cast<float>(), kMaxHits);
+}
+
 void OccupancyMap::setWindow(const GridWindow& window) {
   RollingGrid<Cell> cells(window, Cell{});
   outside_.forEachAround(window, [&](CellIndex index, const Cell& cell) {

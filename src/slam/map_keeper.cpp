@@ -99,9 +99,12 @@ MapKeeper::SearchStep MapKeeper::search(const PoseWithCovariance& pose, Stamp st
     return {};
   }
   if (const auto found = recovery_->advance(map_, pose, stamp)) {
+    if (!found->is_unique) {
+      return {mergeIntoOlder(found->in_older, pose), false};
+    }
     returnToLeftMap();
-    map_.centerOn(found->pose.position());
-    return {found, false};
+    map_.centerOn(found->in_older.pose.position());
+    return {found->in_older, false};
   }
   if (!recovery_->isOver(stamp)) {
     return {};
@@ -117,6 +120,17 @@ MapKeeper::SearchStep MapKeeper::search(const PoseWithCovariance& pose, Stamp st
   recovery_.reset();
   ++maps_begun_;
   return {std::nullopt, true};
+}
+
+PoseWithCovariance MapKeeper::mergeIntoOlder(const PoseWithCovariance& in_older,
+                                             const PoseWithCovariance& in_newer) {
+  const OccupancyMap newer = std::move(map_);
+  returnToLeftMap();
+  map_.centerOn(in_older.pose.position());
+  map_.merge(newer, in_older.pose * in_newer.pose.inverse());
+  frame_covariance_ += carried(in_older.covariance, -in_older.pose.position());
+  const double turn = in_older.pose.heading() - in_newer.pose.heading();
+  return {in_older.pose, turned(in_newer.covariance, turn)};
 }
 
 PoseWithCovariance MapKeeper::inFirstMap(PoseWithCovariance pose) const {

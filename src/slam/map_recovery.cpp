@@ -162,9 +162,9 @@ int MapRecovery::boxesUntil(Stamp stamp) {
                                : options_.boxes_per_scan;
 }
 
-std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer,
-                                                       const PoseWithCovariance& in_newer,
-                                                       Stamp stamp) {
+std::optional<Relocalization> MapRecovery::advance(const OccupancyMap& newer,
+                                                   const PoseWithCovariance& in_newer,
+                                                   Stamp stamp) {
   const int boxes = boxesUntil(stamp);
   if (!search_ && is_searchable_ && next_search_ <= stamp) {
     beginSearch(newer, in_newer, stamp);
@@ -176,26 +176,37 @@ std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer
   if (outcome == MapSearch::Outcome::kUnfinished) {
     return std::nullopt;
   }
-  std::optional<PoseWithCovariance> found;
-  if (outcome != MapSearch::Outcome::kFound) {
-    // Other poses that fit nearly as well do not refute the candidate; one that fits better does.
-    const std::optional<Pose2> likeliest = search_->likeliest();
-    const bool refuted = outcome == MapSearch::Outcome::kNone ||
-                         (candidate_ && likeliest && !agreesWithCandidate(*likeliest));
-    if (refuted) {
-      candidate_.reset();
-    }
-  } else if (const PoseWithCovariance then = search_->found(); confirms(then.pose)) {
-    // The vehicle has moved since the search began.
-    const Pose2 since = searched_from_.inverse() * in_newer.pose;
-    const Pose2 now = then.pose * since;
-    found =
-        PoseWithCovariance{now, carried(then.covariance, now.position() - then.pose.position())};
-  }
+  const std::optional<Relocalization> found = conclude(outcome, in_newer.pose);
   const bool is_lost = outcome == MapSearch::Outcome::kNone || searchesAnywhere();
   state_ = is_lost ? Localization::kLost : Localization::kUncertain;
   search_.reset();
   return found;
+}
+
+std::optional<Relocalization> MapRecovery::conclude(MapSearch::Outcome outcome,
+                                                    const Pose2& in_newer) {
+  const bool is_unique = outcome == MapSearch::Outcome::kFound;
+  if (!is_unique && outcome != MapSearch::Outcome::kAligned) {
+    doubtCandidate(outcome);
+    return std::nullopt;
+  }
+  const PoseWithCovariance then = is_unique ? search_->found() : search_->aligned();
+  if (is_unique && !confirms(then.pose)) {
+    return std::nullopt;
+  }
+  // The vehicle has moved since the search began.
+  const Pose2 now = then.pose * (searched_from_.inverse() * in_newer);
+  const Point2 arm = now.position() - then.pose.position();
+  return Relocalization{{now, carried(then.covariance, arm)}, is_unique};
+}
+
+void MapRecovery::doubtCandidate(MapSearch::Outcome outcome) {
+  // Other poses that fit nearly as well do not refute it; one that fits better does.
+  const std::optional<Pose2> likeliest = search_->likeliest();
+  if (outcome == MapSearch::Outcome::kNone ||
+      (candidate_ && likeliest && !agreesWithCandidate(*likeliest))) {
+    candidate_.reset();
+  }
 }
 
 }  // namespace datmo

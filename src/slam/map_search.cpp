@@ -152,23 +152,38 @@ bool MapSearch::isTogether(const Box& leaf) const {
   return apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
 }
 
+bool MapSearch::areAllTogether() const {
+  return std::all_of(leaves_.begin(), leaves_.end(),
+                     [this](const Box& leaf) { return isTogether(leaf); });
+}
+
 MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
   if (leaves_.empty() && leaf.contradicted > options_.max_changed_share) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  return isTogether(leaf) ? Outcome::kUnfinished : Outcome::kAmbiguous;
+  const bool may_be_unique =
+      options_.missing_share > 0.0 ? isTogether(leaf) : isInAlignedRegion(leaf);
+  return may_be_unique ? Outcome::kUnfinished : Outcome::kAmbiguous;
 }
 
 MapSearch::Outcome MapSearch::conclude() const {
   if (leaves_.empty()) {
     return Outcome::kNone;
   }
+  if (areAllTogether() && maxShared() >= options_.min_shared) {
+    return Outcome::kFound;
+  }
+  return options_.missing_share == 0.0 && isNarrow(aligned().covariance) ? Outcome::kAligned
+                                                                         : Outcome::kAmbiguous;
+}
+
+double MapSearch::maxShared() const {
   double shared = 0.0;
   for (const Box& leaf : leaves_) {
     shared = std::max(shared, sharedAt(poseOf(leaf)));
   }
-  return shared >= options_.min_shared ? Outcome::kFound : Outcome::kAmbiguous;
+  return shared;
 }
 
 MapSearch::Outcome MapSearch::advance(int boxes) {

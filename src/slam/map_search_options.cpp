@@ -30,6 +30,10 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"min_shared", "1", "least share of surfaces that both maps have, at the pose found"},
       min_shared, {0.0, 1.0});
+  visitor.number({"max_aligned_sigma", "m",
+                  "maps are aligned if their relative position, up to `reach`, is known to this "
+                  "standard deviation: half the width of a lane; only without missing_share"},
+                 max_aligned_sigma, {0.1, 100.0});
   visitor.integer(
       {"min_surfaces", "1", "least number of static cells of the newer map for a search"},
       min_surfaces, {1, 1000000});

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The resulting pose of MapSearch.
+// The resulting pose of MapSearch, and whether it is unique.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include <Eigen/LU>
+
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/slam/map_search.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
@@ -24,6 +28,15 @@ constexpr double kFoundHeadingSigma = degrees(1.0);
 constexpr double kFirstStep = 0.08;
 constexpr double kFirstTurn = degrees(0.5);
 constexpr double kLastStep = 0.01;
+
+Eigen::Matrix3d ownCovariance(double sigma) {
+  return Eigen::Vector3d(square(sigma), square(sigma), square(kFoundHeadingSigma)).asDiagonal();
+}
+
+/// Difference (x, y, heading) of two poses in the frame of both.
+Eigen::Vector3d offsetFrom(const Pose2& from, const Pose2& to) {
+  return {to.x() - from.x(), to.y() - from.y(), angleBetween(from.heading(), to.heading())};
+}
 
 }  // namespace
 
@@ -73,25 +86,58 @@ std::optional<Pose2> MapSearch::likeliest() const {
   return leaves_.empty() ? std::nullopt : std::make_optional(refined(poseOf(nearestLeaf())));
 }
 
-PoseWithCovariance MapSearch::found() const {
-  const Pose2 pose = refined(poseOf(nearestLeaf()));
-  const double sigma = options_.missing_share > 0.0 ? kFoundInCompleteSigma : kFoundSigma;
-  PoseWithCovariance found{pose, {}};
-  found.covariance =
-      Eigen::Vector3d(sigma * sigma, sigma * sigma, kFoundHeadingSigma * kFoundHeadingSigma)
-          .asDiagonal();
+Eigen::Matrix3d MapSearch::spreadAbout(const Pose2& pose) const {
   double sum = 0.0;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Box& leaf : leaves_) {
     const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Pose2 at = poseOf(leaf);
-    const Eigen::Vector3d apart(at.x() - pose.x(), at.y() - pose.y(),
-                                angleBetween(pose.heading(), at.heading()));
+    const Eigen::Vector3d apart = offsetFrom(pose, poseOf(leaf));
     spread += weight * apart * apart.transpose();
     sum += weight;
   }
-  found.covariance += spread / sum;
-  return found;
+  return spread / sum;
+}
+
+PoseWithCovariance MapSearch::found() const {
+  const Pose2 pose = refined(poseOf(nearestLeaf()));
+  const double sigma = options_.missing_share > 0.0 ? kFoundInCompleteSigma : kFoundSigma;
+  return {pose, ownCovariance(sigma) + spreadAbout(pose)};
+}
+
+PoseWithCovariance MapSearch::aligned() const {
+  const Pose2 best = poseOf(leaves_.front());
+  double sum = 0.0;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (const Box& leaf : leaves_) {
+    const double weight = std::exp(leaves_.front().cost - leaf.cost);
+    offset += weight * offsetFrom(best, poseOf(leaf));
+    sum += weight;
+  }
+  offset /= sum;
+  PoseWithCovariance mean{{best.x() + offset[0], best.y() + offset[1], best.heading() + offset[2]},
+                          {}};
+  mean.covariance = ownCovariance(kFoundSigma) + spreadAbout(mean.pose);
+  // The likelihoods are only bounds; poses that are kept must be within reach of the covariance.
+  const Eigen::Matrix3d information = mean.covariance.inverse();
+  double farthest = keptDistance();
+  for (const Box& leaf : leaves_) {
+    const Eigen::Vector3d apart = offsetFrom(mean.pose, poseOf(leaf));
+    farthest = std::max(farthest, std::sqrt(apart.dot(information * apart)));
+  }
+  mean.covariance *= square(farthest / keptDistance());
+  return mean;
+}
+
+bool MapSearch::isNarrow(const Eigen::Matrix3d& covariance) const {
+  const double position = std::sqrt(maxPositionVariance(covariance));
+  const double at_reach = options_.reach * std::sqrt(covariance(2, 2));
+  return std::max(position, at_reach) <= options_.max_aligned_sigma;
+}
+
+bool MapSearch::isInAlignedRegion(const Box& leaf) const {
+  const Eigen::Vector3d apart = between(leaves_.front(), leaf);
+  const double width = 2.0 * keptDistance() * options_.max_aligned_sigma;
+  return std::max(apart.head<2>().norm(), options_.reach * std::abs(apart[2])) <= width;
 }
 
 }  // namespace datmo

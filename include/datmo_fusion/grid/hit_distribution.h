@@ -26,6 +26,11 @@ struct CellHits {
   /// and the surface follows recent measurements.
   void add(const Eigen::Vector2f& offset, float max);
 
+  /// Adds the hits of a cell whose frame is turned by `rotation` and whose center is `shift` (m)
+  /// from this one's; of all of them at most `max` count.
+  void add(const CellHits& hits, const Eigen::Matrix2f& rotation, const Eigen::Vector2f& shift,
+           float max);
+
   /// Returns the mean relative to the center, m; there must be hits.
   Point2 mean() const { return (sum / count).cast<double>(); }
 };

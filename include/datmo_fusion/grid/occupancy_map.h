@@ -92,6 +92,10 @@ class OccupancyMap {
   static OccupancyMap restored(const Checked<OccupancyMapOptions>& options,
                                const MapEvidence& evidence);
 
+  /// Adds what another map of the same cell size, whose frame is at `other_in_map`, knows about the
+  /// window, as if it had been seen independently: occupied cells move with the mean of their hits.
+  void merge(const OccupancyMap& other, const Pose2& other_in_map);
+
   /// Changes the window, of at least one cell and the same cell size, without losing knowledge.
   void setWindow(const GridWindow& window);
 
@@ -156,6 +160,9 @@ class OccupancyMap {
   std::vector<std::int8_t> occupancyImage() const;
 
  private:
+  /// Maximum number of hits in a cell, so that its surface follows recent measurements.
+  static constexpr float kMaxHits = 50.0F;
+
   struct Cell {
     float log_odds = 0.0F;
     float occupancy = 0.5F;     ///< of log_odds; read far more often than changed
@@ -179,6 +186,11 @@ class OccupancyMap {
   template <typename Visit>
   void forEachKnown(Visit&& visit) const;
 
+  /// The parts of merge(): cells that the other map has seen free, and one that it has seen
+  /// occupied, whose times are later by `delay` (s) here.
+  void mergeFree(const OccupancyMap& other, const Pose2& other_in_map);
+  void mergeOccupied(const Cell& from, const Point2& center, const Pose2& other_in_map,
+                     float delay);
   void beginUpdate(Stamp stamp);
   void change(Cell& cell, float log_odds_step) const;
   /// Marks a cell as occupied in this update; null if it is not in the window.

@@ -70,7 +70,8 @@ class MapKeeper {
 
   /// The result of a search step.
   struct SearchStep {
-    std::optional<PoseWithCovariance> found;  ///< in the older map, which becomes the map again
+    std::optional<PoseWithCovariance> found;  ///< in the older map, which becomes the map again,
+                                              ///< alone or with the newer map merged into it
     bool gave_up = false;                     ///< the newer map becomes the map
   };
   /// Performs one step of the search for the vehicle, which is at `pose` in the map; the result
@@ -86,6 +87,10 @@ class MapKeeper {
   int mapsBegun() const { return maps_begun_; }
 
  private:
+  /// Merges the newer map into the older one, where the vehicle, at `in_newer`, is at `in_older`;
+  /// how uncertain that is remains in the pose of the frame.
+  PoseWithCovariance mergeIntoOlder(const PoseWithCovariance& in_older,
+                                    const PoseWithCovariance& in_newer);
   PoseWithCovariance searchPriorMap(OccupancyMap whole, const SearchRegion& region, Stamp stamp);
   MapDrift noDrift() const { return {scale_, map_options_.window.cell_size}; }
 

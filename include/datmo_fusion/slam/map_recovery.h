@@ -31,7 +31,7 @@ struct MapRecoveryOptions {
   double lost_from_sigma = 15.0;             ///< m
   double min_kidnapped_log_ratio = 5.0;
   double kidnapped_after = 1.0;  ///< s
-  int boxes_per_scan = 600;
+  int boxes_per_scan = 3000;
   MapSearchOptions search;
   int prior_boxes_per_second = 400000;
   double confirmed_after = 0.5;       ///< m
@@ -39,6 +39,12 @@ struct MapRecoveryOptions {
   MapSearchOptions prior_search = MapSearchOptions::inCompleteMap();
 
   void visit(OptionVisitor& visitor);
+};
+
+/// The vehicle's pose in an older map.
+struct Relocalization {
+  PoseWithCovariance in_older;
+  bool is_unique = false;  ///< scans can be matched there; else the maps are only aligned
 };
 
 /// Widens the covariance of a pose so that the vehicle may have been carried anywhere around it.
@@ -52,7 +58,8 @@ bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
 /// Relocalization in a map after a gap in which the vehicle may have gone anywhere within a wide
 /// prior. Scans then build a newer map, starting at the prior's mean, and the older one is left
 /// unchanged. The older map is searched for the newer one repeatedly as that grows, until there is
-/// a unique answer, or the search is given up in favor of the newer map.
+/// a unique answer, or one narrow enough to align the maps, or the search is given up in favor of
+/// the newer map.
 ///
 /// After the vehicle was carried elsewhere it may be anywhere, and all of the older map's window is
 /// searched, as in a prior map.
@@ -99,8 +106,8 @@ class MapRecovery {
 
   /// Continues the search; called after each scan. Returns the vehicle's pose in the older map once
   /// it is found.
-  std::optional<PoseWithCovariance> advance(const OccupancyMap& newer,
-                                            const PoseWithCovariance& in_newer, Stamp stamp);
+  std::optional<Relocalization> advance(const OccupancyMap& newer,
+                                        const PoseWithCovariance& in_newer, Stamp stamp);
 
   /// Returns whether the search has failed for long enough: either the newer map becomes the map,
   /// or all of a prior map is searched. A search of all of a prior map never ends.
@@ -122,6 +129,10 @@ class MapRecovery {
   void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
   /// How many boxes the search may evaluate for the time since the last scan.
   int boxesUntil(Stamp stamp);
+  /// The result of a search that has ended, for the pose now.
+  std::optional<Relocalization> conclude(MapSearch::Outcome outcome, const Pose2& in_newer);
+  /// Discards a candidate that a search without a unique result contradicts.
+  void doubtCandidate(MapSearch::Outcome outcome);
   /// Whether an earlier search, from another position, has found the same pose.
   bool confirms(const Pose2& found);
   /// Whether this pose is the one that the candidate predicts for now.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -24,6 +25,7 @@ struct MapSearchOptions {
   double max_log_ratio = 6.0;       ///< between two hypotheses that are both kept
   double max_changed_share = 0.15;  ///< of the surfaces
   double min_shared = 0.4;          ///< of the surfaces
+  double max_aligned_sigma = 1.5;   ///< m
   int min_surfaces = 60;            ///< cells
   double reach = 35.0;              ///< m
   int max_boxes = 60000;
@@ -45,8 +47,10 @@ struct MapSearchOptions {
 /// area, surfaces of the newer map that are missing count as well, with a share of their own (the
 /// score of Hess et al. 2016): otherwise nothing would speak against the space outside of it.
 /// Hardly anything contradicts the true pose, so it is among the hypotheses within `max_log_ratio`
-/// of the best. The pose is found if all of them lie close together; otherwise the result is
-/// ambiguous.
+/// of the best. The pose is found if all of them lie close together, at surfaces of both maps, so
+/// that scans can be matched there. Along a street, where nothing tells how far the vehicle went,
+/// they fill a narrow region: then the maps are aligned, with the covariance of that region.
+/// Otherwise the result is ambiguous.
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
 /// contradicted by surfaces that lie deeper in free space than the box can move them. The work can
@@ -56,6 +60,7 @@ class MapSearch {
   enum class Outcome {
     kUnfinished,  ///< call advance() again
     kFound,       ///< a unique pose is not contradicted
+    kAligned,     ///< the poses that are not contradicted fill a narrow region
     kAmbiguous,   ///< several poses are not contradicted, or there is too little to compare
     kNone,        ///< all poses within the prior are contradicted
   };
@@ -74,6 +79,9 @@ class MapSearch {
   /// With kFound: returns the pose in the older map; its covariance includes the spread of the
   /// poses that are not contradicted.
   PoseWithCovariance found() const;
+
+  /// With kAligned: returns the mean and covariance of the poses that are not contradicted.
+  PoseWithCovariance aligned() const;
 
  private:
   /// Poses within `half` (m, m, rad) of a center.
@@ -136,6 +144,14 @@ class MapSearch {
   Eigen::Isometry2f patternAt(const Pose2& pose) const;
   /// Whether a leaf belongs to the same hypothesis as the best one.
   bool isTogether(const Box& leaf) const;
+  /// Whether the leaf and the best one may both lie in the region of aligned maps.
+  bool isInAlignedRegion(const Box& leaf) const;
+  /// Whether poses with this covariance align the maps, up to the surfaces that are compared.
+  bool isNarrow(const Eigen::Matrix3d& covariance) const;
+  /// Maximum Mahalanobis distance of a kept pose, if their distribution is normal.
+  double keptDistance() const { return std::sqrt(2.0 * options_.max_log_ratio); }
+  /// Mean square of the leaves' offsets from a pose, weighted by their likelihoods.
+  Eigen::Matrix3d spreadAbout(const Pose2& pose) const;
   /// The leaf of that hypothesis whose surfaces are nearest to those of the older map: the
   /// tolerance for equal surfaces is wider than the accuracy of a match.
   const Box& nearestLeaf() const;
@@ -144,6 +160,9 @@ class MapSearch {
   /// The pose near this one that minimizes distanceAt().
   Pose2 refined(Pose2 pose) const;
   Outcome takeLeaf(const Box& leaf);
+  /// Whether all leaves that are kept belong to the hypothesis of the best one.
+  bool areAllTogether() const;
+  double maxShared() const;
   Outcome conclude() const;
 
   MapSearchOptions options_;

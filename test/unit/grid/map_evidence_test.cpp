@@ -56,6 +56,37 @@ TEST(MapEvidenceTest, ItIsReloadedOnlyIntoARestoredMap) {
   expectSurface(restored);
 }
 
+TEST(MapEvidenceTest, AMergedMapAddsWhatItKnowsWhereItsFrameIs) {
+  OccupancyMap map{smallMap()};
+  updateWith(map, scanTo({{-6.0, -6.0}}, -50.0));
+  map.merge(mapWithSurface(), Pose2(1.0, -2.0, degrees(90.0)));
+  const auto hits = map.nearestHits({0.5, 2.5});  // (4.3, 0.4), turned and moved
+  ASSERT_TRUE(hits);
+  EXPECT_NEAR(hits->mean.x(), 0.6, 1e-5);
+  EXPECT_NEAR(hits->mean.y(), 2.3, 1e-5);
+  EXPECT_NEAR(hits->hits, 4.0, 1e-5);
+  EXPECT_EQ(hits->maturity, 1.0);
+  EXPECT_NEAR(hits->age, 0.75, 1e-4) << "mean of the hits of 1.5 s";
+  EXPECT_EQ(map.stateOf({0, 2}), CellState::kStatic);
+  EXPECT_EQ(map.stateOf({0, 0}), CellState::kFree);
+  EXPECT_EQ(map.stateOf({-6, -6}), CellState::kUnknown) << "seen once";
+}
+
+TEST(MapEvidenceTest, WhatBothMapsKnowIsAddedUp) {
+  OccupancyMap map = mapWithSurface();
+  const double before = map.occupancy({4, 0});
+  map.merge(mapWithSurface(), Pose2());
+  EXPECT_GE(map.occupancy({4, 0}), before);
+  EXPECT_NEAR(map.nearestHits({4.5, 0.5})->hits, 8.0, 1e-5);
+  EXPECT_LT(map.occupancy({2, 0}), mapWithSurface().occupancy({2, 0}));
+}
+
+TEST(MapEvidenceTest, AnEmptyMapMergesNothing) {
+  OccupancyMap map = mapWithSurface();
+  map.merge(OccupancyMap{smallMap()}, Pose2());
+  expectSurface(map);
+}
+
 TEST(MapEvidenceTest, RevisitedCellsAreInTheEvidence) {
   OccupancyMap map = mapWithSurface();
   const std::size_t known = map.evidence().cells.size();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/map_recovery.h"
 
-#include "yard.h"
+#include "walls.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/slam/grid_slam.h"
 
 namespace datmo::map_recovery_test {
@@ -17,6 +18,7 @@ struct Drive {
   double late = 0.0;          ///< s, odometry after the first scan
   bool elsewhere = false;     ///< put down in another place
   bool with_odometry = true;
+  bool between_walls = false;  ///< instead of in the yard
 };
 
 struct Step {
@@ -36,7 +38,9 @@ std::vector<Step> run(const Drive& drive, int scans_after = 50) {
     if (with_odometry && drive.with_odometry) {
       slam.addOdometry({stamp, twist});
     }
-    steps.push_back({slam.process(yard.scan(truth, seconds)), truth});
+    const Scan scan =
+        drive.between_walls ? betweenWalls(truth, seconds, false) : yard.scan(truth, seconds);
+    steps.push_back({slam.process(scan), truth});
   };
   for (int i = 0; i < 30; ++i) {
     step(true);
@@ -150,6 +154,23 @@ TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapDoesNotLeadIntoTheOlder) 
   const Step last = step(reset * truth * Pose2(3.0, 0.0, 0.0));
   EXPECT_EQ(last.result.localization, Localization::kUncertain);
   EXPECT_TRUE(admits(last));
+}
+
+TEST(MapRecoveryTest, BetweenWallsTheMapsAreAlignedAndTheDistanceRemainsUncertain) {
+  Drive drive{1.2, 2.5, 0.2};
+  drive.between_walls = true;
+  const std::vector<Step> steps = run(drive, 60);
+  const Step& last = steps.back();
+  EXPECT_EQ(last.result.localization, Localization::kLocated);
+  EXPECT_EQ(last.result.maps_begun, 0) << "the map goes on";
+  const Eigen::Matrix3d covariance = last.result.labeled_scan.base_in_map.covariance;
+  EXPECT_NEAR(errorOf(last).y(), 0.0, 0.3);
+  EXPECT_NEAR(errorOf(last)[2], 0.0, degrees(1.5));
+  EXPECT_LT(covariance(1, 1), square(1.0));
+  EXPECT_GT(covariance(0, 0), square(0.4)) << "no wall tells how far it went";
+  for (const Step& step : steps) {
+    EXPECT_TRUE(admits(step));
+  }
 }
 
 TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {

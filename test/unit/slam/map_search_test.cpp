@@ -4,9 +4,10 @@
 #include <functional>
 #include <memory>
 
-#include "yard.h"
+#include "walls.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/common/twist2.h"
 
 namespace datmo::map_search_test {
@@ -19,27 +20,9 @@ using World = std::function<Scan(const Pose2& base, double seconds)>;
 
 Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
 
-/// Two endless walls 10 m apart with a pillar in front of one of them every 7 m.
-Scan street(const Pose2& base, double seconds) {
-  Scan scan = Yard().scan(base, seconds);
-  const Pose2 scanner = base * scan.scanner_in_base;
-  for (Ray& ray : scan.rays) {
-    const double direction = scanner.heading() + ray.bearing;
-    ray.range = 45.0;
-    ray.hit = false;
-    for (double range = 0.5; range < 45.0 && !ray.hit; range += 0.05) {
-      const Point2 at =
-          scanner.position() + range * Point2(std::cos(direction), std::sin(direction));
-      const double along = at.x() - 7.0 * std::floor(at.x() / 7.0);
-      const bool pillar = along < 2.0 && at.y() > 3.5;
-      ray.hit = std::abs(at.y()) > 5.0 || pillar;
-      ray.range = ray.hit ? range : ray.range;
-    }
-    ray.end = scan.scanner_in_base *
-              Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
-  }
-  return scan;
-}
+Scan street(const Pose2& base, double seconds) { return betweenWalls(base, seconds, true); }
+
+Scan corridor(const Pose2& base, double seconds) { return betweenWalls(base, seconds, false); }
 
 /// A map of 2 s of driving straight from a pose at 2 m/s, where that pose is `in_map`.
 OccupancyMap mapOf(const World& world, const Pose2& from, const Pose2& in_map) {
@@ -109,6 +92,26 @@ TEST(MapSearchTest, AlongAStreetThatRepeatsNothingIsFound) {
   EXPECT_EQ(finish(found), Outcome::kAmbiguous);
   ASSERT_TRUE(found.likeliest());
   EXPECT_NEAR(found.likeliest()->y(), 0.0, 0.3);
+}
+
+TEST(MapSearchTest, AlongWallsTheMapsAreAlignedAsFarAsThePriorReaches) {
+  const Pose2 ahead(8.0, 0.0, 0.0);
+  MapSearch aligned = search(corridor, ahead, Pose2(0.5, 0.4, 0.1), {1.0, 0.5, 0.1});
+  ASSERT_EQ(finish(aligned), Outcome::kAligned);
+  const PoseWithCovariance found = aligned.aligned();
+  EXPECT_NEAR(found.pose.y(), ahead.y(), 0.2);
+  EXPECT_NEAR(found.pose.heading(), ahead.heading(), degrees(1.0));
+  EXPECT_NEAR(found.pose.x(), ahead.x() + 0.5, 0.2) << "nothing but the prior tells";
+  EXPECT_GT(found.covariance(0, 0), 0.8);
+  EXPECT_LT(found.covariance(1, 1), 0.25);
+  EXPECT_LT(found.covariance(2, 2), square(degrees(2.0)));
+}
+
+TEST(MapSearchTest, ThePosesThatAreKeptAreWithinReachOfTheCovariance) {
+  MapSearch aligned = search(corridor, Pose2(8.0, 0.0, 0.0), Pose2(), {1.0, 0.5, 0.1});
+  ASSERT_EQ(finish(aligned), Outcome::kAligned);
+  // The farthest ones, at max_log_ratio = 6, are sqrt(12) standard deviations of the prior away.
+  EXPECT_GE(aligned.aligned().covariance(0, 0), 1.0);
 }
 
 TEST(MapSearchTest, InACompleteMapThePoseIsRefined) {
