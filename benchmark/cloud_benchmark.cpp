@@ -9,6 +9,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
+#include "datmo_fusion/ros/convert/point_field.h"
 #include "datmo_fusion/sensor_model/cloud_to_scan.h"
 
 namespace datmo {
@@ -27,14 +28,7 @@ BENCHMARK(cloudToScan)->Unit(benchmark::kMillisecond);
 /// The cloud with the fields that drivers publish: x, y, z, intensity, t.
 sensor_msgs::PointCloud2 messageOf(const LidarCloud& cloud) {
   sensor_msgs::PointCloud2 message;
-  for (const char* name : {"x", "y", "z", "intensity", "time"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    message.fields.push_back(field);
-  }
+  message.fields = floatFields({"x", "y", "z", "intensity", "time"});
   message.height = 1;
   message.width = static_cast<std::uint32_t>(cloud.points->size());
   message.point_step = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));

@@ -59,6 +59,17 @@ std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message) {
   return bytes;
 }
 
+void failForType(const rosbag::MessageInstance& message, const std::string& expected) {
+  const std::string& type = message.getDataType();
+  const std::string found = message.getTopic() + " is ";
+  if (type == expected) {
+    throw InputError("other_version",
+                     found + "another version of " + type +
+                         ", expected ours; doc/interfaces.md says what 'rosbag fix' converts");
+  }
+  throw InputError("wrong_type", found + type + ", expected " + expected);
+}
+
 void failForTopic(const rosbag::Bag& bag, const std::string& missing) {
   std::string message = bag.getFileName() + ": " + missing + "; the bag holds:";
   for (const std::string& topic : topicsOf(bag)) {

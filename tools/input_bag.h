@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -46,14 +45,16 @@ std::string optionalTopic(const rosbag::Bag& bag, const std::string& topic, bool
 /// The bytes of a message as recorded in the bag.
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message);
 
-/// Decodes the message. Throws std::runtime_error that names topic and types if it is not of type
-/// `Message`, InputError (`undecodable_message`) that names topic and time if its bytes are
-/// corrupt.
+/// Throws InputError that names the topic of a message, and its type (`wrong_type`) or, if that is
+/// the `expected` one, that it was recorded with another definition of it (`other_version`).
+[[noreturn]] void failForType(const rosbag::MessageInstance& message, const std::string& expected);
+
+/// Decodes the message. Throws InputError: as failForType() if it is not of type `Message`;
+/// `undecodable_message`, with topic and time, if its bytes are corrupt.
 template <typename Message>
 boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
   if (!message.isType<Message>()) {
-    throw std::runtime_error(message.getTopic() + " is " + message.getDataType() + ", expected " +
-                             ros::message_traits::datatype<Message>());
+    failForType(message, ros::message_traits::datatype<Message>());
   }
   try {
     std::vector<std::uint8_t> bytes = bytesOf(message);

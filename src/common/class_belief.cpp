@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace datmo {
 
@@ -71,16 +72,12 @@ ClassProbabilities reportedClass(ObjectClass object_class, double probability) {
   return result;
 }
 
-bool indicatesClass(const ClassProbabilities& observed) {
-  const ObjectClass best = mostLikelyClass(observed);
-  return best != ObjectClass::kUnknown && probabilityOf(best, observed) > kChance;
-}
-
-ClassProbabilities classLikelihoods(const ClassProbabilities& observed) {
-  if (!indicatesClass(observed)) {
-    return normalized({});
+std::optional<ClassProbabilities> classLikelihoods(const ClassProbabilities& observed) {
+  const ObjectClass most_likely = mostLikelyClass(observed);
+  if (most_likely == ObjectClass::kUnknown || !(probabilityOf(most_likely, observed) > kChance)) {
+    return std::nullopt;
   }
-  const std::size_t best = indexOf(mostLikelyClass(observed));
+  const std::size_t best = indexOf(most_likely);
   const double sum = std::accumulate(observed.begin(), observed.end(), 0.0);
   const double missing = std::max(0.0, 1.0 - sum) / static_cast<double>(kObjectClasses - 1);
   ClassProbabilities result = observed;
@@ -139,11 +136,11 @@ bool tellsAnything(const ClassProbabilities& belief) {
 ClassBelief::ClassBelief() { probabilities_.fill(kChance); }
 
 void ClassBelief::update(const ClassProbabilities& observed) {
-  if (!indicatesClass(observed)) {
+  const std::optional<ClassProbabilities> likelihoods = classLikelihoods(observed);
+  if (!likelihoods) {
     return;
   }
-  const ClassProbabilities likelihoods = classLikelihoods(observed);
-  std::transform(probabilities_.begin(), probabilities_.end(), likelihoods.begin(),
+  std::transform(probabilities_.begin(), probabilities_.end(), likelihoods->begin(),
                  probabilities_.begin(), std::multiplies<>());
   probabilities_ = normalizedWithDoubt(probabilities_);
 }

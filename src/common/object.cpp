@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/common/object.h"
 
+#include "datmo_fusion/common/class_belief.h"
+
 namespace datmo {
 
 const char* nameOf(ObjectClass object_class) {
@@ -18,5 +20,7 @@ const char* nameOf(ObjectClass object_class) {
   }
   return "unknown";
 }
+
+ObjectClass Object::objectClass() const { return mostLikelyClass(class_probabilities); }
 
 }  // namespace datmo

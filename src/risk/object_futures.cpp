@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/class_belief.h"
-
 namespace datmo {
 
 namespace {
@@ -86,7 +84,7 @@ ObjectFutures::ObjectFutures(const Track& track, const std::optional<RoadCourse>
       options_(options),
       horizon_(horizon),
       draws_(draws),
-      class_(mostLikelyClass(track.class_probabilities)),
+      class_(track.objectClass()),
       start_(startOf(track, kMaxHeadingSigma)),
       cumulated_(transitionMatrix(countsOfSojourns(options.transitions), horizon.step)) {
   for (int mode = 1; mode < kMotionModes; ++mode) {

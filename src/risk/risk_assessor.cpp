@@ -6,7 +6,6 @@
 
 #include "contact_futures.h"
 
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -123,7 +122,7 @@ RiskReport RiskAssessor::assess(const RiskInput& input) {
       ++report.counts.unreachable;
       ObjectRisk risk;
       risk.id = track.id;
-      risk.object_class = mostLikelyClass(track.class_probabilities);
+      risk.object_class = track.objectClass();
       risk.mode = likeliestMode(track);
       report.objects.push_back(risk);
     } else {
@@ -178,7 +177,7 @@ bool RiskAssessor::reachable(const Track& track, const HostState& host) const {
 ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) const {
   ObjectRisk risk;
   risk.id = track.id;
-  risk.object_class = mostLikelyClass(track.class_probabilities);
+  risk.object_class = track.objectClass();
   risk.mode = likeliestMode(track);
   const BodySize host_size = options_.vehicle.size();
   const BodySize size = sizeOf(track, options_.default_size);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/risk/object_futures.h"
@@ -33,7 +32,7 @@ BodyPath straightPath(const Track& track, const BodyPath& times) {
 ObjectRisk riskOf(const Track& track) {
   ObjectRisk risk;
   risk.id = track.id;
-  risk.object_class = mostLikelyClass(track.class_probabilities);
+  risk.object_class = track.objectClass();
   risk.mode = likeliestMode(track);
   return risk;
 }

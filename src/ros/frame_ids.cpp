@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/frame_ids.h"
 
+#include <algorithm>
+
 namespace datmo {
 
-std::string withoutSlash(const std::string& frame) {
-  const std::size_t start = frame.find_first_not_of('/');
-  return start == std::string::npos ? "" : frame.substr(start);
+std::string withoutSlash(const std::string& frame) { return std::string(plainName(frame)); }
+
+std::string_view plainName(std::string_view frame) {
+  frame.remove_prefix(std::min(frame.find_first_not_of('/'), frame.size()));
+  return frame;
 }
 
 void noteSlash(const std::string& input, const std::string& slashed, StageMonitor& monitor) {

@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/transform_buffer.h"
 
 #include <cmath>
+#include <string_view>
 
 #include <tf2/LinearMath/Vector3.h>
 
@@ -25,30 +26,35 @@ constexpr double kMountTolerance = 2e-3;
 /// Tolerance of the squared length of a quaternion, as in tf2.
 constexpr double kQuaternionTolerance = 1e-2;
 
+/// For messages: both frames, each between `quotes`.
+std::string nameOf(const geometry_msgs::TransformStamped& stamped, const std::string& quote = "") {
+  return quote + withoutSlash(stamped.header.frame_id) + quote + " -> " + quote +
+         withoutSlash(stamped.child_frame_id) + quote;
+}
+
 /// Throws InputError for a transform that is not a rigid motion, or has an invalid stamp.
 void check(const geometry_msgs::TransformStamped& stamped) {
   checkStampRange(stamped.header.stamp);
   const auto& t = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
-  const std::string parent = withoutSlash(stamped.header.frame_id);
-  const std::string child = withoutSlash(stamped.child_frame_id);
-  const std::string name = parent + " -> " + child;
+  const std::string_view parent = plainName(stamped.header.frame_id);
+  const std::string_view child = plainName(stamped.child_frame_id);
   if (parent.empty() || child.empty() || parent == child) {
-    throw InputError("bad_transform", "transform '" + parent + "' -> '" + child +
-                                          "': expected two frames with names; ignores it");
+    throw InputError("bad_transform", "transform " + nameOf(stamped, "'") +
+                                          ": expected two frames with names; ignores it");
   }
   for (const double coordinate : {t.x, t.y, t.z}) {
     if (!(std::abs(coordinate) <= kMaxCoordinate)) {
-      throw InputError("bad_transform", "transform " + name + " has a coordinate of " +
+      throw InputError("bad_transform", "transform " + nameOf(stamped) + " has a coordinate of " +
                                             std::to_string(coordinate) +
                                             " m: expected one within 20000 km; ignores it");
     }
   }
   const double squared_length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (!(std::abs(squared_length - 1.0) <= kQuaternionTolerance)) {
-    throw InputError("bad_transform", "transform " + name + " has a quaternion of length " +
-                                          std::to_string(std::sqrt(squared_length)) +
-                                          ": expected 1; ignores it");
+    throw InputError("bad_transform",
+                     "transform " + nameOf(stamped) + " has a quaternion of length " +
+                         std::to_string(std::sqrt(squared_length)) + ": expected 1; ignores it");
   }
 }
 

@@ -130,7 +130,7 @@ TargetScores scoresOf(const Target& target, const AssociationScan& scan, double 
 void addCandidate(const Target& target, const AssociationScan& scan, std::size_t index,
                   const AssociationOptions& options, TargetScores& scores) {
   const Observation& observation = scan.observations[index];
-  const double same_class = target.sameClassProbability(observation.object);
+  const double same_class = target.sameClassProbability(observation);
   if (same_class < options.min_same_class) {
     return;
   }

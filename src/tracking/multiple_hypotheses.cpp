@@ -5,7 +5,6 @@
 #include <cassert>
 #include <utility>
 
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/disjoint_sets.h"
 
 namespace datmo {
@@ -181,10 +180,9 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
     }
     --room_;
     TrackTree tree;
-    tree.leaves.emplace_back(
-        Leaf::Nodes{next_node_++}, observation.object, object, next_number_ + object,
-        target_options_,
-        scan.transitionsOf(mostLikelyClass(observation.object.class_probabilities)));
+    tree.leaves.emplace_back(Leaf::Nodes{next_node_++}, observation.object, object,
+                             next_number_ + object, target_options_,
+                             scan.transitionsOf(observation.object.objectClass()));
     next.push_back(singleTarget(std::move(tree)));
   }
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "datmo_fusion/assignment/assignment.h"
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/disjoint_sets.h"
 
 namespace datmo {
@@ -97,9 +96,9 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
       ++counts_.refused_births;
       continue;
     }
-    targets_.emplace_back(std::make_unique<Target>(
-        observation.object, object, next_number_ + object, target_options_,
-        scan.transitionsOf(mostLikelyClass(observation.object.class_probabilities))));
+    targets_.emplace_back(
+        std::make_unique<Target>(observation.object, object, next_number_ + object, target_options_,
+                                 scan.transitionsOf(observation.object.objectClass())));
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/hypothesis_pruning.h"
 
 namespace datmo {
@@ -150,9 +149,9 @@ TrackTree PlannedCluster::grow(const PlannedTree& plan) {
 
 void PlannedCluster::startTarget(const PlannedLeaf& leaf, TrackTree& tree) const {
   const Object& object = context_.scan.observations[leaf.observation].object;
-  tree.leaves.emplace_back(
-      leaf.nodes, object, leaf.observation, context_.first_number + leaf.observation,
-      context_.target, context_.scan.transitionsOf(mostLikelyClass(object.class_probabilities)));
+  tree.leaves.emplace_back(leaf.nodes, object, leaf.observation,
+                           context_.first_number + leaf.observation, context_.target,
+                           context_.scan.transitionsOf(object.objectClass()));
 }
 
 void PlannedCluster::continueTarget(Target& target, std::size_t observation, double seen) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/square.h"
@@ -22,8 +23,7 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
   estimate.covariance.topLeftCorner<2, 2>() = measured.covariance;
   estimate.covariance.diagonal().segment<2>(2).setConstant(options.birth_speed_std *
                                                            options.birth_speed_std);
-  const double acceleration =
-      options.filter.motionOf(mostLikelyClass(object.class_probabilities)).acceleration_std;
+  const double acceleration = options.filter.motionOf(object.objectClass()).acceleration_std;
   estimate.covariance.diagonal().tail<2>().setConstant(acceleration * acceleration);
   return {carriedOn(estimate, -measured.delay), priorModeProbabilities(options.filter),
           transitions};
@@ -173,13 +173,11 @@ double Target::trackedVelocityEvidence(double false_motion, const TargetOptions&
                           false_motion, options);
 }
 
-double Target::sameClassProbability(const Object& object) const {
-  if (!indicatesClass(object.class_probabilities)) {
-    return kChanceOfClass;  // as for all objects of a scanner alone: computed for each pair
-  }
+double Target::sameClassProbability(const Observation& observation) const {
+  const std::optional<ClassProbabilities>& observed = observation.class_likelihoods;
   const ClassProbabilities& own = class_.probabilities();
-  const ClassProbabilities observed = classLikelihoods(object.class_probabilities);
-  return std::inner_product(own.begin(), own.end(), observed.begin(), 0.0);
+  return observed ? std::inner_product(own.begin(), own.end(), observed->begin(), 0.0)
+                  : kChanceOfClass;
 }
 
 void Target::confirm(std::uint64_t order, bool moves) {

@@ -178,7 +178,7 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   const SeenBox seen = seenFrom(heading_, object);
   const Eigen::Vector2d share = sharesOf(seen, size_, anchor_share_);
   const Point2 before = offset();
-  const ObjectClass object_class = mostLikelyClass(object.class_probabilities);
+  const ObjectClass object_class = object.objectClass();
   size_.classify(object_class, probabilityOf(object_class, object.class_probabilities));
   // The apparent width of a rotated box is partly its length.
   const double slant_variance = std::min(object.heading_variance, kUnknownAxisVariance);

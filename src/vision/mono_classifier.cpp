@@ -197,7 +197,7 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
     }
     alone->sensors = {kSensor};
     alone->class_probabilities = probabilities(detections[i]);
-    const ObjectClass most_likely = mostLikelyClass(alone->class_probabilities);
+    const ObjectClass most_likely = alone->objectClass();
     if (most_likely != ObjectClass::kUnknown &&
         probabilityOf(most_likely, alone->class_probabilities) >= options_.min_alone) {
       result.list.objects.push_back(std::move(*alone));
@@ -258,7 +258,7 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
   // So that it is not associated with a moving object where the scanner's is static.
   classified.dynamic_state = object.dynamic_state;
   classified.class_probabilities = probabilities(detection);
-  if (mostLikelyClass(classified.class_probabilities) != ObjectClass::kUnknown) {
+  if (classified.objectClass() != ObjectClass::kUnknown) {
     result.list.objects.push_back(std::move(classified));
     ++result.classified;
   }

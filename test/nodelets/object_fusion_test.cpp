@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/seen_object.h"
 #include "source_lists.h"
 #include <gtest/gtest.h>
 
@@ -22,16 +23,6 @@ constexpr double kCarAhead = 20.0;    // m, of a car that is as fast as the vehi
 constexpr double kPoleAhead = 200.0;  // m, of a pole when the drive starts, which stereo alone sees
 constexpr double kPoleLeft = 15.0;    // m
 
-Object seen(const std::string& sensor, const Box2& box) {
-  Object object;
-  object.box = box;
-  object.position_covariance = 0.04 * Eigen::Matrix2d::Identity();
-  object.heading_variance = 0.01;
-  object.side_variance.fill(0.01);
-  object.sensors = {sensor};
-  return object;
-}
-
 /// The sensors' lists and the odometry for the nodelet, and its output.
 class Lists : public SourceLists<ObjectArray> {
  public:
@@ -39,10 +30,10 @@ class Lists : public SourceLists<ObjectArray> {
 
   static ObjectArray listOf(const std::string& sensor, double seconds) {
     ObjectList list{Stamp::fromSeconds(kStart + seconds), {}, {}};
-    list.objects.push_back(seen(sensor, {{kCarAhead, 0.0, 0.0}, 4.0, 1.8}));
+    list.objects.push_back(samples::seenObject(sensor, {{kCarAhead, 0.0, 0.0}, 4.0, 1.8}));
     if (sensor == "stereo") {
       const double ahead = kPoleAhead - kSpeed * seconds;
-      list.objects.push_back(seen(sensor, {{ahead, kPoleLeft, 0.0}, 0.2, 0.2}));
+      list.objects.push_back(samples::seenObject(sensor, {{ahead, kPoleLeft, 0.0}, 0.2, 0.2}));
     }
     return toMessage(list, "base_link");
   }

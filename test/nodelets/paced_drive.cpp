@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "ros/seen_object.h"
 #include <unistd.h>
 
 #include <ros/callback_queue.h>
@@ -34,13 +35,8 @@ ObjectArray rowsOfObjects(int count, Stamp stamp) {
   constexpr double kSpacing = 6.0;  // m
   ObjectList list{stamp, {}, {}};
   for (int i = 0; i < count; ++i) {
-    Object object;
-    object.box = {{kSpacing * (1 + i / kRow), kSpacing * (i % kRow - kRow / 2), 0.0}, 4.0, 1.8};
-    object.position_covariance = 0.04 * Eigen::Matrix2d::Identity();
-    object.heading_variance = 0.01;
-    object.side_variance.fill(0.01);
-    object.sensors = {"stereo"};
-    list.objects.push_back(object);
+    const Pose2 center(kSpacing * (1 + i / kRow), kSpacing * (i % kRow - kRow / 2), 0.0);
+    list.objects.push_back(samples::seenObject("stereo", {center, 4.0, 1.8}));
   }
   return toMessage(list, "base_link");
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/point_field.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
@@ -44,21 +45,12 @@ double rangeTo(const Point2& a, const Point2& b, const Pose2& ray) {
   return x > 0.0 ? x : std::numeric_limits<double>::infinity();
 }
 
-sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
-  sensor_msgs::PointField field;
-  field.name = name;
-  field.offset = offset;
-  field.datatype = sensor_msgs::PointField::FLOAT32;
-  field.count = 1;
-  return field;
-}
-
 /// Three numbers per point.
 sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double seconds) {
   sensor_msgs::PointCloud2 message;
   message.header.stamp = toTime(stampAt(seconds));
   message.header.frame_id = "camera";
-  message.fields = {field("x", 0), field("y", 4), field("z", 8)};
+  message.fields = floatFields({"x", "y", "z"});
   message.point_step = 12;
   message.height = 1;
   message.width = static_cast<std::uint32_t>(numbers.size() / 3);

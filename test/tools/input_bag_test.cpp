@@ -218,6 +218,33 @@ std::string readingOf(const std::string& file, const RawMessage<nav_msgs::Occupa
   }
 }
 
+TEST_F(InputBag, AnotherTypeAndAnotherVersionOfATypeAreNamed) {
+  const auto written_as = [this](const std::string& type, const std::string& checksum) {
+    const nav_msgs::OccupancyGrid map;
+    const auto header = boost::make_shared<ros::M_string>();
+    *header = {{"type", type},
+               {"md5sum", checksum},
+               {"message_definition", ros::message_traits::definition(map)}};
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.write("/map", ros::Time(7.5), map, header);
+  };
+  const auto reading = [this] {
+    return messageOf([this] {
+      rosbag::Bag bag(file_);
+      rosbag::View view(bag);
+      read<nav_msgs::OccupancyGrid>(*view.begin());
+    });
+  };
+  written_as("nav_msgs/OccupancyGrid", ros::message_traits::md5sum<nav_msgs::OccupancyGrid>());
+  EXPECT_EQ(reading(), "");
+  written_as("nav_msgs/OccupancyGrid", std::string(32, '0'));
+  EXPECT_EQ(reading(),
+            "/map is another version of nav_msgs/OccupancyGrid, expected ours; doc/interfaces.md "
+            "says what 'rosbag fix' converts");
+  written_as("nav_msgs/Grid", std::string(32, '0'));
+  EXPECT_EQ(reading(), "/map is nav_msgs/Grid, expected nav_msgs/OccupancyGrid");
+}
+
 TEST_F(InputBag, AMessageIsReadAsItWasWritten) {
   nav_msgs::OccupancyGrid map;
   map.data.assign(9, 100);

@@ -7,6 +7,8 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/point_field.h"
+
 namespace datmo::run_bag_cloud_test {
 namespace {
 
@@ -32,14 +34,7 @@ sensor_msgs::PointCloud2 cloudAt(Stamp stamp) {
   const std::vector<float> numbers = pointsOf(scan);
   sensor_msgs::PointCloud2 cloud;
   cloud.header = scan.header;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(cloud.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-  }
+  cloud.fields = floatFields({"x", "y", "z"});
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(numbers.size() / 3);
   cloud.point_step = 3 * sizeof(float);

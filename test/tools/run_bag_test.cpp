@@ -140,7 +140,9 @@ TEST_F(RunBag, MissingOdometryIsAnErrorUnlessTheOptionsAllowIt) {
 TEST_F(RunBag, TopicOfAnotherTypeIsNamed) {
   arguments_.remappings["/odometry"] = "/tf_static";
   const std::string message = failure();
-  EXPECT_TRUE(holds(message, "/tf_static is tf2_msgs/TFMessage, expected nav_msgs/Odometry"))
+  EXPECT_TRUE(holds(message,
+                    "as wrong_type (/tf_static is tf2_msgs/TFMessage, expected "
+                    "nav_msgs/Odometry)"))
       << message;
 }
 

@@ -9,7 +9,10 @@ import numpy as np
 import simulated_recording as simulated
 from check_bag_case import Tool, each, masked, of_topic, ranges, shifted, without
 from geometry_msgs.msg import AccelWithCovarianceStamped
+from old_objects import old_types
 from sensor_msgs.msg import JointState, PointCloud2, PointField
+
+from datmo_fusion.msg import ObjectArray
 
 
 class Scans(Tool):
@@ -164,6 +167,17 @@ class Cameras(Tool):
         _, _, content = self.run_tool(items)
         self.assert_finds("pair_offset", items)
         self.assertTrue(content["stereo_image_proc"]["approximate_sync"])
+
+
+class Definitions(Tool):
+    def test_messages_of_another_version_are_named(self):
+        old = old_types(ObjectArray)[ObjectArray._type]()
+        items = simulated.recording()
+        items.append(simulated.Item(1.0, "/old_objects", old))
+        items.append(simulated.Item(1.0, "/objects", ObjectArray()))
+        _, out, _ = self.run_tool(items, code=0)
+        self.assertIn("/old_objects: is another version of datmo_fusion/ObjectArray", out)
+        self.assertEqual(out.count("is another version"), 1, out)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ PACKED = {
     b"\x28\xb5\x2f\xfd": "unzstd",
     b"7z\xbc\xaf\x27\x1c": "7z x",
 }
+OTHER_VERSION_ADVICE = "doc/interfaces.md says what 'rosbag fix' converts"
 MAX_NAMES = 3  # of the bags in a folder that a message lists
 
 
@@ -59,6 +60,20 @@ def opened(path):
         genpy.MessageException,
     ) as error:
         raise InputError(f"{path}: cannot be read as a bag ({_reason(error)})") from error
+
+
+def check_type(path, topic, message, kind):
+    """Raises InputError if a message of a bag is not of a type (its class), or another version."""
+    # pylint: disable=protected-access
+    if message._type != kind._type:
+        raise InputError(f"{path}: {topic} is {message._type}, expected {kind._type}")
+    if message._md5sum != kind._md5sum:
+        raise InputError(f"{path}: {topic} is {other_version(kind._type)}; {OTHER_VERSION_ADVICE}")
+
+
+def other_version(datatype):
+    """Returns what messages of this type are whose definition is not the installed one."""
+    return f"another version of {datatype}, expected ours"
 
 
 def fault_of(path):

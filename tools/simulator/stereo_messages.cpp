@@ -8,6 +8,7 @@
 #include <sensor_msgs/distortion_models.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/convert/point_field.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::simulator {
@@ -15,15 +16,6 @@ namespace datmo::simulator {
 namespace {
 
 const char* const kFrame = "stereo_left_optical";
-
-sensor_msgs::PointField floatField(const std::string& name, std::uint32_t offset) {
-  sensor_msgs::PointField field;
-  field.name = name;
-  field.offset = offset;
-  field.datatype = sensor_msgs::PointField::FLOAT32;
-  field.count = 1;
-  return field;
-}
 
 }  // namespace
 
@@ -47,15 +39,14 @@ geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stam
 }
 
 sensor_msgs::PointCloud2 toCloud(const StereoPoints& points, Stamp stamp) {
-  constexpr std::uint32_t kFloat = sizeof(float);
   sensor_msgs::PointCloud2 message;
   message.header.stamp = toTime(stamp);
   message.header.frame_id = kFrame;
   message.height = 1;
   message.width = static_cast<std::uint32_t>(points.points.size());
-  message.fields = {floatField("x", 0), floatField("y", kFloat), floatField("z", 2 * kFloat)};
+  message.fields = floatFields({"x", "y", "z"});
   message.is_bigendian = 0U;
-  message.point_step = 3 * kFloat;
+  message.point_step = 3 * sizeof(float);
   message.row_step = message.point_step * message.width;
   message.is_dense = 1U;
   message.data.resize(message.row_step);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/object.h"
@@ -17,16 +18,13 @@ double probabilityOf(ObjectClass object_class, const ClassProbabilities& probabi
 /// 1) that it is right; all 0 for kUnknown.
 ClassProbabilities reportedClass(ObjectClass object_class, double probability);
 
-/// Returns whether an observation (Object::class_probabilities) is evidence for a class: the most
-/// likely one is known, and likelier than by chance (one in kObjectClasses).
-bool indicatesClass(const ClassProbabilities& observed);
-
 /// Returns the likelihood of an observation (Object::class_probabilities) for each class,
-/// normalized to sum 1; all equal if it does not indicate a class. Probability mass that is missing
+/// normalized to sum 1; none if it is no evidence for a class: the most likely one is unknown, or
+/// not likelier than by chance (one in kObjectClasses). Probability mass that is missing
 /// to 1 is spread evenly over all classes but the most likely one. Objects of unknown class cause
 /// the observation as often, on average, as those of known classes other than the most likely one:
 /// that an object is none of the known classes is expressed by its existence probability instead.
-ClassProbabilities classLikelihoods(const ClassProbabilities& observed);
+std::optional<ClassProbabilities> classLikelihoods(const ClassProbabilities& observed);
 
 /// Returns the combined belief of independent ones (Bayes), in any order. Each started from a
 /// uniform prior, so their product is the posterior. As in ClassBelief, no class becomes
@@ -63,8 +61,8 @@ class ClassBelief {
  public:
   ClassBelief();
 
-  /// Updates with one observation: Object::class_probabilities. One that does not indicate a class
-  /// is ignored.
+  /// Updates with one observation: Object::class_probabilities. One without classLikelihoods() is
+  /// ignored.
   void update(const ClassProbabilities& observed);
 
   const ClassProbabilities& probabilities() const { return probabilities_; }

@@ -78,6 +78,9 @@ struct Object {
   double delay = 0.0;
   std::vector<std::string> sensors;  ///< that detected it
   std::vector<Point2> points;        ///< m, frame of the list
+
+  /// Returns its most likely class; kUnknown if nothing is known.
+  ObjectClass objectClass() const;
 };
 
 /// The field of view of one source of objects.

@@ -12,7 +12,10 @@ namespace datmo {
 
 inline constexpr double kMaxCoordinate = 2.0e7;  ///< m, half of the earth's circumference
 inline constexpr double kMaxExtent = 1000.0;     ///< m, size of an object: longer than any train
-inline constexpr double kMaxRate = 1000.0;       ///< m/s, m/s^2, rad/s, of anything that is tracked
+/// m, of a scanner's beam: no vehicle's scanner reaches farther; drivers also use arbitrarily large
+/// numbers for "no limit" and "no return".
+inline constexpr double kMaxReach = 1000.0;
+inline constexpr double kMaxRate = 1000.0;  ///< m/s, m/s^2, rad/s, of anything that is tracked
 inline constexpr double kMaxBearing = 2.0 * kTurn;  ///< rad: drivers count from 0 or from -pi
 inline constexpr double kMaxSweep = 10.0;           ///< s, from a scan's first beam to its last
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <boost/make_shared.hpp>
 #include <tf2_msgs/TFMessage.h>
@@ -18,6 +19,9 @@ namespace datmo {
 
 /// Returns a frame's name without leading slash, which recordings from before tf2 have.
 std::string withoutSlash(const std::string& frame);
+
+/// The same as a part of `frame`, which must outlive it: not copied.
+std::string_view plainName(std::string_view frame);
 
 namespace detail {
 

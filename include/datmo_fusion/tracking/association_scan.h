@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/center_gate.h"
@@ -17,7 +19,18 @@ namespace datmo {
 /// A possible measurement of one target in one scan: an object of the scan; several of them that
 /// are parts of one object; or a part of an object that consists of several.
 struct Observation {
-  Object object;                     ///< fixed frame
+  Observation(Object seen, std::vector<std::size_t> made_from, double density = 0.0,
+              bool may_start = true, bool must_belong = false)
+      : object(std::move(seen)),
+        class_likelihoods(classLikelihoods(object.class_probabilities)),
+        sources(std::move(made_from)),
+        log_density(density),
+        starts_target(may_start),
+        needs_target(must_belong) {}
+
+  Object object;  ///< fixed frame
+  /// classLikelihoods() of the object, computed once for all targets.
+  std::optional<ClassProbabilities> class_likelihoods;
   std::vector<std::size_t> sources;  ///< the scan's objects that it was made from, ascending
   double log_density = 0.0;          ///< log of the density of such objects of no target, 1/m^2
   bool starts_target = true;         ///< if it belongs to none

@@ -94,7 +94,7 @@ class Target {
 
   /// Returns the probability that an object is of this target's class, by the classes reported for
   /// both; if a class is unknown, it is chance: one in kObjectClasses.
-  double sameClassProbability(const Object& object) const;
+  double sameClassProbability(const Observation& observation) const;
 
   /// Returns the probability that it moves and exists, given its position, its velocity, and the
   /// beams of recent scans at its positions; `now`: the time of its state. Without beams, as for a

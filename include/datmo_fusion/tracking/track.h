@@ -63,6 +63,9 @@ struct Track {
   std::vector<std::size_t> objects;  ///< indices in the current list; empty while coasting
   std::vector<PathPoint> history;    ///< oldest first, current pose last
   std::vector<SourceTrack> sources;  ///< if it was fused from several sources
+
+  /// Returns its most likely class; kUnknown if nothing is known.
+  ObjectClass objectClass() const { return mostLikelyClass(class_probabilities); }
 };
 
 struct TrackList {

@@ -38,8 +38,7 @@ ClassBelief beliefOf(const Object& object) {
 
 /// False if both classes are known and differ.
 bool mayBeOfOneClass(const Object& a, const Object& b) {
-  return beliefOf(a).compatible(mostLikelyClass(b.class_probabilities)) ||
-         beliefOf(b).compatible(mostLikelyClass(a.class_probabilities));
+  return beliefOf(a).compatible(b.objectClass()) || beliefOf(b).compatible(a.objectClass());
 }
 
 /// An object that the scan knows to be static does not match one that may move: a person beside a

@@ -212,12 +212,12 @@ double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a
 }  // namespace
 
 void combineClass(const Object& a, const Object& b, Object& result) {
-  const ClassProbabilities& of_a = a.class_probabilities;
-  const ClassProbabilities& of_b = b.class_probabilities;
-  if (indicatesClass(of_a) && indicatesClass(of_b)) {
-    result.class_probabilities = jointBelief({classLikelihoods(of_a), classLikelihoods(of_b)});
-  } else if (indicatesClass(of_a) || indicatesClass(of_b)) {
-    result.class_probabilities = indicatesClass(of_a) ? of_a : of_b;
+  const std::optional<ClassProbabilities> of_a = classLikelihoods(a.class_probabilities);
+  const std::optional<ClassProbabilities> of_b = classLikelihoods(b.class_probabilities);
+  if (of_a && of_b) {
+    result.class_probabilities = jointBelief({*of_a, *of_b});
+  } else if (of_a || of_b) {
+    result.class_probabilities = of_a ? a.class_probabilities : b.class_probabilities;
   } else {
     result.class_probabilities = {};
   }

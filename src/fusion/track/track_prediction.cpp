@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
@@ -30,7 +29,7 @@ void TrackPredictionOptions::visit(OptionVisitor& visitor) {
 }
 
 LinearMotion motionOf(const Track& track, double seconds, const TrackPredictionOptions& options) {
-  const TargetMotionOptions& motion = options.motionOf(mostLikelyClass(track.class_probabilities));
+  const TargetMotionOptions& motion = options.motionOf(track.objectClass());
   const double yaw_rate = track.moving ? track.yaw_rate : 0.0;
   LinearMotion result = seconds < 0.0 ? timeReversed(coordinatedTurn(-yaw_rate, motion, -seconds))
                                       : coordinatedTurn(yaw_rate, motion, seconds);

@@ -7,19 +7,11 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/point_field.h"
 
 namespace datmo {
 
 namespace {
-
-sensor_msgs::PointField fieldOf(const char* name, std::size_t offset, std::uint8_t type) {
-  sensor_msgs::PointField field;
-  field.name = name;
-  field.offset = static_cast<std::uint32_t>(offset);
-  field.datatype = type;
-  field.count = 1;
-  return field;
-}
 
 std::int8_t statusOf(SatelliteFix::Kind kind) {
   using sensor_msgs::NavSatStatus;
@@ -57,16 +49,16 @@ sensor_msgs::LaserScanPtr toMessage(const DeviceScan& scan, Stamp stamp, const s
 
 sensor_msgs::PointCloud2Ptr toMessage(const DeviceCloud& cloud, Stamp stamp,
                                       const std::string& frame) {
-  using sensor_msgs::PointField;
   auto message = boost::make_shared<sensor_msgs::PointCloud2>();
   message->header.stamp = toTime(stamp);
   message->header.frame_id = frame;
-  message->fields = {fieldOf("x", offsetof(CloudPoint, x), PointField::FLOAT32),
-                     fieldOf("y", offsetof(CloudPoint, y), PointField::FLOAT32),
-                     fieldOf("z", offsetof(CloudPoint, z), PointField::FLOAT32),
-                     fieldOf("intensity", offsetof(CloudPoint, intensity), PointField::FLOAT32),
-                     fieldOf("ring", offsetof(CloudPoint, ring), PointField::UINT16),
-                     fieldOf("time", offsetof(CloudPoint, time), PointField::FLOAT32)};
+  message->fields = {
+      pointField("x", offsetof(CloudPoint, x)),
+      pointField("y", offsetof(CloudPoint, y)),
+      pointField("z", offsetof(CloudPoint, z)),
+      pointField("intensity", offsetof(CloudPoint, intensity)),
+      pointField("ring", offsetof(CloudPoint, ring), sensor_msgs::PointField::UINT16),
+      pointField("time", offsetof(CloudPoint, time))};
   message->height = 1;
   message->width = static_cast<std::uint32_t>(cloud.points.size());
   message->point_step = sizeof(CloudPoint);

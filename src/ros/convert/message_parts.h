@@ -25,10 +25,6 @@
 
 namespace datmo {
 
-/// No vehicle's scanner has a longer range (m); drivers also use arbitrarily large numbers for "no
-/// limit" and "no return".
-inline constexpr float kMaxReach = 1000.0F;
-
 template <typename Values>
 std::vector<float> toFloats(const Values& values) {
   std::vector<float> result;

@@ -100,6 +100,9 @@ float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float reach) 
   return hit || no_return ? nearest : std::numeric_limits<float>::quiet_NaN();
 }
 
+/// The largest range (m) that counts as a hit.
+float reachOf(float range_max) { return std::min(range_max, static_cast<float>(kMaxReach)); }
+
 Ray rayAt(double bearing, double range, const ScannerMount& mount) {
   Ray ray;
   const Pose2& scanner = mount.scanner_in_base;
@@ -119,7 +122,7 @@ ScanField fieldOf(const Message& message, const ScannerMount& mount, double time
   field.beam_spacing = side * message.angle_increment;
   field.beams = static_cast<std::uint32_t>(message.ranges.size());
   field.min_range = message.range_min;
-  field.range = std::min(message.range_max, kMaxReach);
+  field.range = reachOf(message.range_max);
   field.free_range = std::min(options.free_range, field.range);
   field.beam_time = time_increment;
   return field;
@@ -139,7 +142,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   scan.scanner_in_base = mount.scanner_in_base;
   scan.field = fieldOf(message, mount, time_increment, options);
   scan.rays.reserve(message.ranges.size());
-  const float reach = std::min(message.range_max, kMaxReach);
+  const float reach = reachOf(message.range_max);
   const double free_range = scan.field.free_range;
   for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
     const float range = rangeOf(message.ranges[beam], message.range_min, reach);

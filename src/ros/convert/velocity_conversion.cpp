@@ -9,6 +9,7 @@
 #include "message_parts.h"
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/convert/point_field.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
@@ -97,14 +98,7 @@ sensor_msgs::PointCloud2Ptr toMessage(const std::vector<PointVelocity>& points, 
   message->header = header(stamp, frame);
   message->height = 1;
   message->width = static_cast<std::uint32_t>(points.size());
-  for (const char* name : kFields) {
-    PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(message->fields.size() * sizeof(float));
-    field.datatype = PointField::FLOAT32;
-    field.count = 1;
-    message->fields.push_back(field);
-  }
+  message->fields = floatFields({kFields.begin(), kFields.end()});
   message->point_step = sizeof(Values);
   message->row_step = message->point_step * message->width;
   message->is_dense = 1U;

@@ -6,8 +6,6 @@
 #include "made_road_users.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/class_belief.h"
-
 namespace datmo::camera_consistency_test {
 namespace {
 
@@ -79,8 +77,7 @@ TEST(StereoObjectDetector, DepthCamerasFindAPersonAndKnowHowWell) {
     scene.depth_noise = noise;
     const std::vector<Object> objects = objectsIn(scene, ofARoom());
     ASSERT_EQ(objects.size(), 1U) << noise.constant;
-    EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kPedestrian)
-        << noise.constant;
+    EXPECT_EQ(objects[0].objectClass(), ObjectClass::kPedestrian) << noise.constant;
     const Consistency consistency =
         consistencyOf(scene, 4.0, ofARoom(),
                       [](MadeScene& shaken, double sigmas) { shaken.depth_bias = sigmas; });
@@ -98,7 +95,7 @@ TEST(StereoObjectDetector, WithoutBaselineNothingIsHiddenFromASecondCamera) {
   MadeScene scene = sceneOf({pedestrianAt(3.0, -0.625), carAt(12.0, 0.0)});
   const auto rightOfTheCar = [](const std::vector<Object>& objects) {
     const auto car = std::find_if(objects.begin(), objects.end(), [](const Object& object) {
-      return mostLikelyClass(object.class_probabilities) == ObjectClass::kVehicle;
+      return object.objectClass() == ObjectClass::kVehicle;
     });
     return car == objects.end() ? -1.0 : rightOf(*car).variance;
   };

@@ -8,8 +8,6 @@
 #include "lidar_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/class_belief.h"
-
 namespace datmo::cloud_object_detector_test {
 namespace {
 
@@ -60,9 +58,9 @@ TEST(CloudObjectDetectorTest, TwoCarsAndAPedestrianOnARoad) {
   auto& objects = found.list.objects;
   std::sort(objects.begin(), objects.end(),
             [](const Object& a, const Object& b) { return a.box.center.x() < b.box.center.x(); });
-  EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kPedestrian);
-  EXPECT_EQ(mostLikelyClass(objects[1].class_probabilities), ObjectClass::kVehicle);
-  EXPECT_EQ(mostLikelyClass(objects[2].class_probabilities), ObjectClass::kVehicle);
+  EXPECT_EQ(objects[0].objectClass(), ObjectClass::kPedestrian);
+  EXPECT_EQ(objects[1].objectClass(), ObjectClass::kVehicle);
+  EXPECT_EQ(objects[2].objectClass(), ObjectClass::kVehicle);
   EXPECT_EQ(objects[2].sensors, std::vector<std::string>{"cloud"});
   EXPECT_NEAR(objects[2].height, 1.5, 0.1);
 }

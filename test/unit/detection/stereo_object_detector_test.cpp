@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/common/class_belief.h"
 
 namespace datmo::stereo_object_detector_test {
 namespace {
@@ -19,7 +18,7 @@ TEST(StereoObjectDetector, FindsACarAhead) {
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(10.0, 0.0)}));
   ASSERT_EQ(objects.size(), 1U);
   const Object& car = objects.front();
-  EXPECT_EQ(mostLikelyClass(car.class_probabilities), ObjectClass::kVehicle);
+  EXPECT_EQ(car.objectClass(), ObjectClass::kVehicle);
   EXPECT_GT(car.class_probabilities[static_cast<std::size_t>(ObjectClass::kVehicle)], 0.5);
   EXPECT_NEAR(car.height, 1.5, 0.1);
   EXPECT_NEAR(-rearOf(car).position, 10.0, 0.1);
@@ -40,7 +39,7 @@ TEST(StereoObjectDetector, FindsACarFarAwayInNoise) {
   const std::vector<Object> objects = objectsIn(scene);
   ASSERT_EQ(objects.size(), 1U);
   const Object& car = objects.front();
-  EXPECT_EQ(mostLikelyClass(car.class_probabilities), ObjectClass::kVehicle);
+  EXPECT_EQ(car.objectClass(), ObjectClass::kVehicle);
   const double sigma = std::sqrt(car.position_covariance(0, 0) + rearOf(car).variance);
   EXPECT_NEAR(-rearOf(car).position, 25.0, 3.0 * sigma);
   EXPECT_LT(sigma, 1.0);
@@ -51,9 +50,9 @@ TEST(StereoObjectDetector, DistinguishesPedestrianCyclistAndPole) {
       objectsIn(sceneOf({pedestrianAt(10.0, 3.0), boxAt(10.0, 0.0, {0.6, 1.6, 1.75}),
                          boxAt(10.0, -3.0, {0.15, 0.15, 4.0})}));
   ASSERT_EQ(objects.size(), 3U);
-  EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kPedestrian);
-  EXPECT_EQ(mostLikelyClass(objects[1].class_probabilities), ObjectClass::kCyclist);
-  EXPECT_EQ(mostLikelyClass(objects[2].class_probabilities), ObjectClass::kPole);
+  EXPECT_EQ(objects[0].objectClass(), ObjectClass::kPedestrian);
+  EXPECT_EQ(objects[1].objectClass(), ObjectClass::kCyclist);
+  EXPECT_EQ(objects[2].objectClass(), ObjectClass::kPole);
 }
 
 TEST(StereoObjectDetector, LeavesOutWallsHousesAndCurbs) {
@@ -150,8 +149,8 @@ TEST(StereoObjectDetector, APedestrianNextToAPoleIsSeparate) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({pedestrianAt(10.0, 0.5), boxAt(10.0, 0.05, {0.2, 0.2, 4.5})}));
   ASSERT_EQ(objects.size(), 2U);
-  EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kPedestrian);
-  EXPECT_EQ(mostLikelyClass(objects[1].class_probabilities), ObjectClass::kPole);
+  EXPECT_EQ(objects[0].objectClass(), ObjectClass::kPedestrian);
+  EXPECT_EQ(objects[1].objectClass(), ObjectClass::kPole);
 }
 
 TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
@@ -178,8 +177,8 @@ TEST(StereoObjectDetector, ThinnedCloudsShowTheSame) {
     scene.step = step;
     const std::vector<Object> objects = objectsIn(scene);
     ASSERT_EQ(objects.size(), 2U) << step;
-    EXPECT_EQ(mostLikelyClass(objects[0].class_probabilities), ObjectClass::kVehicle) << step;
-    EXPECT_EQ(mostLikelyClass(objects[1].class_probabilities), ObjectClass::kPedestrian) << step;
+    EXPECT_EQ(objects[0].objectClass(), ObjectClass::kVehicle) << step;
+    EXPECT_EQ(objects[1].objectClass(), ObjectClass::kPedestrian) << step;
     EXPECT_NEAR(-rearOf(objects[0]).position, 12.0, 0.15) << step;
     EXPECT_NEAR(objects[0].height, 1.5, 0.2) << step;
     EXPECT_NEAR(leftOf(objects[1]).position + rightOf(objects[1]).position, 0.5, 0.1) << step;

@@ -4,8 +4,6 @@
 #include "made_camera.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/class_belief.h"
-
 namespace datmo::kitti::detection_model_test {
 namespace {
 
@@ -55,7 +53,7 @@ TEST(DetectionModelTest, ClassesHaveTheirNames) {
   const auto classOf = [&](ObjectType type) {
     Detection detection = detectionAt(0.0, 20.0);
     detection.type = type;
-    return mostLikelyClass(model.object(detection, madeCamera()).class_probabilities);
+    return model.object(detection, madeCamera()).objectClass();
   };
   EXPECT_EQ(classOf(ObjectType::kCar), ObjectClass::kVehicle);
   EXPECT_EQ(classOf(ObjectType::kPedestrian), ObjectClass::kPedestrian);

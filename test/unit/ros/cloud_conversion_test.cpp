@@ -54,8 +54,8 @@ TEST(CloudConversion, PointsAreReadAtTheirOffsets) {
 
 TEST(CloudConversion, FieldsAreFoundByTheirNamesAtAnyOffset) {
   sensor_msgs::PointCloud2 message = cloud(kPoints);
-  message.fields = {samples::field("intensity", 12), samples::field("z", 0), samples::field("x", 4),
-                    samples::field("y", 8)};
+  message.fields = {pointField("intensity", 12), pointField("z", 0), pointField("x", 4),
+                    pointField("y", 8)};
   const CloudPoints points(message);
   EXPECT_EQ(points.view()[0], Eigen::Vector3f(2.0F, 3.0F, 1.0F));
 }

@@ -12,17 +12,10 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/point_field.h"
+
 /// Clouds of a stereo camera, which tests modify.
 namespace datmo::samples {
-
-inline sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
-  sensor_msgs::PointField field;
-  field.name = name;
-  field.offset = offset;
-  field.datatype = sensor_msgs::PointField::FLOAT32;
-  field.count = 1;
-  return field;
-}
 
 /// The layout of stereo_image_proc's clouds: x, y, z, 4 bytes of padding, rgb, 12 bytes of padding.
 /// One row; the points are in the optical frame, m.
@@ -30,7 +23,8 @@ inline sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points
   sensor_msgs::PointCloud2 message;
   message.header.stamp = ros::Time(kStart);
   message.header.frame_id = "camera";
-  message.fields = {field("x", 0), field("y", 4), field("z", 8), field("rgb", 16)};
+  message.fields = {pointField("x", 0), pointField("y", 4), pointField("z", 8),
+                    pointField("rgb", 16)};
   message.height = 1;
   message.width = static_cast<std::uint32_t>(points.size());
   message.point_step = 32;

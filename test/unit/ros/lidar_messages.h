@@ -30,8 +30,7 @@ template <typename Number>
 void addTimes(sensor_msgs::PointCloud2& message, const std::string& name, std::uint8_t datatype,
               const std::vector<Number>& numbers) {
   constexpr std::uint32_t kOffset = 24;
-  message.fields.push_back(field(name, kOffset));
-  message.fields.back().datatype = datatype;
+  message.fields.push_back(pointField(name, kOffset, datatype));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     std::memcpy(&message.data[i * message.point_step + kOffset], &numbers[i], sizeof(Number));
   }

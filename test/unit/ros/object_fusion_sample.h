@@ -7,6 +7,7 @@
 
 #include "fusion_stage_sample.h"
 #include "message_samples.h"
+#include "seen_object.h"
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
@@ -15,13 +16,7 @@ namespace datmo {
 
 /// A car that `sensor` saw well, ahead and to the side in the vehicle's frame (m).
 inline Object car(const std::string& sensor, double ahead, double left) {
-  Object object;
-  object.box = {{ahead, left, 0.0}, 4.0, 1.8};
-  object.position_covariance = 0.04 * Eigen::Matrix2d::Identity();
-  object.heading_variance = 0.01;
-  object.side_variance.fill(0.01);
-  object.sensors = {sensor};
-  return object;
+  return samples::seenObject(sensor, {{ahead, left, 0.0}, 4.0, 1.8});
 }
 
 class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {

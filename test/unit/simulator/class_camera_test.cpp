@@ -6,8 +6,6 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/class_belief.h"
-
 namespace datmo::simulator::class_camera_test {
 namespace {
 
@@ -29,7 +27,7 @@ std::map<ObjectClass, int> reportsOf(const std::string& kind) {
   std::map<ObjectClass, int> reports;
   for (int image = 0; image < kImages; ++image) {
     for (const Object& object : camera.measure(world, 0.0).objects) {
-      ++reports[mostLikelyClass(object.class_probabilities)];
+      ++reports[object.objectClass()];
     }
   }
   return reports;
@@ -49,8 +47,7 @@ TEST(ClassCameraTest, TheProbabilitiesOfAReportAreTheSharesOfEachClassInIt) {
   ClassCamera camera = cameraOf();
   const World world = worldWith("cyclist", {20.0, 0.0, 0.0});
   ObjectList list;
-  while (list.objects.empty() ||
-         mostLikelyClass(list.objects[0].class_probabilities) != ObjectClass::kCyclist) {
+  while (list.objects.empty() || list.objects[0].objectClass() != ObjectClass::kCyclist) {
     list = camera.measure(world, 0.0);
   }
   const ClassProbabilities& all = list.objects[0].class_probabilities;

@@ -50,6 +50,15 @@ TEST_F(AssociationScanTest, SourcesOfAUnionAreListedInTheOrderOfTheList) {
   EXPECT_EQ(scan.listedSources(3), (std::vector<std::size_t>{0, 1}));
 }
 
+TEST_F(AssociationScanTest, AnObservationHasTheClassLikelihoodsOfItsObject) {
+  Object cyclist = objectAt(1.0, 0.0);
+  cyclist.class_probabilities = reportedClass(ObjectClass::kCyclist, 0.8);
+  const AssociationScan scan = take({cyclist, objectAt(2.0, 0.0)});
+  EXPECT_EQ(scan.observations[0].class_likelihoods, classLikelihoods(cyclist.class_probabilities));
+  EXPECT_TRUE(scan.observations[0].class_likelihoods);
+  EXPECT_FALSE(scan.observations[1].class_likelihoods);
+}
+
 TEST_F(AssociationScanTest, TheOrderOfTheListDoesNotMatter) {
   std::vector<Object> objects;
   std::mt19937_64 engine(1);

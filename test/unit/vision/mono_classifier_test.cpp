@@ -52,7 +52,7 @@ TEST(MonoClassifier, ClassifiesTheScannersObject) {
   ASSERT_EQ(result.list.objects.size(), 1U);
   const Object& named = result.list.objects[0];
   EXPECT_EQ(result.list.stamp, objects.stamp);
-  EXPECT_EQ(mostLikelyClass(named.class_probabilities), ObjectClass::kPedestrian);
+  EXPECT_EQ(named.objectClass(), ObjectClass::kPedestrian);
   EXPECT_NEAR(named.class_probabilities[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.8,
               1e-9);
   EXPECT_EQ(named.sensors, std::vector<std::string>{"lidar"}) << "who saw where it is";
@@ -99,7 +99,7 @@ TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
   const MonoClassification result = classified({kPerson, kCar}, objects, options);
   ASSERT_EQ(result.list.objects.size(), 1U) << "what the scanner does not see is not there";
-  EXPECT_EQ(mostLikelyClass(result.list.objects[0].class_probabilities), ObjectClass::kPedestrian);
+  EXPECT_EQ(result.list.objects[0].objectClass(), ObjectClass::kPedestrian);
 }
 
 TEST(MonoClassifier, ObjectsThatAreNotValidAreLeftOut) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks which sensors a recording has, and what replaces those that are missing."""
 
+from datmo_tools.bag_input import OTHER_VERSION_ADVICE, other_version
 from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.yaml_text import imu_frame_without_mount
 
@@ -23,6 +24,11 @@ def check_presence(recording, roles, findings):
         findings.error(
             "undecodable", name, f"a message cannot be decoded ({why})",
             "The recording is damaged, or was written with another message definition.",
+        )  # fmt: skip
+    for name, datatype in recording.other_versions.items():
+        findings.warn(
+            "other_version", name, f"is {other_version(datatype)}: it cannot be read",
+            f"{OTHER_VERSION_ADVICE}.",
         )  # fmt: skip
 
 

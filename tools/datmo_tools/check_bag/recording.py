@@ -4,6 +4,7 @@
 import struct
 from collections import Counter
 
+import genpy
 import numpy as np
 
 from datmo_tools.check_bag.motion_signal import ImuSamples, OdometrySamples, TwistSamples
@@ -76,6 +77,7 @@ class Recording:
         self.camera_infos = {}  # topic -> list of CameraInfo
         self.transforms = TransformTable()
         self.undecoded = {}  # topic -> why
+        self.other_versions = {}  # topic -> type, recorded with another definition than ours
 
     @property
     def duration(self):
@@ -105,12 +107,20 @@ def read_recording(path, bag):
         if topic is None:
             topic = Topic(name, datatype, with_header.get(datatype, False))
             recording.topics[name] = topic
+            if _is_other_version(datatype, message[2]):
+                recording.other_versions[name] = datatype
         index = topic.count
         topic.recorded.append(1e-9 * (recorded.to_nsec() - start))
         stamp = _take_header(topic, data, start) if topic.with_header else None
         if _is_decoded(topic, index, counts.get(name, 0)):
             _decode(recording, topic, pytype, data, stamp, index)
     return recording
+
+
+def _is_other_version(datatype, checksum):
+    installed = genpy.message.get_message_class(datatype)
+    # pylint: disable=protected-access
+    return installed is not None and installed._md5sum != checksum
 
 
 def _types_with_header(bag):

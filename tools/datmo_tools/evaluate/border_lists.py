@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_fusion.msg import RoadBorder, RoadBorders, TrueRoadBorders
-from datmo_tools.bag_input import opened
+from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.stamps import NANOSECONDS
 
@@ -75,16 +75,10 @@ def read_true_borders(path):
 
 
 def _messages(path, topic, kind, expected):
-    # pylint: disable=protected-access
     messages = []
     with opened(path) as bag:
         for _, message, _ in bag.read_messages([topic]):
-            if message._type != kind._type:
-                raise InputError(f"{path}: {topic} is {message._type}, expected {kind._type}")
-            if message._md5sum != kind._md5sum:
-                raise InputError(
-                    f"{path}: {topic} has another version of {kind._type}, expected ours"
-                )
+            check_type(path, topic, message, kind)
             messages.append(message)
     if not messages:
         raise InputError(f"{path}: nothing on {topic}, expected {expected}")

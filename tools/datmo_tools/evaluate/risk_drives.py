@@ -4,7 +4,7 @@
 import numpy as np
 
 from datmo_fusion.msg import RiskArray
-from datmo_tools.bag_input import opened
+from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.risk_scores import HORIZONS, LIKELY, RiskDrive, RiskFrame, any_contact
 
@@ -22,7 +22,7 @@ def read_drive(path):
         for topic, message, _ in bag.read_messages([RISKS, CONTACT, OBJECTS]):
             time = message.header.stamp.to_sec()
             if topic == RISKS:
-                _check_type(path, message)
+                check_type(path, topic, message, RiskArray)
                 frames.append(_frame(time, message))
             elif topic == CONTACT:
                 contact = message
@@ -63,9 +63,3 @@ def _frame(time, message):
     if likeliest is not None and likeliest.contact_probability[-1] >= LIKELY:
         ttc = likeliest.median_ttc if np.isfinite(likeliest.median_ttc) else None
     return RiskFrame(time, message.level, probability, ttc)
-
-
-def _check_type(path, message):
-    # pylint: disable=protected-access
-    if message._type != RiskArray._type or message._md5sum != RiskArray._md5sum:
-        raise InputError(f"{path}: {RISKS} is {message._type} of another version, expected ours")

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_fusion.msg import Object, TrackArray
-from datmo_tools.bag_input import opened
+from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import planar
 from datmo_tools.stamps import NANOSECONDS
@@ -47,7 +47,7 @@ def read_track_lists(path, topics):
     lists = {topic: {} for topic in topics}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages(list(topics)):
-            _check_type(path, topic, message)
+            check_type(path, topic, message, TrackArray)
             stamp = message.header.stamp.to_nsec()
             if stamp in lists[topic]:
                 raise InputError(
@@ -60,14 +60,6 @@ def read_track_lists(path, topics):
                 f"{path}: nothing on {topic}, expected a bag of run_bag --track-fusion"
             )
     return {topic: [items[stamp] for stamp in sorted(items)] for topic, items in lists.items()}
-
-
-def _check_type(path, topic, message):
-    # pylint: disable=protected-access
-    if message._type != TrackArray._type:
-        raise InputError(f"{path}: {topic} is {message._type}, expected {TrackArray._type}")
-    if message._md5sum != TrackArray._md5sum:
-        raise InputError(f"{path}: {topic} has another version of {message._type}, expected ours")
 
 
 def _finite_tracks(message):
