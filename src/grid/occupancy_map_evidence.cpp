@@ -112,22 +112,29 @@ void OccupancyMap::merge(const OccupancyMap& other, const Pose2& other_in_map) {
     return;
   }
   beginUpdate(*other.first_stamp_ + static_cast<double>(other.now_));
-  mergeFree(other, other_in_map);
   const auto delay = static_cast<float>(secondsBetween(*first_stamp_, *other.first_stamp_));
   other.forEachKnown([&](CellIndex index, const Cell& cell) {
     if (isOccupied(cell)) {
       mergeOccupied(cell, other.window().centerOf(index), other_in_map, delay);
     }
   });
+  mergeFree(other, other_in_map);
 }
 
 void OccupancyMap::mergeFree(const OccupancyMap& other, const Pose2& other_in_map) {
   const Pose2 map_in_other = other_in_map.inverse();
+  const Eigen::Matrix2d rotation = map_in_other.rotation();
   forEachCell(window(), [&](CellIndex index) {
-    const CellIndex there = other.window().cellAt(map_in_other * window().centerOf(index));
-    const Cell& from = other.cells_.atOrEmpty(there);
-    if (isKnown(from) && !isOccupied(from)) {
-      Cell& cell = cells_.at(index);
+    const Point2 there = map_in_other.position() + rotation * window().centerOf(index);
+    const Cell& from = other.cells_.atOrEmpty(other.window().cellAt(there));
+    Cell& cell = cells_.at(index);
+    // A surface may lie in another cell than the center of its cell: it takes precedence.
+    if (isOccupied(from) || cell.updated == update_) {
+      return;
+    }
+    cell.refuted += from.refuted;
+    cell.believed += from.believed;
+    if (isKnown(from)) {
       cell.updated = update_;
       change(cell, from.log_odds);
     }
@@ -156,7 +163,7 @@ void OccupancyMap::mergeOccupied(const Cell& from, const Point2& center, const P
   }
   cell.first_hit =
       is_new ? from.first_hit + delay : std::min(cell.first_hit, from.first_hit + delay);
-  cell.last_hit = from.last_hit + delay;
+  cell.last_hit = is_new ? from.last_hit + delay : std::max(cell.last_hit, from.last_hit + delay);
   const float share = from.hits.count / (from.hits.count + cell.hits.count);
   cell.mean_hit += share * (from.mean_hit + delay - cell.mean_hit);
   const Point2 shift = other_in_map * center - window().centerOf(index);

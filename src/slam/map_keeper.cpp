@@ -44,7 +44,15 @@ void MapKeeper::setPriorMap(PriorMap prior_map) {
                                 std::to_string(kMaxSearchedCells) + " cells at most");
   }
   prior_map.map.setWindow(all);
-  prior_map_ = std::make_shared<const PriorMap>(std::move(prior_map));
+  usePriorMap(std::make_shared<const PriorMap>(std::move(prior_map)));
+}
+
+void MapKeeper::usePriorMap(std::shared_ptr<const PriorMap> prior_map) {
+  prior_map_ = std::move(prior_map);
+  if (prior_map_) {
+    // It stays as it is, and if the vehicle is not found nearby, all of it is searched.
+    recovery_options_.search.max_aligned_sigma = 0.0;
+  }
 }
 
 PoseWithCovariance MapKeeper::startInPriorMap(Stamp stamp) {
@@ -125,7 +133,7 @@ MapKeeper::SearchStep MapKeeper::search(const PoseWithCovariance& pose, Stamp st
 PoseWithCovariance MapKeeper::mergeIntoOlder(const PoseWithCovariance& in_older,
                                              const PoseWithCovariance& in_newer) {
   const OccupancyMap newer = std::move(map_);
-  returnToLeftMap();
+  returnToLeftMap();  // with its drift: that of the newer map is part of the alignment's error
   map_.centerOn(in_older.pose.position());
   map_.merge(newer, in_older.pose * in_newer.pose.inverse());
   frame_covariance_ += carried(in_older.covariance, -in_older.pose.position());

@@ -201,10 +201,12 @@ std::optional<Relocalization> MapRecovery::conclude(MapSearch::Outcome outcome,
 }
 
 void MapRecovery::doubtCandidate(MapSearch::Outcome outcome) {
+  if (!candidate_) {
+    return;
+  }
   // Other poses that fit nearly as well do not refute it; one that fits better does.
   const std::optional<Pose2> likeliest = search_->likeliest();
-  if (outcome == MapSearch::Outcome::kNone ||
-      (candidate_ && likeliest && !agreesWithCandidate(*likeliest))) {
+  if (outcome == MapSearch::Outcome::kNone || (likeliest && !agreesWithCandidate(*likeliest))) {
     candidate_.reset();
   }
 }

@@ -162,9 +162,8 @@ MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  const bool may_be_unique =
-      options_.missing_share > 0.0 ? isTogether(leaf) : isInAlignedRegion(leaf);
-  return may_be_unique ? Outcome::kUnfinished : Outcome::kAmbiguous;
+  const bool decides = isTogether(leaf) || isInAlignedRegion(leaf);
+  return decides ? Outcome::kUnfinished : Outcome::kAmbiguous;
 }
 
 MapSearch::Outcome MapSearch::conclude() const {
@@ -174,8 +173,8 @@ MapSearch::Outcome MapSearch::conclude() const {
   if (areAllTogether() && maxShared() >= options_.min_shared) {
     return Outcome::kFound;
   }
-  return options_.missing_share == 0.0 && isNarrow(aligned().covariance) ? Outcome::kAligned
-                                                                         : Outcome::kAmbiguous;
+  const bool is_narrow = options_.max_aligned_sigma > 0.0 && isNarrow(aligned().covariance);
+  return is_narrow ? Outcome::kAligned : Outcome::kAmbiguous;
 }
 
 double MapSearch::maxShared() const {

@@ -8,6 +8,7 @@ MapSearchOptions MapSearchOptions::inCompleteMap() {
   options.missing_share = 0.06;
   options.max_log_ratio = 3.0;
   options.min_shared = 0.5;
+  options.max_aligned_sigma = 0.0;
   options.max_boxes = 4000000;
   return options;
 }
@@ -31,9 +32,10 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
       {"min_shared", "1", "least share of surfaces that both maps have, at the pose found"},
       min_shared, {0.0, 1.0});
   visitor.number({"max_aligned_sigma", "m",
-                  "maps are aligned if their relative position, up to `reach`, is known to this "
-                  "standard deviation: half the width of a lane; only without missing_share"},
-                 max_aligned_sigma, {0.1, 100.0});
+                  "if several poses fit, the maps are aligned if a covariance that reaches all of "
+                  "them leaves no surface up to `reach` less certain than this (standard "
+                  "deviation; a good car's width); 0: never"},
+                 max_aligned_sigma, {0.0, 100.0});
   visitor.integer(
       {"min_surfaces", "1", "least number of static cells of the newer map for a search"},
       min_surfaces, {1, 1000000});

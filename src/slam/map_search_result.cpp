@@ -104,39 +104,50 @@ PoseWithCovariance MapSearch::found() const {
   return {pose, ownCovariance(sigma) + spreadAbout(pose)};
 }
 
-PoseWithCovariance MapSearch::aligned() const {
-  const Pose2 best = poseOf(leaves_.front());
+const MapSearch::Box& MapSearch::centralLeaf() const {
   double sum = 0.0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // from the best one
   for (const Box& leaf : leaves_) {
     const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    offset += weight * offsetFrom(best, poseOf(leaf));
+    mean += weight * between(leaves_.front(), leaf);
     sum += weight;
   }
-  offset /= sum;
-  PoseWithCovariance mean{{best.x() + offset[0], best.y() + offset[1], best.heading() + offset[2]},
-                          {}};
-  mean.covariance = ownCovariance(kFoundSigma) + spreadAbout(mean.pose);
-  // The likelihoods are only bounds; poses that are kept must be within reach of the covariance.
-  const Eigen::Matrix3d information = mean.covariance.inverse();
-  double farthest = keptDistance();
+  mean /= sum;
+  const auto distance = [&](const Box& leaf) {
+    const Eigen::Vector3d apart = between(leaves_.front(), leaf) - mean;
+    return std::hypot(apart.head<2>().norm(), options_.reach * apart[2]);
+  };
+  return *std::min_element(leaves_.begin(), leaves_.end(),
+                           [&](const Box& a, const Box& b) { return distance(a) < distance(b); });
+}
+
+PoseWithCovariance MapSearch::aligned() const {
+  PoseWithCovariance central{refined(poseOf(centralLeaf())), {}};
+  central.covariance = ownCovariance(kFoundSigma) + spreadAbout(central.pose);
+  // The likelihoods are only bounds: the covariance has to reach all poses that are kept.
+  const double kept_distance = std::sqrt(2.0 * options_.max_log_ratio);  // of a normal distribution
+  const Eigen::Matrix3d information = central.covariance.inverse();
+  double farthest = kept_distance;
   for (const Box& leaf : leaves_) {
-    const Eigen::Vector3d apart = offsetFrom(mean.pose, poseOf(leaf));
+    const Eigen::Vector3d apart = offsetFrom(central.pose, poseOf(leaf));
     farthest = std::max(farthest, std::sqrt(apart.dot(information * apart)));
   }
-  mean.covariance *= square(farthest / keptDistance());
-  return mean;
+  central.covariance *= square(farthest / std::max(kept_distance, 1.0));
+  return central;
 }
 
 bool MapSearch::isNarrow(const Eigen::Matrix3d& covariance) const {
-  const double position = std::sqrt(maxPositionVariance(covariance));
-  const double at_reach = options_.reach * std::sqrt(covariance(2, 2));
-  return std::max(position, at_reach) <= options_.max_aligned_sigma;
+  const double reach = options_.reach;
+  const std::array<Point2, 5> arms = {Point2(0.0, 0.0), Point2(reach, 0.0), Point2(-reach, 0.0),
+                                      Point2(0.0, reach), Point2(0.0, -reach)};
+  return std::all_of(arms.begin(), arms.end(), [&](const Point2& arm) {
+    return maxPositionVariance(carried(covariance, arm)) <= square(options_.max_aligned_sigma);
+  });
 }
 
 bool MapSearch::isInAlignedRegion(const Box& leaf) const {
   const Eigen::Vector3d apart = between(leaves_.front(), leaf);
-  const double width = 2.0 * keptDistance() * options_.max_aligned_sigma;
+  const double width = 2.0 * std::sqrt(2.0 * options_.max_log_ratio) * options_.max_aligned_sigma;
   return std::max(apart.head<2>().norm(), options_.reach * std::abs(apart[2])) <= width;
 }
 

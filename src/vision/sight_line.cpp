@@ -23,10 +23,11 @@ SightLine sightLine(const GroundView& view, const Point2& direction, const Senso
   const GridWindow& window = scanned.window();
   SightLine line;
   bool beyond = false;
+  bool is_hidden = false;  // perhaps, by an obstacle that the image does not show
   walkRay(window, view.position(), view.position() + range * direction, [&](CellIndex cell) {
     const Percent percent = scanned.atOrUnknown(cell);
     const bool is_hit = isOccupied(percent);
-    if (!window.contains(cell) || (beyond && percent == kUnknownPercent)) {
+    if (is_hidden || !window.contains(cell) || (beyond && percent == kUnknownPercent)) {
       return;
     }
     beyond |= is_hit;
@@ -35,6 +36,7 @@ SightLine sightLine(const GroundView& view, const Point2& direction, const Senso
     if (patch) {
       line.push_back({cell, (center - view.position()).norm(), *patch, is_hit});
     }
+    is_hidden = is_hit && !patch;
   });
   return line;
 }
@@ -73,8 +75,9 @@ void SightLines::write(const SightLine& line, SensorGrid& grid) const {
 }
 
 void SightLines::writeEnd(const SightLine& line, std::size_t foot, SensorGrid& grid) const {
+  const auto from_foot = line.begin() + static_cast<std::ptrdiff_t>(foot);
   const bool is_located =
-      std::any_of(line.begin(), line.end(), [](const SightStep& step) { return step.is_hit; });
+      std::any_of(from_foot, line.end(), [](const SightStep& step) { return step.is_hit; });
   const double distance = line[foot].distance;
   const double from = is_located ? distance : distance - rangeSigma(distance);
   for (std::size_t i = 0; i < line.size(); ++i) {

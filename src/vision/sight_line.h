@@ -43,8 +43,8 @@ class SightLines {
 
  private:
   void write(const SightLine& line, SensorGrid& grid) const;
-  /// Makes the end of a line undecided that has other colors from step `foot` on, and no echo
-  /// before that says where they begin.
+  /// Makes the end of a line undecided that has other colors from step `foot` on, and the road
+  /// before it, as far as the camera's pitch may shift it, unless an echo tells where they begin.
   void writeEnd(const SightLine& line, std::size_t foot, SensorGrid& grid) const;
   /// Whether other colors between two distances (m) may be an obstacle, given the road that is
   /// visible behind them.

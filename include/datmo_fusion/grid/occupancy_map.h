@@ -93,7 +93,8 @@ class OccupancyMap {
                                const MapEvidence& evidence);
 
   /// Adds what another map of the same cell size, whose frame is at `other_in_map`, knows about the
-  /// window, as if it had been seen independently: occupied cells move with the mean of their hits.
+  /// window, as if it had been seen independently: occupied cells move with the mean of their hits,
+  /// and take precedence over free ones. What lies outside of this map's window is left out.
   void merge(const OccupancyMap& other, const Pose2& other_in_map);
 
   /// Changes the window, of at least one cell and the same cell size, without losing knowledge.
@@ -186,11 +187,11 @@ class OccupancyMap {
   template <typename Visit>
   void forEachKnown(Visit&& visit) const;
 
-  /// The parts of merge(): cells that the other map has seen free, and one that it has seen
-  /// occupied, whose times are later by `delay` (s) here.
-  void mergeFree(const OccupancyMap& other, const Pose2& other_in_map);
+  /// The parts of merge(): a cell that the other map has seen occupied, whose times are later by
+  /// `delay` (s) here, and those it has seen free, where nothing occupied was merged.
   void mergeOccupied(const Cell& from, const Point2& center, const Pose2& other_in_map,
                      float delay);
+  void mergeFree(const OccupancyMap& other, const Pose2& other_in_map);
   void beginUpdate(Stamp stamp);
   void change(Cell& cell, float log_odds_step) const;
   /// Marks a cell as occupied in this update; null if it is not in the window.

@@ -41,7 +41,7 @@ class MapKeeper {
   /// Throws std::invalid_argument for a map with more cells than can be searched.
   void setPriorMap(PriorMap prior_map);
   /// Uses the same prior map as another keeper, or none.
-  void sharePriorMap(const MapKeeper& other) { prior_map_ = other.prior_map_; }
+  void sharePriorMap(const MapKeeper& other) { usePriorMap(other.prior_map_); }
   bool hasPriorMap() const { return prior_map_ != nullptr; }
 
   /// Starts a map by which the vehicle is searched for in the prior one, from the first scan on.
@@ -87,6 +87,7 @@ class MapKeeper {
   int mapsBegun() const { return maps_begun_; }
 
  private:
+  void usePriorMap(std::shared_ptr<const PriorMap> prior_map);
   /// Merges the newer map into the older one, where the vehicle, at `in_newer`, is at `in_older`;
   /// how uncertain that is remains in the pose of the frame.
   PoseWithCovariance mergeIntoOlder(const PoseWithCovariance& in_older,

@@ -105,7 +105,7 @@ class MapRecovery {
   SearchRegion regionOf(const PoseWithCovariance& in_newer) const;
 
   /// Continues the search; called after each scan. Returns the vehicle's pose in the older map once
-  /// it is found.
+  /// it is found, or the maps are aligned.
   std::optional<Relocalization> advance(const OccupancyMap& newer,
                                         const PoseWithCovariance& in_newer, Stamp stamp);
 

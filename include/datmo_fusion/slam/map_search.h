@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -25,7 +24,7 @@ struct MapSearchOptions {
   double max_log_ratio = 6.0;       ///< between two hypotheses that are both kept
   double max_changed_share = 0.15;  ///< of the surfaces
   double min_shared = 0.4;          ///< of the surfaces
-  double max_aligned_sigma = 1.5;   ///< m
+  double max_aligned_sigma = 1.5;   ///< m; 0: maps are never aligned
   int min_surfaces = 60;            ///< cells
   double reach = 35.0;              ///< m
   int max_boxes = 60000;
@@ -49,8 +48,8 @@ struct MapSearchOptions {
 /// Hardly anything contradicts the true pose, so it is among the hypotheses within `max_log_ratio`
 /// of the best. The pose is found if all of them lie close together, at surfaces of both maps, so
 /// that scans can be matched there. Along a street, where nothing tells how far the vehicle went,
-/// they fill a narrow region: then the maps are aligned, with the covariance of that region.
-/// Otherwise the result is ambiguous.
+/// they lie in a narrow region: then the maps are aligned, with a covariance that reaches all of
+/// them. Otherwise the result is ambiguous.
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
 /// contradicted by surfaces that lie deeper in free space than the box can move them. The work can
@@ -60,7 +59,7 @@ class MapSearch {
   enum class Outcome {
     kUnfinished,  ///< call advance() again
     kFound,       ///< a unique pose is not contradicted
-    kAligned,     ///< the poses that are not contradicted fill a narrow region
+    kAligned,     ///< the poses that are not contradicted lie in a narrow region
     kAmbiguous,   ///< several poses are not contradicted, or there is too little to compare
     kNone,        ///< all poses within the prior are contradicted
   };
@@ -80,7 +79,8 @@ class MapSearch {
   /// poses that are not contradicted.
   PoseWithCovariance found() const;
 
-  /// With kAligned: returns the mean and covariance of the poses that are not contradicted.
+  /// With kAligned: returns the one nearest to the mean of the poses that are not contradicted,
+  /// with a covariance that reaches all of them.
   PoseWithCovariance aligned() const;
 
  private:
@@ -144,12 +144,12 @@ class MapSearch {
   Eigen::Isometry2f patternAt(const Pose2& pose) const;
   /// Whether a leaf belongs to the same hypothesis as the best one.
   bool isTogether(const Box& leaf) const;
-  /// Whether the leaf and the best one may both lie in the region of aligned maps.
+  /// Whether maps are aligned at all, and the leaf and the best one may lie in one narrow region.
   bool isInAlignedRegion(const Box& leaf) const;
-  /// Whether poses with this covariance align the maps, up to the surfaces that are compared.
+  /// Whether a pose with this covariance aligns the maps, up to the surfaces that are compared.
   bool isNarrow(const Eigen::Matrix3d& covariance) const;
-  /// Maximum Mahalanobis distance of a kept pose, if their distribution is normal.
-  double keptDistance() const { return std::sqrt(2.0 * options_.max_log_ratio); }
+  /// The leaf nearest to the mean of all of them, weighted by their likelihoods.
+  const Box& centralLeaf() const;
   /// Mean square of the leaves' offsets from a pose, weighted by their likelihoods.
   Eigen::Matrix3d spreadAbout(const Pose2& pose) const;
   /// The leaf of that hypothesis whose surfaces are nearest to those of the older map: the

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <vector>
+
 #include "small_map.h"
 #include <gtest/gtest.h>
 
@@ -79,6 +82,31 @@ TEST(MapEvidenceTest, WhatBothMapsKnowIsAddedUp) {
   EXPECT_GE(map.occupancy({4, 0}), before);
   EXPECT_NEAR(map.nearestHits({4.5, 0.5})->hits, 8.0, 1e-5);
   EXPECT_LT(map.occupancy({2, 0}), mapWithSurface().occupancy({2, 0}));
+}
+
+TEST(MapEvidenceTest, NoSurfaceIsLostWhereverItsCellFalls) {
+  std::vector<Point2> ends = {{5.3, -4.6}};  // a post
+  for (double y = -4.0; y <= 4.0; y += 0.5) {
+    ends.emplace_back(4.3, y);  // a wall
+  }
+  OccupancyMap newer{smallMap()};
+  for (const double seconds : {0.0, 0.5, 1.0}) {
+    updateWith(newer, scanTo(ends, seconds));
+  }
+  for (const double turn : {0.0, 0.3, 0.8}) {
+    const Pose2 newer_in_map(0.13, 0.37, turn);
+    OccupancyMap map{smallMap()};
+    map.merge(newer, newer_in_map);
+    const std::vector<Point2> surfaces = map.staticSurfaces();
+    for (const Point2& end : ends) {
+      const Point2 at = newer_in_map * end;
+      EXPECT_TRUE(std::any_of(surfaces.begin(), surfaces.end(),
+                              [&](const Point2& surface) {
+                                return (surface - at).norm() < 0.6;  // of the two ends in a cell
+                              }))
+          << turn << ": " << at.transpose();
+    }
+  }
 }
 
 TEST(MapEvidenceTest, AnEmptyMapMergesNothing) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/map_search.h"
 
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -43,12 +44,12 @@ std::shared_ptr<const SearchedMap> searched(const OccupancyMap& map) {
 
 /// Searches for a newer map that begins `ahead` of an older one, with a prior error of `off`.
 MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
-                 const Eigen::Vector3d& sigma) {
+                 const Eigen::Vector3d& sigma, const MapSearchOptions& options = {}) {
   const OccupancyMap older = mapOf(world, Pose2(), Pose2());
   const Pose2 guess = ahead * off;
   const OccupancyMap newer = mapOf(world, ahead, guess);
   const Eigen::Matrix3d covariance = sigma.cwiseAbs2().asDiagonal();
-  return MapSearch({}, searched(older), newer, {{guess, covariance}}, guess);
+  return MapSearch(options, searched(older), newer, {{guess, covariance}}, guess);
 }
 
 Outcome finish(MapSearch& search) {
@@ -107,11 +108,26 @@ TEST(MapSearchTest, AlongWallsTheMapsAreAlignedAsFarAsThePriorReaches) {
   EXPECT_LT(found.covariance(2, 2), square(degrees(2.0)));
 }
 
-TEST(MapSearchTest, ThePosesThatAreKeptAreWithinReachOfTheCovariance) {
-  MapSearch aligned = search(corridor, Pose2(8.0, 0.0, 0.0), Pose2(), {1.0, 0.5, 0.1});
+TEST(MapSearchTest, TheCovarianceReachesUnlikelyPosesThatNothingContradicts) {
+  MapSearchOptions options;
+  options.max_aligned_sigma = 5.0;
+  const Pose2 ahead(8.0, 0.0, 0.0);
+  MapSearch aligned = search(street, ahead, Pose2(), {2.1, 0.3, 0.02}, options);
   ASSERT_EQ(finish(aligned), Outcome::kAligned);
-  // The farthest ones, at max_log_ratio = 6, are sqrt(12) standard deviations of the prior away.
-  EXPECT_GE(aligned.aligned().covariance(0, 0), 1.0);
+  const PoseWithCovariance found = aligned.aligned();
+  EXPECT_NEAR(found.pose.x(), ahead.x(), 0.5) << "one of the poses that fit";
+  // The pillars fit 7 m away as well: at max_log_ratio = 6, sqrt(12) standard deviations.
+  EXPECT_GE(found.covariance(0, 0), square(7.0 / std::sqrt(12.0)) - 0.3);
+}
+
+TEST(MapSearchTest, MapsMayNeverBeAligned) {
+  MapSearchOptions options;
+  options.max_aligned_sigma = 0.0;
+  const Eigen::Vector3d sigma(1.0, 0.5, 0.1);
+  MapSearch in_corridor = search(corridor, Pose2(8.0, 0.0, 0.0), Pose2(), sigma, options);
+  EXPECT_EQ(finish(in_corridor), Outcome::kAmbiguous);
+  MapSearch in_yard = search(yard, Pose2(8.0, 1.0, 0.1), Pose2(), sigma, options);
+  EXPECT_EQ(finish(in_yard), Outcome::kFound);
 }
 
 TEST(MapSearchTest, InACompleteMapThePoseIsRefined) {

@@ -129,6 +129,18 @@ TEST_F(MonoGridTest, BeyondAnEchoTheRoadIsFreeWhereTheScannerSeesPastIt) {
   EXPECT_EQ(at(16.0, -1.0), kUndecidedPercent) << "the post hides it from the camera";
 }
 
+TEST_F(MonoGridTest, AnEchoThatALinePassesDoesNotTellWhereAnObstacleBehindItBegins) {
+  MountedCamera camera = test::levelCamera();
+  camera.in_base.translation().y() = 1.0;
+  const Scan scan = scanOfPost(8.0);
+  model_.grid(emptyRoad(), camera, scan, kScannerHeight);
+  cv::Mat image = emptyRoad();
+  stand(image, 16.0, 2.0, kDark);
+  result_ = model_.grid(image, camera, scan, kScannerHeight);
+  EXPECT_TRUE(isFree(at(12.0, -0.5)));
+  EXPECT_EQ(at(15.3, -0.9), kUndecidedPercent) << "the camera may be pitched";
+}
+
 TEST_F(MonoGridTest, EachPixelOfACellCountsByItsLikelihood) {
   look(emptyRoad(), scanOf());
   cv::Mat image = emptyRoad();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads a recording once, in bounded memory: every stamp, but only some of the messages."""
 
+import functools
 import struct
 from collections import Counter
 
@@ -107,8 +108,8 @@ def read_recording(path, bag):
         if topic is None:
             topic = Topic(name, datatype, with_header.get(datatype, False))
             recording.topics[name] = topic
-            if _is_other_version(datatype, message[2]):
-                recording.other_versions[name] = datatype
+        if _is_other_version(datatype, message[2]):
+            recording.other_versions[name] = datatype
         index = topic.count
         topic.recorded.append(1e-9 * (recorded.to_nsec() - start))
         stamp = _take_header(topic, data, start) if topic.with_header else None
@@ -117,6 +118,7 @@ def read_recording(path, bag):
     return recording
 
 
+@functools.cache
 def _is_other_version(datatype, checksum):
     installed = genpy.message.get_message_class(datatype)
     # pylint: disable=protected-access

@@ -40,7 +40,7 @@ def _fault(run):
     """Formats the largest error and the MOTA (no score: left out) of one drive with a fault."""
     if run is None:
         return NOT_RUN
-    if run["error"] is not None:
+    if run["error"] is not None or run["pose"]["largest_error_m"] is None:
         return "(no result)"
     mota = run["tracks"]["mota"]
     score = "" if mota is None else f", {mota:.3f}"
@@ -61,7 +61,7 @@ def _outages(outages):
                      f"within {tracks:.1f} s; a track keeps its id in {sum(judged)} of {len(judged)} cases")  # fmt: skip
     lines += [f"a killed process has tracks again after {each['tracks_s']:.1f} s, in a new map"
               for each in outages if each["what"] == PROCESS]  # fmt: skip
-    return "; ".join(lines)
+    return "; ".join(lines) or NOT_RUN
 
 
 def _load(load):
