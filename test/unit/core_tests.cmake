@@ -184,6 +184,7 @@ datmo_fusion_add_core_test(slam
   slam/twist_gate_test.cpp
 )
 target_include_directories(unit_slam PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+datmo_fusion_run_in_parts(slam 4)
 
 datmo_fusion_add_core_test(detection
   detection/box_fit_test.cpp
