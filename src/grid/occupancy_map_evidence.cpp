@@ -13,6 +13,9 @@ namespace {
 /// s, age given to the cells of a restored map: longer than any drive.
 constexpr float kLongAgo = 1e6F;
 
+/// Number of the update in which restored cells were last changed; 0 would mean never.
+constexpr std::uint32_t kFirstUpdate = 1;
+
 /// Calls `visit(CellIndex)` for each cell of a window, row by row.
 template <typename Visit>
 void forEachCell(const GridWindow& window, Visit&& visit) {
@@ -38,6 +41,15 @@ GridWindow extended(GridWindow window, CellIndex cell) {
 }  // namespace
 
 template <typename Visit>
+void OccupancyMap::forEachKnownInWindow(Visit&& visit) const {
+  forEachCell(window(), [&](CellIndex index) {
+    if (const Cell& cell = cells_.at(index); isKnown(cell)) {
+      visit(index, cell);
+    }
+  });
+}
+
+template <typename Visit>
 void OccupancyMap::forEachKnown(Visit&& visit) const {
   outside_.forEach([&](CellIndex index, const Cell& cell) {
     // In a map being built, what came back into the window is only in the tiles until it is seen
@@ -47,11 +59,7 @@ void OccupancyMap::forEachKnown(Visit&& visit) const {
       visit(index, cell);
     }
   });
-  forEachCell(window(), [&](CellIndex index) {
-    if (isKnown(cells_.at(index))) {
-      visit(index, cells_.at(index));
-    }
-  });
+  forEachKnownInWindow(visit);
 }
 
 void OccupancyMap::centerOn(const Point2& position) {
@@ -71,10 +79,45 @@ void OccupancyMap::centerOn(const Point2& position) {
 MapEvidence OccupancyMap::evidence() const {
   MapEvidence evidence{window().cell_size, {}};
   forEachKnown([&evidence](CellIndex index, const Cell& cell) {
-    evidence.cells.push_back({index, cell.log_odds, cell.last_hit - cell.first_hit, cell.refuted,
-                              cell.believed, cell.hits});
+    evidence.cells.push_back(evidenceOf(index, cell));
   });
   return evidence;
+}
+
+MapEvidence OccupancyMap::windowEvidence() const {
+  MapEvidence evidence{window().cell_size, {}};
+  evidence.cells.reserve(rowMajorSize(window().columns, window().rows));
+  forEachKnownInWindow([&evidence](CellIndex index, const Cell& cell) {
+    evidence.cells.push_back(evidenceOf(index, cell));
+  });
+  return evidence;
+}
+
+void OccupancyMap::recall(const std::vector<CellEvidence>& cells) {
+  update_ = std::max(update_, kFirstUpdate);
+  for (const CellEvidence& known : cells) {
+    if (window().contains(known.cell)) {
+      cells_.at(known.cell) = cellOf(known);
+    }
+  }
+}
+
+CellEvidence OccupancyMap::evidenceOf(CellIndex index, const Cell& cell) {
+  return {index,        cell.log_odds, cell.last_hit - cell.first_hit,
+          cell.refuted, cell.believed, cell.hits};
+}
+
+OccupancyMap::Cell OccupancyMap::cellOf(const CellEvidence& known) const {
+  Cell cell;
+  cell.updated = kFirstUpdate;
+  change(cell, known.log_odds);
+  cell.first_hit = now_ - known.age;
+  cell.last_hit = now_;
+  cell.mean_hit = now_;
+  cell.refuted = known.refuted;
+  cell.believed = known.believed;
+  cell.hits = known.hits;
+  return cell;
 }
 
 GridWindow OccupancyMap::extent() const {
@@ -89,16 +132,10 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
                                     const MapEvidence& evidence) {
   OccupancyMap map(options);
   map.is_restored_ = true;
-  map.update_ = 1;
+  map.update_ = kFirstUpdate;
   for (const CellEvidence& known : evidence.cells) {
-    Cell cell;
-    cell.updated = map.update_;
-    map.change(cell, known.log_odds);
-    cell.first_hit = -known.age;
+    Cell cell = map.cellOf(known);
     cell.mean_hit = -kLongAgo;
-    cell.refuted = known.refuted;
-    cell.believed = known.believed;
-    cell.hits = known.hits;
     map.outside_.putPermanently(known.cell, cell);
     if (map.window().contains(known.cell)) {
       map.cells_.at(known.cell) = cell;

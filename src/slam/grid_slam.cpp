@@ -58,6 +58,19 @@ GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
       maps_(options->map, options->recovery, tracker_.filter().scalePrior()),
       kidnapping_(options->recovery.min_kidnapped_log_ratio, options->recovery.kidnapped_after) {}
 
+std::optional<SlamState> GridSlam::state() const {
+  const auto pose = tracker_.state();
+  const auto map = maps_.state();
+  return pose && map && !kidnapping_.isSuspected() ? std::make_optional(SlamState{*pose, *map})
+                                                   : std::nullopt;
+}
+
+void GridSlam::continueFrom(const SlamState& state, const std::vector<CellEvidence>& window) {
+  tracker_.continueFrom(state.pose);
+  continued_from_ = tracker_.pose().pose;
+  maps_.continueFrom(state.map, window, continued_from_->position());
+}
+
 void GridSlam::addOdometry(const OdometrySample& sample) { follow(tracker_.addOdometry(sample)); }
 
 bool GridSlam::follow(const PoseTracker::Prediction& prediction) {
@@ -98,6 +111,9 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   tracker_.keepScan(stamp, !scan.rays.empty(), !maps_.isSearching());
   result.maps_begun = maps_.mapsBegun();
   search(stamp);
+  if (!maps_.isSearching()) {
+    continued_from_.reset();
+  }
   return result;
 }
 
@@ -119,8 +135,18 @@ void GridSlam::leaveMap(Stamp stamp) {
   } else if (!maps_.isSearching()) {
     tracker_.awaitOdometryOfGap(stamp);
   }
-  tracker_.restartAt(maps_.leave(tracker_.pose(), stamp));
+  const PoseWithCovariance predicted = tracker_.pose();
+  tracker_.restartAt(maps_.leave(predicted, stamp));
+  if (wasDrivingMeanwhile(predicted.pose)) {
+    maps_.endSearchAfter(PoseTracker::kOdometryDelay);
+  }
   kidnapping_.reset();
+}
+
+bool GridSlam::wasDrivingMeanwhile(const Pose2& predicted) const {
+  return continued_from_ && !maps_.hasPriorMap() &&
+         (predicted.position() - continued_from_->position()).norm() >
+             options_.recovery.from_position_sigma;
 }
 
 bool GridSlam::mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states) {

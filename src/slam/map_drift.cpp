@@ -23,7 +23,7 @@ constexpr double kMatchesOfADistance = 2.0;
 MapDrift::MapDrift(const ScalePrior& scale, double step)
     : learns_scale_(scale.calibrated),
       step_(step),
-      covariance_(Eigen::Matrix<double, kStates, kStates>::Zero()) {
+      covariance_(Covariance::Zero()) {
   covariance_(kScale, kScale) = scale.variance;
 }
 
@@ -32,8 +32,7 @@ double MapDrift::scaleSigma() const { return std::sqrt(covariance_(kScale, kScal
 void MapDrift::moveTo(const Pose2& base_in_map, bool by_odometry) {
   if (pose_) {
     const Point2 motion = base_in_map.position() - pose_->position();
-    Eigen::Matrix<double, kStates, kStates> transition =
-        Eigen::Matrix<double, kStates, kStates>::Identity();
+    Covariance transition = Covariance::Identity();
     // An error of the map's heading rotates the motion.
     transition(kX, kHeading) = -motion.y();
     transition(kY, kHeading) = motion.x();

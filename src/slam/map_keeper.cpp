@@ -36,6 +36,26 @@ MapKeeper::MapKeeper(const Checked<OccupancyMapOptions>& map,
       drift_(noDrift()),
       drift_of_left_map_(drift_) {}
 
+std::optional<MapKeeper::State> MapKeeper::state() const {
+  if (isSearching() || (hasPriorMap() && maps_begun_ > 0)) {
+    return std::nullopt;
+  }
+  return State{drift_.estimate(), frame_covariance_, maps_begun_};
+}
+
+void MapKeeper::continueFrom(const State& state, const std::vector<CellEvidence>& window,
+                             const Point2& position) {
+  if (hasPriorMap()) {
+    map_ = prior_map_->map;
+    map_.setWindow(map_options_.window.window());
+  }
+  map_.centerOn(position);
+  map_.recall(window);
+  drift_.continueFrom(state.drift);
+  frame_covariance_ = state.frame;
+  maps_begun_ = state.maps_begun;
+}
+
 void MapKeeper::setPriorMap(PriorMap prior_map) {
   const GridWindow all = prior_map.map.extent();
   if (!isSearchable(all)) {

@@ -52,6 +52,14 @@ void OdometryBuffer::add(const OdometrySample& sample) {
   }
 }
 
+std::vector<OdometrySample> OdometryBuffer::samplesFrom(Stamp stamp) const {
+  std::vector<OdometrySample> samples;
+  for (auto piece = pieceAt(stamp); piece != pieces_.end(); ++piece) {
+    samples.push_back(piece->sample);
+  }
+  return samples;
+}
+
 OdometryBuffer::Pieces::const_iterator OdometryBuffer::pieceAt(Stamp stamp) const {
   const auto later =
       std::upper_bound(pieces_.begin(), pieces_.end(), stamp,

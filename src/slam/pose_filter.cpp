@@ -46,6 +46,13 @@ ScalePrior PoseFilter::scalePrior() const {
   return {square(kSpeedScaleSigma), options_.calibrate_odometry};
 }
 
+void PoseFilter::continueFrom(const Estimate& estimate) {
+  pose_ = estimate.pose;
+  velocity_ = estimate.velocity;
+  errors_ = estimate.errors;
+  covariance_ = estimate.covariance;
+}
+
 PoseWithCovariance PoseFilter::pose() const { return {pose_, covariance_.topLeftCorner<3, 3>()}; }
 
 void PoseFilter::move(const Pose2& motion, double seconds, State speed, double speed_factor,

@@ -18,9 +18,6 @@ constexpr double kMaxExtrapolated = 0.5;
 constexpr double kMinGap = 0.4;
 constexpr double kGapIntervals = 4.0;
 
-/// s; how long odometry is waited for after the first scan after a gap.
-constexpr double kOdometryDelay = 0.6;
-
 /// Weight of the newest interval in the mean.
 constexpr double kIntervalShare = 0.1;
 
@@ -29,6 +26,28 @@ constexpr double kIntervalShare = 0.1;
 PoseTracker::PoseTracker(const Checked<PoseFilterOptions>& pose, const MotionModelOptions& motion,
                          double odometry_hold)
     : odometry_(odometry_hold, kOdometryMemory), filter_(pose, motion) {}
+
+std::optional<PoseTracker::State> PoseTracker::state() const {
+  if (!last_scan_ || last_scan_->stamp != *stamp_ || last_scan_->interval <= 0.0) {
+    return std::nullopt;
+  }
+  return State{*stamp_, last_scan_->interval, filter_.estimate(), odometry_.samplesFrom(*stamp_)};
+}
+
+void PoseTracker::continueFrom(const State& state) {
+  filter_.continueFrom(state.estimate);
+  stamp_ = state.stamp;
+  last_scan_.emplace(LastScan{state.stamp, filter_, state.scan_interval});
+  const std::vector<OdometrySample> since = odometry_.samplesFrom(state.stamp);
+  odometry_.clear();
+  for (const OdometrySample& sample : state.odometry) {
+    odometry_.add(sample);
+  }
+  anchor_.keep(state.stamp, filter_, odometry_);
+  for (const OdometrySample& sample : since) {
+    odometry_.add(sample);
+  }
+}
 
 PoseTracker::Prediction PoseTracker::addOdometry(const OdometrySample& sample) {
   odometry_.add(sample);

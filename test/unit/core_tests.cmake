@@ -153,6 +153,7 @@ datmo_fusion_add_core_test(sensor_model
 target_include_directories(unit_sensor_model PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(slam
+  slam/continued_slam_test.cpp
   slam/end_points_test.cpp
   slam/fused_slam_test.cpp
   slam/gradual_correction_test.cpp

@@ -81,6 +81,13 @@ class OccupancyMap {
   /// Returns all that is known, inside and outside the window.
   MapEvidence evidence() const;
 
+  /// Returns the same of the window alone.
+  MapEvidence windowEvidence() const;
+
+  /// Puts cells back that were in the window of an earlier map with the same options; those outside
+  /// this window are left out.
+  void recall(const std::vector<CellEvidence>& cells);
+
   /// Occupancy below which a cell counts as seen free.
   double freeBelow() const { return options_.moving_below; }
 
@@ -183,9 +190,15 @@ class OccupancyMap {
   /// Whether the hits in a cell represent a surface.
   static bool hasSurface(const Cell& cell) { return isOccupied(cell) && cell.hits.count > 0.0F; }
 
-  /// Calls `visit(CellIndex, const Cell&)` for each known cell, inside and outside the window.
+  /// Calls `visit(CellIndex, const Cell&)` for each known cell of the window.
+  template <typename Visit>
+  void forEachKnownInWindow(Visit&& visit) const;
+  /// The same for each known cell, inside and outside the window.
   template <typename Visit>
   void forEachKnown(Visit&& visit) const;
+  static CellEvidence evidenceOf(CellIndex index, const Cell& cell);
+  /// The same in return, as if first seen now.
+  Cell cellOf(const CellEvidence& known) const;
 
   /// The parts of merge(): a cell that the other map has seen occupied, whose times are later by
   /// `delay` (s) here, and those it has seen free, where nothing occupied was merged.

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
 #include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/ros/map_format.h"
 
 namespace datmo {
-
-/// Thrown for a map file that cannot be read or written; the message names it and says what is
-/// wrong, and what was expected.
-class MapFileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Result of writing a map.
 struct SavedMap {

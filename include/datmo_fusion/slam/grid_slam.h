@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,12 @@ struct SlamResult {
   bool may_be_kidnapped = false;    ///< located, but this scan may have been taken elsewhere
 };
 
+/// What GridSlam needs, besides the cells of its map, to continue in it in another process.
+struct SlamState {
+  PoseTracker::State pose;  ///< at the last scan
+  MapKeeper::State map;
+};
+
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predicts with the
 /// vehicle's own motion, matches the scan to the map, labels the points of the scan as static or
 /// moving, and updates the map with the static ones.
@@ -88,6 +95,18 @@ class GridSlam {
   /// std::invalid_argument for a map with more cells than can be searched.
   void startIn(PriorMap prior_map) { maps_.setPriorMap(std::move(prior_map)); }
 
+  /// Returns the state after the last scan; none while the vehicle is not located, or may not be.
+  std::optional<SlamState> state() const;
+
+  /// Continues from the state of an earlier instance with the same options and the same prior map,
+  /// before the first scan; `window`: the cells of its map then, or a little before. The time since
+  /// then is a gap without scans, and without odometry except for what has been added and its
+  /// poses: the vehicle is predicted, and searched for in the old map if it may have gone far. A
+  /// moving one is rarely found there, and without it there would be no tracks until the search is
+  /// given up: after the time in which odometry can still improve the prediction, it continues in a
+  /// new map, in the frame of the old one and with the uncertainty of the gap.
+  void continueFrom(const SlamState& state, const std::vector<CellEvidence>& window);
+
   /// Adds odometry in ascending stamp order, before or after the scans that it is used for. Only a
   /// limited time of it is kept: if scans fail for longer, the pose is predicted with it.
   void addOdometry(const OdometrySample& sample);
@@ -121,6 +140,8 @@ class GridSlam {
   bool follow(const PoseTracker::Prediction& prediction);
   /// Starts a new map after a gap.
   void leaveMap(Stamp stamp);
+  /// Whether the vehicle, at this pose by prediction, was driving while no process ran.
+  bool wasDrivingMeanwhile(const Pose2& predicted) const;
   /// Compares a scan with the map that it was matched with. Returns whether the vehicle may be
   /// elsewhere.
   bool mayBeKidnapped(const Scan& scan, const std::vector<PointState>& states);
@@ -156,6 +177,7 @@ class GridSlam {
   PoseTracker tracker_;
   MapKeeper maps_;
   KidnappingDetector kidnapping_;
+  std::optional<Pose2> continued_from_;  ///< by continueFrom(), until the vehicle is located
 };
 
 }  // namespace datmo

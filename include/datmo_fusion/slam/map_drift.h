@@ -48,6 +48,10 @@ struct ScalePrior {
 /// Called by GridSlam. Used only for what is published.
 class MapDrift {
  public:
+  /// Order of the states: the map's pose, and odometry's scale.
+  enum State { kX, kY, kHeading, kScale, kStates };
+  using Covariance = Eigen::Matrix<double, kStates, kStates>;
+
   /// `scale`: of the odometry; `step`: distance, m, after which the errors of matches are
   /// independent: a cell of the map.
   MapDrift(const ScalePrior& scale, double step);
@@ -66,13 +70,14 @@ class MapDrift {
   /// heading (rad).
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
 
+  const Covariance& estimate() const { return covariance_; }
+  /// Continues from the estimate of an earlier drift, of the same map.
+  void continueFrom(const Covariance& estimate) { covariance_ = estimate; }
+
   /// Returns the standard deviation of odometry's scale.
   double scaleSigma() const;
 
  private:
-  /// Order of the states: the map's pose, and odometry's scale.
-  enum State { kX, kY, kHeading, kScale, kStates };
-
   struct Written {
     Stamp stamp;
     double distance = 0.0;  ///< m, driven since the start
@@ -92,7 +97,7 @@ class MapDrift {
 
   bool learns_scale_;
   double step_;
-  Eigen::Matrix<double, kStates, kStates> covariance_;
+  Covariance covariance_;
   std::optional<Pose2> pose_;
   std::optional<Pose2> since_;  ///< start of the motion that is not added to the drift yet
   double scans_since_ = 0.0;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,6 +32,23 @@ class MapKeeper {
   /// `scale`: of the odometry, whose error the maps inherit. Throws OptionError.
   MapKeeper(const Checked<OccupancyMapOptions>& map, const Checked<MapRecoveryOptions>& recovery,
             const ScalePrior& scale);
+
+  /// What continues in another keeper, besides the cells of the map.
+  struct State {
+    MapDrift::Covariance drift = MapDrift::Covariance::Zero();
+    Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();  ///< covariance of the map's frame
+    int maps_begun = 0;
+  };
+
+  /// Returns the state; none while the vehicle is searched for, or in a map that replaced a prior
+  /// one.
+  std::optional<State> state() const;
+
+  /// Continues, at this position (m) in the map, from the state of an earlier keeper with the same
+  /// options and the same prior map, if any, before a map is started or left. `window`: the cells
+  /// that were in its map's window. Those that had left it are lost, except for a prior map's.
+  void continueFrom(const State& state, const std::vector<CellEvidence>& window,
+                    const Point2& position);
 
   OccupancyMap& map() { return map_; }
   const OccupancyMap& map() const { return map_; }
@@ -64,6 +82,9 @@ class MapKeeper {
   /// The same for a vehicle that was carried elsewhere, and may not be at this pose. It must be
   /// located.
   PoseWithCovariance leaveKidnapped(const PoseWithCovariance& pose, Stamp stamp);
+
+  /// Limits the search that has just begun to this time (s).
+  void endSearchAfter(double seconds) { recovery_->endAfter(seconds); }
 
   /// Returns to the map that was left, since the vehicle's pose in it is known again.
   void returnToLeftMap();

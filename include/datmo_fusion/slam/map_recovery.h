@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -114,6 +115,11 @@ class MapRecovery {
   bool isOver(Stamp stamp) const {
     return !(region_ && region_->anywhere) &&
            secondsBetween(begun_, stamp) > options_.give_up_after;
+  }
+
+  /// Ends the search after this time (s), if that is earlier than by the options.
+  void endAfter(double seconds) {
+    options_.give_up_after = std::min(options_.give_up_after, seconds);
   }
 
   Localization state() const { return state_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/common/twist2.h"
@@ -45,6 +46,11 @@ class OdometryBuffer {
 
   /// Adds a sample, in ascending stamp order; one that is not newer than the last is ignored.
   void add(const OdometrySample& sample);
+
+  void clear() { pieces_.clear(); }
+
+  /// Returns the samples from the one that applies at this stamp to the newest.
+  std::vector<OdometrySample> samplesFrom(Stamp stamp) const;
 
   /// Returns the vehicle's motion from one stamp to a later one. Between two samples with poses it
   /// is interpolated evenly from one pose to the other, with sideways motion only over a gap,

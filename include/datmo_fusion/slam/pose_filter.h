@@ -37,8 +37,24 @@ struct OdometryErrors {
 /// Called by GridSlam: predict, match, correct.
 class PoseFilter {
  public:
+  /// Order of the states: pose (x, y, heading), velocity, errors of the odometry.
+  enum State { kX, kY, kHeading, kSpeed, kYawRate, kSpeedScale, kYawRateBias, kStates };
+  using Covariance = Eigen::Matrix<double, kStates, kStates>;
+
+  /// All that is estimated.
+  struct Estimate {
+    Pose2 pose;
+    Twist2 velocity;
+    OdometryErrors errors;
+    Covariance covariance = Covariance::Zero();
+  };
+
   /// Starts at the origin, with a nearly unknown velocity. Throws OptionError.
   PoseFilter(const Checked<PoseFilterOptions>& options, const MotionModelOptions& motion);
+
+  Estimate estimate() const { return {pose_, velocity_, errors_, covariance_}; }
+  /// Continues from the estimate of an earlier filter with the same options.
+  void continueFrom(const Estimate& estimate);
 
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
@@ -76,10 +92,6 @@ class PoseFilter {
   void correct(const PoseWithCovariance& matched);
 
  private:
-  /// Order of the states: pose (x, y, heading), velocity, errors of the odometry.
-  enum State { kX, kY, kHeading, kSpeed, kYawRate, kSpeedScale, kYawRateBias, kStates };
-  using Covariance = Eigen::Matrix<double, kStates, kStates>;
-
   /// Moves the pose; `speed` and `yaw_rate` are the states that, by these factors, lengthen the
   /// motion and turn it further.
   void move(const Pose2& motion, double seconds, State speed, double speed_factor, State yaw_rate,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/common/stamp.h"
@@ -29,9 +30,28 @@ class PoseTracker {
     bool anchored = false;
   };
 
+  /// s; how long odometry is waited for after the first scan after a gap.
+  static constexpr double kOdometryDelay = 0.6;
+
+  /// What continues after the last scan, in another tracker.
+  struct State {
+    Stamp stamp;
+    double scan_interval = 0.0;  ///< s, mean; more than 0
+    PoseFilter::Estimate estimate;
+    std::vector<OdometrySample> odometry;  ///< from the stamp on
+  };
+
   /// `odometry_hold`: s; how long a sample is used after its stamp. Throws OptionError.
   PoseTracker(const Checked<PoseFilterOptions>& pose, const MotionModelOptions& motion,
               double odometry_hold);
+
+  /// Returns the state at the last scan; none if that scan saw nothing, or it cannot be told yet
+  /// how long a gap is.
+  std::optional<State> state() const;
+
+  /// Continues from the state of an earlier tracker with the same options, before the first scan.
+  /// What lies in between is a gap of scans; the odometry added so far is kept.
+  void continueFrom(const State& state);
 
   /// Adds odometry in ascending stamp order. Without scans, the pose follows it before it is
   /// discarded.

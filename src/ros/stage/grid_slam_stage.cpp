@@ -4,6 +4,7 @@
 #include <boost/make_shared.hpp>
 #include <tf2_msgs/TFMessage.h>
 
+#include "datmo_fusion/common/option_texts.h"
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
@@ -17,6 +18,24 @@ GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
   GridSlamOptions slam = options.slam;
   slam.odometry_hold = options.motion.hold;
   return slam;
+}
+
+/// The options that must be the same to continue from a checkpoint: all except where it is.
+std::map<std::string, std::string> continuedOptions(GridSlamStageOptions options) {
+  options.checkpoint = {};
+  std::map<std::string, std::string> texts = optionTexts(options);
+  for (const auto& [section, shared] : {std::make_pair("frames/", optionTexts(options.frames)),
+                                        std::make_pair("motion/", optionTexts(options.motion))}) {
+    for (const auto& [key, text] : shared) {
+      texts[section + key] = text;
+    }
+  }
+  return texts;
+}
+
+std::size_t cellsOf(const GridWindowOptions& options) {
+  const GridWindow window = options.window();
+  return rowMajorSize(window.columns, window.rows);
 }
 
 }  // namespace
@@ -38,6 +57,7 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
   visitor.group("prior_map", [&] { prior_map.visit(visitor); });
+  visitor.group("checkpoint", [&] { checkpoint.visit(visitor); });
   slam.visit(visitor);
 }
 
@@ -56,7 +76,8 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
 }
 
 GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
-                             const TransformBuffer& transforms, StageMonitor& monitor)
+                             const TransformBuffer& transforms, StageMonitor& monitor,
+                             const StepClock& clock)
     : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
@@ -68,6 +89,17 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
       odometry_wait_(slam_.odometry(), options->odometry_wait, options->motion.hold),
       scans_(monitor) {
   readPriorMap();
+  if (clock != nullptr && !options_.checkpoint.file.empty()) {
+    checkpoints_ =
+        std::make_unique<CheckpointKeeper>(options_.checkpoint, continuedOptions(options_),
+                                           cellsOf(options_.slam.map.window), monitor_);
+  }
+}
+
+GridSlamStage::~GridSlamStage() {
+  if (checkpoints_) {
+    checkpoints_->finish(slam_);
+  }
 }
 
 std::optional<Stamp> GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
@@ -98,6 +130,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
       scans_.add(converted.scan);
       return std::nullopt;
     }
+    continueAt(converted.scan.stamp);
     return finish(slam_.process(converted.scan));
   });
 }
@@ -114,6 +147,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyG
     checkBaseFrame(message.header.frame_id);
     const SensorGrid grid = fromMessage(message);
     runner_.check("grid", message.header.stamp);
+    continueAt(grid.stamp());
     return finish(slam_.process(grid, scans_.take(grid.stamp())));
   });
 }
@@ -144,6 +178,9 @@ void GridSlamStage::reset() {
   degenerate_scans_ = 0;
   maps_started_ = 0;
   forgotten_tiles_ = 0;
+  if (checkpoints_) {
+    checkpoints_->reset();
+  }
 }
 
 std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {
@@ -221,6 +258,7 @@ void GridSlamStage::connect(StagePorts& ports) {
     localization.publish(output->localization);
     labeled_scan.publish(output->labeled_scan);
     map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
+    keepCheckpoint();
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
     const auto take_odometry = [this, transforms](const auto& odometry, Stamp now) {

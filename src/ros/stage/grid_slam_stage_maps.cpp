@@ -20,6 +20,22 @@ void GridSlamStage::readPriorMap() {
   }
 }
 
+void GridSlamStage::continueAt(Stamp stamp) {
+  if (!checkpoints_) {
+    return;
+  }
+  if (const auto checkpoint = checkpoints_->takeAt(stamp)) {
+    slam_.continueFrom(checkpoint->slam, checkpoint->window.cells);
+    maps_started_ = static_cast<std::uint32_t>(checkpoint->slam.map.maps_begun);
+  }
+}
+
+void GridSlamStage::keepCheckpoint() {
+  if (checkpoints_) {
+    checkpoints_->keep(slam_);
+  }
+}
+
 std::string GridSlamStage::saveMap(const std::string& file) const {
   return savedMapText(file, slam_.lastingMap());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/prior_map_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/checkpoint_keeper.h"
 #include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/held_transform.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
@@ -32,6 +34,7 @@
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/slam/grid_slam.h"
 #include "datmo_fusion/slam/odometry_poses.h"
+#include "datmo_fusion/tracking/step_budget.h"
 
 namespace datmo {
 
@@ -45,6 +48,7 @@ struct GridSlamStageOptions {
   StreamOptions input;
   ScanConversionOptions scan;
   PriorMapOptions prior_map;
+  CheckpointOptions checkpoint;
   GridSlamOptions slam;
 
   void visit(OptionVisitor& visitor);
@@ -71,6 +75,9 @@ struct GridSlamOutput {
 /// With low-level fusion (`fused_grid`) scans wait for the fused grid of their stamp, which sets
 /// the pace.
 ///
+/// If the process was killed, it continues from its last checkpoint with the first scan
+/// (CheckpointKeeper).
+///
 /// With odometry, map -> odom is chosen so that together with odom -> base_link at the scan's stamp
 /// it gives the pose; odom -> base_link itself comes from the publisher of the odometry, and may be
 /// ahead of the scan. It is omitted while odometry is silent. Without odometry, or with motion
@@ -79,10 +86,15 @@ class GridSlamStage : public Stage {
  public:
   using Options = GridSlamStageOptions;
 
-  /// `transforms` and `monitor` must outlive the stage. Throws OptionError, also for an unreadable
-  /// prior map.
+  /// `transforms` and `monitor` must outlive the stage. `clock`: none: the output depends on the
+  /// input alone, and there are no checkpoints. Throws OptionError, also for an unreadable prior
+  /// map.
   GridSlamStage(const Checked<GridSlamStageOptions>& options, const TransformBuffer& transforms,
-                StageMonitor& monitor);
+                StageMonitor& monitor, const StepClock& clock = {});
+  /// Writes a last checkpoint.
+  ~GridSlamStage() override;
+  GridSlamStage(const GridSlamStage&) = delete;
+  GridSlamStage& operator=(const GridSlamStage&) = delete;
 
   /// Sets the newest odometry, the vehicle's own or that of MotionStage (without speed if from an
   /// IMU alone); ignored if the options name no source of motion. Returns its stamp; none if it was
@@ -104,6 +116,10 @@ class GridSlamStage : public Stage {
   /// creating it may take as long as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
 
+  /// Writes a checkpoint in the background, if there is a file for it. Call it after publishing the
+  /// scan's results, too.
+  void keepCheckpoint();
+
   /// Writes the map (writeMap); while the vehicle is not located, the map in which it last was.
   /// Returns a sentence about what was written. Throws MapFileError.
   std::string saveMap(const std::string& file) const;
@@ -119,6 +135,8 @@ class GridSlamStage : public Stage {
  private:
   bool isOfPriorMap(const std::string& file) const;
   void readPriorMap();
+  /// Before the first scan, which has this stamp; does nothing before later ones.
+  void continueAt(Stamp stamp);
   void checkBaseFrame(const std::string& frame) const;
 
   void reset();
@@ -153,6 +171,7 @@ class GridSlamStage : public Stage {
   std::uint64_t degenerate_scans_ = 0;
   std::uint32_t maps_started_ = 0;
   std::size_t forgotten_tiles_ = 0;
+  std::unique_ptr<CheckpointKeeper> checkpoints_;  ///< null: none
 };
 
 }  // namespace datmo
