@@ -21,9 +21,7 @@ constexpr double kMatchesOfADistance = 2.0;
 }  // namespace
 
 MapDrift::MapDrift(const ScalePrior& scale, double step)
-    : learns_scale_(scale.calibrated),
-      step_(step),
-      covariance_(Covariance::Zero()) {
+    : learns_scale_(scale.calibrated), step_(step), covariance_(Covariance::Zero()) {
   covariance_(kScale, kScale) = scale.variance;
 }
 
