@@ -261,4 +261,11 @@ Checkpoint readCheckpoint(const std::string& file, std::size_t max_cells) {
   return checkpoint;
 }
 
+void removeCheckpoint(const std::string& file) {
+  std::error_code missing;
+  for (const std::string& name : {file, poseFile(file)}) {
+    std::filesystem::remove(name, missing);
+  }
+}
+
 }  // namespace datmo

@@ -68,7 +68,7 @@ std::optional<SlamState> GridSlam::state() const {
 void GridSlam::continueFrom(const SlamState& state, const std::vector<CellEvidence>& window) {
   tracker_.continueFrom(state.pose);
   continued_from_ = tracker_.pose().pose;
-  maps_.continueFrom(state.map, window, continued_from_->position());
+  maps_.continueFrom(state.map, window, *continued_from_);
 }
 
 void GridSlam::addOdometry(const OdometrySample& sample) { follow(tracker_.addOdometry(sample)); }

@@ -44,14 +44,14 @@ std::optional<MapKeeper::State> MapKeeper::state() const {
 }
 
 void MapKeeper::continueFrom(const State& state, const std::vector<CellEvidence>& window,
-                             const Point2& position) {
+                             const Pose2& base_in_map) {
   if (hasPriorMap()) {
     map_ = prior_map_->map;
     map_.setWindow(map_options_.window.window());
   }
-  map_.centerOn(position);
+  map_.centerOn(base_in_map.position());
   map_.recall(window);
-  drift_.continueFrom(state.drift);
+  drift_.continueFrom(state.drift, base_in_map);
   frame_covariance_ = state.frame;
   maps_begun_ = state.maps_begun;
 }

@@ -30,4 +30,7 @@ void writePose(const std::string& file, std::uint32_t id, const SlamState& slam)
 /// permission, another format, truncated, modified, or larger than for a map of `max_cells`.
 Checkpoint readCheckpoint(const std::string& file, std::size_t max_cells);
 
+/// Removes a checkpoint and its pose, if there are any.
+void removeCheckpoint(const std::string& file);
+
 }  // namespace datmo

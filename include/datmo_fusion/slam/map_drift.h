@@ -71,8 +71,12 @@ class MapDrift {
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
 
   const Covariance& estimate() const { return covariance_; }
-  /// Continues from the estimate of an earlier drift, of the same map.
-  void continueFrom(const Covariance& estimate) { covariance_ = estimate; }
+  /// Continues from the estimate of an earlier drift, of the same map, with the vehicle at this
+  /// pose.
+  void continueFrom(const Covariance& estimate, const Pose2& base_in_map) {
+    covariance_ = estimate;
+    pose_ = base_in_map;
+  }
 
   /// Returns the standard deviation of odometry's scale.
   double scaleSigma() const;

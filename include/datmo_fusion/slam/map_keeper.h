@@ -44,11 +44,12 @@ class MapKeeper {
   /// one.
   std::optional<State> state() const;
 
-  /// Continues, at this position (m) in the map, from the state of an earlier keeper with the same
-  /// options and the same prior map, if any, before a map is started or left. `window`: the cells
-  /// that were in its map's window. Those that had left it are lost, except for a prior map's.
+  /// Continues, with the vehicle at this pose in the map, from the state of an earlier keeper with
+  /// the same options and the same prior map, if any, before a map is started or left. `window`:
+  /// the cells that were in its map's window. Those that had left it are lost, except for a prior
+  /// map's.
   void continueFrom(const State& state, const std::vector<CellEvidence>& window,
-                    const Point2& position);
+                    const Pose2& base_in_map);
 
   OccupancyMap& map() { return map_; }
   const OccupancyMap& map() const { return map_; }

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <utility>
 
 namespace datmo {
@@ -63,13 +64,10 @@ std::string CheckpointKeeper::differenceOf(const Checkpoint& checkpoint) const {
 }
 
 std::string CheckpointKeeper::refusalOf(const Checkpoint& checkpoint, Stamp first_scan) const {
-  if (checkpoint.run != options_.run) {
-    return "it belongs to another start of the stack, '" + checkpoint.run + "', expected '" +
-           options_.run + "'";
-  }
   const double age = secondsBetween(checkpoint.slam.pose.stamp, first_scan);
   if (!(age > 0.0 && age <= options_.max_age)) {
-    return "it is " + toText(age) + " s older than the first scan, expected 0 to " +
+    return "it is " + toText(age) +
+           " s older than the first scan, expected more than 0 and at most " +
            toText(options_.max_age) + " s";
   }
   return differenceOf(checkpoint);
@@ -77,7 +75,7 @@ std::string CheckpointKeeper::refusalOf(const Checkpoint& checkpoint, Stamp firs
 
 std::optional<Checkpoint> CheckpointKeeper::takeAt(Stamp first_scan) {
   std::optional<Checkpoint> earlier = std::exchange(earlier_, std::nullopt);
-  if (!earlier) {
+  if (!earlier || earlier->run != options_.run) {  // the stack was stopped in between, as usual
     return std::nullopt;
   }
   const std::string refusal = refusalOf(*earlier, first_scan);
@@ -147,9 +145,13 @@ void CheckpointKeeper::start(SlamState state, const GridSlam* with_map_of) {
 
 void CheckpointKeeper::finish(const GridSlam& slam) {
   worker_.waitUntilIdle();
-  if (const auto state = slam.state()) {
-    start(*state, &slam);
-    worker_.waitUntilIdle();
+  try {
+    if (const auto state = slam.state()) {
+      start(*state, &slam);
+      worker_.waitUntilIdle();
+    }
+  } catch (const std::bad_alloc&) {
+    // The file keeps an earlier state, which is still valid.
   }
 }
 
@@ -159,6 +161,7 @@ void CheckpointKeeper::reset() {
   earlier_.reset();
   last_map_.reset();
   id_.reset();
+  removeCheckpoint(options_.file);
 }
 
 }  // namespace datmo

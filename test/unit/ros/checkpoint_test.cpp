@@ -228,13 +228,14 @@ TEST_F(CheckpointTest, APoseOfAnotherMapIsIgnored) {
 TEST_F(CheckpointTest, AnotherStartOfTheStackBeginsANewMap) {
   driveAndUnload();
   options_.checkpoint.run = "run 2";
-  expectNewMap("'run 1', expected 'run 2'");
+  load();
+  EXPECT_TRUE(startsAnew());
 }
 
 TEST_F(CheckpointTest, AnOldCheckpointIsIgnored) {
   driveAndUnload();
   go(12.0);
-  expectNewMap("12.1 s older than the first scan, expected 0 to 10 s");
+  expectNewMap("12.1 s older than the first scan, expected more than 0 and at most 10 s");
 }
 
 TEST_F(CheckpointTest, ABagThatStartsAgainBeginsANewMap) {
@@ -249,6 +250,7 @@ TEST_F(CheckpointTest, AfterAJumpOfTheClockThereIsNoWayBack) {
   drive(1);
   now_ -= 50.0;
   EXPECT_TRUE(startsAnew());
+  EXPECT_FALSE(std::filesystem::exists(file())) << "by the new clock, it may look recent";
 }
 
 TEST_F(CheckpointTest, AnotherConfigurationBeginsANewMap) {

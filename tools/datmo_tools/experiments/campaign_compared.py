@@ -59,7 +59,7 @@ def _outages(outages):
         loaded, tracks = (max(each[key] for each in single) for key in ("loaded_s", "tracks_s"))
         lines.append(f"Each of {len(single)} nodelets, unloaded, is loaded again within {loaded:.1f} s, with tracks "
                      f"within {tracks:.1f} s; a track keeps its id in {sum(judged)} of {len(judged)} cases")  # fmt: skip
-    lines += [f"a killed process has tracks again after {each['tracks_s']:.1f} s, in a new map"
+    lines += [f"a killed process has tracks again after {each['tracks_s']:.1f} s"
               for each in outages if each["what"] == PROCESS]  # fmt: skip
     return "; ".join(lines) or NOT_RUN
 

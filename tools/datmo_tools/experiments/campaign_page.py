@@ -76,7 +76,7 @@ def _outage_lines(outages):
         "",
         "Live (`outage.test`, `fusion:=recommended risk:=true`), at the computer's pace, while a drive goes on: seconds until the nodelet is loaded",
         "again by its `load_nodelet`, and until there are tracks of a scan that was measured afterward; whether 3 s later the other",
-        "car still has its id. After being killed, grid_slam continues in the frame of its map (live.md).",
+        "car still has its id. After being killed, grid_slam continues in its map (`checkpoint`, [live.md](live.md#after-a-crash)).",
         "",
         "| what | loaded [s] | tracks [s] | id kept |",
         "|---|---|---|---|",

@@ -50,7 +50,8 @@ class CheckpointKeeper {
   /// Writes map and pose, if the vehicle is located, and returns when that is done.
   void finish(const GridSlam& slam);
 
-  /// Forgets what was read and written: the clock has jumped.
+  /// Forgets what was read and written, and removes it, since the clock has jumped: by the new
+  /// clock, it may look recent.
   void reset();
 
  private:
