@@ -34,7 +34,7 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_aligned_sigma", "m",
                   "if several poses fit, the maps are aligned if a covariance that reaches all of "
                   "them leaves no surface up to `reach` less certain than this (standard "
-                  "deviation; a good car's width); 0: never"},
+                  "deviation); 0: never"},
                  max_aligned_sigma, {0.0, 100.0});
   visitor.integer(
       {"min_surfaces", "1", "least number of static cells of the newer map for a search"},
