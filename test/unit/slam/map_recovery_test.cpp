@@ -27,7 +27,9 @@ struct Step {
 };
 
 std::vector<Step> run(const Drive& drive, int scans_after = 50) {
-  GridSlam slam{GridSlamOptions{}};
+  GridSlamOptions options;
+  options.recovery.search.max_aligned_sigma = 2.1;  // for a gap of more than a second
+  GridSlam slam{options};
   const Yard yard;
   std::vector<Step> steps;
   Pose2 truth;
