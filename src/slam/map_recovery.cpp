@@ -176,7 +176,7 @@ std::optional<Relocalization> MapRecovery::advance(const OccupancyMap& newer,
   if (outcome == MapSearch::Outcome::kUnfinished) {
     return std::nullopt;
   }
-  const std::optional<Relocalization> found = conclude(outcome, in_newer.pose);
+  std::optional<Relocalization> found = conclude(outcome, in_newer.pose);
   const bool is_lost = outcome == MapSearch::Outcome::kNone || searchesAnywhere();
   state_ = is_lost ? Localization::kLost : Localization::kUncertain;
   search_.reset();
