@@ -33,11 +33,6 @@ Eigen::Matrix3d ownCovariance(double sigma) {
   return Eigen::Vector3d(square(sigma), square(sigma), square(kFoundHeadingSigma)).asDiagonal();
 }
 
-/// Difference (x, y, heading) of two poses in the frame of both.
-Eigen::Vector3d offsetFrom(const Pose2& from, const Pose2& to) {
-  return {to.x() - from.x(), to.y() - from.y(), angleBetween(from.heading(), to.heading())};
-}
-
 }  // namespace
 
 double MapSearch::distanceAt(const Pose2& pose) const {
@@ -91,7 +86,7 @@ Eigen::Matrix3d MapSearch::spreadAbout(const Pose2& pose) const {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Box& leaf : leaves_) {
     const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Eigen::Vector3d apart = offsetFrom(pose, poseOf(leaf));
+    const Eigen::Vector3d apart = differenceOf(pose, poseOf(leaf));
     spread += weight * apart * apart.transpose();
     sum += weight;
   }
@@ -129,7 +124,7 @@ PoseWithCovariance MapSearch::aligned() const {
   const Eigen::Matrix3d information = central.covariance.inverse();
   double farthest = kept_distance;
   for (const Box& leaf : leaves_) {
-    const Eigen::Vector3d apart = offsetFrom(central.pose, poseOf(leaf));
+    const Eigen::Vector3d apart = differenceOf(central.pose, poseOf(leaf));
     farthest = std::max(farthest, std::sqrt(apart.dot(information * apart)));
   }
   central.covariance *= square(farthest / std::max(kept_distance, 1.0));

@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "datmo_fusion/slam/pose_covariance.h"
+
 namespace datmo {
 
 namespace {
@@ -18,8 +20,7 @@ constexpr double kGap = 0.25;
 constexpr double kContradiction = 16.27;
 
 double squaredDistance(const PoseWithCovariance& a, const PoseWithCovariance& b) {
-  const Eigen::Vector3d difference(b.pose.x() - a.pose.x(), b.pose.y() - a.pose.y(),
-                                   angleBetween(a.pose.heading(), b.pose.heading()));
+  const Eigen::Vector3d difference = differenceOf(a.pose, b.pose);
   const Eigen::Matrix3d covariance = a.covariance + b.covariance;
   return difference.dot(covariance.ldlt().solve(difference));
 }

@@ -3,7 +3,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "datmo_fusion/common/angle.h"
+
 namespace datmo {
+
+Eigen::Vector3d differenceOf(const Pose2& from, const Pose2& to) {
+  return {to.x() - from.x(), to.y() - from.y(), angleBetween(from.heading(), to.heading())};
+}
 
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
   Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/square.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 
 namespace datmo {
 
@@ -190,9 +191,7 @@ void PoseFilter::correct(const PoseWithCovariance& matched) {
   const Eigen::Matrix3d prior = covariance_.topLeftCorner<3, 3>();
   // Propagates the correction of the pose to all correlated states.
   const Eigen::Matrix<double, kStates, 3> gain = covariance_.leftCols<3>() * prior.inverse();
-  const Eigen::Vector3d learned(matched.pose.x() - pose_.x(), matched.pose.y() - pose_.y(),
-                                angleBetween(pose_.heading(), matched.pose.heading()));
-  apply(gain * learned);
+  apply(gain * differenceOf(pose_, matched.pose));
   covariance_ -= gain * (prior - matched.covariance) * gain.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   pose_ = matched.pose;

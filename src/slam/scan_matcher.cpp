@@ -12,6 +12,7 @@
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/common/uniform.h"
+#include "datmo_fusion/slam/pose_covariance.h"
 #include "datmo_fusion/slam/pose_scorer.h"
 
 namespace datmo {
@@ -48,10 +49,6 @@ Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_varian
 /// The pose, shifted by a small x, y (map frame) and heading.
 Pose2 shifted(const Pose2& pose, const Eigen::Vector3d& by) {
   return {pose.x() + by[0], pose.y() + by[1], pose.heading() + by[2]};
-}
-
-Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x() - from.x(), to.y() - from.y(), angleBetween(from.heading(), to.heading())};
 }
 
 }  // namespace
@@ -215,7 +212,7 @@ Pose2 ScanMatcher::refine(const Task& task, Resolution resolution, Pose2 pose) c
     const Eigen::Vector3d move =
         (normal.information + prior)
             .ldlt()
-            .solve(normal.gradient + prior * difference(pose, task.prediction.pose));
+            .solve(normal.gradient + prior * differenceOf(pose, task.prediction.pose));
     pose = shifted(pose, move);
     if (move.cwiseAbs().maxCoeff() < kConverged) {
       break;

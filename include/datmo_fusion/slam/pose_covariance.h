@@ -7,6 +7,10 @@
 
 namespace datmo {
 
+/// Returns the difference (x, y, heading) of two poses along the axes of their common frame, to
+/// which their covariances refer.
+Eigen::Vector3d differenceOf(const Pose2& from, const Pose2& to);
+
 /// Returns the covariance (x, y, heading) of a pose that is rigidly connected to one of this
 /// covariance, at the offset `arm` (m).
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);

@@ -27,5 +27,13 @@ TEST(PoseCovarianceTest, TurnedAxesKeepItsSize) {
   EXPECT_NEAR(maxPositionVariance(oblique), 0.04, 1e-12);
 }
 
+TEST(PoseCovarianceTest, ADifferenceIsAlongTheCommonAxesAndItsTurnIsTheSmallerOne) {
+  const Eigen::Vector3d difference =
+      differenceOf(Pose2(1.0, 2.0, degrees(170.0)), Pose2(4.0, 0.0, degrees(-170.0)));
+  EXPECT_NEAR(difference[0], 3.0, 1e-12);
+  EXPECT_NEAR(difference[1], -2.0, 1e-12);
+  EXPECT_NEAR(difference[2], degrees(20.0), 1e-12);
+}
+
 }  // namespace
 }  // namespace datmo::pose_covariance_test
