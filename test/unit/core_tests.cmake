@@ -165,6 +165,7 @@ datmo_fusion_add_core_test(slam
   slam/kidnapping_test.cpp
   slam/loop_closer_test.cpp
   slam/map_drift_test.cpp
+  slam/map_keeper_test.cpp
   slam/map_recovery_test.cpp
   slam/map_search_test.cpp
   slam/motion_compensation_test.cpp
@@ -216,6 +217,7 @@ datmo_fusion_add_core_test(fusion
   fusion/map_changes_test.cpp
   fusion/map_fuser_test.cpp
   fusion/object_association_test.cpp
+  fusion/object_class_combination_test.cpp
   fusion/object_combination_test.cpp
   fusion/object_consistency_test.cpp
   fusion/object_fuser_test.cpp

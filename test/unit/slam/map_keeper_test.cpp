@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/map_keeper.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "walls.h"
@@ -13,9 +12,11 @@ namespace datmo::map_keeper_test {
 namespace {
 
 const Pose2 kStart(200.0, 0.0, 0.0);  // far from the origin, about which the frame turns
+constexpr double kFarthest = 36.6;    // m, ahead of base, where a beam last ends on a wall
 constexpr double kStep = 0.2;         // m, between scans
 constexpr double kInterval = 0.1;     // s
-constexpr int kScans = 30;            // before the gap, and after it
+constexpr int kScansBefore = 30;      // the gap
+constexpr int kScansAfter = 48;       // until just before the search is given up
 
 /// A vehicle between two walls, whose maps are kept, with a gap of sensors on the way.
 class MapKeeperTest : public testing::Test {
@@ -33,15 +34,16 @@ class MapKeeperTest : public testing::Test {
 
   /// Drives up to the gap, leaves the map there with an estimate that is off and this uncertain.
   void driveIntoGap(const Pose2& off, const Eigen::Vector3d& sigma) {
-    for (int i = 0; i < kScans; ++i, truth_ = truth_ * Pose2(kStep, 0.0, 0.0)) {
+    for (int i = 0; i < kScansBefore; ++i, truth_ = truth_ * Pose2(kStep, 0.0, 0.0)) {
       write(truth_, truth_);
     }
     pose_ = keeper_.leave({truth_ * off, sigma.cwiseAbs2().asDiagonal()}, now());
   }
 
-  /// Drives on until the maps are one again, at most for some seconds. Returns whether they are.
+  /// Drives on until the maps are one again, at most until just before the search ends. Returns
+  /// whether they are.
   bool driveOn() {
-    for (int i = 0; i < kScans; ++i) {
+    for (int i = 0; i < kScansAfter; ++i) {
       write(truth_, pose_.pose);
       before_ = keeper_.inFirstMap(pose_);
       const MapKeeper::SearchStep step = keeper_.search(pose_, now());
@@ -55,11 +57,8 @@ class MapKeeperTest : public testing::Test {
     return false;
   }
 
-  bool hasSurfaceNear(const Point2& position) {
-    const std::vector<Point2> surfaces = keeper_.map().staticSurfaces();
-    return std::any_of(surfaces.begin(), surfaces.end(),
-                       [&](const Point2& surface) { return (surface - position).norm() < 1.0; });
-  }
+  /// Whether the map has hits on the left wall at this distance along it.
+  bool hasWallAt(double x) const { return keeper_.map().hitsAround({x, 5.0}).has_value(); }
 
   MapKeeper keeper_{OccupancyMapOptions{}, MapRecoveryOptions{}, ScalePrior{}};
   double seconds_ = 0.0;
@@ -79,8 +78,10 @@ TEST_F(MapKeeperTest, AlignedMapsAreMergedAndTheUncertaintyAlongTheWallsStays) {
   EXPECT_LT(after.covariance(2, 2), 0.5 * before_.covariance(2, 2));
   EXPECT_EQ(keeper_.mapsBegun(), 0);
   EXPECT_EQ(keeper_.localization(), Localization::kLocated);
-  EXPECT_TRUE(hasSurfaceNear({kStart.x() + 5.0, 5.0})) << "of the older map";
-  EXPECT_TRUE(hasSurfaceNear({truth_.x() + 38.0, 5.0})) << "of the newer one";
+  ASSERT_GT(truth_.x(), kStart.x() + kStep * kScansBefore + 2.0);
+  EXPECT_TRUE(hasWallAt(kStart.x() + 5.0)) << "of the older map";
+  EXPECT_TRUE(hasWallAt(truth_.x() + kFarthest - 1.0)) << "of the newer one";
+  EXPECT_FALSE(hasWallAt(truth_.x() + kFarthest + 2.0)) << "of neither";
 }
 
 TEST_F(MapKeeperTest, WithAPriorMapNothingIsMerged) {
