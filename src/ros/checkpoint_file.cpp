@@ -11,6 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "datmo_fusion/ros/checkpoint_check.h"
 #include "datmo_fusion/ros/map_format.h"
 #include "datmo_fusion/ros/whole_file.h"
 
@@ -194,8 +198,12 @@ Header readHeader(std::istream& in, const std::string& expected, const std::stri
 /// Throws MapFileError.
 void checkSize(const std::string& file, std::size_t max_cells) {
   std::error_code unusable;
-  if (!std::filesystem::is_regular_file(file, unusable)) {
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, unusable))) {
     throw MapFileError(file + ": is not a file, expected a checkpoint");
+  }
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0 && status.st_uid != geteuid()) {
+    throw MapFileError(file + ": belongs to another user, expected a checkpoint of one's own");
   }
   const std::uintmax_t bytes = std::filesystem::file_size(file, unusable);
   const std::uintmax_t max = kMaxHeader + max_cells * kMapBytesPerCell;
@@ -217,7 +225,8 @@ std::optional<SlamState> readPose(const std::string& file, std::uint32_t id) {
     SlamState slam;
     fields.number(belongs_to);
     visit(fields, slam);
-    return fields.isComplete() && belongs_to == id ? std::make_optional(slam) : std::nullopt;
+    const bool is_usable = fields.isComplete() && belongs_to == id && isSound(slam);
+    return is_usable ? std::make_optional(slam) : std::nullopt;
   } catch (const MapFileError&) {
     return std::nullopt;  // the pose of the checkpoint itself is a little older
   }
@@ -255,6 +264,9 @@ Checkpoint readCheckpoint(const std::string& file, std::size_t max_cells) {
   visit(fields, checkpoint);
   if (!fields.isComplete()) {
     throw MapFileError(file + kDamaged);
+  }
+  if (!isSound(checkpoint.slam)) {
+    throw MapFileError(file + ": holds a state that no vehicle can have: expected a checkpoint");
   }
   checkpoint.window = readMapText(in, file);
   checkpoint.slam = readPose(poseFile(file), header.checksum).value_or(checkpoint.slam);

@@ -1,13 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/whole_file.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace datmo {
+
+namespace {
+
+/// Read and write permission for all, less the umask, as std::ofstream creates files.
+constexpr mode_t kMode = 0666;
+
+/// Creates an empty file in place of one that an interrupted call has left. A link that someone
+/// else has put there is not followed.
+void createAnew(const std::string& file) {
+  std::filesystem::remove(file);
+  const int descriptor =
+      open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode);
+  if (descriptor < 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  close(descriptor);
+}
+
+}  // namespace
 
 void checkWritable(const std::string& file) {
   if (std::filesystem::is_directory(file)) {
@@ -33,6 +55,7 @@ void writeWholeFile(const std::string& file, const std::string& text) {
   checkWritable(file);
   const std::string part = file + ".part";
   try {
+    createAnew(part);
     std::ofstream stream;
     stream.exceptions(std::ios::failbit | std::ios::badbit);
     stream.open(part, std::ios::binary);

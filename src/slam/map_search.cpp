@@ -166,15 +166,17 @@ MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
   return decides ? Outcome::kUnfinished : Outcome::kAmbiguous;
 }
 
-MapSearch::Outcome MapSearch::conclude() const {
+MapSearch::Outcome MapSearch::conclude() {
   if (leaves_.empty()) {
     return Outcome::kNone;
   }
   if (areAllTogether() && maxShared() >= options_.min_shared) {
     return Outcome::kFound;
   }
-  const bool is_narrow = options_.max_aligned_sigma > 0.0 && isNarrow(aligned().covariance);
-  return is_narrow ? Outcome::kAligned : Outcome::kAmbiguous;
+  if (options_.max_aligned_sigma > 0.0) {
+    aligned_ = centralPose();
+  }
+  return aligned_ && isNarrow(aligned_->covariance) ? Outcome::kAligned : Outcome::kAmbiguous;
 }
 
 double MapSearch::maxShared() const {

@@ -81,16 +81,26 @@ std::optional<Pose2> MapSearch::likeliest() const {
   return leaves_.empty() ? std::nullopt : std::make_optional(refined(poseOf(nearestLeaf())));
 }
 
-Eigen::Matrix3d MapSearch::spreadAbout(const Pose2& pose) const {
-  double sum = 0.0;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+std::vector<double> MapSearch::leafProbabilities() const {
+  std::vector<double> probabilities;
   for (const Box& leaf : leaves_) {
-    const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Eigen::Vector3d apart = differenceOf(pose, poseOf(leaf));
-    spread += weight * apart * apart.transpose();
-    sum += weight;
+    probabilities.push_back(std::exp(leaves_.front().cost - leaf.cost));
   }
-  return spread / sum;
+  const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+  for (double& probability : probabilities) {
+    probability /= sum;
+  }
+  return probabilities;
+}
+
+Eigen::Matrix3d MapSearch::spreadAbout(const Pose2& pose) const {
+  const std::vector<double> probabilities = leafProbabilities();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const Eigen::Vector3d apart = differenceOf(pose, poseOf(leaves_[i]));
+    spread += probabilities[i] * apart * apart.transpose();
+  }
+  return spread;
 }
 
 PoseWithCovariance MapSearch::found() const {
@@ -100,14 +110,11 @@ PoseWithCovariance MapSearch::found() const {
 }
 
 const MapSearch::Box& MapSearch::centralLeaf() const {
-  double sum = 0.0;
+  const std::vector<double> probabilities = leafProbabilities();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // from the best one
-  for (const Box& leaf : leaves_) {
-    const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    mean += weight * between(leaves_.front(), leaf);
-    sum += weight;
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    mean += probabilities[i] * between(leaves_.front(), leaves_[i]);
   }
-  mean /= sum;
   const auto distance = [&](const Box& leaf) {
     const Eigen::Vector3d apart = between(leaves_.front(), leaf) - mean;
     return std::hypot(apart.head<2>().norm(), options_.reach * apart[2]);
@@ -116,7 +123,7 @@ const MapSearch::Box& MapSearch::centralLeaf() const {
                            [&](const Box& a, const Box& b) { return distance(a) < distance(b); });
 }
 
-PoseWithCovariance MapSearch::aligned() const {
+PoseWithCovariance MapSearch::centralPose() const {
   PoseWithCovariance central{refined(poseOf(centralLeaf())), {}};
   central.covariance = ownCovariance(kFoundSigma) + spreadAbout(central.pose);
   // The likelihoods are only bounds: the covariance has to reach all poses that are kept.

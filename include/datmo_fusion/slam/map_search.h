@@ -81,7 +81,7 @@ class MapSearch {
 
   /// With kAligned: returns the one nearest to the mean of the poses that are not contradicted,
   /// with a covariance that reaches all of them.
-  PoseWithCovariance aligned() const;
+  PoseWithCovariance aligned() const { return aligned_.value(); }
 
  private:
   /// Poses within `half` (m, m, rad) of a center.
@@ -148,9 +148,13 @@ class MapSearch {
   bool isInAlignedRegion(const Box& leaf) const;
   /// Whether a pose with this covariance aligns the maps, up to the surfaces that are compared.
   bool isNarrow(const Eigen::Matrix3d& covariance) const;
-  /// The leaf nearest to the mean of all of them, weighted by their likelihoods.
+  /// Of each leaf, by its likelihood.
+  std::vector<double> leafProbabilities() const;
+  /// The leaf nearest to the mean of all of them.
   const Box& centralLeaf() const;
-  /// Mean square of the leaves' offsets from a pose, weighted by their likelihoods.
+  /// Its pose, with a covariance that reaches all leaves.
+  PoseWithCovariance centralPose() const;
+  /// Mean square of the leaves' offsets from a pose.
   Eigen::Matrix3d spreadAbout(const Pose2& pose) const;
   /// The leaf of that hypothesis whose surfaces are nearest to those of the older map: the
   /// tolerance for equal surfaces is wider than the accuracy of a match.
@@ -163,7 +167,7 @@ class MapSearch {
   /// Whether all leaves that are kept belong to the hypothesis of the best one.
   bool areAllTogether() const;
   double maxShared() const;
-  Outcome conclude() const;
+  Outcome conclude();
 
   MapSearchOptions options_;
   std::shared_ptr<const SearchedMap> older_map_;
@@ -178,7 +182,8 @@ class MapSearch {
   double newer_weight_ = 0.0;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;
-  std::vector<Box> leaves_;  ///< that are kept, best first
+  std::vector<Box> leaves_;                    ///< that are kept, best first
+  std::optional<PoseWithCovariance> aligned_;  ///< with kAligned
   int looked_at_ = 0;
   Outcome outcome_ = Outcome::kUnfinished;
 };

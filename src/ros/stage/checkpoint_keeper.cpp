@@ -21,7 +21,7 @@ void CheckpointOptions::visit(OptionVisitor& visitor) {
   visitor.number({"interval", "s",
                   "minimum time between two maps written to the file, by the scans' stamps; the "
                   "pose is written after each scan"},
-                 interval, {0.1, 60.0});
+                 interval, {0.1, 10.0});
   visitor.number({"max_age", "s",
                   "an older state is ignored: longer than a restart takes; with the speed known "
                   "at both ends only, a car is then uncertain by more than recovery/"
@@ -106,7 +106,6 @@ CheckpointKeeper::Result CheckpointKeeper::write(const Job& job) const {
 
 void CheckpointKeeper::takeResults() {
   for (const Result& result : worker_.take()) {
-    is_writing_ = false;
     id_ = result.error.empty() ? std::make_optional(result.id) : std::nullopt;
     if (!id_) {
       monitor_.warned(
@@ -122,10 +121,10 @@ bool CheckpointKeeper::isMapDue(const SlamState& state) const {
 }
 
 void CheckpointKeeper::keep(const GridSlam& slam) {
-  takeResults();
-  if (is_writing_) {
+  if (worker_.isBusy()) {
     return;
   }
+  takeResults();
   if (const auto state = slam.state()) {
     start(*state, isMapDue(*state) ? &slam : nullptr);
   }
@@ -135,10 +134,8 @@ void CheckpointKeeper::start(SlamState state, const GridSlam* with_map_of) {
   if (with_map_of != nullptr) {
     last_map_ = state.pose.stamp;
     maps_begun_ = state.map.maps_begun;
-    is_writing_ = true;
     worker_.start({std::move(state), with_map_of->map().windowEvidence(), 0});
   } else if (id_) {
-    is_writing_ = true;
     worker_.start({std::move(state), std::nullopt, *id_});
   }
 }
@@ -150,6 +147,7 @@ void CheckpointKeeper::finish(const GridSlam& slam) {
       start(*state, &slam);
       worker_.waitUntilIdle();
     }
+    takeResults();
   } catch (const std::bad_alloc&) {
     // The file keeps an earlier state, which is still valid.
   }

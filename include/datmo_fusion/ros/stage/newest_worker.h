@@ -67,6 +67,12 @@ class NewestWorker {
     return std::exchange(done_, {});
   }
 
+  /// Whether a job runs or waits.
+  bool isBusy() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return next_ || busy_;
+  }
+
   /// Blocks until no job runs or waits.
   void waitUntilIdle() {
     std::unique_lock<std::mutex> lock(mutex_);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/checkpoint_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "datmo_fusion/common/physical_bounds.h"
+#include "datmo_fusion/ros/stage/output_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// s, mean interval of scans: a slower scanner gives no map.
+constexpr double kMaxScanInterval = 10.0;
+
+template <int kSize>
+bool isSound(const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  return isWithin(covariance, kMaxCoordinate * kMaxCoordinate) &&
+         isCovariance(covariance.data(), kSize);
+}
+
+bool isSound(const std::vector<OdometrySample>& samples) {
+  const bool ascend = std::is_sorted(
+      samples.begin(), samples.end(),
+      [](const OdometrySample& a, const OdometrySample& b) { return a.stamp < b.stamp; });
+  return ascend && std::all_of(samples.begin(), samples.end(), [](const OdometrySample& sample) {
+           return isPlausible(sample.twist) &&
+                  isWithin(sample.base_in_odom.value_or(Pose2()).position(), kMaxCoordinate);
+         });
+}
+
+bool isSound(const PoseFilter::Estimate& estimate) {
+  return isWithin(estimate.pose.position(), kMaxCoordinate) && isPlausible(estimate.velocity) &&
+         std::abs(estimate.errors.speed_scale) < 1.0 &&
+         std::abs(estimate.errors.yaw_rate_bias) <= kMaxYawRate && isSound(estimate.covariance);
+}
+
+}  // namespace
+
+bool isSound(const SlamState& slam) {
+  return slam.pose.scan_interval > 0.0 && slam.pose.scan_interval <= kMaxScanInterval &&
+         isSound(slam.pose.estimate) && isSound(slam.pose.odometry) && isSound(slam.map.drift) &&
+         isSound(slam.map.frame) && slam.map.maps_begun >= 0;
+}
+
+}  // namespace datmo
