@@ -12,6 +12,7 @@ namespace {
 const std::map<std::string, std::string> kRenamed = {
     {"across_per_metre", "across_per_meter"},
     {"along_per_metre", "along_per_meter"},
+    {"boxes_per_scan", "boxes_per_second"},
     {"coincidence", "false_agreement_probability"},
     {"else_share", "other_share"},
     {"farthest", "max_distance"},

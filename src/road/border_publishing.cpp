@@ -68,7 +68,7 @@ void BorderPublishingOptions::visit(OptionVisitor& visitor) {
                   "lateral standard deviation above which a border is not published", Tier::kLive},
                  max_sigma, {0.05, 10.0});
   visitor.number({"min_length", "m",
-                  "least length of a published piece of border: posts are shorter", Tier::kLive},
+                  "minimum length of a published piece of border: posts are shorter", Tier::kLive},
                  min_length, {0.0, 50.0});
   visitor.number({"spacing", "m", "spacing of a border's points along the vehicle's heading"},
                  spacing, {0.1, 20.0});

@@ -14,10 +14,10 @@ PassageGridOptions::PassageGridOptions() {
 void PassageGridOptions::visit(OptionVisitor& visitor) {
   visitor.group(
       "window", [&] { window.visit(visitor); }, Tier::kExpert);
-  visitor.integer({"min_hits", "1", "least number of beams that end in a cell that is not free"},
+  visitor.integer({"min_hits", "1", "minimum number of beams that end in a cell that is not free"},
                   min_hits, {1, 1000});
   visitor.number({"hit_share", "1",
-                  "least share of a cell's beams, ending or passing, that end in a cell that is "
+                  "minimum share of a cell's beams, ending or passing, that end in a cell that is "
                   "not free: moving objects leave fewer"},
                  hit_share, {0.0, 1.0});
   visitor.number({"end_margin", "m",

@@ -44,7 +44,7 @@ double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const P
 
 void RoadOpeningOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"min_length", "m", "least length along the road; streets are wider, curbs are rounded"},
+      {"min_length", "m", "minimum length along the road; streets are wider, curbs are rounded"},
       min_length, {0.5, 100.0});
   visitor.number(
       {"max_length", "m", "greatest length along the road; longer openings are not streets"},

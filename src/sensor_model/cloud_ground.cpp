@@ -91,7 +91,7 @@ void CloudGroundOptions::visit(OptionVisitor& visitor) {
       {"tolerance", "m",
        "points farther from the plane do not belong to the ground: less than a curb's height"},
       tolerance, {0.01, 0.5});
-  visitor.integer({"min_voxels", "1", "least number of squares of ground that support a plane"},
+  visitor.integer({"min_voxels", "1", "minimum number of squares of ground that support a plane"},
                   min_voxels, {3, 10000});
   visitor.number(
       {"max_slope", "m/m", "a plane steeper than this relative to the vehicle is not the ground"},

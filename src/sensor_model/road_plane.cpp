@@ -165,8 +165,9 @@ void RoadPlaneOptions::visit(OptionVisitor& visitor) {
                   "points farther from the plane do not belong to the road: less than a curb's "
                   "height; the noise of their depth is allowed in addition"},
                  tolerance, {0.01, 0.5});
-  visitor.integer({"min_cells", "1", "least area of road that supports a plane, in square meters"},
-                  min_cells, {3, 1000});
+  visitor.integer(
+      {"min_cells", "1", "minimum area of road that supports a plane, in square meters"}, min_cells,
+      {3, 1000});
   visitor.number(
       {"max_slope", "m/m", "a plane steeper than this relative to the vehicle is not the road"},
       max_slope, {0.0, 0.5});

@@ -35,7 +35,7 @@ void SurfacePairOptions::visit(OptionVisitor& visitor) {
                  max_step_ratio, {1.0, 100.0});
   visitor.number({"max_length", "m", "length of a surface; longer ones are divided"}, max_length,
                  {0.1, 20.0});
-  visitor.integer({"min_beams", "1", "least number of beams on a surface"}, min_beams, {3, 100});
+  visitor.integer({"min_beams", "1", "minimum number of beams on a surface"}, min_beams, {3, 100});
   visitor.number(
       {"min_incidence", "1",
        "cosine of the angle between line of sight and normal; more slanted surfaces are ignored"},
@@ -46,10 +46,10 @@ void SurfacePairOptions::visit(OptionVisitor& visitor) {
                  {0.001, 2.0});
   visitor.number({"edge_pixels", "px", "at both ends of a surface, this much is ignored"},
                  edge_pixels, {0.0, 50.0});
-  visitor.integer({"min_points", "1", "least number of the camera's points on a surface"},
+  visitor.integer({"min_points", "1", "minimum number of the camera's points on a surface"},
                   min_points, {3, 10000});
   visitor.number(
-      {"min_share", "1", "least share of them that agree with each other within mode_width"},
+      {"min_share", "1", "minimum share of them that agree with each other within mode_width"},
       min_share, {0.1, 1.0});
   visitor.number({"mode_width", "px", "to either side of their median"}, mode_width, {0.1, 10.0});
   visitor.number(

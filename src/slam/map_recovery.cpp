@@ -52,14 +52,13 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
                   "the vehicle has been kidnapped if for this long no scan fits its former place "
                   "better; pitching at a bump, or when braking, is over sooner"},
                  kidnapped_after, {0.0, 60.0});
-  visitor.integer(
-      {"boxes_per_scan", "1", "maximum number of boxes of poses that a search examines per scan"},
-      boxes_per_scan, {1, 1000000});
+  visitor.integer({"boxes_per_second", "1/s",
+                   "number of boxes of poses that a search examines per second between scans; a "
+                   "box takes about 1.5 us"},
+                  boxes_per_second, {1, 100000000});
   visitor.group("search", [&] { search.visit(visitor); });
-  visitor.integer(
-      {"prior_boxes_per_second", "1/s",
-       "the same for a search in a prior map, per second between scans; a box takes about 1.5 us"},
-      prior_boxes_per_second, {1, 100000000});
+  visitor.integer({"prior_boxes_per_second", "1/s", "the same for a search in a prior map"},
+                  prior_boxes_per_second, {1, 100000000});
   visitor.number(
       {"confirmed_after", "m",
        "a pose found in a prior map is accepted when it is found again after this distance"},
@@ -158,8 +157,8 @@ bool MapRecovery::confirms(const Pose2& found) {
 int MapRecovery::boxesUntil(Stamp stamp) {
   const double seconds = std::clamp(secondsBetween(advanced_, stamp), 0.0, kMaxInterval);
   advanced_ = stamp;
-  return searchesCompleteMap() ? 1 + static_cast<int>(seconds * options_.prior_boxes_per_second)
-                               : options_.boxes_per_scan;
+  return 1 + static_cast<int>(seconds * (searchesCompleteMap() ? options_.prior_boxes_per_second
+                                                               : options_.boxes_per_second));
 }
 
 std::optional<Relocalization> MapRecovery::advance(const OccupancyMap& newer,

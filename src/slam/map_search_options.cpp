@@ -29,7 +29,7 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
       {"max_changed_share", "1", "a pose that is contradicted by a larger share is rejected"},
       max_changed_share, {0.0, 1.0});
   visitor.number(
-      {"min_shared", "1", "least share of surfaces that both maps have, at the pose found"},
+      {"min_shared", "1", "minimum share of surfaces that both maps have, at the pose found"},
       min_shared, {0.0, 1.0});
   visitor.number({"max_aligned_sigma", "m",
                   "if several poses fit, the maps are aligned if a covariance that reaches all of "
@@ -37,7 +37,7 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
                   "deviation); 0: never"},
                  max_aligned_sigma, {0.0, 100.0});
   visitor.integer(
-      {"min_surfaces", "1", "least number of static cells of the newer map for a search"},
+      {"min_surfaces", "1", "minimum number of static cells of the newer map for a search"},
       min_surfaces, {1, 1000000});
   visitor.number({"reach", "m", "surfaces up to this range are compared"}, reach, {1.0, 1000.0});
   visitor.integer({"max_boxes", "1", "boxes of poses after which a search ends as ambiguous"},

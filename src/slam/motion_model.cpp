@@ -8,12 +8,15 @@ namespace datmo {
 void OdometryNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.number({"speed_noise", "m/s", "standard deviation of odometry's speed", Tier::kPublic},
                  speed_noise, {0.001, 10.0});
-  visitor.number({"speed_noise_ratio", "1", "and of it for each m/s of speed: wheel radius, slip"},
+  visitor.number({"speed_noise_ratio", "1",
+                  "standard deviation of odometry's speed, in addition, relative to "
+                  "it: wheel radius, slip"},
                  speed_noise_ratio, {0.0, 1.0});
   visitor.number({"yaw_rate_noise", "rad/s", "standard deviation of its yaw rate, bias included",
                   Tier::kPublic},
                  yaw_rate_noise, {0.0001, 3.0});
-  visitor.number({"yaw_rate_noise_ratio", "1", "and of it for each rad/s of yaw rate"},
+  visitor.number({"yaw_rate_noise_ratio", "1",
+                  "standard deviation of its yaw rate, in addition, relative to it"},
                  yaw_rate_noise_ratio, {0.0, 1.0});
 }
 

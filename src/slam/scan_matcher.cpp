@@ -141,7 +141,7 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   "move, relative to the visible ones that have been hit longest, up to "
                   "static_after; 1: all are equal (thesis)"},
                  min_maturity, {0.001, 1.0});
-  visitor.integer({"min_points", "1", "least number of end points on known surfaces for a match"},
+  visitor.integer({"min_points", "1", "minimum number of end points on known surfaces for a match"},
                   min_points, {1, 10000});
 }
 

@@ -36,7 +36,7 @@ void SubmapMatcherOptions::visit(OptionVisitor& visitor) {
                  max_step, {0.01, 100.0});
   visitor.number(
       {"position_sigma", "m",
-       "least standard deviation of a loop: by how much both submaps are distorted themselves"},
+       "minimum standard deviation of a loop: by how much both submaps are distorted themselves"},
       position_sigma, {0.001, 10.0});
   visitor.number({"heading_sigma", "rad", "the same for the heading"}, heading_sigma,
                  {0.0001, 1.0});

@@ -18,8 +18,8 @@ void ClutterMapOptions::visit(OptionVisitor& visitor) {
   visitor.number({"cell_size", "m", "side of the cells whose false alarms are counted together"},
                  cell_size, {0.5, 100.0});
   visitor.number(
-      {"range", "m", "range around the vehicle in which they are counted", Tier::kPublic}, range,
-      {1.0, 500.0});
+      {"range", "m", "range around the vehicle in which false objects are counted", Tier::kPublic},
+      range, {1.0, 500.0});
   visitor.number({"learning_time", "s", "time constant of the count"}, learning_time,
                  {0.1, 1000.0});
 }

@@ -90,7 +90,7 @@ void TransitionLearningOptions::visit(OptionVisitor& visitor) {
                  min_sojourn, {0.01, 10.0});
   visitor.number({"max_sojourn", "s", "no mode lasts longer on average, whatever is learned"},
                  max_sojourn, {1.0, 1e6});
-  visitor.number({"min_share", "1", "least share of each other mode in the jumps from a mode"},
+  visitor.number({"min_share", "1", "minimum share of each other mode in the jumps from a mode"},
                  min_share, {0.0, 0.2});
 }
 

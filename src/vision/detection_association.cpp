@@ -58,7 +58,7 @@ std::optional<Pairing> pairingOf(const ProjectedObject& object, const ImageDetec
 void DetectionAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"min_coverage", "1",
-       "least share of an object's columns that a detection must cover to be associated with it"},
+       "minimum share of an object's columns that a detection must cover to be associated with it"},
       min_coverage, {0.01, 1.0});
   visitor.number(
       {"column_share", "1",

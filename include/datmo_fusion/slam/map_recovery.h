@@ -32,7 +32,7 @@ struct MapRecoveryOptions {
   double lost_from_sigma = 15.0;             ///< m
   double min_kidnapped_log_ratio = 5.0;
   double kidnapped_after = 1.0;  ///< s
-  int boxes_per_scan = 3000;
+  int boxes_per_second = 50000;
   MapSearchOptions search;
   int prior_boxes_per_second = 400000;
   double confirmed_after = 0.5;       ///< m

@@ -28,11 +28,12 @@ void EarthFrameOptions::visit(OptionVisitor& visitor) {
                   "RMS distance of the first fixes from their mean; below it, jittering poses "
                   "could pass for a drive"},
                  start_spread, {0.01, 1000.0});
-  visitor.integer({"start_fixes", "",
-                   "least number of first fixes that are consistent: with fewer, an outlier bends "
-                   "the rest to itself"},
-                  start_fixes, {3.0, 400.0});
-  visitor.number({"start_share", "1", "least share of the first fixes that are consistent"},
+  visitor.integer(
+      {"start_fixes", "",
+       "minimum number of first fixes that are consistent: with fewer, an outlier bends "
+       "the rest to itself"},
+      start_fixes, {3.0, 400.0});
+  visitor.number({"start_share", "1", "minimum share of the first fixes that are consistent"},
                  start_share, {0.5, 1.0});
   visitor.number(
       {"max_gap", "s",

@@ -62,9 +62,9 @@ void StationTrackOptions::visit(OptionVisitor& visitor) {
                   "a list with a stamp farther in the future is dropped: its clock is wrong"},
                  max_ahead, {0.0, 60.0});
   visitor.number({"max_speed", "m/s", "a faster track is dropped"}, max_speed, {1.0, 200.0});
-  visitor.number({"min_position_sigma", "m", "least standard deviation of a track's position"},
+  visitor.number({"min_position_sigma", "m", "minimum standard deviation of a track's position"},
                  min_position_sigma, {0.001, 10.0});
-  visitor.number({"min_velocity_sigma", "m/s", "least standard deviation of a track's velocity"},
+  visitor.number({"min_velocity_sigma", "m/s", "minimum standard deviation of a track's velocity"},
                  min_velocity_sigma, {0.001, 10.0});
   visitor.number(
       {"clock_sigma", "s", "standard deviation of the clock of a station that does not report it"},
