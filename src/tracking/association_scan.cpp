@@ -108,12 +108,14 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
     scan.extent = std::max(scan.extent, std::hypot(box.length, box.width));
     const Point2& in_base = objects[entry.listed].box.center.position();
     const double density = options.new_density + clutter.density(in_base);
-    const bool starts = entry.object.dynamic_state != DynamicState::kStatic;
+    const ObservedTarget target = entry.object.dynamic_state == DynamicState::kStatic
+                                      ? ObservedTarget::kKnownOrNone
+                                      : ObservedTarget::kKnownOrNew;
     scan.centers.push_back(box.center.position());
     scan.bounds.emplace_back(entry.object);
     scan.bound.widen(scan.bounds.back());
     scan.observations.push_back(
-        {std::move(entry.object), {scan.listed.size()}, std::log(density), starts, false});
+        {std::move(entry.object), {scan.listed.size()}, std::log(density), target});
     scan.listed.push_back(entry.listed);
   }
   return scan;

@@ -171,7 +171,7 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
                                       std::vector<HypothesisCluster>& next) {
   for (std::size_t object = 0; object < scan.objects; ++object) {
     const Observation& observation = scan.observations[object];
-    if (claimed[object] || !observation.starts_target) {
+    if (claimed[object] || !observation.startsTarget()) {
       continue;
     }
     if (room_ == 0) {

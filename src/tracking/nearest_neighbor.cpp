@@ -89,7 +89,7 @@ void NearestNeighborTargets::startTargets(const AssociationScan& scan,
                                           const std::vector<bool>& explained) {
   for (std::size_t object = 0; object < scan.objects; ++object) {
     const Observation& observation = scan.observations[object];
-    if (explained[object] || !observation.starts_target) {
+    if (explained[object] || !observation.startsTarget()) {
       continue;
     }
     if (targets_.size() >= static_cast<std::size_t>(options_.max_targets)) {

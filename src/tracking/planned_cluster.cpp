@@ -96,7 +96,7 @@ int PlannedCluster::leafFor(std::size_t tree, int parent, std::size_t observatio
 }
 
 void PlannedCluster::startTarget(std::size_t observation, GlobalHypothesis& child) {
-  if (!context_.scan.observations[observation].starts_target) {
+  if (!context_.scan.observations[observation].startsTarget()) {
     return;
   }
   const auto known = tree_of_birth_.find(observation);

@@ -28,7 +28,7 @@ RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const Assoc
     }
   }
   for (std::size_t column = 0; column < interpretation.size(); ++column) {
-    if (scan.observations[interpretation[column]].needs_target) {
+    if (scan.observations[interpretation[column]].needsTarget()) {
       needy_.push_back(static_cast<int>(column));
     }
   }

@@ -133,7 +133,7 @@ class Reader {
   std::size_t observe(const Object& object, const std::vector<std::size_t>& sources,
                       double log_density, std::size_t tree) {
     const std::size_t index = scan_.observations.size();
-    scan_.observations.push_back({object, sources, log_density, false, true});
+    scan_.observations.push_back({object, sources, log_density, ObservedTarget::kKnown});
     for (Leaf& leaf : cluster_.trees[tree].leaves) {
       addCandidate(leaf.target, scan_, index, association_, leaf.scores);
     }

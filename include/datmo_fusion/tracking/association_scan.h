@@ -16,25 +16,33 @@
 
 namespace datmo {
 
+/// The target that an observation may be of.
+enum class ObservedTarget {
+  kKnownOrNew,   ///< it starts a target if it belongs to none
+  kKnownOrNone,  ///< a false alarm, or of no interest, if it belongs to none
+  kKnown         ///< it must belong to a target
+};
+
 /// A possible measurement of one target in one scan: an object of the scan; several of them that
 /// are parts of one object; or a part of an object that consists of several.
 struct Observation {
   Observation(Object seen, std::vector<std::size_t> made_from, double density = 0.0,
-              bool may_start = true, bool must_belong = false)
+              ObservedTarget of = ObservedTarget::kKnownOrNew)
       : object(std::move(seen)),
         class_likelihoods(classLikelihoods(object.class_probabilities)),
         sources(std::move(made_from)),
         log_density(density),
-        starts_target(may_start),
-        needs_target(must_belong) {}
+        target(of) {}
+
+  bool startsTarget() const { return target == ObservedTarget::kKnownOrNew; }
+  bool needsTarget() const { return target == ObservedTarget::kKnown; }
 
   Object object;  ///< fixed frame
   /// classLikelihoods() of the object, computed once for all targets.
   std::optional<ClassProbabilities> class_likelihoods;
   std::vector<std::size_t> sources;  ///< the scan's objects that it was made from, ascending
   double log_density = 0.0;          ///< log of the density of such objects of no target, 1/m^2
-  bool starts_target = true;         ///< if it belongs to none
-  bool needs_target = false;         ///< must belong to a target
+  ObservedTarget target = ObservedTarget::kKnownOrNew;
 };
 
 /// One scan as used for association, in the fixed frame.

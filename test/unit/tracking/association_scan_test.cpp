@@ -46,7 +46,7 @@ TEST_F(AssociationScanTest, ObjectsByAscendingXInTheFixedFrameWithTheirIndexInTh
 
 TEST_F(AssociationScanTest, SourcesOfAUnionAreListedInTheOrderOfTheList) {
   AssociationScan scan = take({objectAt(3.0, 0.0), objectAt(1.0, 0.0), objectAt(2.0, 0.0)});
-  scan.observations.push_back({objectAt(2.0, 0.0), {0, 2}, 0.0, false, true});
+  scan.observations.push_back({objectAt(2.0, 0.0), {0, 2}, 0.0, ObservedTarget::kKnown});
   EXPECT_EQ(scan.listedSources(3), (std::vector<std::size_t>{0, 1}));
 }
 
@@ -111,9 +111,9 @@ TEST_F(AssociationScanTest, DensityIsThatOfNewObjectsAndOfClutterSeenFromTheVehi
 TEST_F(AssociationScanTest, ObjectsStaticInTheMapStartNoTarget) {
   const AssociationScan scan =
       take({objectAt(1.0, 0.0, DynamicState::kStatic), objectAt(2.0, 0.0, DynamicState::kUnknown)});
-  EXPECT_FALSE(scan.observations[0].starts_target);
-  EXPECT_TRUE(scan.observations[1].starts_target);
-  EXPECT_FALSE(scan.observations[0].needs_target);
+  EXPECT_FALSE(scan.observations[0].startsTarget());
+  EXPECT_TRUE(scan.observations[1].startsTarget());
+  EXPECT_FALSE(scan.observations[0].needsTarget());
 }
 
 TEST_F(AssociationScanTest, NoInputGivesNoOutput) {

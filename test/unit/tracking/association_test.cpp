@@ -178,13 +178,13 @@ TEST_F(AssociationTest, PossiblyDifferentClassesCountByProbability) {
 TEST_F(AssociationTest, OnlyObjectsByThemselvesAreFoundOthersAreAdded) {
   const Target target = predictedAt(0.0, 0.0);
   AssociationScan scan = source_.scan(objectsAlong({-0.2, 0.2}));
-  scan.observations.push_back({objectAt(0.0, 0.0), {0, 1}, 0.0, false, true});
+  scan.observations.push_back({objectAt(0.0, 0.0), {0, 1}, 0.0, ObservedTarget::kKnown});
   TargetScores scores = scoresOf(target, scan, kExistence, options_);
   ASSERT_EQ(scores.candidates.size(), 2U);
   addCandidate(target, scan, 2, options_, scores);
   ASSERT_EQ(scores.candidates.size(), 3U);
   EXPECT_EQ(scores.candidates[2].observation, 2U);
-  scan.observations.push_back({objectAt(30.0, 0.0), {0, 1}, 0.0, false, true});
+  scan.observations.push_back({objectAt(30.0, 0.0), {0, 1}, 0.0, ObservedTarget::kKnown});
   addCandidate(target, scan, 3, options_, scores);
   EXPECT_EQ(scores.candidates.size(), 3U) << "outside of the gate";
 }

@@ -73,8 +73,8 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   EXPECT_EQ(readings_[1], Interpretation{2});
   const Observation& whole = scan_.observations.at(2);
   EXPECT_EQ(whole.sources, (std::vector<std::size_t>{0, 1}));
-  EXPECT_TRUE(whole.needs_target);
-  EXPECT_FALSE(whole.starts_target);
+  EXPECT_TRUE(whole.needsTarget());
+  EXPECT_FALSE(whole.startsTarget());
   EXPECT_TRUE(whole.object.box.center.position().isZero(1e-12));
   EXPECT_NEAR(whole.object.box.length, 5.0, 1e-12);
   EXPECT_NEAR(whole.object.box.width, 2.0, 1e-12);
@@ -146,7 +146,7 @@ TEST_F(SplitMergeReadings, OneObjectAsTwoTargets) {
   const Observation& left = scan_.observations.at(2);
   EXPECT_EQ(right.sources, std::vector<std::size_t>{0});
   EXPECT_EQ(left.sources, std::vector<std::size_t>{0});
-  EXPECT_TRUE(right.needs_target && left.needs_target);
+  EXPECT_TRUE(right.needsTarget() && left.needsTarget());
   EXPECT_EQ(right.object.points.size(), 2U);
   EXPECT_NEAR(right.object.box.center.y(), -0.65, 1e-12);
   EXPECT_NEAR(left.object.box.center.y(), 0.65, 1e-12);
