@@ -99,7 +99,7 @@ class Tool(unittest.TestCase):
         simulated.write(self.bag, items)
         out, errors, file = io.StringIO(), io.StringIO(), self.folder / "findings.json"
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            done = main([str(self.bag), "--out", str(self.yaml), "--json", str(file)])
+            done = main([str(self.bag), "--out", str(self.yaml), "--force", "--json", str(file)])
         if code is not None:
             self.assertEqual(done, code, out.getvalue() + errors.getvalue())
         findings = json.loads(file.read_text())["findings"]

@@ -11,6 +11,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.batch.main import find_snakemake, main
+from datmo_tools.batch.moments import NO_OUTPUT, worst_moments
 from datmo_tools.batch.plan import find_recordings
 from datmo_tools.errors import InputError
 
@@ -214,6 +215,24 @@ class Batch(unittest.TestCase):
         self.assertIn("no recordings", self.batch()[1])
         shutil.rmtree(self.drives)
         self.assertIn("no such folder", self.batch()[1])
+
+
+class Moments(unittest.TestCase):
+    """The conditions of stages as run_bag reports them."""
+
+    def test_no_output_weighs_twice_as_much_as_degraded(self):
+        conditions = [
+            {"stage": "tracker", "level": "degraded", "why": "few scans", "from_s": 0.5, "for_s": 1.0},
+            {"stage": "grid_slam", "level": "no output", "why": "no odometry", "from_s": 1.0, "for_s": 1.5},
+        ]  # fmt: skip
+        worst = worst_moments({**RUN, "dropped": [], "conditions": conditions}, None)
+        self.assertEqual(worst, [
+            {"at_s": 1.0, "for_s": 1.5, "weight_s": 1.5, "why": "grid_slam: no odometry"},
+            {"at_s": 0.5, "for_s": 1.0, "weight_s": 0.5, "why": "tracker: few scans"}])  # fmt: skip
+
+    def test_the_word_is_that_of_run_bag(self):
+        source = Path(__file__).resolve().parents[2] / "tools/run_bag/run_report.cpp"
+        self.assertIn(f'"{NO_OUTPUT}"', source.read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

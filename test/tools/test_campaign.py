@@ -273,7 +273,7 @@ class Bounds(unittest.TestCase):
     def beyond(self, limits, pose=None, mota=0.65, error=None):
         good = {"largest_error_m": 0.5, "largest_error_sigmas": 2.0, "recovered_s": 0.0, "recovered": True}
         clean = {"fault": "none", "error": None, "pose": good, "tracks": {"mota": 0.7}}
-        run = {"fault": "scan silent", "error": error, "pose": {**good, **(pose or {})}, "tracks": {"mota": mota}}
+        run = {"fault": "scan silent", "error": error, "refused": error == "all refused", "pose": {**good, **(pose or {})}, "tracks": {"mota": mota}}
         bounds = {"a.bag": {"default": self.LIMITS, "scan silent": limits}}
         return beyond({"drive": "a.bag", "runs": [clean, run]}, bounds)
 
@@ -294,6 +294,7 @@ class Bounds(unittest.TestCase):
     def test_invalid_bounds_are_refused(self):
         self.assertEqual(self.beyond("refused", error="all refused"), [])
         self.assertEqual(len(self.beyond("refused")), 1)
+        self.assertEqual(self.beyond("refused", error="no pose"), ["a.bag, scan silent: no pose"])
         self.assertEqual(self.beyond({}, error="ended"), ["a.bag, scan silent: ended"])
 
     def test_nan_is_beyond_every_bound(self):

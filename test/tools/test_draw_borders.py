@@ -9,6 +9,8 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import rosbag
+import rospy
 from datmo_tools.evaluate.border_images import draw_image
 from datmo_tools.evaluate.border_lists import SeenBorder
 from datmo_tools.evaluate.border_recordings import Run, edge
@@ -169,11 +171,11 @@ class Images(Folder):
 
 
 class Tool(Folder):
-    def draw(self, *words, code=0):
+    def draw(self, *words, code=0, bag=None):
         """Returns the tool's standard error; its sheets are named out*.png."""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
-            arguments = [str(self.bag), "--out", str(self.folder / "out.png"), *words]
+            arguments = [str(bag or self.bag), "--out", str(self.folder / "out.png"), *words]
             self.assertEqual(main(arguments), code, errors.getvalue())
         return errors.getvalue()
 
@@ -204,6 +206,13 @@ class Tool(Folder):
         self.assertIn("--every is 0, expected more", self.draw("--every", "0", code=1))
         self.assertIn("--history is -1", self.draw("--history", "-1", code=1))
         self.assertIn("a name that ends in", self.draw("--out", "picture.jpg", code=1))
+        only = self.folder / "only.bag"
+        with rosbag.Bag(str(self.bag)) as bag, rosbag.Bag(str(only), "w") as out:
+            first = rospy.Time(START // 10**9)
+            for topic, message, stamp in bag.read_messages():
+                if topic != "/road_borders" or message.header.stamp == first:
+                    out.write(topic, message, stamp)
+        self.assertIn("all borders have one stamp, expected two or more, or --at 0", self.draw(code=1, bag=only))
         write_images(self.drive, delay=100 * STEP)
         said = self.draw("--images", str(self.drive), code=1)
         self.assertIn("no image with a stamp near", said)

@@ -93,9 +93,9 @@ class Metrics(unittest.TestCase):
         def titles(run):
             return [group.title for group in metric_groups([run])]
 
-        self.assertIn("Delay beside the least attainable", titles(sample_run()))
+        self.assertIn("Delay compared with the attainable minimum", titles(sample_run()))
         without = {**sample_run(), "attainable": None}
-        self.assertNotIn("Delay beside the least attainable", titles(without))
+        self.assertNotIn("Delay compared with the attainable minimum", titles(without))
 
     def test_names_of_runs(self):
         self.assertEqual(short_names(["x/a.bag", "y/b.bag"]), ["a", "b"])

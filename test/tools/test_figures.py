@@ -218,10 +218,18 @@ class Pass(InFolder):
         self.assertEqual(self.store.results([step])["steps"]["two"]["figures"], {"a": 1, "b": 2})
 
     def test_with_changed_sources_nothing_counts_as_done(self):
-        self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
         for _ in range(2):
+            self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
             self.run_all(self.step("one"))
         self.assertEqual(self.runs, ["one", "one"])
+
+    def test_results_of_changed_sources_are_those_of_this_run_alone(self):
+        one, two = self.step("one"), self.step("two")
+        for step in (one, two):  # the sources may have changed again in between
+            self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
+            self.assertIsNone(self.store.results([one, two]))
+            self.run_all(step)
+        self.assertEqual(list(self.store.results([one, two])["steps"]), ["two"])
 
     def test_a_step_without_its_data_is_left_out_and_named(self):
         failures, said = self.run_all(self.step("one", needs=("drive",)))

@@ -183,6 +183,24 @@ class Gaps(unittest.TestCase):
                               ("both", 1015.0), ("both", 1025.0)])  # fmt: skip
             self.assertEqual("drive, both 1 s from 1015.0 s" in out, bool(error))
 
+    def test_a_run_that_failed_counts_and_the_others_go_on(self):
+        result = self.folder / "result.bag"
+        with rosbag.Bag(str(result), "w") as bag:
+            for tenths in range(400):
+                pose = estimate_at(0.1 * tenths, 0.0, 0.0, 0.1)
+                bag.write("/pose/local", pose, pose.header.stamp)
+        (self.folder / "config.yaml").touch()
+        once = f'[ -e {self.folder}/ran ] || {{ touch {self.folder}/ran; echo "out of memory" >&2; exit 1; }}'
+        for name, text in (("simulate", "exit 1"), ("run_bag", f'{once}\ncp {result} "$2"')):
+            program = self.folder / name
+            program.write_text(f"#!/bin/sh\n{text}\n")
+            program.chmod(0o755)
+        code, out = self.sweep("--kinds", "scan")
+        self.assertEqual(code, 1)
+        self.assertIn("drive, scan 1 s from 1015.0 s: out of memory\n", out)
+        runs = json.loads((self.folder / "out.json").read_text())["runs"]
+        self.assertEqual([run["error"] for run in runs], ["out of memory", None])
+
 
 if __name__ == "__main__":
     unittest.main()

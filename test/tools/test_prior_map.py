@@ -85,7 +85,7 @@ class PriorMap(unittest.TestCase):
         known = surfaces.known([(0.5, 7.5), (0.5, 6.5), (-1.5, 7.1), (7.5, 7.5), (8.5, 7.5)])
         self.assertEqual(list(known), [True, False, True, True, False])
 
-    def test_cut_keeps_mounts_and_inputs_of_its_time(self):
+    def test_cut_keeps_mounts_and_all_topics_of_its_time(self):
         drive, written = self.folder / "drive.bag", self.folder / "cut.bag"
         with rosbag.Bag(str(drive), "w") as bag:
             bag.write("/tf_static", String("mounts"), rospy.Time.from_sec(START))
@@ -96,7 +96,7 @@ class PriorMap(unittest.TestCase):
         with rosbag.Bag(str(written)) as bag:
             topics = bag.get_type_and_topic_info().topics
             counts = {topic: info.message_count for topic, info in topics.items()}
-        self.assertEqual(counts, {"/tf_static": 1, "/scan": 5, "/odometry": 5, "/tf": 5})
+        self.assertEqual(counts, {"/tf_static": 1, "/scan": 5, "/odometry": 5, "/tf": 5, "/other": 5})
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ MIN_WEIGHT = 0.2  # s: less does not count as a moment
 UNCERTAIN_WEIGHT = 0.5  # per second in which there are results, but fewer than expected
 
 # Health of a stage as run_bag --report has it.
-NOTHING = "nothing"
+NO_OUTPUT = "no output"
 
 
 def worst_moments(run, score):
@@ -35,7 +35,7 @@ def _moment(start, length, weight, why):
 
 def _conditions(run):
     for one in run["conditions"]:
-        share = 1.0 if one["level"] == NOTHING else UNCERTAIN_WEIGHT
+        share = 1.0 if one["level"] == NO_OUTPUT else UNCERTAIN_WEIGHT
         yield _moment(one["from_s"], one["for_s"], share * one["for_s"],
                       f"{one['stage']}: {one['why']}")  # fmt: skip
 

@@ -21,8 +21,8 @@ these, from the motion estimated from the scans; frames and mounts; beams that a
 vehicle itself; range compared with the window; calibration of cameras. Then it writes an initial
 yaml with the values that differ from the defaults, and prints the commands to start the stack.
 
-Exit code: 0 nothing worse than a warning, 1 errors, or the yaml cannot be written, 2 the bag cannot
-be read."""
+Exit code: 0 nothing worse than a warning, 1 errors, or the yaml exists or cannot be written, 2 the
+bag cannot be read."""
 
 UNREADABLE = 2
 
@@ -41,6 +41,7 @@ def _parser():
     add("bag", type=Path, help="recorded bag")
     add("--out", type=Path, metavar="FILE.yaml",
         help="yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
+    add("--force", action="store_true", help="overwrite the yaml if it exists")
     add("--no-yaml", action="store_true", help="do not write a yaml")
     add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or the most messages)")
     add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most messages)")
@@ -54,8 +55,10 @@ def _run(values):
     except InputError as error:
         print(f"check_bag: {error}", file=sys.stderr)
         return UNREADABLE
-    result = check(recording, values.scan, values.odometry)
     out = values.out or Path(values.bag.resolve().stem + ".yaml")
+    if not values.no_yaml:
+        _check_output(values.bag, out, values.force)
+    result = check(recording, values.scan, values.odometry)
     _print(recording, result)
     if not values.no_yaml and result.can_start:
         write_whole(out.parent, {out.name: result.yaml_text()})
@@ -63,6 +66,18 @@ def _run(values):
         print("\n".join(f"  {line}" for line in result.start_lines(values.bag, out)))
     command_line.write_json(values.json, result.as_dictionary())
     return 1 if result.findings.worst() == Severity.ERROR else 0
+
+
+def _check_output(bag, out, force):
+    """Raises InputError if writing the yaml would replace the bag, or an existing file without
+    --force."""
+    if out.exists() and out.samefile(bag):
+        raise InputError(f"{out}: is the bag itself, expected another name of the yaml: --out FILE.yaml")
+    if out.exists() and not force:
+        raise InputError(
+            f"{out}: exists, expected the name of a new file; to overwrite it: --force, to leave it"
+            " as it is: --no-yaml"
+        )
 
 
 def _print(recording, result):

@@ -127,9 +127,9 @@ def _parser():
         help="sensor that must see a true object for it to count, "
         f"{ANY}, or {NONE}: not required (default %(default)s)")  # fmt: skip
     add("--min-frames", type=command_line.count, default=MIN_FRAMES, metavar="N",
-        help="least number of frames for a share to be written (default %(default)s)")  # fmt: skip
+        help="minimum number of frames for a share to be written (default %(default)s)")  # fmt: skip
     add("--min-tracks", type=command_line.count, default=MIN_TRACKS, metavar="N",
-        help="least number of tracks for a share to be written (default %(default)s)")  # fmt: skip
+        help="minimum number of tracks for a share to be written (default %(default)s)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("track_sources.yaml"),
         metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
     add("--plot", type=command_line.output_file, metavar="FILE",

@@ -96,13 +96,13 @@ def class_sections(result):
     """Returns the sections of `bands_m`, `confusion` and `calibration` in a dictionary, if any."""
     if not result["calibration"]:
         return []
-    rows = [["true class, by what is said", *CLASSES]]
+    rows = [["true class, by reported class", *CLASSES]]
     bands = zip(result["bands_m"], result["confusion"])
     for (near, far), table in bands:
         for true, said in table.items():
             if any(said.values()):
                 rows.append([f"{true}, {near:g}-{far:g} m", *(str(n) for n in said.values())])
-    shares = [["probability said, %", "right, %", "of"]]
+    shares = [["reported probability, %", "right, %", "of"]]
     for item in result["calibration"]:
         shares.append([percent(item["said"]), percent(item["right"]), str(item["count"])])
     return [Section(rows=rows), Section(rows=shares)]

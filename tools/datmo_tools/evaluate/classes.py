@@ -18,7 +18,7 @@ often a class is right at which probability. The worst mistakes are listed, and 
 in the camera's images, with the track's box. Arguments are those of evaluate tracks: stationary
 tracks count only with --set moving_tracks_only=false."""
 
-HEADINGS = ("true class", "right, %", "of frames", "of no known class")
+HEADINGS = ("true class", "right, %", "of frames", "class unknown")
 
 
 def add_arguments(parser):

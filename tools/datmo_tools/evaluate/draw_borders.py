@@ -48,6 +48,8 @@ def _run(values):
     if values.history < 0.0:
         raise InputError(f"--history is {values.history:g}, expected 0 or more")
     run = Run(values.run)
+    if not values.at and run.duration == 0.0:
+        raise InputError(f"{values.run}: all borders have one stamp, expected two or more, or --at 0")
     stamps = run.nearest_stamps(values.at or np.arange(0.0, run.duration, values.every))
     images = None
     if values.images is not None:

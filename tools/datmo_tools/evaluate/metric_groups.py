@@ -94,9 +94,9 @@ METRIC_GROUPS = (
         "Rahmathullah et al. 2017",
         (
             _meters("GOSPA, mean of frames", "gospa.mean_m"),
-            _meters("part of localization", "gospa.localization_m"),
-            _meters("part of missed objects", "gospa.missed_m"),
-            _meters("part of false tracks", "gospa.false_m"),
+            _meters("localization part", "gospa.localization_m"),
+            _meters("missed-object part", "gospa.missed_m"),
+            _meters("false-track part", "gospa.false_m"),
         ),
     ),
     MetricGroup(
@@ -126,7 +126,7 @@ METRIC_GROUPS = (
                 _percent(f"right of {name}s", f"classes.by_class.{name}.right_share")
                 for name in ("pedestrian", "cyclist", "vehicle")
             ),
-            Metric("of no known class", "classes.silent", "frames", cost=lower),
+            Metric("class unknown", "classes.silent", "frames", cost=lower),
         ),
     ),
     MetricGroup(
@@ -138,7 +138,7 @@ METRIC_GROUPS = (
         ),
     ),
     MetricGroup(
-        "Honesty of the covariance",
+        "Consistency of the covariance",
         "Bar-Shalom et al. 2001",
         (
             *_consistency("position", "consistency.position", 2),
@@ -193,7 +193,7 @@ METRIC_GROUPS = (
 )
 
 ATTAINABLE_GROUP = MetricGroup(
-    "Delay beside the least attainable",
+    "Delay compared with the attainable minimum",
     "with --attainable: of an observer who knows which beams end on which object, and its "
     "shape; excess: delay less that; ratio: (delay + scan period) / (attainable + scan period)",
     tuple(

@@ -19,7 +19,7 @@ the bags of one method (run_bag --risk --with-truth, risk/method in the sensor s
                     view and at most 1.7 s
   false             warnings in drives without contact, or ended before it, and how many an hour
   Brier, error      of the probability of contact within 1, 2, 3, 4 s: mean squared difference, and
-                    mean distance of said and observed frequency in ten bins (reliability)"""
+                    mean distance of predicted and observed frequency in ten bins (reliability)"""
 
 
 def add_arguments(parser):
@@ -66,10 +66,10 @@ def sections(result, what=""):
 
 
 def _reliability(name, item):
-    rows = [["within", "said", "came", "frames"]]
+    rows = [["within", "predicted", "observed", "frames"]]
     for horizon, each in item["horizons"].items():
-        rows += [[f"{horizon} s", percent(said), percent(came), str(count)]
-                 for said, came, count in each["reliability"]]  # fmt: skip
+        rows += [[f"{horizon} s", percent(predicted), percent(observed), str(count)]
+                 for predicted, observed, count in each["reliability"]]  # fmt: skip
     return Section(f"Reliability of {name}", rows=rows, for_page=True)
 
 
@@ -85,7 +85,7 @@ _ROWS = (
     ("contacts warned of", lambda item: str(item["warned"])),
     ("in view for 3.5 s or more, warned in time", lambda item: _of_contacts(item["long_seen"])),
     ("in view for less, warned in time", lambda item: _of_contacts(item["briefly_seen"])),
-    ("lead over the attainable, mean", lambda item: rounded(item["lead_share"], 2)),
+    ("lead as a share of the attainable, mean", lambda item: rounded(item["lead_share"], 2)),
     ("lead, median [s]", lambda item: rounded(item["lead_median_s"], 2)),
     ("lead, 5 % [s]", lambda item: rounded(item["lead_5_s"], 2)),
     ("near misses", lambda item: str(item["near_misses"])),

@@ -53,7 +53,7 @@ def _of_all_runs(runs, names):
     )
     yield Section(
         "Is the covariance consistent?",
-        "Mean NEES (dot) against its expectation (line) and the 95 % bounds of the mean of an "
+        "Mean NEES (dot) against its expectation (line) and the 95 % bounds of the mean of a "
         "consistent filter (bar, where given). To the right the covariance is too small, to the left "
         "too large.",
         picture=plots.consistency(runs, names),
@@ -84,7 +84,7 @@ def _of_one_run(run, name, runs):
     yield Section("Tracked, missed, false" + of, picture=plots.counts_over_time(run))
     yield Section(
         "Seen from above" + of,
-        "In the map of the truth. Wide and gray: true objects, with their id where they come up.",
+        "In the map of the truth. Wide and gray: true objects, with their ids where they first appear.",
         picture=object_plots.birds_eye(run),
     )
     yield Section(

@@ -15,7 +15,7 @@ from datmo_tools.evaluate.truth import read_true_objects
 from datmo_tools.pose_path import read_path
 from datmo_tools.text_table import percent
 
-HEADINGS = ("true object", "true class", "its tracks", "frames", "right, %", "of no known class")
+HEADINGS = ("true object", "true class", "its tracks", "frames", "right, %", "class unknown")
 
 
 class TrackClasses(NamedTuple):

@@ -63,10 +63,12 @@ def main(arguments=None):
 
 def pose_errors(computed, recorded, since=-np.inf, until=np.inf):
     """Returns stamps (s, n) of the poses in a bag (Path) from `since` to `until` (s), and their
-    errors (m, n), relative to the first of them."""
+    errors (m, n), relative to the first of them. Raises InputError if there is none."""
     truth, path = read_path(recorded, TRUTH), read_path(computed, "/pose")
     stamps = [stamp for stamp in path.stamps
               if max(truth.stamps[0], since * NANOSECONDS) <= stamp <= min(truth.stamps[-1], until * NANOSECONDS)]  # fmt: skip
+    if not stamps:
+        raise InputError(f"{computed}: no pose on /pose in the time of the truth, expected one or more")
     start = stamps[0]
     errors = []
     for stamp in stamps:
@@ -89,7 +91,7 @@ def effect(stamps, errors, clean, begin, end):
         "largest_error_m": float(errors[after].max()) if after.any() else None,
         "final_error_m": float(errors[-1]),
         "recovered_s": max(0.0, float(wrong[-1]) - end) if len(wrong) else 0.0,
-        "recovered": not len(wrong) or bool(wrong[-1] < stamps[-1]),
+        "recovered": bool(after.any()) and (not len(wrong) or bool(wrong[-1] < stamps[-1])),
     }
 
 
@@ -108,7 +110,7 @@ def _campaign(values):
         both = Played(values.stereo.name, messages, ("--fusion", "recommended"))
         report["drives"].append(_all_faults(values, both, STEREO_INPUTS))
         report["silent"] = _silent_scanner(values, both)
-    report["beyond"] = [line for drive in report["drives"] for line in beyond(drive, bounds)] if bounds else []
+    report["beyond"] = _beyond(report, bounds) if bounds else []
     for part in ("mutated", "soak", "load", "outages"):
         file = getattr(values, part)
         report[part] = json.loads(file.read_text(encoding="utf-8")) if file else None
@@ -118,6 +120,13 @@ def _campaign(values):
         write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
     if report["beyond"]:
         raise InputError("faults beyond their bounds:\n  " + "\n  ".join(report["beyond"]))
+
+
+def _beyond(report, bounds):
+    """Returns what of a report (dict) is beyond the bounds, or failed: list of str."""
+    of_drives = [line for drive in report["drives"] for line in beyond(drive, bounds)]
+    return of_drives + [f"{run['level']}, scan silent from {run['from_s']:g} s: {run['error']}"
+                        for run in report["silent"] if run["error"] is not None]  # fmt: skip
 
 
 def _all_faults(values, played, inputs):
@@ -166,17 +175,24 @@ def _play(values, played, fault, begin, folder):
 
 
 def _run(values, played, fault, begin, clean):
-    """Returns the result (dict) of one fault, and its stamps and errors."""
+    """Returns the result (dict) of one fault, and its stamps and errors. If it fails: the error, whether
+    the stack refused the drive, and None."""
     with tempfile.TemporaryDirectory(prefix="campaign_") as name:
         try:
             run = _play(values, played, fault, begin, Path(name))
-        except StepFailed as error:
-            return {"fault": fault.name, "error": str(error).replace(f"{name}/", "")}, None
-        path = _path(run)
+            path = _path(run)
+        except (StepFailed, InputError) as error:
+            refused = isinstance(error, StepFailed) and error.code > 0
+            return {"fault": fault.name, "error": _said(error, name), "refused": refused}, None
         tracks = _tracks(run.computed, values.programs, run.folder)
         poses = {**effect(*path, clean or path, begin, begin + fault.seconds), "largest_sigma_m": _largest_sigma(run),
                  "largest_error_sigmas": _largest_in_sigmas(run, *path)}  # fmt: skip
     return {"fault": fault.name, "error": None, "pose": poses, "tracks": tracks}, path
+
+
+def _said(error, folder):
+    """Returns an error's text without the name of the temporary folder (str)."""
+    return str(error).replace(f"{folder}/", "")
 
 
 def _path(run):
@@ -192,9 +208,10 @@ def _path(run):
 
 
 def _largest_sigma(run):
-    """Returns the largest sigma (m), in the worst direction, of the poses after the fault began."""
-    return max(_sigma(message) for message, _ in read_messages(run.computed, "/pose/local")
-               if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0))  # fmt: skip
+    """Returns the largest sigma (m), in the worst direction, of the poses after the fault began; None:
+    no pose."""
+    return max((_sigma(message) for message, _ in read_messages(run.computed, "/pose/local")
+                if message.header.stamp.to_sec() >= run.begin + min(run.fault.jump, 0.0)), default=None)  # fmt: skip
 
 
 def _sigma(message):
@@ -215,22 +232,42 @@ def _largest_in_sigmas(run, stamps, errors):
 
 def _silent_scanner(values, played):
     """Returns results (list of dict) of a scanner that is silent for a while, by level and time."""
-    silent = next(each for each in faults(STEREO_INPUTS) if each.name == f"scan silent for {SILENT:g} s")
-    none = faults(STEREO_INPUTS)[0]
     results = []
     for level in tqdm(LEVELS, "silent scanner"):
         drive = played._replace(options=("--fusion", level))
-        with tempfile.TemporaryDirectory(prefix="campaign_") as name:
-            clean = _path(_play(values, drive, none, played.messages[0].recorded, Path(name)))
+        clean, error = _guarded(_clean, values, drive)
         for since in SILENT_FROM:
-            begin = played.messages[0].recorded + since
-            with tempfile.TemporaryDirectory(prefix="campaign_") as name:
-                run = _play(values, drive, silent, begin, Path(name))
-                distance = read_path(run.drive, TRUTH).length_between(begin * NANOSECONDS, (begin + SILENT) * NANOSECONDS)
-                pose = gap_effect(*_path(run), clean, (begin, begin + SILENT), distance)
-                ids = kept_ids(run.computed, run.drive, begin, begin + SILENT)
-            results.append({"level": level, "from_s": since, **pose, **ids})
+            result = {}
+            if clean is not None:
+                result, error = _guarded(_silence, values, drive, clean, since)
+            results.append({"level": level, "from_s": since, "error": error, **(result or {})})
     return results
+
+
+def _guarded(work, *arguments):
+    """Returns the result of work(*arguments, temporary folder (Path)) and None, or None and what
+    failed (str)."""
+    with tempfile.TemporaryDirectory(prefix="campaign_") as name:
+        try:
+            return work(*arguments, Path(name)), None
+        except (StepFailed, InputError) as error:
+            return None, _said(error, name)
+
+
+def _clean(values, drive, folder):
+    """Returns stamps and errors of a drive without a fault. Raises StepFailed, InputError."""
+    return _path(_play(values, drive, faults(STEREO_INPUTS)[0], drive.messages[0].recorded, folder))
+
+
+def _silence(values, drive, clean, since, folder):
+    """Returns what a scanner that is silent from a time (s since the start) on did to poses and ids
+    (dict). Raises StepFailed, InputError."""
+    silent = next(each for each in faults(STEREO_INPUTS) if each.name == f"scan silent for {SILENT:g} s")
+    begin = drive.messages[0].recorded + since
+    run = _play(values, drive, silent, begin, folder)
+    distance = read_path(run.drive, TRUTH).length_between(begin * NANOSECONDS, (begin + SILENT) * NANOSECONDS)
+    pose = gap_effect(*_path(run), clean, (begin, begin + SILENT), distance)
+    return {**pose, **kept_ids(run.computed, run.drive, begin, begin + SILENT)}
 
 
 def _tracks(computed, folder_of_programs, folder):

@@ -53,16 +53,18 @@ def _silent_lines(runs):
         "## One scanner silent for 3 s, with a stereo camera",
         "",
         "At five times of that drive, by level of fusion. Error: added by the silence, at the first pose after it and the maximum from",
-        "0.5 s later on, in m and relative to the distance driven meanwhile. Ids: of moving objects in the camera's view before, meanwhile and",
-        "after, how many have a track before and after, and how many of them with the same id.",
+        "0.5 s later on, in m and relative to the distance driven meanwhile. Ids: of moving objects in the camera's view before, during and",
+        "after it, how many have a track before and after, and how many of them with the same id.",
         "",
-        "| level | from [s] | poses, lists of tracks meanwhile | distance [m] | error after [m] | 0.5 s later [m] | of the distance | seen | tracked | ids kept |",
+        "| level | from [s] | poses, lists of tracks during it | distance [m] | error after [m] | 0.5 s later [m] | of the distance | seen | tracked | ids kept |",
         "|---|---|---|---|---|---|---|---|---|---|",
         *(_silent_row(run) for run in runs),
     ]
 
 
 def _silent_row(run):
+    if run["error"] is not None:
+        return f"| {run['level']} | {run['from_s']:g} | none: {_short(run['error'])} | | | | | | | |"
     settled = run["settled_m"]
     share = None if settled is None else settled / run["distance_m"]
     cells = [run["level"], f"{run['from_s']:g}", f"{run['poses_meanwhile']}, {run['lists_meanwhile']}", f"{run['distance_m']:.1f}",
@@ -153,14 +155,18 @@ def _drift_row(name, drift):
 
 def _row(run):
     if run["error"] is not None:
-        said = run["error"].split("; ")[0].split(" (")[0]
-        return f"| {run['fault']} | none: {said} | | | | | | | | |"
+        return f"| {run['fault']} | none: {_short(run['error'])} | | | | | | | | |"
     pose, tracks = run["pose"], run["tracks"]
     recovered = f"{pose['recovered_s']:.1f}" if pose["recovered"] else "never"
-    cells = [run["fault"], str(pose["poses"]), f"{pose['largest_error_m']:.2f}",
-             f"{pose['final_error_m']:.2f}", f"{pose['largest_sigma_m']:.2f}", rounded(pose["largest_error_sigmas"], 1), recovered, _cell(tracks["mota"]),
+    cells = [run["fault"], str(pose["poses"]), rounded(pose["largest_error_m"], 2),
+             rounded(pose["final_error_m"], 2), rounded(pose["largest_sigma_m"], 2), rounded(pose["largest_error_sigmas"], 1), recovered, _cell(tracks["mota"]),
              *(_cell(tracks[key]) for key in TRACK_FIGURES[1:])]  # fmt: skip
     return f"| {' | '.join(cells)} |"
+
+
+def _short(error):
+    """Returns the beginning of an error's text."""
+    return error.split("; ")[0].split(" (")[0]
 
 
 def _cell(value):

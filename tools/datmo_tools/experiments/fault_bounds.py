@@ -46,7 +46,7 @@ def beyond(drive, bounds):
 
 def _beyond(run, limits, clean):
     if run["error"] is not None:
-        return [] if limits == REFUSED else [run["error"]]
+        return [] if limits == REFUSED and run["refused"] else [run["error"]]
     if limits == REFUSED:
         return ["was taken, expected that it is refused"]
     pose, mota = run["pose"], run["tracks"]["mota"]

@@ -10,16 +10,16 @@ from datmo_tools.text_table import NO_VALUE, aligned, percent, spread_text
 NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
 object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4); borders: with those of the
-road; recommended: track, with borders. A figure is the median of the seeds, with the smallest and
-largest in brackets. Missed: moving objects that
+road; recommended: track, with borders. For several seeds, the figure is the median, with minimum and
+maximum in parentheses. Missed: moving objects that
 no track ever matched, of those that the scanner saw moving, however briefly, and, by any, of those
 that either sensor did; of a labeled drive, of all that move in the camera's view. Beside it what the
 thesis missed without and with fusion of objects (table 3.2): its data sets were driven, ours are
 simulated streets with as many seconds and moving objects. False: tracks on nothing that moves;
 false, in view: the same within the stereo camera's range and field of view. RMSE: of the position of
 matched tracks, and, near, of those within 20 m. Class right: of the frames of matched tracks. Delay:
-from the first detection of an object to its first track, mean. Time: mean of all stages together for one
-scan, without the matching of images."""
+from the first frame in which an object has to be found to its first track, mean of those that were
+found. Time: mean of all stages together for one scan, without the matching of images."""
 
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}

@@ -28,8 +28,8 @@ error of the final pose, and whether it was ever overconfident. 'carried' remove
 sensors and joins the rest: the vehicle was carried elsewhere, and its odometry does not know. A
 drive is a scene for the simulator, or a bag with /ground_truth/pose. The exit code is 1 if a run
 ended with an error of more than 0.5 m + 1 % of the distance or 2 degrees (after 'carried' this is
-allowed if the covariance admits it), or had a pose with this error and less than a third of it as
-standard deviation."""
+allowed if the covariance admits it), had a pose with this error and less than a third of it as
+standard deviation, or failed."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("simulate", "run_bag")
@@ -108,7 +108,18 @@ def gaps_of(recorded, values):
 
 
 def run_case(case, values):
-    """Returns the result (dict) of one run. Raises StepFailed."""
+    """Returns the result (dict) of one run; a run that failed has no pose, and its error."""
+    begin = case.gap.begin / NANOSECONDS
+    result = {"drive": case.recorded.stem, "kind": case.gap.kind, "begin_s": begin,
+              "seconds": case.gap.seconds}  # fmt: skip
+    try:
+        return {**result, "error": None, "score": _scored(case, values)}
+    except (programs.StepFailed, InputError) as error:
+        return {**result, "error": str(error), "score": {"scans": 0, "without_pose": True}}
+
+
+def _scored(case, values):
+    """Returns the score (dict) of one run. Raises StepFailed, InputError."""
     with tempfile.TemporaryDirectory(prefix="gaps_") as name:
         folder = Path(name)
         drive, computed = folder / "drive.bag", folder / "result.bag"
@@ -116,10 +127,7 @@ def run_case(case, values):
         options = [word for preset in values.preset for word in ("--preset", preset)]
         programs.call(values.programs / "run_bag", drive, computed, "--config", values.config,
                       "--until", "grid_slam", "--quiet", *options)  # fmt: skip
-        scored = score(computed, drive, case.gap)
-    begin = case.gap.begin / NANOSECONDS
-    return {"drive": case.recorded.stem, "kind": case.gap.kind, "begin_s": begin,
-            "seconds": case.gap.seconds, "score": scored}  # fmt: skip
+        return score(computed, drive, case.gap)
 
 
 def _sweep(values):
@@ -148,6 +156,8 @@ def _line(run):
     """Describes one run that did not pass."""
     where = f"{run['drive']}, {run['kind']} {run['seconds']:g} s from {run['begin_s']:.1f} s"
     scored = run["score"]
+    if run["error"] is not None:
+        return f"{where}: {run['error']}"
     if scored["without_pose"]:
         return f"{where}: no pose before it, or none after it"
     end = scored["end"]
@@ -169,7 +179,10 @@ def _recorded(drive, values, folder):
         return drive
     recorded = folder / f"{drive.stem}.bag"
     options = tuple(values.set)
-    simulated_run.record(simulated_run.SimulatedDrive(drive, options), values.programs, recorded)
+    try:
+        simulated_run.record(simulated_run.SimulatedDrive(drive, options), values.programs, recorded)
+    except programs.StepFailed as error:
+        raise InputError(f"{drive}: {error}") from error
     return recorded
 
 

@@ -15,6 +15,7 @@ from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import lossy_network, machines_run, simulated_run
 from datmo_tools.experiments.machines_run import Drive, Kill
+from datmo_tools.programs import StepFailed
 from datmo_tools.text_table import aligned, rounded
 from datmo_tools.whole_files import write_whole
 
@@ -180,7 +181,10 @@ def _campaign(values):
         for i, (name, make) in enumerate(tqdm(drives.items(), "drives")):
             logs = folder / str(i)
             logs.mkdir()
-            figures[name] = measure(make(), quality, launch_file, values.programs, logs)
+            try:
+                figures[name] = measure(make(), quality, launch_file, values.programs, logs)
+            except StepFailed as error:
+                raise InputError(f"{name}: {error}") from error
     print("\n\n".join(table(name, of_drive) for name, of_drive in figures.items()))
     if values.json:
         write_whole(values.json.parent, {values.json.name: json.dumps(figures, indent=2) + "\n"})

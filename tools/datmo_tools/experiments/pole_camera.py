@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import command_line
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.experiments import pole_camera_bag, simulated_run
 from datmo_tools.experiments.pole_camera_bag import PEDESTRIAN
 from datmo_tools.pose_path import planar, read_messages
-from datmo_tools.programs import call
+from datmo_tools.programs import StepFailed, call
 from datmo_tools.text_table import aligned, rounded
 
 DESCRIPTION = """\
@@ -45,7 +46,7 @@ def main(arguments=None):
 
 def _experiment(values):
     simulated_run.check_programs(values.programs)
-    outcomes = [_drive(values, seed) for seed in range(1, values.seeds + 1)]
+    outcomes = [_outcome(values, seed) for seed in range(1, values.seeds + 1)]
     rows = [("seed", "alone (s)", "with camera (s)", "earlier (s)", "NEES", "false lists alone", "with camera")]
     for seed, one in enumerate(outcomes, 1):
         rows.append((str(seed), rounded(one.alone, 2), rounded(one.with_camera, 2),
@@ -58,6 +59,14 @@ def _experiment(values):
           f" in {len(gains)} of {len(outcomes)} drives; NEES {rounded(_mean(nees), 2)}"
           f" of {len(nees)} tracks, expected 2")  # fmt: skip
     command_line.write_json(values.json, {"format": FORMAT, "drives": [one._asdict() for one in outcomes]})
+
+
+def _outcome(values, seed):
+    """Returns the Outcome of the drive with a seed. Raises InputError."""
+    try:
+        return _drive(values, seed)
+    except StepFailed as error:
+        raise InputError(f"seed {seed}: {error}") from error
 
 
 def _drive(values, seed):
@@ -86,6 +95,8 @@ class MapOfRun:
         self.truth = truth
         self.poses = {message.header.stamp.to_nsec(): planar(message.pose.pose)
                       for message, _ in read_messages(bag, POSE)}  # fmt: skip
+        if not self.poses:
+            raise InputError(f"{bag.name}: no pose on {POSE}, expected one or more")
         self.stamps = np.array(sorted(self.poses))
 
     def position_of(self, item, stamp):

@@ -31,7 +31,7 @@ localization."""
 
 FORMAT = 1  # of the JSON file
 PROGRAMS = ("run_bag",)
-INPUTS = ("/scan", "/echoes", "/odometry", "/tf")
+STATIC = "/tf_static"  # latched: all of it counts from the start
 # m: a pose claims to be located if its standard deviation is below this; before, it has meters.
 LOCATED_SIGMA = 1.0
 # A pose is wrong from these errors on.
@@ -51,13 +51,14 @@ def main(arguments=None):
 
 
 def cut(recorded, begin, end, written):
-    """Writes the part of a drive (Path) between two stamps (ns) to a bag (Path)."""
+    """Writes all topics of a drive (Path) between two stamps (ns) to a bag (Path)."""
     with opened(recorded) as bag, whole_bag(written, "prior_map") as out:
-        for topic, message, _ in bag.read_messages(["/tf_static"]):
+        for topic, message, _ in bag.read_messages([STATIC]):
             out.write_latched(topic, begin, message)
         span = [to_ros_time(begin), to_ros_time(end)]
-        for topic, message, stamp in bag.read_messages(INPUTS, *span):
-            out.write(topic, stamp.to_nsec(), message)
+        for message in bag.read_messages(None, *span, raw=True, return_connection_header=True):
+            if message.topic != STATIC:
+                out.copy(message)
 
 
 def score(computed, reference, begin):

@@ -86,7 +86,8 @@ def _pooled_counts(runs):
 
 
 def _delays(objects):
-    """Returns the delay from an object's first scan to its first track, and the minimum."""
+    """Returns the delay from the first frame in which an object has to be found to its first track,
+    and the minimum: medians of the objects that were found."""
     return {
         "objects": len(objects),
         "found": sum(item["found"] for item in objects),

@@ -17,9 +17,9 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Measures the figures of README's table of results and of doc/results.md at one commit, writes them
 to doc/results.json, and renders both from it. A step that is done at this commit is not repeated,
-so an interrupted run resumes; with uncommitted changes every step runs. Steps whose data is missing
-below ../shared/data are left out and named. A step that fails is reported, and the others continue;
-the exit code is then 1."""
+so an interrupted run resumes; with uncommitted changes every step runs, and only the figures of
+this run are written. Steps whose data is missing below ../shared/data are left out and named. A
+step that fails is reported, and the others continue; the exit code is then 1."""
 
 
 def main(arguments=None):

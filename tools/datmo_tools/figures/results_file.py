@@ -38,11 +38,12 @@ def _git(source, *words):
 
 class StepStore:
     """A file for each step, and for each of its jobs, that is done at a commit. With changed
-    sources, none counts as done."""
+    sources, none counts as done, and the results are those of this run alone."""
 
     def __init__(self, folder, commit):
         """folder (Path): for all commits."""
         self.folder, self.commit = folder / commit, commit
+        self._added = set()  # names of steps, by this run
 
     def is_done(self, step, bench):
         """Whether the step need not run again."""
@@ -75,16 +76,20 @@ class StepStore:
             "figures": rounded(figures),
         }
         write_whole(self.folder, {f"{step.name}.json": json.dumps(record) + "\n"})
+        self._added.add(step.name)
 
     def results(self, steps):
         """Returns all steps that are done (dict), in the order of `steps`; None without any."""
-        done = {step.name: read_json(self._file(step.name))
-                for step in steps if self._file(step.name).is_file()}  # fmt: skip
+        done = {step.name: read_json(self._file(step.name)) for step in steps if self._counts(step.name)}
         if not done:
             return None
         date = max(step["date"] for step in done.values())
         return {"format": FORMAT, "commit": self.commit, "date": date, "machine": machine(),
                 "steps": done}  # fmt: skip
+
+    def _counts(self, name):
+        """Whether a step's file is of these sources: a former run may have had other changes."""
+        return name in self._added if self.commit.endswith(CHANGED) else self._file(name).is_file()
 
     def _job_file(self, step, name):
         return self.folder / "jobs" / step.name / f"{name}.json"
