@@ -3,15 +3,22 @@
 
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <utility>
 
 #include "ipv4_address.h"
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "datmo_fusion/device/device_error.h"
-
 namespace datmo {
+
+namespace {
+
+/// How long a datagram waits for the look-up that it begins: an address, and a name that is known,
+/// are looked up within this time.
+constexpr std::chrono::milliseconds kPatience(50);
+
+}  // namespace
 
 DatagramSender::DatagramSender(const std::string& host, int port)
     : name_(host + ":" + std::to_string(port)) {
@@ -42,17 +49,46 @@ void DatagramSender::send(std::string_view bytes) const {
   }
 }
 
-DatagramDestination::DatagramDestination(std::string host, int port, double pause)
-    : host_(std::move(host)), port_(port), pause_(pause) {}
+DatagramDestination::DatagramDestination(const std::string& host, int port, double pause)
+    : has_host_(!host.empty()),
+      pause_(pause),
+      look_up_([host, port] { return lookUp(host, port); }) {}
+
+DatagramDestination::LookedUp DatagramDestination::lookUp(const std::string& host, int port) {
+  try {
+    return std::make_unique<DatagramSender>(host, port);
+  } catch (const DeviceError& error) {
+    return error;
+  } catch (const std::exception& error) {  // out of memory
+    return DeviceError("internal_error", error.what());
+  }
+}
+
+std::optional<DatagramDestination::LookedUp> DatagramDestination::result() {
+  std::optional<LookedUp> found = look_up_.take();
+  // The pause begins when a look-up has failed, since that may take longer than the pause.
+  const bool is_paused = failed_ && Clock::now() - *failed_ < pause_;
+  if (!found && !is_paused && look_up_.start()) {
+    look_up_.waitFor(kPatience);
+    found = look_up_.take();
+  }
+  return found;
+}
 
 bool DatagramDestination::send(std::string_view bytes) {
+  if (!has_host_) {
+    return false;
+  }
   if (!sender_) {
-    const Clock::time_point now = Clock::now();
-    if (host_.empty() || (looked_up_ && now - *looked_up_ < pause_)) {
+    std::optional<LookedUp> found = result();
+    if (!found) {
       return false;
     }
-    looked_up_ = now;
-    sender_.emplace(host_, port_);
+    if (const auto* const error = std::get_if<DeviceError>(&*found)) {
+      failed_ = Clock::now();
+      throw DeviceError(*error);
+    }
+    sender_ = std::get<std::unique_ptr<DatagramSender>>(std::move(*found));
   }
   sender_->send(bytes);
   return true;

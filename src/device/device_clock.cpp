@@ -24,6 +24,11 @@ Stamp DeviceClock::add(std::uint64_t ticks, double delay) {
   const bool is_new = !has_message_ || estimator_.steps() != steps_before;
   interval_ = is_new ? 0.0 : static_cast<double>(step) * format_.seconds;
   has_message_ = true;
+  if (arrival <= Stamp()) {
+    // The computer's time stands at 0: simulated time has not begun. When it begins, that is no
+    // delay of a message.
+    estimator_.restart();
+  }
   return sent + -delay;
 }
 

@@ -53,7 +53,7 @@ DeviceMaker nmeaMaker(const DeviceSetup& setup) {
     const StreamOpener open = [=, &stop = host.stop] {
       return openStream(address, options.baud, false, stop);
     };
-    return std::make_unique<NmeaReceiver>(open, options, host);
+    return std::make_unique<NmeaReceiver>(open, options, address.timeout, host);
   };
 }
 

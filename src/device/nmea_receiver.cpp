@@ -25,13 +25,15 @@ void NmeaOptions::visit(OptionVisitor& visitor) {
                  sigma, {0.01, 100.0});
 }
 
-NmeaReceiver::NmeaReceiver(StreamOpener open, const NmeaOptions& options, const DeviceHost& host)
-    : open_(std::move(open)), options_(options), host_(host) {}
+NmeaReceiver::NmeaReceiver(StreamOpener open, const NmeaOptions& options, double timeout,
+                           const DeviceHost& host)
+    : open_(std::move(open)), options_(options), timeout_(timeout), host_(host) {}
 
 std::string NmeaReceiver::connect() {
   stream_ = open_();
   host_.clock.restart(kNmeaTicks);
   nextSentence();  // the first one may be incomplete
+  last_timed_ = Clock::now();
   return "a satellite receiver";
 }
 
@@ -58,6 +60,7 @@ DeviceMeasurement NmeaReceiver::next() {
   }
   while (true) {
     const NmeaSentence sentence = nextSentence();
+    checkHasPositions(sentence);
     try {
       if (std::optional<DeviceMeasurement> measurement = measurementOf(sentence)) {
         return *std::move(measurement);
@@ -65,6 +68,22 @@ DeviceMeasurement NmeaReceiver::next() {
     } catch (const DeviceError& error) {
       host_.warn(error);
     }
+  }
+}
+
+void NmeaReceiver::checkHasPositions(const NmeaSentence& sentence) {
+  // One without satellites speaks, too: it needs time, and not another connection.
+  if (sentence.type == "GGA" || sentence.type == "RMC") {
+    last_timed_ = Clock::now();
+    return;
+  }
+  // It may pause for almost the timeout before each burst, in which others may come first.
+  const double limit = 2.0 * timeout_;
+  if (std::chrono::duration<double>(Clock::now() - last_timed_).count() > limit) {
+    throw DeviceError("no_positions", "no GGA or RMC for " + std::to_string(limit) +
+                                          " s, but other sentences, the last one " + sentence.type +
+                                          ": expected a receiver set up to send them; "
+                                          "reconnecting");
   }
 }
 

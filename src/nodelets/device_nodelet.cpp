@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/device_options.h"
 #include "datmo_fusion/ros/device_output.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 
 namespace datmo {
@@ -56,7 +57,9 @@ class DeviceNodelet : public nodelet::Nodelet {
   void serveAll() {
     const DeviceEventQueue::Taken taken = events_->takeAll();
     for (const DeviceEvent& one : taken.events) {
-      std::visit([this, &taken](const auto& kind) { serve(kind, taken.discarded); }, one);
+      guarded(*monitor_, "device", [&] {
+        std::visit([this, &taken](const auto& kind) { serve(kind, taken.discarded); }, one);
+      });
     }
   }
 

@@ -96,9 +96,8 @@ int keepLoaded(ManagedNodelet& nodelet) {
   while (waitForManager(nodelet)) {
     if (!nodelet.isLoaded()) {
       if (was_loaded) {
-        ROS_WARN(
-            "%s: no longer loaded in its manager %s: loads it again, without its previous state",
-            ros::this_node::getName().c_str(), nodelet.manager().c_str());
+        ROS_WARN("%s: no longer loaded in its manager %s: loads it again",
+                 ros::this_node::getName().c_str(), nodelet.manager().c_str());
       }
       if (!nodelet.load() && nodelet.isThere()) {
         ROS_FATAL("%s: %s failed to load it; its output gives the reason",

@@ -13,6 +13,7 @@
 #include "datmo_fusion/device/datagram_listener.h"
 #include "datmo_fusion/device/event_queue.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/v2x_wire.h"
 
@@ -70,7 +71,8 @@ class V2xWireNodelet : public nodelet::Nodelet {
     const auto taken = news_.takeAll();
     monitor_->figure("datagrams discarded", static_cast<double>(taken.discarded));
     for (const News& one : taken.events) {
-      std::visit([this](const auto& kind) { serve(kind); }, one);
+      guarded(*monitor_, "the UDP port",
+              [&] { std::visit([this](const auto& kind) { serve(kind); }, one); });
     }
   }
 
@@ -86,9 +88,11 @@ class V2xWireNodelet : public nodelet::Nodelet {
   }
 
   void serveOwn(const StationTracksMessage& tracks) {
-    if (const SignalAdviceMessagePtr advice = wire_->serveOwn(tracks)) {
-      advice_.publish(advice);
-    }
+    guarded(*monitor_, "stations/own", [&] {
+      if (const SignalAdviceMessagePtr advice = wire_->serveOwn(tracks)) {
+        advice_.publish(advice);
+      }
+    });
   }
 
   std::unique_ptr<StageMonitor> monitor_;

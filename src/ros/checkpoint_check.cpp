@@ -12,8 +12,9 @@ namespace datmo {
 
 namespace {
 
-/// s, mean interval of scans: a slower scanner gives no map.
-constexpr double kMaxScanInterval = 10.0;
+/// s, mean interval of scans. Far more than that of any scanner, since a gap counts in the mean
+/// with a tenth of its duration: one hour is that of ten hours without a scan.
+constexpr double kMaxScanInterval = 3600.0;
 
 template <int kSize>
 bool isSound(const Eigen::Matrix<double, kSize, kSize>& covariance) {

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 
@@ -51,6 +52,8 @@ void DeviceDiagnostics::warning(const DeviceError& error, Stamp now) {
 
 void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const ClockState& clock,
                                  std::uint64_t discarded, Stamp now) {
+  monitor_.setTime(now);
+  checkHasBegun(std::min(measurement.stamp, now));
   const std::string input = inputOf(measurement.data);
   monitor_.received(input, now);
   noteMissed(measurement);

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// Period of looking up the destination's name, s: it may take some time.
+/// Pause after a look-up of the destination's name has failed, s.
 constexpr double kLookUpPause = 10.0;
 
 }  // namespace
@@ -34,6 +34,7 @@ void V2xWire::failed(const DeviceError& error, Stamp now) {
 
 StationTracksMessagePtr V2xWire::received(std::string_view datagram, Stamp now) {
   const Stopwatch watch;
+  checkHasBegun(now);
   if (SignalWire::takes(datagram)) {
     signals_.received(datagram, now);
     return nullptr;

@@ -253,6 +253,7 @@ datmo_fusion_add_core_test(wire
 target_include_directories(unit_wire PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(device
+  device/background_call_test.cpp
   device/can_log_test.cpp
   device/can_motion_test.cpp
   device/can_signal_test.cpp

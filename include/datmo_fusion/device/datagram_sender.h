@@ -2,9 +2,14 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
+
+#include "datmo_fusion/device/background_call.h"
+#include "datmo_fusion/device/device_error.h"
 
 namespace datmo {
 
@@ -26,25 +31,32 @@ class DatagramSender {
   int socket_ = -1;
 };
 
-/// The same for a host whose name is looked up when something is first sent: that may take a while,
-/// so it is only tried again after a pause if it fails.
+/// The same for a host whose name is looked up when something is first sent: that may take minutes,
+/// so it happens in a thread of its own, and is only tried again after a pause if it fails.
 class DatagramDestination {
  public:
   /// An empty host: no destination. `pause`: s.
-  DatagramDestination(std::string host, int port, double pause);
+  DatagramDestination(const std::string& host, int port, double pause);
 
-  /// Returns whether it was sent: not without a destination, and not during the pause. Throws
-  /// DeviceError (`no_connection`, `not_sent`).
+  /// Returns whether it was sent: not without a destination, not while its name is being looked up
+  /// for longer than usual, and not during the pause. Throws DeviceError (`no_connection`, with the
+  /// first datagram after a look-up has failed; `not_sent`).
   bool send(std::string_view bytes);
 
  private:
   using Clock = std::chrono::steady_clock;
+  using LookedUp = std::variant<std::unique_ptr<DatagramSender>, DeviceError>;
 
-  std::string host_;
-  int port_;
+  static LookedUp lookUp(const std::string& host, int port);
+  /// Returns a new result of looking up the name, which is begun if that is due; null if there is
+  /// none yet.
+  std::optional<LookedUp> result();
+
+  bool has_host_;
   std::chrono::duration<double> pause_;
-  std::optional<DatagramSender> sender_;
-  std::optional<Clock::time_point> looked_up_;
+  BackgroundCall<LookedUp> look_up_;
+  std::unique_ptr<DatagramSender> sender_;   ///< null: not looked up yet
+  std::optional<Clock::time_point> failed_;  ///< when the last look-up failed
 };
 
 }  // namespace datmo

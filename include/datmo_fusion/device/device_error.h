@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// A fault of a device, after which its connection is closed.
+/// A fault of a device: thrown, it ends the connection; passed to DeviceHost::warn, it does not.
 class DeviceError : public std::runtime_error {
  public:
   /// `reason`: a short, fixed name that is counted (`silent_device`); `message`: what is wrong, its

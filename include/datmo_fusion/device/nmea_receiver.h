@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -32,18 +33,25 @@ class NmeaReceiver : public Device {
  public:
   static constexpr int kPort = 10110;  ///< default of NMEA 0183 over TCP (IANA)
 
-  NmeaReceiver(StreamOpener open, const NmeaOptions& options, const DeviceHost& host);
+  /// `timeout`: s; after twice this time without a GGA or RMC it is not a receiver, or not set up
+  /// (next() throws DeviceError, `no_positions`).
+  NmeaReceiver(StreamOpener open, const NmeaOptions& options, double timeout,
+               const DeviceHost& host);
 
   /// Returns after the first sentence.
   std::string connect() override;
   DeviceMeasurement next() override;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   /// Returns the next valid sentence. Invalid ones are counted; many in a row are an error: the
   /// device is not a receiver.
   NmeaSentence nextSentence();
   /// Returns the measurement in a sentence; none if it has nothing to publish.
   std::optional<DeviceMeasurement> measurementOf(const NmeaSentence& sentence);
+  /// Throws DeviceError if sentences with positions or velocities have been missing for too long.
+  void checkHasPositions(const NmeaSentence& sentence);
   /// Updates the newest time, and returns whether the sentence belongs to it.
   bool takeTime(const std::string& field);
   /// Returns whether a sentence that arrives now is closer to the next time than to the newest one.
@@ -51,6 +59,7 @@ class NmeaReceiver : public Device {
 
   StreamOpener open_;
   NmeaOptions options_;
+  double timeout_;  ///< s
   DeviceHost host_;
   std::unique_ptr<ByteStream> stream_;
   NmeaReader reader_;
@@ -60,6 +69,7 @@ class NmeaReceiver : public Device {
   std::optional<DeviceMeasurement> pending_;        ///< to be returned next
   bool has_time_ = false;                           ///< of this connection
   bool has_rmc_ = false;                            ///< the same
+  Clock::time_point last_timed_;                    ///< arrival of the last GGA or RMC
 };
 
 }  // namespace datmo

@@ -5,8 +5,8 @@
 
 namespace datmo {
 
-/// Returns whether a vehicle can have this state: its checksum only shows that a file is as it was
-/// written, not by whom.
+/// Returns whether a vehicle can have this state: the file's checksum shows only that it was not
+/// damaged, not who wrote it.
 bool isSound(const SlamState& slam);
 
 }  // namespace datmo

@@ -27,7 +27,8 @@ class DeviceDiagnostics {
   void fault(const DeviceError& error, Stamp now);
   void warning(const DeviceError& error, Stamp now);
 
-  /// `discarded`: total number of measurements dropped because they waited too long.
+  /// `discarded`: total number of measurements dropped because they waited too long. Throws
+  /// InputError (`no_ros_time`) for a measurement from before ROS time has begun.
   void measured(const DeviceMeasurement& measurement, const ClockState& clock,
                 std::uint64_t discarded, Stamp now);
 

@@ -27,7 +27,8 @@ class V2xWire {
   /// Reports that the socket has failed, at this ROS time.
   void failed(const DeviceError& error, Stamp now);
 
-  /// Returns what a datagram received at this ROS time says about stations; null if nothing.
+  /// Returns what a datagram received at this ROS time says about stations; null if nothing. Throws
+  /// InputError (`no_ros_time`) if ROS time has not begun.
   StationTracksMessagePtr received(std::string_view datagram, Stamp now);
 
   /// Sends our own tracks, if there is a destination. Returns advice for the vehicle; null if there

@@ -66,8 +66,8 @@ std::string CheckpointKeeper::differenceOf(const Checkpoint& checkpoint) const {
 std::string CheckpointKeeper::refusalOf(const Checkpoint& checkpoint, Stamp first_scan) const {
   const double age = secondsBetween(checkpoint.slam.pose.stamp, first_scan);
   if (!(age > 0.0 && age <= options_.max_age)) {
-    return "it is " + toText(age) +
-           " s older than the first scan, expected more than 0 and at most " +
+    return "its pose is from " + toText(age) +
+           " s before the first scan, expected more than 0 and at most " +
            toText(options_.max_age) + " s";
   }
   return differenceOf(checkpoint);

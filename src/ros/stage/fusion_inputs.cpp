@@ -108,9 +108,11 @@ void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing
     absence = before == absences_.end() ? Absence{stamp, {}} : before->second;
     // A single set without it means nothing: it may be slower than the reference, or have just
     // started.
-    const bool lasts = one.why == WhyMissing::kSilent ||
-                       secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
-    if (lasts && absence.said.insert(one.why).second) {
+    const bool is_silent = one.why == WhyMissing::kSilent;
+    const bool lasts =
+        is_silent || secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
+    const bool is_fault = !(is_silent && options_.may_be_silent.count(source) > 0);
+    if (lasts && is_fault && absence.said.insert(one.why).second) {
       runner_.monitor().warned(warningOf(one));
     }
   }

@@ -169,6 +169,7 @@ void GridSlamStage::checkBaseFrame(const std::string& frame) const {
 
 void GridSlamStage::reset() {
   slam_.reset();
+  odometry_wait_.clear();
   scans_.clear();
   odometry_.reset();
   odometry_poses_.clear();

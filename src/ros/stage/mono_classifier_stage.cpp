@@ -124,7 +124,7 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     checkAge(*message);
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
-    if (!classifier_->tellsAnything()) {
+    if (!classifier_->isInformative()) {
       monitor_.warned(
           InputError("detector_tells_nothing",
                      "images do not classify any object: this detector's reports are no more often "

@@ -36,9 +36,12 @@ std::string whyNothingComes(const WatchedInput& input, const PublishedType& publ
     return "it is published, but no message has been received";
   }
   for (const InputTopic& topic : input.topics) {
-    const std::string type = published_type(topic.topic);
-    if (!type.empty()) {
-      return "it is published as " + type + ", expected " + topic.data_type;
+    const std::optional<std::string> type = published_type(topic.topic);
+    if (!type) {
+      return "the master has not answered";
+    }
+    if (!type->empty()) {
+      return "it is published as " + *type + ", expected " + topic.data_type;
     }
   }
   return "it has no publisher";

@@ -16,11 +16,21 @@ ros::Time toTime(Stamp stamp) {
   return time;
 }
 
+void checkHasBegun(Stamp now) {
+  if (now <= Stamp()) {
+    throw InputError("no_ros_time", "measured at ROS time " + std::to_string(now.seconds()) +
+                                        " s: expected more than 0 (with use_sim_time, from "
+                                        "/clock); drops what is measured until then");
+  }
+}
+
 void StreamOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"restart_after", "s",
-       "a stamp older than the newest by more than this is a restart of the clock (a looped bag), "
-       "and all state is cleared; one that is less old is late and is dropped"},
+       "a stamp older than the newest by this or more is a jump of the clock back (a looped bag) "
+       "once ROS time or a second message confirms it; one newer by as much is a jump ahead if a "
+       "second message confirms it and ROS time does not; both clear all state. One that is less "
+       "old is late and is dropped"},
       restart_after, {0.1, 60.0});
   visitor.number({"silence_after", "s", "an input that is silent for longer than this is reported"},
                  silence_after, {0.1, 60.0});

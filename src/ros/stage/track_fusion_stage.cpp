@@ -6,6 +6,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -20,6 +22,9 @@ namespace datmo {
 namespace {
 
 constexpr char kTrackList[] = "track list";
+
+/// The source whose silence is no fault: the stage v2x publishes only when another station sends.
+constexpr char kOtherStations[] = "v2x";
 
 /// The valid tracks, by rising id; the first of several with the same id.
 std::vector<Track> validTracks(const std::vector<Track>& all) {
@@ -54,7 +59,7 @@ TrackFusionStage::TrackFusionStage(const Checked<TrackFusionStageOptions>& optio
       runner_(monitor, options->input, std::string("forgets all ") + kTrackList + "s",
               [this] { reset(); }),
       inputs_({options->frames.map, options->frames, std::nullopt, options->input, options->matcher,
-               options->fuser.sourcesInUse(), kTrackList},
+               options->fuser.sourcesInUse(), kTrackList, std::set<std::string>{kOtherStations}},
               runner_),
       matcher_(options->matcher, options->fuser.sourcesInUse(), Serving::kOften),
       fuser_(options->fuser) {
@@ -131,9 +136,14 @@ void TrackFusionStage::change(const OptionValues& values) {
 void TrackFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<TrackArray>("tracks/fused");
   for (const std::string& source : sources()) {
-    ports.in<TrackArray>("tracks/" + source, [this, source](const auto& tracks, Stamp now) {
+    const auto take = [this, source](const auto& tracks, Stamp now) {
       takeTracks(source, *tracks, now);
-    });
+    };
+    if (source == kOtherStations) {
+      ports.optionalIn<TrackArray>("tracks/" + source, take);
+    } else {
+      ports.in<TrackArray>("tracks/" + source, take);
+    }
   }
 }
 

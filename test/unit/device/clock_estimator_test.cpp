@@ -2,9 +2,12 @@
 #include "datmo_fusion/device/clock_estimator.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "datmo_fusion/device/device_clock.h"
 
 namespace datmo::clock_estimator_test {
 namespace {
@@ -124,6 +127,21 @@ TEST(ClockEstimator, ARestartKeepsTheDrift) {
   messages.next();
   EXPECT_EQ(messages.clock.drift(), drift);
   EXPECT_EQ(messages.clock.steps(), 0U);
+}
+
+TEST(DeviceClock, TheBeginningOfSimulatedTimeIsNoDelay) {
+  constexpr double kPause = 0.1;  // s
+  double host = 0.0;
+  DeviceClock clock(ClockOptions(), [&host] { return Stamp::fromSeconds(host); });
+  clock.restart({1e-3, 1000000});
+  std::uint64_t ticks = 0;
+  for (int i = 0; i < 50; ++i, ticks += 100) {
+    EXPECT_LE(clock.add(ticks, 0.01), Stamp());
+  }
+  for (host = kStart; host < kStart + 1.0; host += kPause, ticks += 100) {
+    EXPECT_NEAR(secondsBetween(Stamp::fromSeconds(host), clock.add(ticks, 0.01)), -0.01, 1e-5);
+  }
+  EXPECT_EQ(clock.state().steps, 0U);
 }
 
 TEST(ClockEstimator, OptionsOutOfRangeAreRefused) {

@@ -2,9 +2,15 @@
 // A satellite receiver via TCP and at a serial port, both simulated on this computer.
 #include "datmo_fusion/device/nmea_receiver.h"
 
-#include <cmath>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
 
 #include "device/device_probe.h"
+#include "device/device_reason.h"
 #include "device/fake_serial.h"
 #include "device/fake_server.h"
 #include "device/nmea_sentences.h"
@@ -147,6 +153,52 @@ TEST_F(NmeaReceiverTest, DisconnectionsAndOtherDevicesAreReported) {
   EXPECT_NEAR(seconds(exchange(ggaLine(500.0), 7.0).stamp), 7.0, 1e-6);
   fake_.send(std::string(30000, 'x'));
   EXPECT_EQ(probe_.faults.take(), "bad_sentence");
+}
+
+/// A stream of these lines, again and again, until its time has passed: then of positions.
+class Repeated : public ByteStream {
+ public:
+  Repeated(std::string lines, double seconds)
+      : lines_(std::move(lines)), end_(Clock::now() + std::chrono::duration<double>(seconds)) {}
+
+  std::string receive() override { return Clock::now() < end_ ? lines_ : ggaLine(1.0); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string lines_;
+  std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
+};
+
+class TalkingReceiverTest : public testing::Test {
+ protected:
+  static constexpr double kTimeout = 0.02;       // s
+  static constexpr double kLong = 5 * kTimeout;  // s
+  static constexpr double kForever = 3600.0;     // s
+
+  /// Reads one measurement from a receiver that sends these lines for a time (s).
+  DeviceMeasurement measure(const std::string& lines, double seconds) {
+    const StreamOpener open = [&] { return std::make_unique<Repeated>(lines, seconds); };
+    NmeaReceiver receiver(open, NmeaOptions(), kTimeout,
+                          {stop_, clock_, [](const DeviceError& /*warning*/) {}});
+    receiver.connect();
+    return receiver.next();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  DeviceClock clock_{ClockOptions(), [] { return Stamp::fromSeconds(DeviceProbe::kStart); }};
+};
+
+TEST_F(TalkingReceiverTest, OneThatSendsNoPositionsIsReported) {
+  const std::string vtg = nmeaLine("GPVTG,090.0,T,,M,020.0,N,,K");
+  EXPECT_EQ(samples::reasonOf([&] { measure(nmeaLine("GPTXT,hello") + vtg, kForever); }),
+            "no_positions");
+}
+
+TEST_F(TalkingReceiverTest, OneThatHasNoSatellitesYetIsWaitedFor) {
+  const DeviceMeasurement first = measure(nmeaLine("GPGGA,,,,,,0,00,,,M,,M,,"), kLong);
+  EXPECT_TRUE(std::holds_alternative<SatelliteFix>(first.data));
 }
 
 TEST(SerialReceiverTest, AReceiverAtASerialPortIsReadAndItsEndIsReported) {

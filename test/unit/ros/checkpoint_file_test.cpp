@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "datmo_fusion/ros/map_format.h"
+
 namespace datmo::checkpoint_test {
 namespace {
 
@@ -34,6 +36,29 @@ TEST_F(CheckpointTest, APoseOfAnotherMapIsIgnored) {
   EXPECT_EQ(readCheckpoint(file(), kMaxCells).slam.pose.estimate.pose.position(), pose.position());
   writePose(file(), id, read.slam);
   EXPECT_EQ(readCheckpoint(file(), kMaxCells).slam.pose.estimate.pose.x(), 50.0);
+}
+
+TEST_F(CheckpointTest, APoseThatNoVehicleCanHaveIsIgnored) {
+  driveAndUnload();
+  const Checkpoint read = readCheckpoint(file(), kMaxCells);
+  const std::uint32_t id = writeCheckpoint(file(), read);
+  SlamState later = read.slam;
+  later.pose.estimate.pose = Pose2(1e12, 0.0, 0.0);
+  writePose(file(), id, later);
+  EXPECT_EQ(readCheckpoint(file(), kMaxCells).slam.pose.estimate.pose.position(),
+            read.slam.pose.estimate.pose.position());
+  later.pose.estimate.pose = Pose2(50.0, 0.0, 0.0);
+  writePose(file(), id, later);
+  EXPECT_EQ(readCheckpoint(file(), kMaxCells).slam.pose.estimate.pose.x(), 50.0);
+}
+
+TEST_F(CheckpointTest, AStateAfterALongSilenceOfTheScannerIsRead) {
+  driveAndUnload();
+  Checkpoint read = readCheckpoint(file(), kMaxCells);
+  read.slam.pose.scan_interval = 60.0;  // after ten minutes
+  removeCheckpoint(file());
+  writeCheckpoint(file(), read);
+  EXPECT_EQ(readCheckpoint(file(), kMaxCells).slam.pose.scan_interval, 60.0);
 }
 
 TEST_F(CheckpointTest, ADamagedFileIsOneWarningAndANewMap) {
@@ -87,18 +112,22 @@ TEST_F(CheckpointTest, AFileOfAnotherUserIsOneWarningAndANewMap) {
   EXPECT_TRUE(startsAnew());
 }
 
-TEST_F(CheckpointTest, LinksAreReplacedAndNotFollowed) {
+TEST_F(CheckpointTest, ALinkInPlaceOfTheCheckpointIsNotRead) {
+  driveAndUnload();
+  std::filesystem::rename(file(), file("other"));
+  std::filesystem::create_symlink(file("other"), file());
+  EXPECT_NO_THROW(readCheckpoint(file("other"), kMaxCells));
+  EXPECT_THROW(readCheckpoint(file(), kMaxCells), MapFileError);
+}
+
+TEST_F(CheckpointTest, ALinkInPlaceOfTheUnfinishedFileIsNotFollowed) {
   const std::string other = file("other");
   writeContent(other, "of someone else");
-  for (const std::string& link : {file(), file() + ".part"}) {
-    std::filesystem::remove(link);
-    std::filesystem::create_symlink(other, link);
-    driveAndUnload();
-    EXPECT_EQ(contentOf(other), "of someone else");
-    EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file())));
-    EXPECT_FALSE(std::filesystem::exists(file() + ".part"));
-    load();
-  }
+  std::filesystem::create_symlink(other, file() + ".part");
+  driveAndUnload();
+  EXPECT_EQ(contentOf(other), "of someone else");
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file())));
+  EXPECT_FALSE(std::filesystem::exists(file() + ".part"));
 }
 
 TEST_F(CheckpointTest, AFolderThatCannotBeWrittenIsOnlyAWarning) {

@@ -58,13 +58,13 @@ TEST_F(CheckpointTest, AnotherStartOfTheStackBeginsANewMap) {
 TEST_F(CheckpointTest, AnOldCheckpointIsIgnored) {
   driveAndUnload();
   go(12.0);
-  expectNewMap("12.1 s older than the first scan, expected more than 0 and at most 10 s");
+  expectNewMap("12.1 s before the first scan, expected more than 0 and at most 10 s");
 }
 
 TEST_F(CheckpointTest, ABagThatStartsAgainBeginsANewMap) {
   driveAndUnload();
   now_ -= 3.0;
-  expectNewMap("-2.9 s older");
+  expectNewMap("its pose is from -2.9 s before");
 }
 
 TEST_F(CheckpointTest, AfterAJumpOfTheClockThereIsNoWayBack) {

@@ -30,6 +30,7 @@ TEST_F(DeviceDiagnosticsTest, ItIsAnErrorUntilItIsConnectedAndAfterAFault) {
 
 TEST_F(DeviceDiagnosticsTest, LossesAreCountedByKind) {
   DeviceMeasurement cloud;
+  cloud.stamp = now_;
   cloud.data = DeviceCloud();
   cloud.missed = 7;
   diagnostics_.measured(cloud, ClockState(), 3, now_);
@@ -38,13 +39,15 @@ TEST_F(DeviceDiagnosticsTest, LossesAreCountedByKind) {
   EXPECT_EQ(figure("measurements discarded"), 3.0);
   EXPECT_EQ(monitor_.warnings().at("missed_packets"), 2U);
   DeviceMeasurement scan;
+  scan.stamp = now_;
   diagnostics_.measured(scan, ClockState(), 3, now_);
   EXPECT_EQ(monitor_.warnings().count("missed_scans"), 0U);
 }
 
 TEST_F(DeviceDiagnosticsTest, TheClockIsJudgedByWhatItGainsSinceItWasConnected) {
   diagnostics_.connected("a scanner", now_);
-  const DeviceMeasurement scan;
+  DeviceMeasurement scan;
+  scan.stamp = now_;
   diagnostics_.measured(scan, {1.7e9, 0.0, 0}, 0, now_);
   diagnostics_.measured(scan, {1.7e9 + 0.25, 1e-4, 1}, 0, now_);
   EXPECT_NEAR(figure("clock offset since connected [ms]"), 250.0, 1e-3);
@@ -56,6 +59,19 @@ TEST_F(DeviceDiagnosticsTest, TheClockIsJudgedByWhatItGainsSinceItWasConnected) 
   EXPECT_EQ(monitor_.warnings().at("clock_step"), 1U);
 }
 
+TEST_F(DeviceDiagnosticsTest, BeforeRosTimeBeginsMeasurementsAreRefused) {
+  DeviceMeasurement scan;
+  const auto measure = [&](double stamp, double now) {
+    scan.stamp = Stamp::fromSeconds(stamp);
+    diagnostics_.measured(scan, ClockState(), 0, Stamp::fromSeconds(now));
+  };
+  EXPECT_THROW(measure(-0.025, 0.0), InputError);
+  EXPECT_THROW(measure(-0.025, 1000.0), InputError) << "it waited while ROS time began";
+  EXPECT_FALSE(monitor_.hasReceived("measurements"));
+  EXPECT_NO_THROW(measure(999.975, 1000.0));
+  EXPECT_TRUE(monitor_.hasReceived("measurements"));
+}
+
 TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
   DeviceMeasurement fix;
   fix.data = SatelliteFix{SatelliteFix::Kind::kSatellites, 45.0, 5.0, 200.0, 3.0, 4.5, 9};
@@ -63,6 +79,8 @@ TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
   velocity.data = GroundVelocity();
   for (int i = 0; i < 10; ++i) {
     const Stamp now = now_ + 0.2 * i;
+    fix.stamp = now;
+    velocity.stamp = now;
     diagnostics_.measured(fix, ClockState(), 0, now);
     diagnostics_.measured(velocity, ClockState(), 0, now);
   }

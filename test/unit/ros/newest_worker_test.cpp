@@ -39,6 +39,27 @@ TEST(NewestWorker, OfWaitingJobsTheNewestIsDone) {
   EXPECT_EQ(worker.take(), (std::vector<int>{1, 3}));
 }
 
+TEST(NewestWorker, IsBusyWhileAJobRunsOrWaits) {
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  auto end = may_end.get_future();
+  NewestWorker<int, int> worker(
+      [&](int job) {
+        begun.set_value();
+        end.wait();
+        return job;
+      },
+      true);
+  EXPECT_FALSE(worker.isBusy());
+  worker.start(1);
+  EXPECT_TRUE(worker.isBusy()) << "it waits or runs";
+  begun.get_future().wait();
+  EXPECT_TRUE(worker.isBusy()) << "it runs";
+  may_end.set_value();
+  worker.waitUntilIdle();
+  EXPECT_FALSE(worker.isBusy());
+}
+
 TEST(NewestWorker, EndsWithAWaitingJob) {
   std::promise<void> begun;
   std::promise<void> may_end;

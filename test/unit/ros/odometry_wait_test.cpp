@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/odometry_wait.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
+#include "message_samples.h"
+#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
 
 namespace datmo::odometry_wait_test {
 namespace {
@@ -107,6 +113,62 @@ TEST_F(OdometryWaitTest, AClockThatIsSetBackEndsTheWait) {
   know(10.0);
   add(wait_, 10.02, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(400.0)));
+}
+
+TEST_F(OdometryWaitTest, WhatWaitsIsDroppedOnRequest) {
+  know(10.0);
+  add(wait_, 10.02, 500.0);
+  wait_.clear();
+  EXPECT_FALSE(wait_.serveNext(at(600.0)));
+  EXPECT_TRUE(served_.empty());
+}
+
+/// Sends messages to the inputs of a stage, in simulated time.
+class SimulatedPorts : public StagePorts {
+ public:
+  explicit SimulatedPorts(StageMonitor& monitor) : monitor_(monitor) {}
+  bool hasSimulatedTime() const override { return true; }
+
+  template <typename Message>
+  void send(const std::string& topic, const Message& message, Stamp now) {
+    monitor_.received(topic, now);
+    takes_.at(topic)(boost::make_shared<Message>(message), now);
+  }
+
+ private:
+  void addInput(StageInput input) override { takes_[input.topic] = input.take; }
+  StageOutput::Publish addOutput(StageOutput /*output*/) override { return {}; }
+
+  StageMonitor& monitor_;
+  std::map<std::string, StageInput::Take> takes_;  ///< by topic
+};
+
+TEST(GridSlamWaitTest, AScanThatWaitsWhenTheClockJumpsBackIsNotServed) {
+  const auto at = [](double seconds) { return Stamp::fromSeconds(seconds); };
+  TransformBuffer buffer{1.0};
+  buffer.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
+  StageMonitor monitor{"grid_slam"};
+  GridSlamStageOptions options;
+  options.odometry_wait = 0.2;
+  GridSlamStage stage(options, buffer, monitor);
+  SimulatedPorts ports(monitor);
+  stage.connect(ports);
+  const std::string odometry = options.motion.odometryTopic();
+  const auto scanAt = [&](double seconds) {
+    auto scan = samples::laserScan();
+    scan.header.stamp = ros::Time(seconds);
+    ports.send("scan", scan, at(seconds + 0.01));
+  };
+  ports.send(odometry, samples::odometry(200.0, 1.0), at(200.0));
+  scanAt(200.02);
+  EXPECT_EQ(monitor.processedCount(), 0U) << "it waits for odometry";
+  ports.send(odometry, samples::odometry(150.0, 1.0), at(150.0));
+  EXPECT_EQ(monitor.resetCount(), 1U);
+  EXPECT_FALSE(stage.publishNext(at(150.0)));
+  EXPECT_EQ(monitor.processedCount(), 0U);
+  scanAt(150.0);
+  EXPECT_EQ(monitor.processedCount(), 1U);
+  EXPECT_EQ(monitor.droppedCount(), 0U);
 }
 
 }  // namespace

@@ -38,6 +38,14 @@ TEST(StampCheck, AStampBeyondReasonIsRefusedByItself) {
   EXPECT_EQ(check.check(ros::Time(10.1)), Arrival::kNext);
 }
 
+TEST(StampCheck, BeforeRosTimeBeginsNothingCanBeStamped) {
+  for (const double seconds : {0.0, -0.025}) {
+    EXPECT_EQ(samples::reasonOf([&] { checkHasBegun(Stamp::fromSeconds(seconds)); }),
+              "no_ros_time");
+  }
+  EXPECT_NO_THROW(checkHasBegun(Stamp::fromSeconds(0.001)));
+}
+
 TEST(StampCheck, TimesSurviveARoundTripToTheNanosecond) {
   const ros::Time time(1700000000, 123456789);
   EXPECT_EQ(toTime(toStamp(time)), time);

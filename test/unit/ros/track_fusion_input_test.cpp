@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,37 @@ TEST_F(TrackFusionStageTest, OfAThousandTracksTheMostCertainAreUsed) {
   })) << "those that hardly exist are left out";
   EXPECT_TRUE(bothAt(100.1));
   EXPECT_EQ(monitor_.warningCount(), 1U) << "said once for a list";
+}
+
+/// The inputs that a stage declares.
+class InputList : public StagePorts {
+ public:
+  std::map<std::string, bool> required;  ///< by topic
+
+ private:
+  void addInput(StageInput input) override { required[input.topic] = input.required; }
+  StageOutput::Publish addOutput(StageOutput /*output*/) override { return {}; }
+};
+
+TEST_F(TrackFusionStageTest, TheSilenceOfOtherStationsIsNoFault) {
+  options_.fuser.sources["v2x"];
+  TrackFusionStage stage(options_, monitor_);
+  InputList inputs;
+  stage.connect(inputs);
+  EXPECT_EQ(inputs.required,
+            (std::map<std::string, bool>{
+                {"tracks/lidar", true}, {"tracks/stereo", true}, {"tracks/v2x", false}}));
+  for (int i = 0; i < 50; ++i) {
+    const double t = 100.0 + 0.1 * i;
+    const Stamp now = Stamp::fromSeconds(t);
+    stage.takeTracks("lidar", carOf("lidar", t), now);
+    if (i < 25) {
+      stage.takeTracks("stereo", carOf("stereo", t), now);
+    }
+    while (stage.next(now)) {
+    }
+  }
+  EXPECT_EQ(warnings("silent_source"), 1U) << "that of the camera";
 }
 
 TEST(TrackFusionStageOptionsTest, DelaysUpToHalfASecondAreAcceptedByDefault) {

@@ -39,6 +39,10 @@ TEST_F(V2xWireTest, DatagramsGoToTheWireOfTheirKind) {
   EXPECT_EQ(samples::drops(monitor_, "truncated_message"), 1U);
 }
 
+TEST_F(V2xWireTest, BeforeRosTimeBeginsDatagramsAreRefused) {
+  EXPECT_THROW(wire_.received(samples::wireCpm().bytes(), Stamp()), InputError);
+}
+
 TEST_F(V2xWireTest, WithoutADestinationNothingIsSentAndNothingIsWrong) {
   EXPECT_FALSE(wire_.serveOwn(StationTracksMessage())) << "no lanes were received";
   EXPECT_TRUE(monitor_.warnings().empty());

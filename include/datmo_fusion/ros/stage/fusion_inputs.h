@@ -28,7 +28,8 @@ struct FusionInputOptions {
   StreamOptions input;
   SourceMatcherOptions matcher;
   std::vector<std::string> sources;
-  std::string what;  ///< name of one message of a source: "grid"
+  std::string what;                       ///< name of one message of a source: "grid"
+  std::set<std::string> may_be_silent{};  ///< sources whose silence is not reported
 };
 
 /// Parts of a message that are ignored, while the rest of it is used.
@@ -47,8 +48,8 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 /// Input check of a stage that fuses several sources: accepts or rejects messages, keeps the data
 /// time and the vehicle's motion, and reports missing sources.
 ///
-/// A source that falls silent is reported once until it is fused again; so is one that is too late,
-/// or whose motion is unknown, for as long.
+/// A source that falls silent is reported once until it is fused again, unless it may be silent; so
+/// is one that is too late, or whose motion is unknown, for as long.
 ///
 /// The reference's stamps are authoritative: while it publishes, a message of another source that
 /// is ahead of them by more than `silent_after` is rejected (`stamp_ahead`), because a clock that

@@ -36,7 +36,7 @@ struct GridFusionOutput {
 
 /// Runs GridMatcher and GridFuser on messages, for both the nodelet and the bag runner.
 /// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
-/// clock jumps back.
+/// clock jumps.
 class GridFusionStage : public Stage {
  public:
   using Options = GridFusionStageOptions;

@@ -68,7 +68,7 @@ struct GridSlamOutput {
 /// Runs GridSlam on messages, for both the nodelet and the bag runner.
 ///
 /// Bad input is dropped or warned about, with a report to the monitor, never thrown. The state is
-/// reset when the clock jumps back.
+/// reset when the clock jumps.
 ///
 /// With `odometry_wait` a scan waits for the odometry that precedes it (OdometryWait).
 ///

@@ -52,7 +52,7 @@ struct OptimizedDrive {
 /// pose in the optimized drive is published as a child frame, `map` -> `global_map`, which moves
 /// gradually.
 ///
-/// A new trajectory begins, and the old one is forgotten, when the clock jumps back and when SLAM
+/// A new trajectory begins, and the old one is forgotten, when the clock jumps and when SLAM
 /// begins a new map or locates itself in a prior one (KeyframeSelector).
 ///
 /// Bad input is dropped and reported to the monitor, never thrown: what fromMessage rejects, stamps

@@ -45,7 +45,7 @@ struct MapFusionOutput {
 /// Runs MapFuser on messages, for both the nodelet and the bag runner. Instantaneous grids wait for
 /// the labeled scan closest to their stamp, which has the pose and the moving points
 /// (SourceMatcher); each is integrated once, with the pose at its own stamp. FusionInputs decides
-/// what is accepted and reports missing sources. When the clock jumps back everything except the
+/// what is accepted and reports missing sources. When the clock jumps everything except the
 /// prior map is forgotten.
 class MapFusionStage : public Stage {
  public:

@@ -46,7 +46,7 @@ struct MonoGridStageOptions {
 /// Bad input is dropped or warned about, with a report to the monitor, never thrown: what
 /// CameraInput, ExposureCheck and toScan reject, `no_scan` (none of the image's time came within
 /// `max_wait`, or the image is older than the scans), `no_motion`, `superseded_image`,
-/// `missing_transform`. The road's colors are forgotten when the clock jumps back.
+/// `missing_transform`. The road's colors are forgotten when the clock jumps.
 class MonoGridStage : public Stage {
  public:
   using Options = MonoGridStageOptions;

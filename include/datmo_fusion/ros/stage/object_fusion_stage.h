@@ -34,7 +34,7 @@ struct ObjectFusionStageOptions {
 
 /// Matches object lists and runs ObjectFuser on them, for both the nodelet and the bag runner.
 /// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
-/// clock jumps back.
+/// clock jumps.
 ///
 /// Each list is fused once: a source slower than the reference does not count twice. Lists that
 /// were in no set are counted. Objects and views that do not name their sensor count as their
@@ -104,7 +104,7 @@ class ObjectFusionStage : public Stage {
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;
   std::uint64_t objects_too_many_ = 0;
-  std::uint64_t names_of_gone_ = 0;
+  std::uint64_t unmatched_classes_ = 0;
 };
 
 }  // namespace datmo

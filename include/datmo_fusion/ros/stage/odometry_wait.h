@@ -32,6 +32,9 @@ class OdometryWait {
   /// none.
   bool serveNext(Stamp now);
 
+  /// Drops all scans that wait: the clock has jumped, and they are of the time before.
+  void clear() { waiting_.clear(); }
+
  private:
   struct Waiting {
     Stamp scan;

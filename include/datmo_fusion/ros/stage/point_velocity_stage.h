@@ -48,7 +48,7 @@ struct PointVelocityStageOptions {
 /// Computes points with velocity over ground from image pairs of a stereo camera: features matched
 /// between two pairs (QuadMatcher), compensated for the camera's own motion (cameraMotion, with
 /// odometry as prior). Used by both the nodelet and the bag runner. Bad input is dropped and
-/// reported to the monitor, never thrown. The last images are forgotten when the clock jumps back.
+/// reported to the monitor, never thrown. The last images are forgotten when the clock jumps.
 class PointVelocityStage : public Stage {
  public:
   using Options = PointVelocityStageOptions;

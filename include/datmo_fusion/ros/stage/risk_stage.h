@@ -40,7 +40,7 @@ struct RiskStageOptions {
 ///
 /// Without odometry the host's motion is from its poses, which is reported. Tracks that are
 /// invalid, unseen for too long or too many are dropped and reported. The state is reset when the
-/// clock jumps back.
+/// clock jumps.
 class RiskStage : public Stage {
  public:
   using Options = RiskStageOptions;

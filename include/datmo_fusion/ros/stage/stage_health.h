@@ -23,8 +23,9 @@ struct WatchedInput {
   std::vector<InputTopic> topics;
 };
 
-/// Returns the type with which a topic is published; empty: it has no publisher.
-using PublishedType = std::function<std::string(const std::string& topic)>;
+/// Returns the type with which a topic is published; empty: it has no publisher; none: the master
+/// has not answered.
+using PublishedType = std::function<std::optional<std::string>(const std::string& topic)>;
 
 /// "scan on /scan or /echoes".
 std::string nameAndTopics(const WatchedInput& input);
@@ -33,7 +34,8 @@ std::string nameAndTopics(const WatchedInput& input);
 bool isPublished(const WatchedInput& input, const PublishedType& published_type);
 
 /// Returns why no message of an input can be received: "it has no publisher", "it is published as
-/// A, expected B", or "it is published, but no message has been received".
+/// A, expected B", "it is published, but no message has been received", or "the master has not
+/// answered".
 std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type);
 
 /// Topics of a stage, resolved.

@@ -13,6 +13,10 @@ namespace datmo {
 Stamp toStamp(const ros::Time& time);
 ros::Time toTime(Stamp stamp);
 
+/// Throws InputError (`no_ros_time`) for a time at which ROS time had not begun: with use_sim_time,
+/// it stands at 0 until the first message on /clock, and nothing can be stamped.
+void checkHasBegun(Stamp now);
+
 /// How a stage checks the stamps of its inputs.
 struct StreamOptions {
   double restart_after = 1.0;  ///< s

@@ -38,7 +38,7 @@ struct StereoAlignmentStageOptions : StereoInputOptions {
 /// Estimates the alignment of a stereo camera's clouds with the scans (StereoAlignmentFilter), for
 /// the stages that use the clouds, and for people: diagnostics warn of unusual values. Used by both
 /// the nodelet and the bag runner. Bad input is dropped and reported to the monitor, never thrown.
-/// Cameras that do not measure disparities are not compared. When the clock jumps back the scans
+/// Cameras that do not measure disparities are not compared. When the clock jumps the scans
 /// are forgotten, but not the alignment, which is a property of the sensors.
 class StereoAlignmentStage : public Stage {
  public:

@@ -25,7 +25,7 @@ struct StereoGridStageOptions : StereoInputOptions {
 };
 
 /// Runs StereoGridModel on messages, for both the nodelet and the bag runner. Bad input is dropped
-/// or warned about, with a report to the monitor, never thrown. When the clock jumps back the road
+/// or warned about, with a report to the monitor, never thrown. When the clock jumps the road
 /// of the last clouds is forgotten.
 class StereoGridStage : public Stage {
  public:

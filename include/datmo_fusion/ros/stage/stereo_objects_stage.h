@@ -29,7 +29,7 @@ struct StereoObjectsStageOptions : StereoInputOptions {
 };
 
 /// Runs StereoObjectDetector on messages, for both the nodelet and the bag runner. Bad input is
-/// dropped and reported to the monitor, never thrown. When the clock jumps back the road of the
+/// dropped and reported to the monitor, never thrown. When the clock jumps the road of the
 /// last clouds is forgotten.
 ///
 /// The objects get their velocities from points with velocity (velocity_conversion.h) at the

@@ -30,7 +30,7 @@ struct TrackFusionStageOptions {
 
 /// Matches track lists and runs TrackFuser on them, for both the nodelet and the bag runner.
 /// FusionInputs decides what is accepted and reports missing sources. The state is reset when the
-/// clock jumps back; ids continue.
+/// clock jumps; ids continue.
 ///
 /// A list is used until there is a nearer one of its source. Tracks that do not name their sensor
 /// count as their source's own. Invalid tracks and views are dropped and reported.

@@ -30,7 +30,7 @@ struct TrackerStageOptions {
 ///
 /// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the
 /// labeled scan in which they were detected, or else from tf; nothing blocks. Bad input is dropped
-/// and reported to the monitor, never thrown. All tracks are forgotten when the clock jumps back.
+/// and reported to the monitor, never thrown. All tracks are forgotten when the clock jumps.
 ///
 /// Tracks of a stamp are published once: from the early objects, if any, at once; what the complete
 /// objects of that stamp add is included in the next tracks (EarlyTracker).
