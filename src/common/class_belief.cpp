@@ -102,17 +102,18 @@ ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods) {
   return result;
 }
 
-ClassProbabilities posterior(ClassProbabilities said, const ClassProbabilities& factors) {
-  said = orEqual(said);
-  std::transform(said.begin(), said.end(), factors.begin(), said.begin(), std::multiplies<>());
-  return normalized(said);
+ClassProbabilities posterior(ClassProbabilities reported, const ClassProbabilities& factors) {
+  reported = orEqual(reported);
+  std::transform(reported.begin(), reported.end(), factors.begin(), reported.begin(),
+                 std::multiplies<>());
+  return normalized(reported);
 }
 
-ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabilities& factors) {
-  weighed = orEqual(weighed);
-  std::transform(weighed.begin(), weighed.end(), factors.begin(), weighed.begin(),
+ClassProbabilities withoutFactors(ClassProbabilities weighted, const ClassProbabilities& factors) {
+  weighted = orEqual(weighted);
+  std::transform(weighted.begin(), weighted.end(), factors.begin(), weighted.begin(),
                  std::divides<>());
-  return normalized(weighed);
+  return normalized(weighted);
 }
 
 ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs) {
@@ -129,7 +130,7 @@ ClassProbabilities jointBelief(const std::vector<ClassProbabilities>& beliefs) {
   return normalizedWithDoubt(product);
 }
 
-bool tellsAnything(const ClassProbabilities& belief) {
+bool isInformative(const ClassProbabilities& belief) {
   return *std::max_element(belief.begin(), belief.end()) > kChance + kDoubt;
 }
 

@@ -12,7 +12,6 @@ namespace {
 const std::map<std::string, std::string> kRenamed = {
     {"across_per_metre", "across_per_meter"},
     {"along_per_metre", "along_per_meter"},
-    {"boxes_per_scan", "boxes_per_second"},
     {"coincidence", "false_agreement_probability"},
     {"else_share", "other_share"},
     {"farthest", "max_distance"},
@@ -26,6 +25,7 @@ const std::map<std::string, std::string> kRenamed = {
     {"longest_sweep", "max_sweep"},
     {"longest_wait", "max_wait"},
     {"loyalty", "association_hysteresis"},
+    {"max_readings", "max_interpretations"},
     {"memory_way", "memory_distance"},
     {"min_contradiction_rise", "min_kidnapped_log_ratio"},
     {"most_else", "max_other"},

@@ -10,9 +10,9 @@ namespace datmo {
 
 namespace {
 
-/// Rows with fewer points than this fraction (1 / kMinRowShare) of the fullest row are outside the
-/// image: the camera is not quite level.
-constexpr int kMinRowShare = 20;
+/// Rows with less than this share of the fullest row's points are outside the image: the camera is
+/// not quite level.
+constexpr double kMinRowShare = 0.05;
 
 /// Limit along each side of the image, for any camera.
 constexpr double kMaxCells = 8192.0;
@@ -87,7 +87,7 @@ double ImageDensity::pixelsPerPoint() const {
 double ImageDensity::maxTangent() const {
   const auto fullest = std::max_element(in_row_.begin(), in_row_.end());
   const auto first = std::find_if(in_row_.begin(), in_row_.end(), [&](int count) {
-    return count > 0 && count * kMinRowShare >= *fullest;
+    return count > 0 && count >= kMinRowShare * *fullest;
   });
   const auto row = static_cast<float>(first - in_row_.begin());
   return static_cast<double>(kMaxTangent - row / per_tangent_);

@@ -65,9 +65,9 @@ void RadarObjectDetectorOptions::visit(OptionVisitor& visitor) {
 
 struct RadarObjectDetector::Detection {
   Point2 position = Point2::Zero();
-  double range = 0.0;             ///< m, from the radar
-  double speed = 0.0;             ///< m/s over the ground, away from the radar
-  double bearing_variance = 0.0;  ///< (m/s)^2, of the speed, due to the bearing
+  double range = 0.0;           ///< m, from the radar
+  double speed = 0.0;           ///< m/s over the ground, away from the radar
+  double speed_variance = 0.0;  ///< (m/s)^2, due to the error of the bearing
 };
 
 RadarObjectDetector::RadarObjectDetector(const Checked<RadarObjectDetectorOptions>& options)
@@ -86,7 +86,7 @@ std::vector<RadarObjectDetector::Detection> RadarObjectDetector::detectionsOf(
     detection.range = one.range;
     detection.speed = one.range_rate + own.dot(along);
     // A bearing error mixes part of the lateral motion of both into the radial one.
-    detection.bearing_variance =
+    detection.speed_variance =
         square(options_.bearing_sigma) *
         (square(own.dot(perpendicular(along))) + square(options_.tangential_sigma));
     detections.push_back(detection);
@@ -140,11 +140,11 @@ Object RadarObjectDetector::objectOf(const std::vector<Detection>& detections,
   const auto count = static_cast<double>(cluster.size());
   Point2 middle = Point2::Zero();
   double speed = 0.0;
-  double bearing_variance = 0.0;
+  double speed_variance = 0.0;
   for (const std::size_t i : cluster) {
     middle += detections[i].position / count;
     speed += detections[i].speed / count;
-    bearing_variance += detections[i].bearing_variance / count;
+    speed_variance += detections[i].speed_variance / count;
   }
   const Point2 from_radar = middle - radar;
   const Point2 along = from_radar.normalized();
@@ -162,7 +162,7 @@ Object RadarObjectDetector::objectOf(const std::vector<Detection>& detections,
       square(options_.reflection_sigma) * Eigen::Matrix2d::Identity();
   object.side_variance.fill(kHiddenSide);
   // The error of the vehicle's speed counts in proportion to the radar's direction of view.
-  const double along_variance = (square(options_.range_rate_sigma) + bearing_variance) / count +
+  const double along_variance = (square(options_.range_rate_sigma) + speed_variance) / count +
                                 square(options_.own_speed_sigma * along.x());
   object.velocity =
       MeasuredVelocity{speed * along,

@@ -25,7 +25,7 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
                   "by moving objects (thesis 3.5.2: 0.1)"},
                  cut_share, {0.0, 1.0});
   visitor.number({"min_age", "s",
-                  "least time between the first and the last hit in and around a cell: a passing "
+                  "minimum time between the first and the last hit in and around a cell: a passing "
                   "object covers a cell for less; 0: any (thesis)"},
                  min_age, {0.0, 60.0});
 }

@@ -32,7 +32,7 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
                   "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
                  moving_below, {0.01, 0.5});
   visitor.number({"static_after", "s",
-                  "least time between the first and the last hit of a static cell: longer than a "
+                  "minimum time between the first and the last hit of a static cell: longer than a "
                   "moving object takes to pass over it (thesis: 0)"},
                  static_after, {0.0, 60.0});
   visitor.integer({"static_neighborhood", "cells",

@@ -92,15 +92,18 @@ BodyPath steered(const BodyPath& host, double lateral) {
   BodyPath path = host;
   for (std::size_t i = 1; i < path.poses.size(); ++i) {
     const double time = static_cast<double>(i) * host.step;
-    const double speed = host.velocity(i - 1).norm();
+    const Point2 velocity = host.velocity(i - 1);
+    const double speed = velocity.norm();
     if (speed < kMoving) {
       path.poses[i] = path.poses[i - 1];
       continue;
     }
     const BodyPose& own = host.poses[i];
+    const double turn = std::atan2(lateral * time, speed);
+    const bool reverses = velocity.dot(own.direction) < 0.0;
     path.poses[i] =
         bodyPose(own.center + 0.5 * lateral * time * time * perpendicular(own.direction),
-                 own.heading + std::atan2(lateral * time, speed));
+                 own.heading + (reverses ? -turn : turn));
   }
   return path;
 }

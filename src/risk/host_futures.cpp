@@ -118,7 +118,7 @@ void HostFutureOptions::visit(OptionVisitor& visitor) {
                   "on-the-road driving test, 2011), more in towns"},
                  lane_deviation, {0.0, 5.0});
   visitor.number({"lane_time", "s", "time constant with which a driver returns to it"}, lane_time,
-                 {0.3, 10.0});
+                 {0.6, 10.0});
   visitor.number({"steering_spread", "m/s^2",
                   "standard deviation of the error of the host's course, as a lateral "
                   "acceleration: noise of the yaw rate, and bends ahead that no border shows"},
@@ -193,8 +193,9 @@ HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteeri
 }
 
 void HostFutures::advance(BicycleState& state, double acceleration, double steering) const {
-  const double rate = std::clamp((steering - state.steering) / options_.steering_time,
-                                 -vehicle_.max_steering_rate, vehicle_.max_steering_rate);
+  const double rate =
+      std::clamp((steering - state.steering) / std::max(options_.steering_time, horizon_.step),
+                 -vehicle_.max_steering_rate, vehicle_.max_steering_rate);
   state = afterStep(state, {acceleration, rate}, horizon_.step, vehicle_);
 }
 

@@ -14,8 +14,10 @@ enum ObjectDraw : std::uint32_t {
   kDrawHeading = 16,
   kDrawFirstMode,
   kDrawStep,
-  kDrawEntered,
+  kDrawStartCourse,
   kDrawRoad,
+  kDrawStartSpeed,
+  kDrawStartAcceleration,
 };
 
 /// rad; limit of the standard deviation of a sampled heading: beyond it, the velocity is more
@@ -147,8 +149,10 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
   const bool along_road = drawn < follower_.probability;
   const bool joins = !along_road && drawn < follower_.probability + follower_.joining;
   key.kind = kDrawFirstMode;
+  const double total = cumulated.back();  // 0: the source knows no modes
   const MotionMode mode =
-      modeIn(along_road || joins, modeAt(cumulated, draws_.uniform(key) * cumulated.back()));
+      modeIn(along_road || joins,
+             total > 0.0 ? modeAt(cumulated, draws_.uniform(key) * total) : likeliestMode(track_));
   const ObjectStart& start = along_road ? follower_.start : start_;
   key.kind = kDrawHeading;
   const double heading = start.heading + start.heading_sigma * draws_.normal(key);
@@ -162,15 +166,18 @@ ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
   return state;
 }
 
-void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) const {
+void ObjectFutures::enter(State& state, MotionMode mode, DrawKey key) const {
   if (state.mode == MotionMode::kStanding && state.speed <= kRest) {
     // It starts along its box; a pedestrian in any direction.
+    key.kind = kDrawStartCourse;
     const double direction =
         class_ == ObjectClass::kPedestrian ? kTurn * draws_.uniform(key) : state.heading;
     state.course = {std::cos(direction), std::sin(direction)};
+    key.kind = kDrawStartSpeed;
     state.speed = options_.motion.motionOf(class_).start_speed_std * std::abs(draws_.normal(key));
   }
   if (mode == MotionMode::kConstantAcceleration) {
+    key.kind = kDrawStartAcceleration;
     state.acceleration = std::clamp(options_.start_acceleration * draws_.normal(key),
                                     -options_.max_acceleration, options_.max_acceleration);
   }
@@ -218,7 +225,6 @@ ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
   const MotionMode mode = modeIn(
       state.follows_road, modeAt(cumulated_.row(static_cast<int>(state.mode)), drawn.uniform));
   if (mode != state.mode) {
-    key.kind = kDrawEntered;
     enter(after, mode, key);
   }
   if (after.mode == MotionMode::kStanding) {

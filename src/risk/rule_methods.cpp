@@ -73,16 +73,16 @@ double brakingOf(ObjectClass object_class, const RuleOptions& options) {
   return options.vehicle_braking;
 }
 
-/// Safe gap between two bodies that approach each other along a line before both have responded:
-/// each continues for the response time, accelerating toward the other, and then brakes. `a`, `b`:
-/// speeds toward the other, m/s; negative: it moves away, and may brake as hard as it can.
+/// A body's motion along the line to the other one.
 struct Approach {
-  double speed;
+  double speed;         ///< m/s, toward the other; negative: away
   double response;      ///< m/s^2, in the response time
   double braking;       ///< m/s^2, after it
   double hard_braking;  ///< m/s^2, of one that moves away
 };
 
+/// How far a body advances toward the other, m: it accelerates toward it for the response time
+/// (s), and then brakes; one that moves away may brake as hard as it can at once.
 double advanceOf(const Approach& body, double time) {
   if (body.speed < 0.0) {
     return -square(body.speed) / (2.0 * body.hard_braking);

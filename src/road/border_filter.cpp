@@ -2,6 +2,7 @@
 #include "datmo_fusion/road/border_filter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -111,7 +112,7 @@ std::optional<DroppedObject> BorderFilter::outside(const Object& object, const P
   }
   const std::vector<Point2> positions = inMap(base_in_map, object);
   const auto known = outsideKnown(object, positions, base_in_map, road);
-  return known || as_thesis ? known : outsideExtension(positions);
+  return known || as_thesis ? known : outsideExtension(positions, road);
 }
 
 std::optional<DroppedObject> BorderFilter::outsideKnown(const Object& object,
@@ -138,12 +139,29 @@ std::optional<DroppedObject> BorderFilter::outsideKnown(const Object& object,
   return nearest;
 }
 
-std::optional<DroppedObject> BorderFilter::outsideExtension(
-    const std::vector<Point2>& positions) const {
+std::optional<BorderOffset> BorderFilter::offsetOn(RoadSide side, const Point2& position,
+                                                   const RoadModel& road) const {
+  if (auto extended = extension_.offset(side, position)) {
+    return extended;
+  }
+  std::optional<BorderOffset> nearest;
+  for (const RoadBorder& border : road.borders) {
+    const auto known =
+        border.side == side && !border.side_street ? offsetFrom(border, position) : std::nullopt;
+    if (known && known->sigma <= options_.max_sigma &&
+        (!nearest || std::abs(known->outward) < std::abs(nearest->outward))) {
+      nearest = known;
+    }
+  }
+  return nearest;
+}
+
+std::optional<DroppedObject> BorderFilter::outsideExtension(const std::vector<Point2>& positions,
+                                                            const RoadModel& road) const {
   for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
     std::optional<BorderOffset> innermost;
     for (const Point2& position : positions) {
-      const auto offset = extension_.offset(side, position);
+      const auto offset = offsetOn(side, position, road);
       if (offset && (!innermost || offset->outward < innermost->outward)) {
         innermost = offset;
       }

@@ -19,8 +19,8 @@ std::optional<BorderOffset> offsetFromLeg(const BorderPoint& from, const BorderP
   }
   const Point2 direction = leg.normalized();
   const double to_left = direction.x() * to_point.y() - direction.y() * to_point.x();
-  return BorderOffset{side == RoadSide::kLeft ? to_left : -to_left,
-                      from.sigma + along * (to.sigma - from.sigma), direction};
+  return BorderOffset{outwardOf(side, to_left), from.sigma + along * (to.sigma - from.sigma),
+                      direction};
 }
 
 }  // namespace

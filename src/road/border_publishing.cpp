@@ -39,7 +39,7 @@ void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
       const Point2 position = table.at(along).position();
       const Point2 seen = map_in_vehicle * position;
       const double index = std::floor((seen.x() + options.behind) / options.spacing);
-      const double outward = border.side() == RoadSide::kLeft ? seen.y() : -seen.y();
+      const double outward = outwardOf(border.side(), seen.y());
       if (sigma > options.max_sigma || index < 0.0 ||
           index >= static_cast<double>(stations.size())) {
         continue;

@@ -52,7 +52,7 @@ class SideSearch {
       : options_(options),
         from_(from),
         side_(side),
-        outward_(side == RoadSide::kLeft ? 1.0 : -1.0),
+        outward_(outwardOf(side, 1.0)),
         windows_(side == RoadSide::kLeft ? options.left_windows : options.right_windows) {
     gather(hits);
   }

@@ -33,9 +33,9 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
        "share: fraction of the sections of a window with a cell above the cut, which is the same "
        "for any speed and scanner; hits: the sum over all cells (thesis 3.5.3)"},
       score, {{"share", BorderScore::kShare}, {"hits", BorderScore::kHits}});
-  visitor.number({"min_share", "1", "least score of a border, if score is share"}, min_share,
+  visitor.number({"min_share", "1", "minimum score of a border, if score is share"}, min_share,
                  {0.0, 1.0});
-  visitor.number({"min_hits", "1", "least score of a border, if score is hits"}, min_hits,
+  visitor.number({"min_hits", "1", "minimum score of a border, if score is hits"}, min_hits,
                  {0.0, 1.0e9});
   visitor.choice({"take", "",
                   "first: the nearest window with the score of a border whose next window does not "

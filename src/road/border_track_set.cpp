@@ -20,10 +20,6 @@ constexpr int kMaxBorders = 16;
 /// Maximum number of windows tried outward in one search: beyond refuted lines.
 constexpr int kMaxWindows = 3;
 
-double outwardOf(RoadSide side, double to_left) {
-  return side == RoadSide::kLeft ? to_left : -to_left;
-}
-
 /// Whether two followed lines are the same: they run side by side where either was observed.
 bool sameLine(const FollowedBorder& one, const FollowedBorder& other, double distance) {
   const std::vector<ArcLengthInterval> pieces = one.evidence().pieces();

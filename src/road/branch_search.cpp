@@ -95,7 +95,7 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
       min_sides, {0.0, 1.0});
   visitor.number({"max_angle", "rad", "free headings that span a wider angle are open space"},
                  max_angle, {degrees(10.0), kTurn});
-  visitor.number({"min_separation", "rad", "least angle between the headings of two streets"},
+  visitor.number({"min_separation", "rad", "minimum angle between the headings of two streets"},
                  min_separation, {degrees(10.0), degrees(120.0)});
 }
 

@@ -183,7 +183,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
 }
 
 void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_nearest) {
-  const double outward = side_ == RoadSide::kLeft ? 1.0 : -1.0;
+  const double outward = outwardOf(side_, 1.0);
   const Point2 from = scan.scanner.position();
   const double from_outward = outward * table_->locate(from).aside;
   bool seen = false;
@@ -249,7 +249,7 @@ bool FollowedBorder::isOver(const Pose2& vehicle) const {
   const Pose2 seen = vehicle.inverse() * table_->at(nearest);
   const bool behind = seen.x() < -options_.behind;
   const bool across = std::abs(seen.heading()) > kAcross;
-  const double outward = side_ == RoadSide::kLeft ? seen.y() : -seen.y();
+  const double outward = outwardOf(side_, seen.y());
   const bool crossed = outward < 0.0 && std::abs(seen.x()) < kBeside;
   return behind || across || crossed;
 }

@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-/// The center line of a window as a border, with the window's width as uncertainty.
+/// A found border as a published one, with the uncertainty of its fitted line.
 RoadBorder borderOf(const FoundBorder& found, double spacing) {
   RoadBorder border;
   border.side = found.side;

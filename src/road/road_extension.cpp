@@ -77,7 +77,7 @@ void RoadExtension::update(const RoadModel& road, const Pose2& base_in_map) {
 
 std::optional<BorderOffset> RoadExtension::offset(RoadSide which, const Point2& position) const {
   const Side& side = sides_[indexOf(which)];
-  const double outward_is_left = which == RoadSide::kLeft ? 1.0 : -1.0;
+  const double outward_is_left = outwardOf(which, 1.0);
   std::optional<BorderOffset> result;
   double min = options_.length;
   // Each border has two ends: the first points back, the second ahead.

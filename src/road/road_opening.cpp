@@ -58,7 +58,7 @@ std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
   const Pose2 map_in_base = base_in_map.inverse();
   for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
     const SidePresence& stations = side == RoadSide::kLeft ? presence.left : presence.right;
-    const double outward = side == RoadSide::kLeft ? 1.0 : -1.0;
+    const double outward = outwardOf(side, 1.0);
     bool behind_border = false;
     std::size_t begin = 0;
     for (std::size_t i = 0; i <= stations.probability.size(); ++i) {

@@ -13,8 +13,9 @@ constexpr double kStreetWidth = 5.5;
 
 /// m, spacing of the points of a published border.
 constexpr double kPointStep = 1.0;
-/// Maximum number at a time: four streets have half as many.
-constexpr std::size_t kMaxStreets = 16;
+
+/// Maximum number of borders: two for each of eight streets.
+constexpr std::size_t kMaxKnown = 16;
 
 bool cross(const FoundBorder& one, const FoundBorder& other) {
   const Pose2 map_in_one = one.line.inverse();
@@ -85,7 +86,7 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
     known_.erase(std::remove_if(known_.begin(), known_.end(),
                                 [&](const Known& known) { return exclude(known.border, *found); }),
                  known_.end());
-    if (known_.size() < kMaxStreets) {
+    if (known_.size() < kMaxKnown) {
       known_.push_back({*found, opening.side, stamp});
     }
   }

@@ -2,6 +2,7 @@
 #include "datmo_fusion/sensor_model/cloud_ground.h"
 
 #include <cmath>
+#include <mutex>
 
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
@@ -49,16 +50,30 @@ LidarPoints::Ptr voxels(const LidarPoints::Ptr& points, const CloudGroundOptions
   return centroids;
 }
 
-/// Suppresses PCL's console output during its lifetime: that there is no plane is not an error.
+/// Suppresses PCL's console output during its lifetime: that there is no plane is not an error. The
+/// level is that of the process: the first user saves it, the last one restores it.
 class QuietPcl {
  public:
-  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
+  QuietPcl() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (users_++ == 0) {
+      level_ = pcl::console::getVerbosityLevel();
+      pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+    }
+  }
+  ~QuietPcl() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (--users_ == 0) {
+      pcl::console::setVerbosityLevel(level_);
+    }
+  }
   QuietPcl(const QuietPcl&) = delete;
   QuietPcl& operator=(const QuietPcl&) = delete;
 
  private:
-  pcl::console::VERBOSITY_LEVEL level_ = pcl::console::getVerbosityLevel();
+  static inline std::mutex mutex_;
+  static inline int users_ = 0;
+  static inline pcl::console::VERBOSITY_LEVEL level_ = pcl::console::L_INFO;
 };
 
 /// a x + b y + c z + d = 0 solved for z.

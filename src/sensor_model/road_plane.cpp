@@ -195,8 +195,7 @@ std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
   // With comparisons in this order, a plane with NaN is not credible.
   const bool credible = plane.heightOf(cloud.camera_in_base.translation()) > 0.0 &&
                         std::abs(plane.height) <= options_.max_height &&
-                        std::abs(plane.slope_x) <= options_.max_slope &&
-                        std::abs(plane.slope_y) <= options_.max_slope;
+                        std::hypot(plane.slope_x, plane.slope_y) <= options_.max_slope;
   if (!seen || !credible) {
     return std::nullopt;
   }

@@ -38,6 +38,15 @@ double rangeToLine(const Point2& a, const Point2& b, double bearing) {
   return across.dot(a) / across.dot(direction);
 }
 
+/// Whether the scan's last beam and its first one are neighbors, as in a scan all around.
+bool closesTurn(const Scan& scan) {
+  const ScanField& field = scan.field;
+  const double missing = kTurn - field.beams * std::abs(field.beam_spacing);
+  return scan.rays.size() > 1 && scan.rays.front().beam == 0 &&
+         scan.rays.back().beam + 1 == field.beams &&
+         std::abs(missing) < std::abs(field.beam_spacing);
+}
+
 }  // namespace
 
 void ScanMergerOptions::visit(OptionVisitor& visitor) {
@@ -82,6 +91,9 @@ std::vector<float> ScanMerger::ranges(const std::vector<Scan>& scans) const {
       if (i + 1 < scan.rays.size() && scan.rays[i + 1].beam == scan.rays[i].beam + 1) {
         fillBetween(scan.rays[i], scan.rays[i + 1], ranges);
       }
+    }
+    if (closesTurn(scan)) {
+      fillBetween(scan.rays.back(), scan.rays.front(), ranges);
     }
   }
   return ranges;

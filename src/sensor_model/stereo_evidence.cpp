@@ -168,7 +168,7 @@ inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scal
   const float stop = point.on_road
                          ? per_fall * scales.camera_height
                          : 1.0F / (point.inverse + scales.obstacle_margin.at(point.inverse));
-  const bool falls = fall > 0.0F;
+  const bool falls = fall >= 0.0F;  // a horizontal one falls infinitely far away
   const float begin = falls ? std::max(0.0F, at_bottom) : 0.0F;
   const float end = falls ? stop : std::min(stop, at_bottom);
   if (begin < end) {

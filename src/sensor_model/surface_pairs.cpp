@@ -98,7 +98,8 @@ void SurfacePairFinder::takePoints(const StereoCloud& cloud, const StereoView& v
 }
 
 bool SurfacePairFinder::goesOn(const Ray& last, const Ray& ray, const Point2& begin) const {
-  const double across = std::abs(ray.bearing - last.bearing) * std::min(ray.range, last.range);
+  const double across =
+      std::abs(angleBetween(last.bearing, ray.bearing)) * std::min(ray.range, last.range);
   return ray.beam == last.beam + 1 && (ray.end - begin).norm() <= options_.max_length &&
          (ray.end - last.end).norm() <=
              std::max(options_.max_step, options_.max_step_ratio * across);

@@ -98,10 +98,12 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   const PoseFilter predicted = tracker_.filter();
   const Scan scan = is_first ? compensated(measurement.scan) : locate(measurement, result);
   const PoseWithCovariance base_in_map = maps_.inFirstMap(tracker_.pose());
-  followDrift(base_in_map, scan, result);
   write(measurement, scan, base_in_map, result);
   if (result.may_be_kidnapped) {
     discardMatch(predicted, result);
+  }
+  followDrift(scan, result);
+  if (result.may_be_kidnapped) {
     leaveIfKidnapped(stamp);
   }
   result.odometry_errors = tracker_.filter().errors();
@@ -204,13 +206,12 @@ Scan GridSlam::locate(const SlamMeasurement& measurement, SlamResult& result) {
   return scan;
 }
 
-void GridSlam::followDrift(const PoseWithCovariance& base_in_map, const Scan& scan,
-                           SlamResult& result) {
+void GridSlam::followDrift(const Scan& scan, SlamResult& result) {
   MapDrift& drift = maps_.drift();
-  drift.moveTo(base_in_map.pose, result.odometry_used);
+  drift.moveTo(maps_.inFirstMap(tracker_.pose()).pose, result.odometry_used);
   if (result.match.accepted) {
     drift.write({scan.stamp, tracker_.pose(), result.match.surface_age, meanRange(scan)});
-  } else {
+  } else if (!result.may_be_kidnapped) {
     drift.writeUnmatched(tracker_.pose().covariance);
   }
   result.drift = drift.covariance();

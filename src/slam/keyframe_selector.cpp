@@ -61,7 +61,7 @@ KeyframeSelector::Use KeyframeSelector::startAt(Stamp stamp,
 KeyframeSelector::Use KeyframeSelector::take(Stamp stamp, const PoseWithCovariance& base_in_map) {
   const Pose2& pose = base_in_map.pose;
   const Eigen::Matrix3d expected =
-      last_ ? carried(last_->covariance, pose.position() - last_->pose.position())
+      last_ ? withLeverArm(last_->covariance, pose.position() - last_->pose.position())
             : Eigen::Matrix3d::Zero();
   if (isFarBelow(expected, base_in_map.covariance)) {
     uncertain_since_ = uncertain_since_.value_or(stamp);

@@ -77,12 +77,12 @@ Eigen::Matrix3d LoopCloser::driftOf(const Keyframe& from, const Keyframe& to,
   const PoseWithCovariance& begin = from.base_in_map;
   const PoseWithCovariance& end = to.base_in_map;
   const Point2 arm = end.pose.position() - begin.pose.position();
-  const Eigen::Matrix3d claimed = growth(carried(begin.covariance, arm), end.covariance);
+  const Eigen::Matrix3d claimed = growth(withLeverArm(begin.covariance, arm), end.covariance);
   const double length = std::max(distance, kMinMotion);
   const Eigen::Vector3d least(square(options_.position_drift) * length,
                               square(options_.position_drift) * length,
                               square(options_.heading_drift) * length);
-  return turned(claimed, -begin.pose.heading()) + Eigen::Matrix3d(least.asDiagonal());
+  return rotated(claimed, -begin.pose.heading()) + Eigen::Matrix3d(least.asDiagonal());
 }
 
 void LoopCloser::append(Keyframe keyframe) {
@@ -206,7 +206,7 @@ bool LoopCloser::search() {
   const SubmapMatcher::Result result = matcher_.match(
       submap(at - old_half, std::min(at + old_half, newest_old), *old),
       submap(nodes_[*newer].distance - half, length(), *newer),
-      {old_pose.inverse() * graph_.poses()[*newer], turned(drift[*old], -old_pose.heading())});
+      {old_pose.inverse() * graph_.poses()[*newer], rotated(drift[*old], -old_pose.heading())});
   switch (result.outcome) {
     case SubmapMatcher::Outcome::kFound:
       return judge({*old, *newer, result.newer_in_older.pose, result.newer_in_older.covariance},

@@ -11,9 +11,6 @@ namespace datmo {
 
 namespace {
 
-/// 99.9 % of a chi-square distribution with three degrees of freedom.
-constexpr double kMaxSquaredError = 16.3;
-
 /// A candidate is dropped if nothing has confirmed it after this many submap lengths.
 constexpr double kCandidateLife = 5.0;
 
@@ -30,13 +27,13 @@ bool LoopCloser::agree(const Candidate& a, const Candidate& b) const {
   const Eigen::Vector3d error(b_global.x() - expected.x(), b_global.y() - expected.y(),
                               angleBetween(expected.heading(), b_global.heading()));
   const double correction = angleBetween(poses[a.to].heading(), a_global.heading());
-  const Eigen::Matrix3d covariance = turned(graph_.covarianceBetween(a.to, b.to), correction) +
-                                     carried(graph_.covarianceBetween(a.from, b.from),
-                                             b_global.position() - poses[b.from].position()) +
-                                     carried(turned(a.covariance, poses[a.from].heading()),
-                                             b_global.position() - a_global.position()) +
-                                     turned(b.covariance, poses[b.from].heading());
-  return error.dot(covariance.llt().solve(error)) <= kMaxSquaredError;
+  const Eigen::Matrix3d covariance = rotated(graph_.covarianceBetween(a.to, b.to), correction) +
+                                     withLeverArm(graph_.covarianceBetween(a.from, b.from),
+                                                  b_global.position() - poses[b.from].position()) +
+                                     withLeverArm(rotated(a.covariance, poses[a.from].heading()),
+                                                  b_global.position() - a_global.position()) +
+                                     rotated(b.covariance, poses[b.from].heading());
+  return error.dot(covariance.llt().solve(error)) <= kMaxSquaredPoseDistance;
 }
 
 bool LoopCloser::judge(const Candidate& candidate, double prior_sigma) {
@@ -71,7 +68,7 @@ bool LoopCloser::optimize() {
   if (!graph_.optimize()) {
     return false;
   }
-  const std::size_t refuted = graph_.removeLoops(kMaxSquaredError);
+  const std::size_t refuted = graph_.removeLoops(kMaxSquaredPoseDistance);
   counts_.refuted += refuted;
   if (refuted > 0) {
     graph_.optimize();

@@ -80,9 +80,12 @@ std::vector<StampedPose> LoopCloser::trajectory() const {
 
 OccupancyMap LoopCloser::map() const {
   const double reach = options_.submaps.search.reach;
-  Eigen::AlignedBox2d extent(Point2::Zero());
+  Eigen::AlignedBox2d extent;
   for (const Pose2& pose : graph_.poses()) {
     extent.extend(pose.position());
+  }
+  if (extent.isEmpty()) {
+    extent.extend(Point2(Point2::Zero()));
   }
   extent.extend(extent.min() - Point2::Constant(reach));
   extent.extend(extent.max() + Point2::Constant(reach));

@@ -156,16 +156,16 @@ PoseWithCovariance MapKeeper::mergeIntoOlder(const PoseWithCovariance& in_older,
   returnToLeftMap();  // with its drift: that of the newer map is part of the alignment's error
   map_.centerOn(in_older.pose.position());
   map_.merge(newer, in_older.pose * in_newer.pose.inverse());
-  frame_covariance_ += carried(in_older.covariance, -in_older.pose.position());
+  frame_covariance_ += withLeverArm(in_older.covariance, -in_older.pose.position());
   const double turn = in_older.pose.heading() - in_newer.pose.heading();
-  return {in_older.pose, turned(in_newer.covariance, turn)};
+  return {in_older.pose, rotated(in_newer.covariance, turn)};
 }
 
 PoseWithCovariance MapKeeper::inFirstMap(PoseWithCovariance pose) const {
   if (recovery_) {
     pose = recovery_->inOlder(pose);
   }
-  pose.covariance += carried(frame_covariance_, pose.pose.position());
+  pose.covariance += withLeverArm(frame_covariance_, pose.pose.position());
   return pose;
 }
 

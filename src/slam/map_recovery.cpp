@@ -53,12 +53,13 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
                   "better; pitching at a bump, or when braking, is over sooner"},
                  kidnapped_after, {0.0, 60.0});
   visitor.integer({"boxes_per_second", "1/s",
-                   "number of boxes of poses that a search examines per second between scans; a "
-                   "box takes about 1.5 us"},
+                   "boxes of poses that a search examines for each second since the last scan, of "
+                   "which at most 0.5 s count; a box takes about 1.5 us"},
                   boxes_per_second, {1, 100000000});
   visitor.group("search", [&] { search.visit(visitor); });
-  visitor.integer({"prior_boxes_per_second", "1/s", "the same for a search in a prior map"},
-                  prior_boxes_per_second, {1, 100000000});
+  visitor.integer(
+      {"prior_boxes_per_second", "1/s", "recovery/boxes_per_second of a search in a prior map"},
+      prior_boxes_per_second, {1, 100000000});
   visitor.number(
       {"confirmed_after", "m",
        "a pose found in a prior map is accepted when it is found again after this distance"},
@@ -116,7 +117,7 @@ MapRecovery MapRecovery::afterKidnapping(const Checked<MapRecoveryOptions>& opti
 
 PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) const {
   const Point2 arm = in_newer.pose.position() - start_.pose.position();
-  return {in_newer.pose, in_newer.covariance + carried(start_.covariance, arm)};
+  return {in_newer.pose, in_newer.covariance + withLeverArm(start_.covariance, arm)};
 }
 
 void MapRecovery::beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer,
@@ -196,7 +197,7 @@ std::optional<Relocalization> MapRecovery::conclude(MapSearch::Outcome outcome,
   // The vehicle has moved since the search began.
   const Pose2 now = then.pose * (searched_from_.inverse() * in_newer);
   const Point2 arm = now.position() - then.pose.position();
-  return Relocalization{{now, carried(then.covariance, arm)}, is_unique};
+  return Relocalization{{now, withLeverArm(then.covariance, arm)}, is_unique};
 }
 
 void MapRecovery::doubtCandidate(MapSearch::Outcome outcome) {

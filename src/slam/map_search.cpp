@@ -25,9 +25,9 @@ constexpr double kFineLeaf = 0.5;
 
 /// Hypotheses this close to the best one (m, rad) are the same one: a match converges from there,
 /// also one with a map that has just started and holds little.
-constexpr double kTogetherPosition = 1.5;
-constexpr double kTogetherHeading = degrees(5.0);
-constexpr double kTogetherHeadingAtStart = degrees(12.0);
+constexpr double kSameHypothesisPosition = 1.5;
+constexpr double kSameHypothesisHeading = degrees(5.0);
+constexpr double kSameHypothesisHeadingAtStart = degrees(12.0);
 
 /// Error not covered by the prior: that of the older map itself (m, rad).
 constexpr double kMapSigma = 0.3;
@@ -73,8 +73,8 @@ MapSearch::MapSearch(const Checked<MapSearchOptions>& options,
       prior_(priorOf(region, older_map_->window())),
       anywhere_(region.anywhere),
       in_newer_(in_newer),
-      leaf_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
-            Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
+      leaf_half_size_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
+                      Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
       tolerance_(std::max(options->missing_share > 0.0 ? kMinTolerance : 0.0,
                           kToleranceCells * older_map_->window().cell_size)),
       older_(anywhere_ ? thinnedOut(older_map_->surfaces(), {prior_.pose.position(), kAllOfIt},
@@ -120,7 +120,7 @@ Pose2 MapSearch::poseOf(const Box& box) const {
 }
 
 void MapSearch::open(Box box) {
-  ++looked_at_;
+  ++evaluated_boxes_;
   evaluate(box);
   if (leaves_.empty() || box.cost <= leaves_.front().cost + options_.max_log_ratio) {
     open_.push(box);
@@ -129,7 +129,7 @@ void MapSearch::open(Box box) {
 
 void MapSearch::split(const Box& box) {
   int axis = 0;
-  box.half.cwiseQuotient(leaf_).maxCoeff(&axis);
+  box.half.cwiseQuotient(leaf_half_size_).maxCoeff(&axis);
   for (const double side : {-0.5, 0.5}) {
     Box part = box;
     part.half[axis] *= 0.5;
@@ -138,7 +138,9 @@ void MapSearch::split(const Box& box) {
   }
 }
 
-bool MapSearch::isLeaf(const Box& box) const { return (box.half.array() <= leaf_.array()).all(); }
+bool MapSearch::isLeaf(const Box& box) const {
+  return (box.half.array() <= leaf_half_size_.array()).all();
+}
 
 Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
   Eigen::Vector3d apart = to.offset - from.offset;
@@ -146,15 +148,16 @@ Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
   return apart;
 }
 
-bool MapSearch::isTogether(const Box& leaf) const {
+bool MapSearch::isSameHypothesis(const Box& leaf) const {
   const Eigen::Vector3d apart = between(leaves_.front(), leaf);
-  const double max_turn = options_.missing_share > 0.0 ? kTogetherHeadingAtStart : kTogetherHeading;
-  return apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
+  const double max_turn =
+      options_.missing_share > 0.0 ? kSameHypothesisHeadingAtStart : kSameHypothesisHeading;
+  return apart.head<2>().norm() <= kSameHypothesisPosition && std::abs(apart[2]) <= max_turn;
 }
 
-bool MapSearch::areAllTogether() const {
+bool MapSearch::areAllSameHypothesis() const {
   return std::all_of(leaves_.begin(), leaves_.end(),
-                     [this](const Box& leaf) { return isTogether(leaf); });
+                     [this](const Box& leaf) { return isSameHypothesis(leaf); });
 }
 
 MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
@@ -162,7 +165,7 @@ MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  const bool decides = isTogether(leaf) || isInAlignedRegion(leaf);
+  const bool decides = isSameHypothesis(leaf) || isInAlignedRegion(leaf);
   return decides ? Outcome::kUnfinished : Outcome::kAmbiguous;
 }
 
@@ -170,7 +173,7 @@ MapSearch::Outcome MapSearch::conclude() {
   if (leaves_.empty()) {
     return Outcome::kNone;
   }
-  if (areAllTogether() && maxShared() >= options_.min_shared) {
+  if (areAllSameHypothesis() && maxShared() >= options_.min_shared) {
     return Outcome::kFound;
   }
   if (options_.max_aligned_sigma > 0.0) {
@@ -188,8 +191,8 @@ double MapSearch::maxShared() const {
 }
 
 MapSearch::Outcome MapSearch::advance(int boxes) {
-  const int until = looked_at_ + boxes;
-  while (outcome_ == Outcome::kUnfinished && looked_at_ < until) {
+  const int until = evaluated_boxes_ + boxes;
+  while (outcome_ == Outcome::kUnfinished && evaluated_boxes_ < until) {
     if (open_.empty() ||
         (!leaves_.empty() && open_.top().cost > leaves_.front().cost + options_.max_log_ratio)) {
       outcome_ = conclude();
@@ -206,7 +209,7 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
     } else {
       split(box);
     }
-    if (outcome_ == Outcome::kUnfinished && looked_at_ >= options_.max_boxes) {
+    if (outcome_ == Outcome::kUnfinished && evaluated_boxes_ >= options_.max_boxes) {
       outcome_ = Outcome::kAmbiguous;
     }
   }

@@ -44,7 +44,7 @@ const MapSearch::Box& MapSearch::nearestLeaf() const {
   const Box* nearest = &leaves_.front();
   double min_distance = distanceAt(poseOf(*nearest));
   for (const Box& leaf : leaves_) {
-    const double distance = isTogether(leaf) ? distanceAt(poseOf(leaf)) : min_distance;
+    const double distance = isSameHypothesis(leaf) ? distanceAt(poseOf(leaf)) : min_distance;
     if (distance < min_distance) {
       nearest = &leaf;
       min_distance = distance;
@@ -143,7 +143,7 @@ bool MapSearch::isNarrow(const Eigen::Matrix3d& covariance) const {
   const std::array<Point2, 5> arms = {Point2(0.0, 0.0), Point2(reach, 0.0), Point2(-reach, 0.0),
                                       Point2(0.0, reach), Point2(0.0, -reach)};
   return std::all_of(arms.begin(), arms.end(), [&](const Point2& arm) {
-    return maxPositionVariance(carried(covariance, arm)) <= square(options_.max_aligned_sigma);
+    return maxPositionVariance(withLeverArm(covariance, arm)) <= square(options_.max_aligned_sigma);
   });
 }
 

@@ -16,9 +16,6 @@ namespace {
 /// scanner, so that the matches of a scan or two in between are kept.
 constexpr double kGap = 0.25;
 
-/// Squared Mahalanobis distance of two poses; chi-square, 3 degrees of freedom, 0.999.
-constexpr double kContradiction = 16.27;
-
 double squaredDistance(const PoseWithCovariance& a, const PoseWithCovariance& b) {
   const Eigen::Vector3d difference = differenceOf(a.pose, b.pose);
   const Eigen::Matrix3d covariance = a.covariance + b.covariance;
@@ -46,16 +43,16 @@ std::optional<PoseFilter> OdometryAnchor::correction(Stamp stamp, const PoseFilt
       !odometry.hasPoses(anchor_->stamp, std::min(stamp, *last_pose))) {
     return std::nullopt;
   }
-  PoseFilter carried = anchor_->pose;
-  const auto motion = odometry.motion(anchor_->stamp, stamp, carried.errors());
+  PoseFilter by_odometry = anchor_->pose;
+  const auto motion = odometry.motion(anchor_->stamp, stamp, by_odometry.errors());
   if (!motion) {
     return std::nullopt;
   }
-  carried.predictMeasured(*motion, secondsBetween(anchor_->stamp, stamp));
-  if (squaredDistance(carried.pose(), predicted.pose()) < kContradiction) {
+  by_odometry.predictMeasured(*motion, secondsBetween(anchor_->stamp, stamp));
+  if (squaredDistance(by_odometry.pose(), predicted.pose()) < kMaxSquaredPoseDistance) {
     return std::nullopt;
   }
-  return carried;
+  return by_odometry;
 }
 
 }  // namespace datmo

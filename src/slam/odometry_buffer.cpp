@@ -25,7 +25,8 @@ void OdometryBuffer::connect(Piece& from, OdometrySample& to) const {
   }
   const Pose2 motion = from.sample.base_in_odom->inverse() * *to.base_in_odom;
   const Twist2 mean = twistOf(motion, from.seconds);
-  if (!isPlausible(mean)) {
+  // A jump to the side is none of a vehicle's twist.
+  if (!isPlausible({motion.position().norm() / from.seconds, mean.yaw_rate})) {
     return;
   }
   from.to_next = screwOf(motion);

@@ -44,8 +44,8 @@ std::vector<Eigen::Matrix3d> PoseGraph::covariancesUntil(std::size_t origin,
     for (const PoseConstraint* constraint : at[end.pose]) {
       // Its error rotates and moves all poses beyond it, in either direction about its later pose.
       const Eigen::Matrix3d more =
-          carried(turned(constraint->covariance, poses_[constraint->from].heading()),
-                  poses_[pose].position() - poses_[constraint->to].position());
+          withLeverArm(rotated(constraint->covariance, poses_[constraint->from].heading()),
+                       poses_[pose].position() - poses_[constraint->to].position());
       const std::size_t next = constraint->from == end.pose ? constraint->to : constraint->from;
       const double variance = end.variance + more.topLeftCorner<2, 2>().trace();
       if (variance < variances[next]) {

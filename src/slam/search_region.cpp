@@ -2,13 +2,12 @@
 #include "datmo_fusion/slam/search_region.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/common/uniform.h"
 
 namespace datmo {
 
 namespace {
-
-/// Variance of a uniform distribution over an interval of length 1.
-constexpr double kVarianceOfUniform = 1.0 / 12.0;
 
 /// Mean and covariance of the poses within a map's window.
 PoseWithCovariance anywhereIn(const GridWindow& window) {
@@ -16,9 +15,9 @@ PoseWithCovariance anywhereIn(const GridWindow& window) {
                                                   static_cast<double>(window.rows));
   const Point2 center = window.origin() + 0.5 * extent;
   PoseWithCovariance all{Pose2(center.x(), center.y(), 0.0), {}};
-  all.covariance = kVarianceOfUniform * Eigen::Vector3d(extent.x() * extent.x(),
-                                                        extent.y() * extent.y(), 4.0 * kPi * kPi)
-                                            .asDiagonal();
+  all.covariance =
+      kUniformVariance *
+      Eigen::Vector3d(extent.x() * extent.x(), extent.y() * extent.y(), square(kTurn)).asDiagonal();
   return all;
 }
 

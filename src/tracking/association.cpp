@@ -45,9 +45,11 @@ class NearObjects {
     const Box2& box = target.box;
     const Point2& position = box.center.position();
     const double sigma = std::sqrt(target.variance);
-    const double reach = std::min(
-        std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box),
-        target.gate.reach(scan.bound));
+    const double gate = std::sqrt(options.gate);
+    const double moved = scan.bound.delay * (target.gate.speed + gate * target.gate.velocity_std);
+    const double reach =
+        std::min(gate * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box) + moved,
+                 target.gate.reach(scan.bound));
     const auto end = scan.centers.end();
     auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
                                    [](const Point2& point, double min) { return point.x() < min; });

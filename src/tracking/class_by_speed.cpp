@@ -60,9 +60,9 @@ ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed
   return posterior(said, factors(speed, options));
 }
 
-ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
+ClassProbabilities withoutSpeed(const ClassProbabilities& weighted, const MeasuredSpeed& speed,
                                 const ClassBySpeedOptions& options) {
-  return withoutFactors(weighed, factors(speed, options));
+  return withoutFactors(weighted, factors(speed, options));
 }
 
 }  // namespace datmo

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/log_odds.h"
+
 namespace datmo {
 
 void ExistenceOptions::visit(OptionVisitor& visitor) {
@@ -41,11 +43,11 @@ void ExistenceScore::miss(double detection_probability, const ExistenceOptions& 
 }
 
 double ExistenceScore::logOdds(const ExistenceOptions& options) const {
-  return score_ + std::log(options.birth_probability / (1.0 - options.birth_probability));
+  return score_ + logOddsOf(options.birth_probability);
 }
 
 double ExistenceScore::probability(const ExistenceOptions& options) const {
-  return 1.0 / (1.0 + std::exp(-logOdds(options)));
+  return probabilityOf(logOdds(options));
 }
 
 void ExistenceScore::add(double ratio, const ExistenceOptions& options) {

@@ -6,10 +6,10 @@
 
 namespace datmo {
 
-/// Returns the share of standing objects at a target that seems to move like this which are ends of
-/// one beam along a wall, as the scanner moves past it: grazing_share where a wall may be, less
-/// where the vehicle's path may lead; 0 if the target does not keep its bearing, and at rest, when
-/// no such end moves.
+/// Returns the probability that a stationary target which appears to move like this is the end of
+/// one beam that slides along a wall as the scanner passes: grazing_share beside the vehicle's
+/// path, less where the path may lead; 0 if the target's bearing changes, or while the scanner is
+/// at rest.
 double grazingShare(const ScanHistory& history, const BeamPositions& seen, const MovingBody& body,
                     const MotionLikelihoodOptions& options);
 

@@ -16,7 +16,7 @@ namespace {
 
 /// Assignments that are evaluated for each hypothesis that may be kept: if track trees are full,
 /// hardly any of the many remaining ones fits.
-constexpr std::size_t kMaxScans = 10;
+constexpr std::size_t kMaxAssignmentsPerHypothesis = 10;
 
 std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
                                         const std::vector<Interpretation>& interpretations,
@@ -91,7 +91,7 @@ HypothesisCluster expand(HypothesisCluster cluster,
     if (next.size() > 0 && source.weight() < next.bestWeight() + lowest) {
       break;
     }
-    if (next.size() == max || looks == kMaxScans * max) {
+    if (next.size() == max || looks == kMaxAssignmentsPerHypothesis * max) {
       ++counts.cut_hypotheses;
       break;
     }

@@ -75,7 +75,7 @@ void MultipleHypotheses::predict(double seconds, const AssociationScan& scan) {
 
 void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
   best_known_ = false;
-  const std::uint64_t hurried = counts_.best_only_steps;
+  const std::uint64_t best_only_before = counts_.best_only_steps;
   mergeCompeting(scan.objects);
   const std::size_t followed = targets();
   const auto max = static_cast<std::size_t>(options_.max_targets);
@@ -94,7 +94,7 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
   clusters_ = std::move(next);
   next_number_ += scan.objects;
   ++scan_number_;
-  counts_.best_only_steps = std::min(counts_.best_only_steps, hurried + 1);
+  counts_.best_only_steps = std::min(counts_.best_only_steps, best_only_before + 1);
 }
 
 /// Merges clusters whose targets may share an object.

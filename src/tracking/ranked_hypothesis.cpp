@@ -29,7 +29,7 @@ RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const Assoc
   }
   for (std::size_t column = 0; column < interpretation.size(); ++column) {
     if (scan.observations[interpretation[column]].needsTarget()) {
-      needy_.push_back(static_cast<int>(column));
+      required_columns_.push_back(static_cast<int>(column));
     }
   }
 }
@@ -58,7 +58,7 @@ void RankedHypothesis::rank(std::int64_t max_work) {
       }
     }
   }
-  for (const int column : needy_) {
+  for (const int column : required_columns_) {
     costs.col(column).array() -= kReward;
   }
   const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
@@ -75,13 +75,13 @@ void RankedHypothesis::advance() {
 
 bool RankedHypothesis::isComplete() const {
   const std::vector<int>& columns = present_->column_of_row;
-  return std::all_of(needy_.begin(), needy_.end(), [&](int column) {
+  return std::all_of(required_columns_.begin(), required_columns_.end(), [&](int column) {
     return std::find(columns.begin(), columns.end(), column) != columns.end();
   });
 }
 
 double RankedHypothesis::weight() const {
-  return base_ - (present_->cost + kReward * static_cast<double>(needy_.size()));
+  return base_ - (present_->cost + kReward * static_cast<double>(required_columns_.size()));
 }
 
 std::vector<std::size_t> RankedHypothesis::observations() const {

@@ -49,9 +49,9 @@ class RankedHypothesis {
   const HypothesisCluster* cluster_;
   const GlobalHypothesis* parent_;
   const Interpretation* interpretation_;
-  double base_;                    ///< log weight if all targets are missed
-  std::vector<std::size_t> rows_;  ///< trees that are present
-  std::vector<int> needy_;         ///< columns that need a target
+  double base_;                        ///< log weight if all targets are missed
+  std::vector<std::size_t> rows_;      ///< trees that are present
+  std::vector<int> required_columns_;  ///< columns that need a target
   std::unique_ptr<RankedAssignments> ranked_;
   std::optional<Assignment> present_;
 };

@@ -36,10 +36,11 @@ struct Alternative {
   std::vector<std::size_t> observations;
 };
 
-class Reader {
+class AlternativeFinder {
  public:
-  Reader(HypothesisCluster& cluster, AssociationScan& scan, const AssociationOptions& association,
-         const SplitMergeOptions& options, const Interpretation& objects)
+  AlternativeFinder(HypothesisCluster& cluster, AssociationScan& scan,
+                    const AssociationOptions& association, const SplitMergeOptions& options,
+                    const Interpretation& objects)
       : cluster_(cluster),
         scan_(scan),
         association_(association),
@@ -177,10 +178,10 @@ void SplitMergeOptions::visit(OptionVisitor& visitor) {
                  merge_probability, {0.0, 1.0});
   visitor.number({"margin", "m", "how far outside of a target's box its parts may lie"}, margin,
                  {0.01, 10.0});
-  visitor.integer({"max_readings", "1",
+  visitor.integer({"max_interpretations", "1",
                    "maximum number of interpretations of a cluster's objects: unchanged, split or "
                    "merged; bounds the time of a step"},
-                  max_readings, {1, 100});
+                  max_interpretations, {1, 100});
 }
 
 std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
@@ -219,11 +220,11 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
                        std::vector<Interpretation>& interpretations) {
   const Interpretation objects = interpretations.front();
   const std::vector<Alternative> alternatives =
-      Reader(cluster, scan, association, options, objects).alternatives();
+      AlternativeFinder(cluster, scan, association, options, objects).alternatives();
   Interpretation all = objects;
   std::vector<std::size_t> replaced_objects;
   std::size_t used = 0;
-  const auto max = static_cast<std::size_t>(options.max_readings);
+  const auto max = static_cast<std::size_t>(options.max_interpretations);
   for (const Alternative& alternative : alternatives) {
     if (interpretations.size() < max) {
       interpretations.push_back(replaced(objects, alternative));

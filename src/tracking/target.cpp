@@ -123,6 +123,8 @@ void Target::update(const Observation& observation, std::size_t index, double de
     const StateEstimate& estimate = filter_.estimate();
     filter_.shift(box_.followVelocity(estimate.mean.segment<2>(2),
                                       estimate.covariance.block<2, 2>(2, 2), options.box));
+  } else {
+    box_.stand();
   }
   ++hits_;
   measurement_index_ = index;
@@ -240,7 +242,7 @@ Track Target::track(const TargetOptions& options) const {
                     modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities = class_.probabilities();
-  if (!tellsAnything(class_by_size_.probabilities())) {  // otherwise these include the size
+  if (!isInformative(class_by_size_.probabilities())) {  // otherwise these include the size
     track.class_probabilities =
         posterior(track.class_probabilities, ofEachClass(box_.sizeLikelihoods(options.box)));
   }

@@ -44,11 +44,11 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
                  tentative_silence, kSilence);
   visitor.number({"confirmed_silence", "s",
                   "a confirmed track not seen for longer is deleted; sooner if it was tracked for "
-                  "a shorter time, but no sooner than an unconfirmed one"},
+                  "a shorter time, but not before 0.5 s"},
                  confirmed_silence, kSilence);
   visitor.number({"published_silence", "s",
                   "a track not seen for longer is not published; sooner if it was tracked for less "
-                  "than twice that, but no sooner than an unconfirmed one is deleted",
+                  "than twice that, but not before 0.5 s",
                   Tier::kLive},
                  published_silence, kSilence);
   visitor.number(

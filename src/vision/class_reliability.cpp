@@ -53,7 +53,7 @@ void ClassReliabilityOptions::check() const {
 ClassReliability::ClassReliability(const Checked<ClassReliabilityOptions>& options)
     : options_(*options) {}
 
-bool ClassReliability::tellsAnything() const {
+bool ClassReliability::isInformative() const {
   return std::any_of(options_.right.begin(), options_.right.end(),
                      [](double share) { return share > kChance; });
 }

@@ -248,7 +248,8 @@ void DnnDetectorOptions::visit(OptionVisitor& visitor) {
                   {64.0, 4096.0});
   visitor.integer({"height", "px", "height of the network's input, a multiple of 32"}, height,
                   {64.0, 4096.0});
-  visitor.number({"min_score", "1", "least score of reported detections"}, min_score, {0.01, 1.0});
+  visitor.number({"min_score", "1", "minimum score of reported detections"}, min_score,
+                 {0.01, 1.0});
   visitor.number({"max_overlap", "1",
                   "intersection over union of two detections of one class above which only the "
                   "surer one is kept"},

@@ -109,7 +109,7 @@ class HogDetector::State {
 };
 
 void HogDetectorOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_score", "1", "least margin of a person, as its score"}, min_score,
+  visitor.number({"min_score", "1", "minimum margin of a person, as its score"}, min_score,
                  {0.0, 10.0});
   visitor.number({"max_overlap", "1",
                   "intersection over union of two persons above which only the surer one is kept"},

@@ -140,7 +140,7 @@ MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedC
   checkSize(image, camera);
   const std::vector<InView> seen = inView(camera, objects);
   MonoClassification result;
-  if (tellsAnything()) {
+  if (isInformative()) {
     result = options_.method == MonoMethod::kThesis ? asInThesis(image, camera, seen)
                                                     : byAssociation(image, camera, seen);
   }
@@ -149,8 +149,8 @@ MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedC
   return result;
 }
 
-bool MonoClassifier::tellsAnything() const {
-  return !options_.calibrated || reliability_.tellsAnything();
+bool MonoClassifier::isInformative() const {
+  return !options_.calibrated || reliability_.isInformative();
 }
 
 std::vector<MonoClassifier::InView> MonoClassifier::inView(const MountedCamera& camera,

@@ -94,10 +94,10 @@ void QuadMatcherOptions::visit(OptionVisitor& visitor) {
   visitor.integer(
       {"max_features", "1", "maximum number of corners tracked in an image, the best ones"},
       max_features, {10, 10000});
-  visitor.number({"min_distance", "px", "least distance between two of them"}, min_distance,
+  visitor.number({"min_distance", "px", "minimum distance between two of them"}, min_distance,
                  {1.0, 100.0});
   visitor.number(
-      {"min_quality", "1", "least quality of a corner, relative to the best one of the image"},
+      {"min_quality", "1", "minimum quality of a corner, relative to the best one of the image"},
       min_quality, {1e-5, 1.0});
   visitor.integer({"window", "px", "side of the square around a corner that is compared"}, window,
                   {5, 63});

@@ -127,7 +127,7 @@ void RoadColor::shift(const PixelColors& samples, double share, bool finds_new) 
     moments.push_back(gaussian.moments);
     moments.back().scale(1.0 - share);
   }
-  Moments unlike(channels);
+  Moments unmatched(channels);
   const double each = share / static_cast<double>(samples.size());
   std::vector<double> densities(gaussians_.size());
   for (const PixelColor& color : samples) {
@@ -137,20 +137,20 @@ void RoadColor::shift(const PixelColors& samples, double share, bool finds_new) 
       sum += densities[i];
     }
     if (finds_new && distance(color) > kLikeness) {
-      unlike.add(each, color);
+      unmatched.add(each, color);
       continue;
     }
     for (std::size_t i = 0; sum > 0.0 && i < gaussians_.size(); ++i) {
       moments[i].add(each * densities[i] / sum, color);
     }
   }
-  if (unlike.weight > 0.0 && unlike.weight >= options_.min_new_share * share) {
+  if (unmatched.weight > 0.0 && unmatched.weight >= options_.min_new_share * share) {
     if (moments.size() >= static_cast<std::size_t>(options_.components)) {
       moments.erase(
           std::min_element(moments.begin(), moments.end(),
                            [](const auto& a, const auto& b) { return a.weight < b.weight; }));
     }
-    moments.push_back(std::move(unlike));
+    moments.push_back(std::move(unmatched));
   }
   keep(std::move(moments));
 }

@@ -45,13 +45,14 @@ struct RoadUserLikelihoods {
 /// any other class.
 ClassProbabilities ofEachClass(const RoadUserLikelihoods& likelihoods);
 
-/// Multiplies a belief by one factor per class (Bayes): `said` comes from classifiers, `factors`
-/// from other measurements. withoutFactors() divides them out again. The results sum to 1.
-ClassProbabilities posterior(ClassProbabilities said, const ClassProbabilities& factors);
-ClassProbabilities withoutFactors(ClassProbabilities weighed, const ClassProbabilities& factors);
+/// Multiplies a belief by one factor per class (Bayes): `reported` comes from classifiers,
+/// `factors` from other measurements. withoutFactors() divides them out again. The results sum
+/// to 1.
+ClassProbabilities posterior(ClassProbabilities reported, const ClassProbabilities& factors);
+ClassProbabilities withoutFactors(ClassProbabilities weighted, const ClassProbabilities& factors);
 
 /// Returns whether one class exceeds chance by more than the doubt that ClassBelief keeps.
-bool tellsAnything(const ClassProbabilities& belief);
+bool isInformative(const ClassProbabilities& belief);
 
 /// Class of an object, estimated from all class reports so far (Bayes). The prior is uniform.
 ///

@@ -197,7 +197,7 @@ class OccupancyMap {
   template <typename Visit>
   void forEachKnown(Visit&& visit) const;
   static CellEvidence evidenceOf(CellIndex index, const Cell& cell);
-  /// The same in return, as if first seen now.
+  /// Returns the cell for saved evidence, as if last hit now.
   Cell cellOf(const CellEvidence& known) const;
 
   /// The parts of merge(): a cell that the other map has seen occupied, whose times are later by

@@ -94,7 +94,7 @@ class ObjectFutures {
   void followRoad(State& state) const;
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
   void advance(State& state, double turn) const;
-  void enter(State& state, MotionMode mode, const DrawKey& key) const;
+  void enter(State& state, MotionMode mode, DrawKey key) const;
   double turnRate(const State& state) const;
 
   const Track& track_;

@@ -76,8 +76,13 @@ class BorderFilter {
   std::optional<DroppedObject> outsideKnown(const Object& object,
                                             const std::vector<Point2>& positions,
                                             const Pose2& base_in_map, const RoadModel& road) const;
-  /// Where none is known, by the extrapolated road.
-  std::optional<DroppedObject> outsideExtension(const std::vector<Point2>& positions) const;
+  /// Where none is known for all of it, by the extrapolated road as well.
+  std::optional<DroppedObject> outsideExtension(const std::vector<Point2>& positions,
+                                                const RoadModel& road) const;
+  /// Offset of a point from the extrapolated border on this side, or else from the nearest known
+  /// one; none: neither is beside it.
+  std::optional<BorderOffset> offsetOn(RoadSide side, const Point2& position,
+                                       const RoadModel& road) const;
 
   BorderFilterOptions options_;
   RoadExtension extension_;

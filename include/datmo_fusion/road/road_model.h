@@ -12,6 +12,11 @@ namespace datmo {
 /// The side of the vehicle on which a border runs; values as in RoadBorder.msg.
 enum class RoadSide : std::uint8_t { kLeft, kRight };
 
+/// Returns how far to the outside of the road something is that is this far to the left.
+inline double outwardOf(RoadSide side, double to_left) {
+  return side == RoadSide::kLeft ? to_left : -to_left;
+}
+
 /// Returns one lower-case word.
 const char* nameOf(RoadSide side);
 

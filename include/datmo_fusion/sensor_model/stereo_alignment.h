@@ -16,10 +16,12 @@ namespace datmo {
 /// Why a stereo camera's points may deviate from the scanner's points on the same surfaces.
 enum class AlignmentTerm {
   kDisparity,  ///< px: by how much the camera's disparities are too large
-  kSurface,    ///< m: its surfaces lie behind the scanner's, along their normal: no body is upright
-  kForward,    ///< m: its mount is this much farther back than in tf, along its horizontal heading
-  kHeading,    ///< rad: by how much it is turned farther to the left than tf says
-  kTime,       ///< s: by how much it captured its cloud before the stamp
+  /// m: how far its surfaces lie behind the scanner's, along their normal: vehicle bodies are not
+  /// vertical
+  kSurface,
+  kForward,  ///< m: its mount is this much farther back than in tf, along its horizontal heading
+  kHeading,  ///< rad: by how much it is turned farther to the left than tf says
+  kTime,     ///< s: by how much it captured its cloud before the stamp
 };
 inline constexpr std::size_t kAlignmentTerms = 5;
 

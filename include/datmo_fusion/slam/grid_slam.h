@@ -79,7 +79,7 @@ struct SlamState {
 ///
 /// With a prior map, the vehicle is first searched for in that map, in the same way, and then
 /// continues in it. If it gets lost later, all of the prior map is searched, and no new map
-/// replaces it.
+/// replaces it, unless it has grown too large to be searched.
 ///
 /// PoseTracker tracks the pose from scan to scan, MapKeeper decides which map is updated and which
 /// is searched, SlamMeasurement defines how a fused grid changes a scan; this class combines them.
@@ -161,12 +161,12 @@ class GridSlam {
   /// the motion given by its own match.
   Scan locate(const SlamMeasurement& measurement, SlamResult& result);
 
-  /// Updates the drift for the current pose, from which the scan is about to be added to the map.
-  void followDrift(const PoseWithCovariance& base_in_map, const Scan& scan, SlamResult& result);
-
   /// Labels the compensated scan by the map, and then adds it to the map.
   void write(const SlamMeasurement& measurement, const Scan& scan,
              const PoseWithCovariance& base_in_map, SlamResult& result);
+
+  /// Updates the drift for the current pose, from which the scan was added to the map, if it was.
+  void followDrift(const Scan& scan, SlamResult& result);
 
   /// One step of the search in the map that was left, if any.
   void search(Stamp stamp);

@@ -80,7 +80,7 @@ class MapSearch {
   PoseWithCovariance found() const;
 
   /// With kAligned: returns the one nearest to the mean of the poses that are not contradicted,
-  /// with a covariance that reaches all of them.
+  /// with a covariance that reaches all of them. Throws std::bad_optional_access without one.
   PoseWithCovariance aligned() const { return aligned_.value(); }
 
  private:
@@ -143,18 +143,18 @@ class MapSearch {
   double sharedAt(const Pose2& pose) const;
   Eigen::Isometry2f patternAt(const Pose2& pose) const;
   /// Whether a leaf belongs to the same hypothesis as the best one.
-  bool isTogether(const Box& leaf) const;
+  bool isSameHypothesis(const Box& leaf) const;
   /// Whether maps are aligned at all, and the leaf and the best one may lie in one narrow region.
   bool isInAlignedRegion(const Box& leaf) const;
   /// Whether a pose with this covariance aligns the maps, up to the surfaces that are compared.
   bool isNarrow(const Eigen::Matrix3d& covariance) const;
-  /// Of each leaf, by its likelihood.
+  /// Probability of each leaf, from its likelihood; their sum is 1.
   std::vector<double> leafProbabilities() const;
-  /// The leaf nearest to the mean of all of them.
+  /// The leaf nearest to their mean, weighted likewise.
   const Box& centralLeaf() const;
   /// Its pose, with a covariance that reaches all leaves.
   PoseWithCovariance centralPose() const;
-  /// Mean square of the leaves' offsets from a pose.
+  /// Mean square of the leaves' offsets from a pose, weighted by leafProbabilities().
   Eigen::Matrix3d spreadAbout(const Pose2& pose) const;
   /// The leaf of that hypothesis whose surfaces are nearest to those of the older map: the
   /// tolerance for equal surfaces is wider than the accuracy of a match.
@@ -165,7 +165,7 @@ class MapSearch {
   Pose2 refined(Pose2 pose) const;
   Outcome takeLeaf(const Box& leaf);
   /// Whether all leaves that are kept belong to the hypothesis of the best one.
-  bool areAllTogether() const;
+  bool areAllSameHypothesis() const;
   double maxShared() const;
   Outcome conclude();
 
@@ -176,15 +176,16 @@ class MapSearch {
   bool anywhere_;
   Pose2 in_newer_;
   Eigen::Matrix3d whitening_ = Eigen::Matrix3d::Zero();  ///< of differences from the prior
-  Eigen::Vector3d leaf_;  ///< half size of a box that is not split further
-  double tolerance_;      ///< m, by which surfaces may be off
+  Eigen::Vector3d leaf_half_size_;  ///< half size of a box that is not split further
+  double tolerance_;                ///< m, by which surfaces may be off
   std::vector<Pattern> newer_;
   double newer_weight_ = 0.0;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;
-  std::vector<Box> leaves_;                    ///< that are kept, best first
-  std::optional<PoseWithCovariance> aligned_;  ///< with kAligned
-  int looked_at_ = 0;
+  std::vector<Box> leaves_;  ///< that are kept, best first
+  /// With kAligned, and with kAmbiguous if alignment is enabled.
+  std::optional<PoseWithCovariance> aligned_;
+  int evaluated_boxes_ = 0;
   Outcome outcome_ = Outcome::kUnfinished;
 };
 

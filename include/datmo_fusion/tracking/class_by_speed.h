@@ -42,7 +42,7 @@ ClassProbabilities withSpeed(const ClassProbabilities& said, const MeasuredSpeed
                              const ClassBySpeedOptions& options);
 
 /// Returns the probabilities before the speed was included: the inverse of withSpeed.
-ClassProbabilities withoutSpeed(const ClassProbabilities& weighed, const MeasuredSpeed& speed,
+ClassProbabilities withoutSpeed(const ClassProbabilities& weighted, const MeasuredSpeed& speed,
                                 const ClassBySpeedOptions& options);
 
 }  // namespace datmo

@@ -13,7 +13,7 @@ struct SplitMergeOptions {
   double split_probability = 0.1;   ///< 1
   double merge_probability = 0.05;  ///< 1
   double margin = 0.5;              ///< m
-  int max_readings = 6;             ///< 1
+  int max_interpretations = 6;      ///< 1
 
   void visit(OptionVisitor& visitor);
 };

@@ -60,6 +60,9 @@ class TrackedBox {
   Point2 followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         const TrackedBoxOptions& options);
 
+  /// The object stands: this time counts neither as forward nor as backward motion.
+  void stand() { since_velocity_ = 0.0; }
+
   /// Returns the contribution of uncertain size and heading to the covariance of the center, m^2,
   /// fixed frame; it is not part of the filter's covariance.
   Eigen::Matrix2d centerCovariance() const;

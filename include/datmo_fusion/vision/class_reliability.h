@@ -37,7 +37,7 @@ class ClassReliability {
   double right(double score) const;
 
   /// Whether reports of some score are better than chance (one in kObjectClasses).
-  bool tellsAnything() const;
+  bool isInformative() const;
 
   /// Class probabilities with a uniform prior; uniform for a class that no detector reports
   /// (unknown, pole), and for a score at which reports are no better than chance.

@@ -83,7 +83,7 @@ class MonoClassifier {
 
   /// false: by its reliability the detector is no better than chance; then it is not run and
   /// nothing is found.
-  bool tellsAnything() const;
+  bool isInformative() const;
 
  private:
   struct InView;

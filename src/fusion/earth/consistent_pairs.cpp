@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo {
 
 namespace {
@@ -21,7 +23,7 @@ class PairSums {
     b_ += weight * pair.b;
     squares_ += weight * (pair.a.squaredNorm() + pair.b.squaredNorm());
     along_ += weight * pair.a.dot(pair.b);
-    across_ += weight * (pair.a.x() * pair.b.y() - pair.a.y() * pair.b.x());
+    across_ += weight * cross(pair.a, pair.b);
   }
 
   /// Minimum sum of squares of a rigid motion (Arun, Huang, Blostein 1987), without one pair.
@@ -34,7 +36,7 @@ class PairSums {
   double cost() const {
     const double squares = squares_ - (a_.squaredNorm() + b_.squaredNorm()) / weights_;
     const double along = along_ - a_.dot(b_) / weights_;
-    const double across = across_ - (a_.x() * b_.y() - a_.y() * b_.x()) / weights_;
+    const double across = across_ - cross(a_, b_) / weights_;
     return std::max(squares - 2.0 * std::hypot(along, across), 0.0);
   }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/fusion/earth/consistent_pairs.h"
 
@@ -137,7 +138,7 @@ std::optional<EarthFrameFilter::Start> EarthFrameFilter::startOf(
     const Point2 a = antennaInMap(fix) - start.mean_in_map;
     const Point2 b = fix.in_plane - start.mean_in_plane;
     along += weight * a.dot(b);
-    across += weight * (a.x() * b.y() - a.y() * b.x());
+    across += weight * cross(a, b);
     spread += weight * a.squaredNorm();
   }
   // Within the correlation time the shared error causes no rotation; the part of it that changes

@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "datmo_fusion/fusion/grid/grid_motion.h"
+#include "datmo_fusion/fusion/sync/names_in_use.h"
 
 namespace datmo {
 
@@ -43,15 +44,7 @@ void GridFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose grids are fused"}, sources);
 }
 
-std::vector<std::string> GridFuserOptions::sourcesInUse() const {
-  std::vector<std::string> names;
-  for (const auto& [name, source] : sources) {
-    if (source.use) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
+std::vector<std::string> GridFuserOptions::sourcesInUse() const { return namesInUse(sources); }
 
 GridFuser::GridFuser(const Checked<GridFuserOptions>& options) : options_(*options) {}
 
@@ -59,7 +52,7 @@ FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& m
   FusionResult result;
   result.missing = matched.missing;
   std::deque<SensorGrid> moved;  // storage for `grids`
-  std::vector<WeighedGrid> grids;
+  std::vector<WeightedGrid> grids;
   for (const MatchedGrid& one : matched.samples) {
     const std::optional<Pose2> base = baseAt(one.stamp, matched.stamp(), motion);
     if (!base) {

@@ -22,7 +22,7 @@ constexpr float kMinProbability = 0.005F;
 constexpr float kNoAgreement = 1e-6F;
 
 /// Evidence in a source's value of a cell.
-struct Meaning {
+struct ValueEvidence {
   // Plausibility of occupied and of free, and the mass committed to neither: Dempster's rule
   // multiplies each of the three over the sources (commonality, Shafer 1976).
   float may_be_occupied = 1.0F;
@@ -30,33 +30,34 @@ struct Meaning {
   float open = 1.0F;
 
   float probability = 0.5F;  ///< of being occupied, discounted by the source's reliability
-  float weighed = 0.0F;      ///< weight * percent
+  float weighted = 0.0F;     ///< weight * percent
 };
 
-Meaning meaningOf(float said, const GridSourceOptions& source) {
+ValueEvidence evidenceOf(float value, const GridSourceOptions& source) {
   const auto reliability = static_cast<float>(source.reliability);
-  const float evidence = reliability * (2.0F * said - 1.0F);  // positive: for occupied
-  Meaning meaning;
-  meaning.may_be_occupied = 1.0F - std::max(0.0F, -evidence);
-  meaning.may_be_free = 1.0F - std::max(0.0F, evidence);
-  meaning.open = std::min(meaning.may_be_occupied, meaning.may_be_free);
-  meaning.probability = std::clamp(0.5F + 0.5F * evidence, kMinProbability, 1.0F - kMinProbability);
-  meaning.weighed = static_cast<float>(source.weight) * kPercent * said;
-  return meaning;
+  const float evidence = reliability * (2.0F * value - 1.0F);  // positive: for occupied
+  ValueEvidence value_evidence;
+  value_evidence.may_be_occupied = 1.0F - std::max(0.0F, -evidence);
+  value_evidence.may_be_free = 1.0F - std::max(0.0F, evidence);
+  value_evidence.open = std::min(value_evidence.may_be_occupied, value_evidence.may_be_free);
+  value_evidence.probability =
+      std::clamp(0.5F + 0.5F * evidence, kMinProbability, 1.0F - kMinProbability);
+  value_evidence.weighted = static_cast<float>(source.weight) * kPercent * value;
+  return value_evidence;
 }
 
 /// One source with a table of the evidence of each value.
 struct Source {
   const Percent* cells;
   float weight;
-  std::array<Meaning, std::numeric_limits<Percent>::max() + 1> meanings;
+  std::array<ValueEvidence, std::numeric_limits<Percent>::max() + 1> evidence_of_value;
 
-  explicit Source(const WeighedGrid& weighed)
-      : cells(weighed.grid->cells().data()), weight(static_cast<float>(weighed.source.weight)) {
-    for (std::size_t percent = 0; percent < meanings.size(); ++percent) {
+  explicit Source(const WeightedGrid& weighted)
+      : cells(weighted.grid->cells().data()), weight(static_cast<float>(weighted.source.weight)) {
+    for (std::size_t percent = 0; percent < evidence_of_value.size(); ++percent) {
       // Values above 100 count as 100.
-      const float said = std::min(1.0F, static_cast<float>(percent) / kPercent);
-      meanings[percent] = meaningOf(said, weighed.source);
+      const float value = std::min(1.0F, static_cast<float>(percent) / kPercent);
+      evidence_of_value[percent] = evidenceOf(value, weighted.source);
     }
   }
 };
@@ -70,10 +71,10 @@ Percent rounded(float value) {
 /// The evidence of several sources on one cell, combined by Dempster's rule but not normalized.
 class Evidence {
  public:
-  void take(const Meaning& meaning) {
-    may_be_occupied_ *= meaning.may_be_occupied;
-    may_be_free_ *= meaning.may_be_free;
-    open_ *= meaning.open;
+  void take(const ValueEvidence& value_evidence) {
+    may_be_occupied_ *= value_evidence.may_be_occupied;
+    may_be_free_ *= value_evidence.may_be_free;
+    open_ *= value_evidence.open;
   }
   /// Share of evidence without contradiction, 0 to 1.
   float agreement() const { return may_be_occupied_ + may_be_free_ - open_; }
@@ -92,8 +93,8 @@ class Evidence {
 struct WeightedSum {
   float sum = 0.0F;
   float weights = 0.0F;
-  void take(const Source& source, Percent, const Meaning& meaning) {
-    sum += meaning.weighed;
+  void take(const Source& source, Percent, const ValueEvidence& value_evidence) {
+    sum += value_evidence.weighted;
     weights += source.weight;
   }
   Percent result(const Evidence&) const { return rounded(sum / weights); }
@@ -102,15 +103,15 @@ struct WeightedSum {
 /// Sources come in the order of their priority.
 struct Priority {
   Percent first = kUnknownPercent;
-  void take(const Source&, Percent said, const Meaning&) {
-    first = first == kUnknownPercent ? said : first;
+  void take(const Source&, Percent value, const ValueEvidence&) {
+    first = first == kUnknownPercent ? value : first;
   }
   Percent result(const Evidence&) const { return first; }
 };
 
 struct Maximum {
   Percent max = kUnknownPercent;
-  void take(const Source&, Percent said, const Meaning&) { max = std::max(max, said); }
+  void take(const Source&, Percent value, const ValueEvidence&) { max = std::max(max, value); }
   Percent result(const Evidence&) const { return max; }
 };
 
@@ -118,15 +119,15 @@ struct Maximum {
 struct LogOdds {
   float occupied = 1.0F;
   float free = 1.0F;
-  void take(const Source&, Percent, const Meaning& meaning) {
-    occupied *= meaning.probability;
-    free *= 1.0F - meaning.probability;
+  void take(const Source&, Percent, const ValueEvidence& value_evidence) {
+    occupied *= value_evidence.probability;
+    free *= 1.0F - value_evidence.probability;
   }
   Percent result(const Evidence&) const { return rounded(kPercent * occupied / (occupied + free)); }
 };
 
 struct DempsterShafer {
-  void take(const Source&, Percent, const Meaning&) {}
+  void take(const Source&, Percent, const ValueEvidence&) {}
   Percent result(const Evidence& evidence) const {
     return rounded(kPercent * evidence.pignisticProbability());
   }
@@ -140,7 +141,7 @@ void fuseCells(const std::vector<Source>& sources, FusedGrids& result) {
   Percent* const conflict = result.conflict.cells().data();
   for (std::size_t cell = 0; cell < cells; ++cell) {
     int known = 0;
-    Percent said = kUnknownPercent;
+    Percent value = kUnknownPercent;
     Rule rule;
     Evidence evidence;
     for (const Source& source : sources) {
@@ -148,26 +149,27 @@ void fuseCells(const std::vector<Source>& sources, FusedGrids& result) {
         continue;
       }
       ++known;
-      said = source.cells[cell];
-      const Meaning& meaning = source.meanings[static_cast<std::uint8_t>(said)];
-      rule.take(source, said, meaning);
-      evidence.take(meaning);
+      value = source.cells[cell];
+      const ValueEvidence& value_evidence =
+          source.evidence_of_value[static_cast<std::uint8_t>(value)];
+      rule.take(source, value, value_evidence);
+      evidence.take(value_evidence);
     }
     if (known > 1) {
       fused[cell] = rule.result(evidence);
       conflict[cell] = rounded(kPercent * (1.0F - evidence.agreement()));
     } else {
-      fused[cell] = said;
+      fused[cell] = value;
     }
   }
 }
 
-void checkWindows(const std::vector<WeighedGrid>& grids) {
+void checkWindows(const std::vector<WeightedGrid>& grids) {
   if (grids.empty()) {
     throw std::invalid_argument("fuseGrids: expected at least one grid");
   }
-  for (const WeighedGrid& weighed : grids) {
-    if (weighed.grid->window() != grids.front().grid->window()) {
+  for (const WeightedGrid& weighted : grids) {
+    if (weighted.grid->window() != grids.front().grid->window()) {
       throw std::invalid_argument("fuseGrids: expected grids of one window");
     }
   }
@@ -189,12 +191,13 @@ void GridSourceOptions::visit(OptionVisitor& visitor) {
                  reliability, {0.0, 1.0});
 }
 
-FusedGrids fuseGrids(FusionRule rule, const std::vector<WeighedGrid>& grids) {
+FusedGrids fuseGrids(FusionRule rule, const std::vector<WeightedGrid>& grids) {
   checkWindows(grids);
-  std::vector<WeighedGrid> ordered = grids;
-  std::stable_sort(ordered.begin(), ordered.end(), [](const WeighedGrid& a, const WeighedGrid& b) {
-    return a.source.priority > b.source.priority;
-  });
+  std::vector<WeightedGrid> ordered = grids;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const WeightedGrid& a, const WeightedGrid& b) {
+                     return a.source.priority > b.source.priority;
+                   });
   const std::vector<Source> sources(ordered.begin(), ordered.end());
   const SensorGrid& first = *grids.front().grid;
   FusedGrids result{SensorGrid(first.stamp(), first.window()),

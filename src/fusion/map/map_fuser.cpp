@@ -20,7 +20,7 @@ constexpr double kMaxMotionError = 2.0;
 /// Expected covariance at another position with the same certainty as at this pose. An uncertain
 /// heading of the map makes distant positions more uncertain, which is not a gap.
 Eigen::Matrix3d expectedAt(const PoseWithCovariance& there, const PoseWithCovariance& before) {
-  return carried(before.covariance, there.pose.position() - before.pose.position());
+  return withLeverArm(before.covariance, there.pose.position() - before.pose.position());
 }
 
 /// The grid, with occupied cells near a mover set to unknown (m, the grid's frame).
@@ -175,7 +175,7 @@ bool MapFuser::isLocated() const {
 
 std::optional<FusedMaps> MapFuser::fuse(Stamp now) {
   std::deque<SensorGrid> images;  // storage for `grids`
-  std::vector<WeighedGrid> grids;
+  std::vector<WeightedGrid> grids;
   for (const auto& [source, map] : maps_) {
     if (map) {
       images.push_back(discounted(map->image(now), options_.sources.at(source).reliability));

@@ -14,8 +14,7 @@ namespace {
 constexpr double kMaxExistence = 0.999;
 
 double logOdds(double probability) {
-  const double p = std::clamp(probability, 1.0 - kMaxExistence, kMaxExistence);
-  return std::log(p / (1.0 - p));
+  return logOddsOf(std::clamp(probability, 1.0 - kMaxExistence, kMaxExistence));
 }
 
 }  // namespace

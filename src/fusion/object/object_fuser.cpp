@@ -14,6 +14,7 @@
 
 #include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/fusion/object/object_combination.h"
+#include "datmo_fusion/fusion/sync/names_in_use.h"
 
 namespace datmo {
 
@@ -84,15 +85,7 @@ void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.group("scan_support", [&] { scan_support.visit(visitor); });
 }
 
-std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
-  std::vector<std::string> names;
-  for (const auto& [name, source] : sources) {
-    if (source.use) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
+std::vector<std::string> ObjectFuserOptions::sourcesInUse() const { return namesInUse(sources); }
 
 std::map<std::string, double> ObjectFuserOptions::lateSources() const {
   std::map<std::string, double> late;
@@ -185,10 +178,10 @@ class ObjectFuser::Fusion {
     const std::set<std::string> sensors_of_others = sensorsOfOthers(source);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Object& object = intake.list.objects[i];
-      const bool is_name = isName(object, sensors_of_others);
+      const bool is_class_only = isClassOnly(object, sensors_of_others);
       if (matches[i] == kUnassigned) {
-        if (is_name) {
-          ++result_.counts.names_of_gone;
+        if (is_class_only) {
+          ++result_.counts.unmatched_classes;
         } else {
           objects_.push_back({object, std::vector<bool>(sources_.size(), false), 0, {}});
           note(source, i, objects_.back());
@@ -198,7 +191,7 @@ class ObjectFuser::Fusion {
       FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
       const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
       result_.counts.fused += first_pair ? 1 : 0;
-      if (is_name) {
+      if (is_class_only) {
         fused.seen_by[source] = true;
         combineClass(fused.object, object, fused.object);
         continue;

@@ -29,7 +29,7 @@ std::set<std::string> sensorsOf(const std::string& source, const ObjectList& lis
   return sensors;
 }
 
-bool isName(const Object& object, const std::set<std::string>& sensors_of_others) {
+bool isClassOnly(const Object& object, const std::set<std::string>& sensors_of_others) {
   return !isSighting(object) && !object.sensors.empty() &&
          std::all_of(object.sensors.begin(), object.sensors.end(),
                      [&](const auto& sensor) { return sensors_of_others.count(sensor) > 0; });

@@ -19,6 +19,6 @@ std::set<std::string> sensorsOf(const std::string& source, const ObjectList& lis
 /// own (MonoClassifier): no side was seen, no velocity was measured, and all its sensors are those
 /// of others. One detection may name several pieces of a vehicle, which is evidence neither of
 /// their existence nor of their motion.
-bool isName(const Object& object, const std::set<std::string>& sensors_of_others);
+bool isClassOnly(const Object& object, const std::set<std::string>& sensors_of_others);
 
 }  // namespace datmo

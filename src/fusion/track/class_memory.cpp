@@ -7,12 +7,12 @@ namespace datmo {
 
 void ClassMemory::update(const Beliefs& own, const Beliefs& all) {
   for (const auto& [member, belief] : present_) {
-    if (all.count(member) == 0 && tellsAnything(belief)) {
+    if (all.count(member) == 0 && isInformative(belief)) {
       ended_[member.first] = belief;
     }
   }
   for (const auto& [member, belief] : own) {
-    if (tellsAnything(belief)) {
+    if (isInformative(belief)) {
       ended_.erase(member.first);
     }
   }

@@ -46,7 +46,7 @@ std::optional<double> rangeFrom(const std::vector<ViewFan>& fans, const Track& t
 }  // namespace
 
 void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) {
-  const double share = kLookingTime > 0.0 ? -std::expm1(-seconds / kLookingTime) : 1.0;
+  const double share = -std::expm1(-seconds / kLookingTime);
   std::vector<std::optional<Visibility>> views(names_.size());
   std::vector<const std::vector<ViewFan>*> fans_of(names_.size());
   for (const SourceTracks& source : sources) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/fusion/sync/names_in_use.h"
+
 namespace datmo {
 
 namespace {
@@ -142,14 +144,6 @@ void TrackFuserOptions::check() const {
                     ")");
 }
 
-std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
-  std::vector<std::string> names;
-  for (const auto& [name, source] : sources) {
-    if (source.use) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
+std::vector<std::string> TrackFuserOptions::sourcesInUse() const { return namesInUse(sources); }
 
 }  // namespace datmo

@@ -126,9 +126,9 @@ TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
 }
 
 TEST(ClassBelief, IsInformativeIfOneClassExceedsChanceByMoreThanTheDoubt) {
-  EXPECT_FALSE(tellsAnything(ClassBelief().probabilities()));
-  EXPECT_FALSE(tellsAnything({0.19, 0.19, 0.19, 0.24, 0.19}));
-  EXPECT_TRUE(tellsAnything({0.18, 0.18, 0.18, 0.28, 0.18}));
+  EXPECT_FALSE(isInformative(ClassBelief().probabilities()));
+  EXPECT_FALSE(isInformative({0.19, 0.19, 0.19, 0.24, 0.19}));
+  EXPECT_TRUE(isInformative({0.18, 0.18, 0.18, 0.28, 0.18}));
 }
 
 TEST(ClassBelief, LikelihoodsWeightRoadUsersAndLeaveTheOthers) {

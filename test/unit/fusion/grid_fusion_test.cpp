@@ -40,7 +40,7 @@ SensorGrid oneCell(Percent percent) {
 
 FusedGrids fuse(FusionRule rule, const std::vector<Said>& all) {
   std::vector<SensorGrid> grids;
-  std::vector<WeighedGrid> weighed;
+  std::vector<WeightedGrid> weighed;
   grids.reserve(all.size());
   for (const Said& said : all) {
     grids.push_back(oneCell(said.percent));

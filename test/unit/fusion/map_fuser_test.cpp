@@ -139,7 +139,7 @@ TEST_F(MapFuserTest, GapsAreThoseOfGridSlam) {
 TEST_F(MapFuserTest, AfterAnUnresolvedGapTheMapsContinue) {
   const auto uncertainSince = [](double x) {
     PoseWithCovariance pose = poseOf(Pose2(x, 0.0, 0.0));
-    pose.covariance += carried(poseOf(Pose2(), 1.0, 0.5).covariance, pose.pose.position());
+    pose.covariance += withLeverArm(poseOf(Pose2(), 1.0, 0.5).covariance, pose.pose.position());
     return pose;
   };
   fuser_ = MapFuser(options_);

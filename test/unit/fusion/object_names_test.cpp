@@ -51,7 +51,7 @@ TEST(ObjectNames, AClassWithoutItsObjectIsNoObject) {
   const Object gone = boxObject(15.0, 4.0, 0.3, 2.2, 0.03);
   const ObjectFusionResult left_out = fuseNames({}, {nameOfVehicle(gone)});
   EXPECT_TRUE(left_out.list.objects.empty());
-  EXPECT_EQ(left_out.counts.names_of_gone, 1U);
+  EXPECT_EQ(left_out.counts.unmatched_classes, 1U);
   Object alone = nameOfVehicle(gone);
   alone.sensors = {"mono"};
   EXPECT_EQ(fuseNames({}, {alone}).list.objects.size(), 1U) << "what the image alone has is one";
@@ -75,7 +75,7 @@ ObjectFusionResult fuseFrontRadar(std::vector<Object> seen, std::vector<Object> 
 TEST(ObjectNames, ARadarUnderAnotherNameSeesObjects) {
   const auto alone = fuseFrontRadar({}, {radarObject(15.0)});
   EXPECT_EQ(alone.list.objects.size(), 1U);
-  EXPECT_EQ(alone.counts.names_of_gone, 0U);
+  EXPECT_EQ(alone.counts.unmatched_classes, 0U);
   const Object seen = pointObject(15.0, 4.0, 0.3);
   const auto both = fuseFrontRadar({seen}, {radarObject(15.0)});
   ASSERT_EQ(both.list.objects.size(), 1U);
@@ -98,7 +98,7 @@ TEST(ObjectNames, ANameIsOneUnderAnyNameOfItsSource) {
   const auto result = ObjectFuser(options).fuse(
       {received("front_lidar", {other}), received("mono", {nameOfVehicle(gone)})}, nullptr);
   EXPECT_EQ(result.list.objects.size(), 1U);
-  EXPECT_EQ(result.counts.names_of_gone, 1U);
+  EXPECT_EQ(result.counts.unmatched_classes, 1U);
 }
 
 }  // namespace

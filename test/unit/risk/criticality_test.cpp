@@ -69,6 +69,18 @@ TEST(BrakeThreat, IsImpossibleWhenStruckFromBehind) {
   EXPECT_EQ(timeToBrake(encounter, 6.0), 0.0);
 }
 
+TEST(Steered, TurnsIntoTheDirectionOfMotion) {
+  const BodyPath ahead = steered(straight({0, 0}, {2, 0}), 5.0);
+  EXPECT_NEAR(ahead.poses[10].heading, std::atan2(5.0, 2.0), 1e-9);
+  BodyPath backward = straight({0, 0}, {-2, 0});
+  for (BodyPose& pose : backward.poses) {
+    pose = bodyPose(pose.center, 0.0);
+  }
+  const BodyPath evading = steered(backward, 5.0);
+  EXPECT_GT(evading.poses[10].center.y(), 0.0) << "to its left";
+  EXPECT_NEAR(evading.poses[10].heading, -std::atan2(5.0, 2.0), 1e-9) << "its rear goes ahead";
+}
+
 TEST(SteerThreat, IsLessToTheNearerSide) {
   const BodyPath host = straight({0, 0}, {10, 0});
   const BodyPath left_of_middle = straight({24, 1.0}, {0, 0});

@@ -47,6 +47,15 @@ TEST(HostFutures, ADriverStaysInHisLaneHoweverFarAhead) {
   EXPECT_LT(spreadAt(20, options).along, 0.1);
 }
 
+TEST(HostFutures, ADriverWhoSteersFasterThanAStepDoesNotOscillate) {
+  HostFutureOptions options = onlyLane();
+  options.lane_deviation = 0.0;
+  options.steering_spread = 0.1;
+  const double usual = spreadAt(20, options).aside;
+  options.steering_time = 0.05;
+  EXPECT_NEAR(spreadAt(20, options).aside, usual, 0.4 * usual);
+}
+
 TEST(HostFutures, CourseUncertaintyGrowsWithTheSquareOfTime) {
   HostFutureOptions options = onlyLane();
   options.lane_deviation = 0.0;

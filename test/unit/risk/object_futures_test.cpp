@@ -74,6 +74,14 @@ TEST(ObjectFutures, KeepTheirVelocityOnAverage) {
   EXPECT_NEAR(spread.mean.y(), 2.0, 0.6);
 }
 
+TEST(ObjectFutures, OfASourceWithoutModesMove) {
+  Track track = knownTrack(1, {5, 2}, {10, 0});
+  track.mode_probabilities = {};
+  const ObjectFutureOptions options = withoutSwitching();
+  const Spread spread = endsOf(ObjectFutures(track, std::nullopt, options, kHorizon, kDraws));
+  EXPECT_NEAR(spread.mean.x(), 45.0, 0.6);
+}
+
 TEST(ObjectFutures, SpreadWithTheCovariance) {
   Track track = knownTrack(1, {0, 0}, {10, 0});
   const ObjectFutureOptions options = withoutSwitching();

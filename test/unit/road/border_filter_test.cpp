@@ -114,6 +114,16 @@ TEST_F(BorderFilterTest, WithoutAKnownBorderTheRoadContinues) {
   EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
 }
 
+TEST_F(BorderFilterTest, WhereTheKnownRoadEndsAllPointsCount) {
+  for (RoadBorder& border : road_.borders) {
+    border.points.back().position.x() = 20.0;
+  }
+  Object car = movingAt({20.5, 3.8});
+  EXPECT_TRUE(isOutside(car));
+  car.points.emplace_back(19.5, 2.0);  // beside the known border, on the road
+  EXPECT_FALSE(isOutside(car));
+}
+
 TEST_F(BorderFilterTest, WithoutARoadNothingIsOutside) {
   road_ = {};
   EXPECT_FALSE(isOutside(movingAt({20.0, 4.2})));

@@ -66,6 +66,18 @@ TEST(RoadPlaneTest, AnIncredibleSlopeIsNoRoad) {
   EXPECT_FALSE(RoadPlaneEstimator(options).update(made.cloud()));
 }
 
+TEST(RoadPlaneTest, SlopesInBothDirectionsAreOneSlope) {
+  MadeScene scene;
+  scene.camera_yaw = 0.25 * kPi;
+  scene.unknown_pitch = 0.03;  // 0.021 along either axis of the vehicle
+  RoadPlaneOptions options;
+  options.max_slope = 0.025;
+  MadeCloud made(scene);
+  EXPECT_FALSE(RoadPlaneEstimator(options).update(made.cloud()));
+  options.max_slope = 0.035;
+  EXPECT_TRUE(RoadPlaneEstimator(options).update(made.cloud()));
+}
+
 TEST(RoadPlaneTest, TheLastPlaneInitializesTheNextOne) {
   // 60 mm per meter in one step is too far from flat; in two steps it is not.
   RoadPlaneEstimator estimator((RoadPlaneOptions()));

@@ -76,6 +76,15 @@ TEST(ScanMerger, ASurfaceBehindCrossesTheSeam) {
   EXPECT_NEAR(ranges[kBeams - 1], 5.0 / std::cos(kSpacing), 1e-5);
 }
 
+TEST(ScanMerger, TheLastBeamOfAFullTurnIsBesideTheFirst) {
+  Scan around = scan({ray(0, {-5.0, -1.0}), ray(3, {-5.0, 1.0})});
+  around.field.beams = 4;
+  around.field.beam_spacing = kTurn / 4.0;
+  EXPECT_FLOAT_EQ(merged({around}, options(5.0))[0], 5.0F);
+  around.field.beam_spacing = kTurn / 8.0;
+  EXPECT_TRUE(std::isnan(merged({around}, options(5.0))[0])) << "half a turn";
+}
+
 TEST(ScanMerger, BetweenBeamsWithoutReturnItIsFreeBesideAHitItIsNotMeasured) {
   const Ray right = ray(0, {40.0, -12.0}, false);
   EXPECT_TRUE(std::isinf(merged({scan({right, ray(1, {40.0, 12.0}, false)})})[kAhead]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/sensor_model/surface_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -66,6 +67,22 @@ TEST(SurfacePairs, WithoutABiasThereIsNone) {
 }
 
 /// Half of what the camera sees there is behind what the scanner sees.
+TEST(SurfacePairs, TheSeamOfTheBearingsIsNoStep) {
+  // Two surfaces, 3 m apart, whose edge is where the bearings of a scanner that looks back wrap.
+  MadeScene scene;
+  scene.boxes = {{{kWall, 0.0, 0.0}, {kWall + 1.0, 3.0, 2.0}},
+                 {{kWall - 3.0, -3.0, 0.0}, {kWall - 2.0, 0.0, 2.0}}};
+  std::vector<Ray> rays = scanOf(kWall, 0.0, 3.0);
+  const std::vector<Ray> nearer = scanOf(kWall - 3.0, -3.0, 0.0);
+  std::copy(nearer.begin(), nearer.begin() + 180, rays.begin());
+  const std::size_t pairs = pairsOf(scene, rays).size();
+  ASSERT_GE(pairs, 2U);
+  for (Ray& ray : rays) {
+    ray.bearing = normalizeAngle(ray.bearing + kPi);
+  }
+  EXPECT_EQ(pairsOf(scene, rays).size(), pairs);
+}
+
 TEST(SurfacePairs, ColumnsOfTwoSurfacesMakeNone) {
   MadeScene scene = wallAhead();
   scene.boxes[0].max.z() = 0.7;

@@ -101,6 +101,18 @@ TEST(KidnappingTest, AGapMeanwhileEndsNoSearch) {
   EXPECT_TRUE(result.kidnapped);
 }
 
+TEST(KidnappingTest, NothingDriftsWhileItIsSuspected) {
+  const std::vector<Step> steps = drive(kUnknown, 60);
+  std::size_t suspected = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i].result.may_be_kidnapped && steps[i - 1].result.may_be_kidnapped) {
+      ++suspected;
+      EXPECT_LE(steps[i].result.drift(2, 2), steps[i - 1].result.drift(2, 2) + 1e-12);
+    }
+  }
+  EXPECT_GT(suspected, 3U);
+}
+
 TEST(KidnappingTest, NothingMovesMeanwhile) {
   const std::vector<Step> steps = drive(kKnown.front(), 10);
   for (std::size_t i = 40; i < steps.size(); ++i) {

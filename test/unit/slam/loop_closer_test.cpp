@@ -212,6 +212,12 @@ TEST(LoopCloserTest, TheMapCoversAllScans) {
   EXPECT_LT(map.occupancy(map.window().cellAt({15.0, 0.0})), 0.4);
 }
 
+TEST(LoopCloserTest, AMapFarFromTheOriginIsNoLarger) {
+  LoopCloser closer(yardOptions());
+  closer.add(keyframe(yard, Pose2(), Pose2(30000.0, 30000.0, 0.0), 0.0));
+  EXPECT_EQ(closer.map().window().cell_size, yardOptions().submaps.map.window.cell_size);
+}
+
 TEST(LoopCloserTest, AWideMapHasLargerCells) {
   LoopCloser closer(yardOptions());
   closer.add(keyframe(yard, Pose2(), Pose2(), 0.0));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/map_recovery.h"
 
+#include <memory>
+#include <vector>
+
 #include "walls.h"
 #include <gtest/gtest.h>
 
@@ -200,6 +203,71 @@ TEST(MapRecoveryTest, ShortGapsAreMatchedAsUsual) {
     EXPECT_EQ(step.result.localization, Localization::kLocated);
     EXPECT_LT(errorOf(step).head<2>().norm(), 0.3);
   }
+}
+
+/// A search that finds where a newer map of the yard begins in an older one.
+class SearchRateTest : public testing::Test {
+ protected:
+  static PoseWithCovariance guessAt(const Pose2& pose) {
+    return {pose, Eigen::Vector3d(4.0, 2.25, 0.09).asDiagonal()};
+  }
+
+  static OccupancyMap mapOf(const Pose2& from, const Pose2& in_map) {
+    OccupancyMap map{OccupancyMapOptions{}};
+    for (int i = 0; i <= 20; ++i) {
+      const Pose2 motion = arc({2.0, 0.0}, 0.1 * i);
+      map.centerOn((in_map * motion).position());
+      const Scan scan = Yard().scan(from * motion, 0.1 * i);
+      map.update(scan, std::vector<PointState>(scan.rays.size(), PointState::kUnknown),
+                 in_map * motion);
+    }
+    return map;
+  }
+
+  /// Returns how many boxes the search examines, up to a few.
+  int boxes() const {
+    constexpr int kAtOnce = 50;
+    MapSearch search(options_.search, std::make_shared<const SearchedMap>(older_), newer_, {guess_},
+                     guess_.pose);
+    int count = kAtOnce;
+    while (search.advance(kAtOnce) == MapSearch::Outcome::kUnfinished) {
+      count += kAtOnce;
+    }
+    return count;
+  }
+
+  /// Returns the time (s) from the first scan of the search until the pose is found; negative if it
+  /// is not. `period`: s, of the scans.
+  double timeUntilFound(int boxes_per_second, double period) const {
+    MapRecoveryOptions options = options_;
+    options.boxes_per_second = boxes_per_second;
+    options.first_search_after = 0.0;
+    MapRecovery recovery(options, older_, guess_, Stamp::fromSeconds(1000.0));
+    for (int i = 1; period * i < kMaxTime; ++i) {
+      const PoseWithCovariance in_newer{guess_.pose, Eigen::Matrix3d::Zero()};
+      if (recovery.advance(newer_, in_newer, Stamp::fromSeconds(1000.0 + period * i))) {
+        return period * i;
+      }
+    }
+    return -1.0;
+  }
+
+  static constexpr double kMaxTime = 10.0;  // s
+
+  MapRecoveryOptions options_;
+  Pose2 ahead_{8.0, 1.0, 0.1};
+  PoseWithCovariance guess_ = guessAt(ahead_ * Pose2(1.5, 1.0, 0.0));
+  OccupancyMap older_ = mapOf(Pose2(), Pose2());
+  OccupancyMap newer_ = mapOf(ahead_, guess_.pose);
+};
+
+TEST_F(SearchRateTest, ASearchTakesAsLongWhateverTheRateOfTheScans) {
+  const int in_two_seconds = boxes() / 2;
+  for (const double period : {0.2, 0.1, 0.05}) {
+    EXPECT_NEAR(timeUntilFound(in_two_seconds, period), 2.0, 0.5) << period;
+  }
+  EXPECT_NEAR(timeUntilFound(2 * in_two_seconds, 0.1), 1.0, 0.3);
+  EXPECT_LT(timeUntilFound(1, 0.1), 0.0);
 }
 
 }  // namespace

@@ -113,6 +113,12 @@ TEST_F(OdometryBufferTest, APoseThatJumpsIsNoMotion) {
   EXPECT_NEAR(buffer_.motion(at(1.0), at(1.1))->x(), 0.1, 1e-9);
 }
 
+TEST_F(OdometryBufferTest, AJumpToTheSideIsNoMotionEither) {
+  buffer_.add({at(1.0), {1.0, 0.0}, Pose2(0.0, 400.0, 0.0)});
+  buffer_.add({at(3.0), {1.0, 0.0}, Pose2()});
+  EXPECT_FALSE(buffer_.hasPoses(at(1.0), at(3.0)));
+}
+
 TEST_F(OdometryBufferTest, AfterTheLastPoseTheTwistHolds) {
   buffer_.add({at(1.0), {1.0, 0.0}, Pose2()});
   buffer_.add({at(1.1), {2.0, 0.0}, Pose2(0.05, 0.0, 0.0)});

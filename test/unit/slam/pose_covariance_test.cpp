@@ -9,20 +9,20 @@ namespace {
 const Eigen::Matrix3d kCovariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
 
 TEST(PoseCovarianceTest, AHeadingErrorMovesDistantPoints) {
-  const Eigen::Matrix3d far = carried(kCovariance, {10.0, 0.0});
+  const Eigen::Matrix3d far = withLeverArm(kCovariance, {10.0, 0.0});
   EXPECT_NEAR(far(0, 0), 0.01, 1e-12);
   EXPECT_NEAR(far(1, 1), 0.04 + 100.0 * 0.25, 1e-12);
   EXPECT_NEAR(far(1, 2), 10.0 * 0.25, 1e-12);
   EXPECT_NEAR(far(2, 2), 0.25, 1e-12);
-  EXPECT_TRUE(carried(far, {-10.0, 0.0}).isApprox(kCovariance));
+  EXPECT_TRUE(withLeverArm(far, {-10.0, 0.0}).isApprox(kCovariance));
 }
 
-TEST(PoseCovarianceTest, TurnedAxesKeepItsSize) {
-  const Eigen::Matrix3d left = turned(kCovariance, kPi / 2.0);
+TEST(PoseCovarianceTest, RotatedAxesKeepTheirSize) {
+  const Eigen::Matrix3d left = rotated(kCovariance, kPi / 2.0);
   EXPECT_NEAR(left(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(left(1, 1), 0.01, 1e-12);
   EXPECT_NEAR(left(2, 2), 0.25, 1e-12);
-  const Eigen::Matrix3d oblique = turned(kCovariance, degrees(30.0));
+  const Eigen::Matrix3d oblique = rotated(kCovariance, degrees(30.0));
   EXPECT_LT(oblique(0, 1), -0.01) << "long across, so that the far end is ahead to the right";
   EXPECT_NEAR(maxPositionVariance(oblique), 0.04, 1e-12);
 }

@@ -117,14 +117,14 @@ TEST(PoseGraphTest, UncertaintyGrowsWithTheDistanceDriven) {
   const PoseGraph poses = straightOn();
   // Each motion adds 0.1^2; its heading turns the remaining 90, 80 .. 0 m.
   const double across = 10 * 0.01 + 0.0001 * 100.0 * (81 + 64 + 49 + 36 + 25 + 16 + 9 + 4 + 1);
-  const Eigen::Matrix3d end = turned(poses.covariancesOf(10)[0], -0.5);
+  const Eigen::Matrix3d end = rotated(poses.covariancesOf(10)[0], -0.5);
   EXPECT_NEAR(end(0, 0), 0.1, 1e-9);
   EXPECT_NEAR(end(1, 1), across, 1e-9);
   EXPECT_NEAR(end(2, 2), 10 * 0.0001, 1e-12);
   EXPECT_TRUE(poses.covarianceBetween(0, 10).isApprox(poses.covariancesOf(10)[0]));
   EXPECT_TRUE(poses.covarianceBetween(10, 10).isZero());
   // From the other end the headings turn 10, 20 .. 100 m.
-  const Eigen::Matrix3d back = turned(poses.covarianceBetween(10, 0), -0.5);
+  const Eigen::Matrix3d back = rotated(poses.covarianceBetween(10, 0), -0.5);
   EXPECT_NEAR(back(1, 1), across + 0.0001 * 100.0 * 100, 1e-9);
 }
 

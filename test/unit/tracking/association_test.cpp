@@ -113,7 +113,7 @@ TEST_F(AssociationTest, ThePregateLosesNothingWhateverSidesAreVisible) {
     Target target(born, 0, 1, options);
     for (int seen = i % 3; seen > 0; --seen) {  // from other sides, too
       target.predict(0.1, immSteps(options.filter, 0.1), options);
-      target.update({anyObject(), {0}, 0.0, true, false}, 0, 0.9, options);
+      target.update({anyObject(), {0}}, 0, 0.9, options);
     }
     target.predict(0.1, immSteps(options.filter, 0.1), options);
     const CenterGate gate = target.gateOf(options_.gate);
@@ -132,6 +132,17 @@ TEST_F(AssociationTest, ThePregateLosesNothingWhateverSidesAreVisible) {
   }
   EXPECT_GT(within, 300U);
   EXPECT_GT(late, 50U);
+}
+
+TEST_F(AssociationTest, ThePregateLosesNoLateObject) {
+  const TargetOptions options;
+  Object born = objectAt(0.0, 0.0);
+  born.velocity = MeasuredVelocity{{25.0, 0.0}, 0.01 * Eigen::Matrix2d::Identity(), 0.0};
+  Target target(born, 0, 1, options);
+  target.predict(0.1, immSteps(options.filter, 0.1), options);
+  Object late = objectAt(target.box().center.position().x() - 10.0, 0.0);
+  late.delay = -0.4;  // seen where the target was then
+  EXPECT_EQ(candidatesOf(target, {late}).size(), 1U);
 }
 
 TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {

@@ -192,7 +192,7 @@ TEST_F(SplitMergeReadings, SeveralAtOnceAndNoMoreThanAllowed) {
   EXPECT_EQ(readings_[2], (Interpretation{0, 1, 5}));
   EXPECT_EQ(readings_[3], (Interpretation{4, 5}));
   for (const int max : {1, 2, 3}) {
-    options_.max_readings = max;
+    options_.max_interpretations = max;
     twoVans();
     EXPECT_LE(readings_.size(), static_cast<std::size_t>(max));
   }

@@ -153,7 +153,7 @@ TEST(SplitMerge, WithoutMergesOneOfThemCoasts) {
 
 TEST(SplitMerge, ReadingsAreBounded) {
   TrackerOptions options;
-  options.split_merge.max_readings = 1;
+  options.split_merge.max_interpretations = 1;
   TrackingScene scene(options);
   splitVan(scene, 3);
   ASSERT_FALSE(scene.tracks().tracks.empty());

@@ -242,6 +242,29 @@ TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
   EXPECT_NEAR(headingOf(box), 0.0, 1e-6);
 }
 
+TEST(TrackedBox, TimeAtRestCountsAsNoMotion) {
+  const TrackedBoxOptions options;
+  const Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity() * 0.01;
+  TrackedBox box = convergedOn(wholeBox(0.0, 4.0, 2.0), options);
+  const auto move = [&](double speed, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      box.predict(0.1, options);
+      if (speed == 0.0) {
+        box.stand();
+      } else {
+        box.followVelocity(Eigen::Vector2d(speed, 0.0), covariance, options);
+      }
+    }
+  };
+  box.stand();
+  move(5.0, 40);
+  move(0.0, 50);
+  move(-1.0, 20);
+  EXPECT_NEAR(headingOf(box), 0.0, 1e-6) << "it reverses, for less time than it drove ahead";
+  move(-1.0, 30);
+  EXPECT_NEAR(std::abs(headingOf(box)), kPi, 1e-6);
+}
+
 TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyIfMoreCertain) {
   const TrackedBoxOptions options;
   const Eigen::Vector2d velocity = 5.0 * Eigen::Vector2d(std::cos(0.2), std::sin(0.2));

@@ -50,9 +50,9 @@ TEST(ClassReliability, NoBetterThanChanceIsUninformative) {
   const auto nothing = reliability.probabilities(ObjectClass::kPedestrian, 0.3);
   EXPECT_EQ(nothing, ClassBelief().probabilities());
   EXPECT_GT(reliability.probabilities(ObjectClass::kPedestrian, 0.8)[1], 0.89);
-  EXPECT_TRUE(reliability.tellsAnything());
+  EXPECT_TRUE(reliability.isInformative());
   options.right = {0.05, 0.1, 0.2};
-  EXPECT_FALSE(ClassReliability(options).tellsAnything());
+  EXPECT_FALSE(ClassReliability(options).isInformative());
 }
 
 TEST(ClassReliability, ProbabilitiesSumToOne) {

@@ -128,16 +128,16 @@ TEST(MonoClassifier, ADetectorAtChanceLevelIsUninformative) {
   EXPECT_TRUE(classified({kPerson, kCar}, objects, options).list.objects.empty());
   const MonoClassifier classifier(options,
                                   std::make_unique<FixedDetector>(std::vector<ImageDetection>()));
-  EXPECT_FALSE(classifier.tellsAnything());
+  EXPECT_FALSE(classifier.isInformative());
   options.dnn_reliability.right[1] = 0.9;
   EXPECT_EQ(classified({kPerson}, objects, options).classified, 1U) << "of a high score";
 }
 
 TEST(MonoClassifier, OpenCVsPeopleDetectorHasNoWeight) {
-  EXPECT_FALSE(MonoClassifier{MonoClassifierOptions()}.tellsAnything()) << "as measured";
+  EXPECT_FALSE(MonoClassifier{MonoClassifierOptions()}.isInformative()) << "as measured";
   MonoClassifierOptions options;
   options.calibrated = false;
-  EXPECT_TRUE(MonoClassifier{options}.tellsAnything()) << "to be measured";
+  EXPECT_TRUE(MonoClassifier{options}.isInformative()) << "to be measured";
 }
 
 TEST(HogDetector, SeesNobodyInEmptyImages) {

@@ -29,7 +29,7 @@ struct GridSourceOptions {
 };
 
 /// One source's grid with its weights.
-struct WeighedGrid {
+struct WeightedGrid {
   const SensorGrid* grid = nullptr;
   GridSourceOptions source;
 };
@@ -52,6 +52,6 @@ struct FusedGrids {
 /// probability, which kLogOdds uses, that is p drawn toward 1/2. kDempsterShafer gives the
 /// pignistic probability (Smets & Kennes, The transferable belief model, 1994): uncommitted mass
 /// counts half for occupied. Certain sources that contradict each other leave the cell undecided.
-FusedGrids fuseGrids(FusionRule rule, const std::vector<WeighedGrid>& grids);
+FusedGrids fuseGrids(FusionRule rule, const std::vector<WeightedGrid>& grids);
 
 }  // namespace datmo

@@ -82,7 +82,7 @@ class CheckpointKeeper {
   std::optional<Stamp> last_map_;      ///< when the map was last started to be written
   int maps_begun_ = 0;                 ///< in it
   std::optional<std::uint32_t> id_;    ///< of the checkpoint with that map, once written
-  NewestWorker<Job, Result> worker_;  ///< last: its thread uses the options
+  NewestWorker<Job, Result> worker_;   ///< last: its thread uses the options
 };
 
 }  // namespace datmo
