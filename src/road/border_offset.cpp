@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo {
 
 namespace {
@@ -18,7 +20,7 @@ std::optional<BorderOffset> offsetFromLeg(const BorderPoint& from, const BorderP
     return std::nullopt;
   }
   const Point2 direction = leg.normalized();
-  const double to_left = direction.x() * to_point.y() - direction.y() * to_point.x();
+  const double to_left = cross(direction, to_point);
   return BorderOffset{outwardOf(side, to_left), from.sigma + along * (to.sigma - from.sigma),
                       direction};
 }

@@ -177,9 +177,13 @@ MapSearch::Outcome MapSearch::conclude() {
     return Outcome::kFound;
   }
   if (options_.max_aligned_sigma > 0.0) {
-    aligned_ = centralPose();
+    const PoseWithCovariance central = centralPose();
+    if (isNarrow(central.covariance)) {
+      aligned_ = central;
+      return Outcome::kAligned;
+    }
   }
-  return aligned_ && isNarrow(aligned_->covariance) ? Outcome::kAligned : Outcome::kAmbiguous;
+  return Outcome::kAmbiguous;
 }
 
 double MapSearch::maxShared() const {

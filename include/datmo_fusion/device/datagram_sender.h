@@ -48,7 +48,7 @@ class DatagramDestination {
   using LookedUp = std::variant<std::unique_ptr<DatagramSender>, DeviceError>;
 
   static LookedUp lookUp(const std::string& host, int port);
-  /// Returns a new result of looking up the name, which is begun if that is due; null if there is
+  /// Returns a new result of looking up the name, which is begun if that is due; none: there is
   /// none yet.
   std::optional<LookedUp> result();
 

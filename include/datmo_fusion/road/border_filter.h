@@ -51,9 +51,10 @@ struct DroppedObject {
 /// 6.2). The thesis considers them false alarms whatever their motion, and drops them (thesis
 /// 3.5.1).
 ///
-/// An object is on or beyond a border if all of its points are; in the thesis, if a corner of its
-/// rectangle is. Where no border is known the road is extrapolated (RoadExtension). Static objects
-/// are not affected; in the thesis, nor is any object that is not moving.
+/// An object is on or beyond a known border if all of its points are; in the thesis, if a corner of
+/// its rectangle is. Where no border is known for all of them the road is extrapolated
+/// (RoadExtension), and points that lie beside neither say nothing. Static objects are not
+/// affected; in the thesis, nor is any object that is not moving.
 class BorderFilter {
  public:
   /// Throws OptionError.

@@ -80,7 +80,7 @@ class MapSearch {
   PoseWithCovariance found() const;
 
   /// With kAligned: returns the one nearest to the mean of the poses that are not contradicted,
-  /// with a covariance that reaches all of them. Throws std::bad_optional_access without one.
+  /// with a covariance that reaches all of them. Throws std::bad_optional_access otherwise.
   PoseWithCovariance aligned() const { return aligned_.value(); }
 
  private:
@@ -182,9 +182,8 @@ class MapSearch {
   double newer_weight_ = 0.0;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;
-  std::vector<Box> leaves_;  ///< that are kept, best first
-  /// With kAligned, and with kAmbiguous if alignment is enabled.
-  std::optional<PoseWithCovariance> aligned_;
+  std::vector<Box> leaves_;                    ///< that are kept, best first
+  std::optional<PoseWithCovariance> aligned_;  ///< with kAligned
   int evaluated_boxes_ = 0;
   Outcome outcome_ = Outcome::kUnfinished;
 };

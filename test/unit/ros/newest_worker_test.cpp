@@ -17,7 +17,7 @@ TEST(NewestWorker, WithoutAThreadEachJobIsDoneImmediately) {
   EXPECT_TRUE(worker.take().empty());
 }
 
-TEST(NewestWorker, OfWaitingJobsTheNewestIsDone) {
+TEST(NewestWorker, OfWaitingJobsTheNewestIsDoneAndItIsBusyUntilThen) {
   std::promise<void> begun;
   std::promise<void> may_end;
   auto end = may_end.get_future();
@@ -30,34 +30,17 @@ TEST(NewestWorker, OfWaitingJobsTheNewestIsDone) {
         return job;
       },
       true);
+  EXPECT_FALSE(worker.isBusy());
   EXPECT_FALSE(worker.start(1));
+  EXPECT_TRUE(worker.isBusy()) << "1 waits or runs";
   begun.get_future().wait();
+  EXPECT_TRUE(worker.isBusy()) << "1 runs";
   EXPECT_FALSE(worker.start(2)) << "nothing waited";
   EXPECT_TRUE(worker.start(3)) << "2 had not begun";
   may_end.set_value();
   worker.waitUntilIdle();
+  EXPECT_FALSE(worker.isBusy());
   EXPECT_EQ(worker.take(), (std::vector<int>{1, 3}));
-}
-
-TEST(NewestWorker, IsBusyWhileAJobRunsOrWaits) {
-  std::promise<void> begun;
-  std::promise<void> may_end;
-  auto end = may_end.get_future();
-  NewestWorker<int, int> worker(
-      [&](int job) {
-        begun.set_value();
-        end.wait();
-        return job;
-      },
-      true);
-  EXPECT_FALSE(worker.isBusy());
-  worker.start(1);
-  EXPECT_TRUE(worker.isBusy()) << "it waits or runs";
-  begun.get_future().wait();
-  EXPECT_TRUE(worker.isBusy()) << "it runs";
-  may_end.set_value();
-  worker.waitUntilIdle();
-  EXPECT_FALSE(worker.isBusy());
 }
 
 TEST(NewestWorker, EndsWithAWaitingJob) {
