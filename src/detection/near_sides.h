@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/pose2.h"
 
 namespace datmo {
@@ -26,8 +27,7 @@ using Points = std::vector<Point2>;
 struct Axes {
   explicit Axes(double heading) : along(std::cos(heading), std::sin(heading)) {}
   Point2 operator()(const Point2& point) const {
-    return {along.x() * point.x() + along.y() * point.y(),
-            along.x() * point.y() - along.y() * point.x()};
+    return {along.x() * point.x() + along.y() * point.y(), cross(along, point)};
   }
   Point2 along;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo {
 
 namespace {
@@ -77,7 +79,7 @@ CurvePoint CurveTable::locate(const Point2& point) const {
     const Station& station = stations_[index];
     const Point2 from = point - station.position;
     location.along = first_ + static_cast<double>(index) * kStep + station.direction.dot(from);
-    location.aside = station.direction.x() * from.y() - station.direction.y() * from.x();
+    location.aside = cross(station.direction, from);
     if (nearest(location.along) == index) {
       break;
     }

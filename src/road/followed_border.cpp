@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo {
@@ -175,7 +176,7 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
     }
     const Point2 line = table_->at(position.along).rotate(Point2(1.0, 0.0));
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
-    const double across = line.x() * ray.y() - line.y() * ray.x();
+    const double across = cross(line, ray);
     const double variance = square(options_.range_sigma * across) + square(kRoughness);
     taken_.push_back({position, options_.correlation * variance});
   }

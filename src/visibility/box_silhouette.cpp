@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo {
 
 namespace {
@@ -23,8 +25,7 @@ BoxSilhouette::BoxSilhouette(const Box2& box, const Point2& sensor)
   for (const double x : {-half_.x(), half_.x()}) {
     for (const double y : {-half_.y(), half_.y()}) {
       const Point2 corner = to_center + Point2(x, y);
-      const double cross = to_center.x() * corner.y() - to_center.y() * corner.x();
-      const double offset = std::atan2(cross, to_center.dot(corner));
+      const double offset = std::atan2(cross(to_center, corner), to_center.dot(corner));
       right_ = std::min(right_, offset);
       left_ = std::max(left_, offset);
     }

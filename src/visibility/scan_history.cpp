@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/visibility/beam_fan.h"
@@ -113,11 +114,11 @@ BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location
   const Point2 direction = location.direction.isZero()
                                ? perpendicular(along_beam)
                                : scan.map_in_scanner.rotate(location.direction);
-  const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
+  const double incidence = cross(along_beam, direction);
   if (std::abs(incidence) < std::sin(options_.min_incidence)) {
     return {};
   }
-  const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
+  const double crossing = cross(seen, direction) / incidence;
   if (crossing <= 0.0) {
     return {};  // the beam beside the point diverges from the line
   }

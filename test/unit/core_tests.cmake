@@ -2,6 +2,7 @@
 # The tests of the core, by folder; vision links OpenCV, and is built with those of ROS.
 datmo_fusion_add_core_test(common
   common/angle_test.cpp
+  common/background_call_test.cpp
   common/box2_test.cpp
   common/class_belief_test.cpp
   common/clock_offset_test.cpp
@@ -253,7 +254,6 @@ datmo_fusion_add_core_test(wire
 target_include_directories(unit_wire PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(device
-  device/background_call_test.cpp
   device/can_log_test.cpp
   device/can_motion_test.cpp
   device/can_signal_test.cpp

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo::simulator {
 
 RayCaster::RayCaster(const World& world, const WorldState& state, const Point2& origin,
@@ -25,7 +27,7 @@ void RayCaster::addWithin(const std::vector<Solid>& solids, double reach) {
 bool RayCaster::mayMeet(const Candidate& candidate, const Point2& direction) const {
   const Point2 to_center = candidate.bound.center - origin_;
   const double along = to_center.dot(direction);
-  const double across = direction.x() * to_center.y() - direction.y() * to_center.x();
+  const double across = cross(direction, to_center);
   return along >= -candidate.bound.radius && std::abs(across) <= candidate.bound.radius;
 }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "datmo_fusion/common/cross.h"
+
 namespace datmo::simulator {
 
 namespace {
@@ -44,7 +46,7 @@ Polyline simplified(const Polyline& line) {
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     const Point2 edge = (line[i + 1] - simple.back()).normalized();
     const Point2 to_point = line[i] - simple.back();
-    if (std::abs(edge.x() * to_point.y() - edge.y() * to_point.x()) > kStraight) {
+    if (std::abs(cross(edge, to_point)) > kStraight) {
       simple.push_back(line[i]);
     }
   }
@@ -56,12 +58,12 @@ Polyline simplified(const Polyline& line) {
 /// of the points.
 Point2 meetingPoint(const Point2& a, const Point2& a_ahead, const Point2& b,
                     const Point2& b_ahead) {
-  const double denominator = a_ahead.x() * b_ahead.y() - a_ahead.y() * b_ahead.x();
+  const double denominator = cross(a_ahead, b_ahead);
   if (std::abs(denominator) < kStraight) {
     return 0.5 * (a + b);
   }
   const Point2 between = b - a;
-  return a + a_ahead * (between.x() * b_ahead.y() - between.y() * b_ahead.x()) / denominator;
+  return a + a_ahead * cross(between, b_ahead) / denominator;
 }
 
 /// A bend from one point to another that starts and ends along the lines to `control` (a quadratic

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-#include "datmo_fusion/device/background_call.h"
+#include "datmo_fusion/common/background_call.h"
 #include "datmo_fusion/device/device_error.h"
 
 namespace datmo {

@@ -10,7 +10,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
-#include "datmo_fusion/device/background_call.h"
+#include "datmo_fusion/common/background_call.h"
 #include "datmo_fusion/ros/stage/input_progress.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 

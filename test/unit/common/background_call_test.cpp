@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/device/background_call.h"
+#include "datmo_fusion/common/background_call.h"
 
 #include <future>
 #include <memory>
