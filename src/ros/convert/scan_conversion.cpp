@@ -81,8 +81,11 @@ std::optional<InputError> faultOfTimes(const Message& message, double max_sweep)
 /// NaN is never valid, because comparisons with it are false. Nor is 0, which drivers use for "no
 /// measurement", even if range_min is 0.
 bool isHit(float range, float range_min, float reach) {
-  return range > 0.0F && range >= range_min && range <= reach;
+  return range > 0.0F && range >= range_min && range < reach;
 }
+
+/// Also `reach` itself, which many drivers report instead of +inf (REP 117).
+bool isNoReturn(float range, float reach) { return range >= reach; }
 
 float rangeOf(float range, float /*range_min*/, float /*reach*/) { return range; }
 
@@ -94,13 +97,13 @@ float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float reach) 
     if (isHit(echo, range_min, reach)) {
       nearest = std::min(nearest, echo);
     }
-    no_return = no_return || echo > reach;
+    no_return = no_return || isNoReturn(echo, reach);
   }
   const bool hit = nearest != kNoReturn;
   return hit || no_return ? nearest : std::numeric_limits<float>::quiet_NaN();
 }
 
-/// The largest range (m) that counts as a hit.
+/// The range (m) up to which an echo counts as a hit.
 float reachOf(float range_max) { return std::min(range_max, static_cast<float>(kMaxReach)); }
 
 Ray rayAt(double bearing, double range, const ScannerMount& mount) {
@@ -147,7 +150,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
     const float range = rangeOf(message.ranges[beam], message.range_min, reach);
     const bool hit = isHit(range, message.range_min, reach);
-    if (!hit && !(range > reach)) {
+    if (!hit && !isNoReturn(range, reach)) {
       ++converted.beams.dropped;
       continue;
     }

@@ -184,8 +184,10 @@ TEST(ScanConversion, AnAbsurdRangeIsNoReturnHoweverFarTheDriverClaimsToSee) {
   EXPECT_DOUBLE_EQ(converted.scan.rays[0].range, ScanConversionOptions().free_range);
 }
 
-TEST(ScanConversion, LimitsOfTheRangeAreValid) {
-  EXPECT_EQ(convert(samples::laserScan({1.0F, 20.0F, 3.0F})).beams.hits, 3U);
+TEST(ScanConversion, TheMinimumRangeIsAHitAndTheMaximumNoReturn) {
+  const auto beams = convert(samples::laserScan({1.0F, 20.0F, 3.0F})).beams;
+  EXPECT_EQ(beams.hits, 2U);
+  EXPECT_EQ(beams.no_return, 1U);
 }
 
 struct BadScan {

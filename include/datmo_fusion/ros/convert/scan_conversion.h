@@ -26,7 +26,7 @@ struct ScanConversionOptions {
 /// Numbers of unusable beams of one scan, by reason.
 struct BeamCounts {
   std::size_t hits = 0;
-  std::size_t no_return = 0;  ///< +inf or beyond range_max (REP 117), or beyond 1 km
+  std::size_t no_return = 0;  ///< +inf, or range_max or more (REP 117), or 1 km or more
   std::size_t dropped = 0;    ///< NaN, -inf, 0, negative or below range_min: no ray
 };
 
