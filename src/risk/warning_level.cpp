@@ -112,27 +112,36 @@ WarningLevel::WarningLevel(const Checked<WarningOptions>& options) : options_(*o
 
 void WarningLevel::reset() {
   level_ = RiskLevel::kNone;
-  asked_since_.reset();
+  required_since_ = {};
   kept_at_.reset();
   cause_ = kStandingId;
   reason_.clear();
 }
 
+RiskLevel WarningLevel::heldBy(RiskLevel required, Stamp now) {
+  RiskLevel held = RiskLevel::kNone;
+  for (const RiskLevel level :
+       {RiskLevel::kInformation, RiskLevel::kWarning, RiskLevel::kImminent}) {
+    std::optional<Stamp>& since = required_since_[static_cast<std::size_t>(level)];
+    if (required < level) {
+      since.reset();
+      continue;
+    }
+    since = since.value_or(now);
+    if (secondsBetween(*since, now) >= options_.raise_time) {
+      held = level;
+    }
+  }
+  return held;
+}
+
 void WarningLevel::judge(RiskReport& report, double host_speed) {
   const ObjectRisk* now = mostUrgent(report, host_speed, options_, 1.0);
-  const RiskLevel asked = now ? levelOf(*now, host_speed, options_) : RiskLevel::kNone;
+  const RiskLevel required = now ? levelOf(*now, host_speed, options_) : RiskLevel::kNone;
   const double ease = 1.0 / options_.release;
   const ObjectRisk* eased = mostUrgent(report, host_speed, options_, ease);
   const RiskLevel kept = eased ? levelOf(*eased, host_speed, options_, ease) : RiskLevel::kNone;
-  if (asked > level_) {
-    asked_since_ = asked_since_.value_or(report.stamp);
-    if (secondsBetween(*asked_since_, report.stamp) >= options_.raise_time) {
-      level_ = asked;
-      asked_since_.reset();
-    }
-  } else {
-    asked_since_.reset();
-  }
+  level_ = std::max(level_, heldBy(required, report.stamp));
   if (kept >= level_) {
     kept_at_ = report.stamp;
   } else if (!kept_at_ || secondsBetween(*kept_at_, report.stamp) >= options_.hold_time) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,8 +37,9 @@ struct WarningOptions {
 RiskLevel levelOf(const ObjectRisk& risk, double host_speed, const WarningOptions& options,
                   double ease = 1.0);
 
-/// The overall level with hysteresis. It rises after an object has required it for `raise_time`,
-/// and falls after none has required it, by thresholds eased by `release`, for `hold_time`.
+/// The overall level with hysteresis. It rises after objects have required it, or a higher one, for
+/// `raise_time`, and falls after none has required it, by thresholds eased by `release`, for
+/// `hold_time`.
 class WarningLevel {
  public:
   /// Throws OptionError.
@@ -48,9 +51,14 @@ class WarningLevel {
   void reset();
 
  private:
+  /// Returns the highest level that has been required for `raise_time`.
+  RiskLevel heldBy(RiskLevel required, Stamp now);
+
   WarningOptions options_;
   RiskLevel level_ = RiskLevel::kNone;
-  std::optional<Stamp> asked_since_;   ///< a higher level is required
+  /// Since when each level, or a higher one, has been required; none: it is not.
+  std::array<std::optional<Stamp>, static_cast<std::size_t>(RiskLevel::kImminent) + 1>
+      required_since_;
   std::optional<Stamp> kept_at_;       ///< the level was last required
   std::uint32_t cause_ = kStandingId;  ///< object that last required the level
   std::string reason_;

@@ -99,6 +99,20 @@ TEST_F(HeldLevel, ASingleFrameRaisesNothing) {
   EXPECT_EQ(at(0.16, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
 }
 
+TEST_F(HeldLevel, EachLevelIsRequiredForLongEnough) {
+  at(0.0, riskWith(0.4, 3.0));
+  at(0.08, riskWith(0.4, 3.0));
+  EXPECT_EQ(at(0.16, riskWith(0.9, 1.0)).level, RiskLevel::kInformation);
+  EXPECT_EQ(at(0.24, riskWith(0.9, 1.0)).level, RiskLevel::kInformation);
+  EXPECT_EQ(at(0.32, riskWith(0.9, 1.0)).level, RiskLevel::kWarning);
+}
+
+TEST_F(HeldLevel, AHigherLevelCountsForTheLowerOnes) {
+  at(0.0, riskWith(0.4, 3.0));
+  EXPECT_EQ(at(0.08, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
+  EXPECT_EQ(at(0.1, riskWith(0.9, 1.0)).level, RiskLevel::kInformation);
+}
+
 TEST_F(HeldLevel, HasHysteresisAtItsThreshold) {
   at(0.0, riskWith(0.65, 1.3));
   ASSERT_EQ(at(0.2, riskWith(0.65, 1.3)).level, RiskLevel::kWarning);
