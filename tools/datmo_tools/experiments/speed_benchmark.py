@@ -18,7 +18,8 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Measures the speed of the stack. micro: each hot path by itself, in processor time, and the ratio to
 its lower bound (its limit, measured in the same run). live: the nodelets on a drive that is played
-in real time, with the demonstrator's settings and with heavy ones: latency from the publication of
+in real time, with the demonstrator's settings, with heavy ones, and with the demonstrator's stereo
+camera, the recommended level of fusion and the risk of contact: latency from the publication of
 a scan by another process to the arrival of its tracks there, including both transports; processor
 time and memory of the nodelets' process. Each live figure is the median over the runs. All figures
 are written to a JSON file. --compare prints two such files side by side, or one next to a new
@@ -28,6 +29,8 @@ one of them has grown by more than its spread."""
 SLOWER = 3  # exit code
 
 QUICK = "--duration=3"  # s of a drive
+ALL_LEVELS = ("chain:=live", "fusion:=recommended", "risk:=true")
+CAMERA = ("stereo/enabled=true",)
 HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
 
 
@@ -84,16 +87,20 @@ def _measure_live(values, folder):
 
 
 def _drives(values, folder):
-    """Returns the intersection, with the demonstrator and with a heavy scanner."""
+    """Returns the intersection, with the demonstrator, with a heavy scanner, and with the
+    demonstrator's camera."""
     fixtures = values.source / "rosbag_fixtures"
-    heavy_bag = folder / "heavy.bag"
-    _simulate(values, fixtures / "scenes" / "intersection.yaml", heavy_bag, HEAVY_SCANNER)
+    scene = fixtures / "scenes" / "intersection.yaml"
+    heavy_bag, stereo_bag = folder / "heavy.bag", folder / "stereo.bag"
+    _simulate(values, scene, heavy_bag, HEAVY_SCANNER)
+    _simulate(values, scene, stereo_bag, CAMERA)
     demonstrator = values.source / "config" / "demonstrator.yaml"
     heavy = values.source / "benchmark" / "heavy.yaml"
     play_options = QUICK if values.quick else ""
     return {
         "demonstrator": LiveDrive(fixtures / "intersection.bag", demonstrator, play_options),
         "heavy": LiveDrive(heavy_bag, heavy, play_options),
+        "stereo camera and risk": LiveDrive(stereo_bag, demonstrator, play_options, ALL_LEVELS),
     }
 
 

@@ -28,6 +28,7 @@ class LiveDrive(NamedTuple):
     bag: Path
     config: Path
     play_options: str = ""  # for rosbag play
+    launch_arguments: tuple = ()  # of live_load.launch, besides these
 
 
 def measure(drive, launch_file, folder):
@@ -67,7 +68,7 @@ def _run(drive, launch_file, recorded, log):
     """Plays the drive; returns the ProcessUsage samples of the nodelets' process."""
     command = ["roslaunch", "--port", _master_port(), str(launch_file)]
     command += [f"bag:={drive.bag}", f"config:={drive.config}", f"output:={recorded}"]
-    command += [f"play_options:={drive.play_options}"]
+    command += [f"play_options:={drive.play_options}", *drive.launch_arguments]
     samples = []
     with log.open("wb") as out:
         launch = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT)
