@@ -55,6 +55,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/velodyne_model.cpp
   device/velodyne_packet.cpp
   device/waiting.cpp
+  detection/border_filter.cpp
   detection/box_fit.cpp
   detection/dent_splitter.cpp
   detection/group_outline.cpp
@@ -153,7 +154,6 @@ set(DATMO_FUSION_CORE_SOURCES
   risk/standing_points.cpp
   risk/warning_level.cpp
   road/border_curve.cpp
-  road/border_filter.cpp
   road/border_offset.cpp
   road/border_publishing.cpp
   road/border_scan.cpp

@@ -35,7 +35,7 @@ ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
   return relative;
 }
 
-bool saysNothing(const ClassProbabilities& belief) {
+bool isUninformative(const ClassProbabilities& belief) {
   return std::all_of(belief.begin(), belief.end(), [](double one) { return one <= 0.0; });
 }
 
@@ -50,7 +50,7 @@ ClassProbabilities normalized(ClassProbabilities relative) {
 
 /// The belief, or uniform probabilities if it carries no information.
 ClassProbabilities orEqual(const ClassProbabilities& belief) {
-  return saysNothing(belief) ? normalized(belief) : belief;
+  return isUninformative(belief) ? normalized(belief) : belief;
 }
 
 }  // namespace

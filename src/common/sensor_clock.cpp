@@ -92,7 +92,7 @@ std::optional<double> SensorClock::period() {
   return is_regular && 2 * regular_ >= judged_ ? std::make_optional(median) : std::nullopt;
 }
 
-bool SensorClock::cameInTime(const Message& message, double period) const {
+bool SensorClock::arrivedOnTime(const Message& message, double period) const {
   return std::abs(secondsBetween(last_->arrival, message.arrival) - period) <= kTolerance &&
          last_->delay() + ahead_ - min_delay_ <= kTolerance &&
          last_->delay() + ahead_ >= recent_.front() - kTolerance;
@@ -113,7 +113,7 @@ void SensorClock::judge(const Message& message) {
   delays_.clear();
   other_ = ahead;
   set_back_.reset();
-  if (!is_first || !cameInTime(message, *period)) {
+  if (!is_first || !arrivedOnTime(message, *period)) {
     keep(intervals_, interval);
   } else if (interval > kTolerance) {
     set(ahead);

@@ -54,11 +54,11 @@ bool StampGate::isJump(double step) const {
 
 bool StampGate::isConfirmed(Stamp stamp, const std::optional<Stamp>& now,
                             const std::optional<Stamp>& others) const {
-  if (!now || !came_) {
+  if (!now || !arrived_) {
     return true;
   }
   const double step = secondsBetween(*newest_, stamp);
-  if (std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_) {
+  if (std::abs(step - secondsBetween(*arrived_, *now)) < kTimeTolerance * restart_after_) {
     return true;
   }
   const bool contradicted = others && std::abs(secondsBetween(*others, stamp)) >
@@ -76,21 +76,21 @@ bool StampGate::followsStray(Stamp stamp) const {
 }
 
 bool StampGate::isAhead(Stamp stamp, const std::optional<Stamp>& now) const {
-  if (!now || !came_ || !followsStray(stamp)) {
+  if (!now || !arrived_ || !followsStray(stamp)) {
     return false;
   }
   const double jump = secondsBetween(*newest_, *stray_);
   const bool is_slow = jump <= kMaxSteps * secondsBetween(*stray_, stamp);
   const bool was_wrong = beside_ && std::abs(secondsBetween(*beside_, stamp)) <
                                         std::abs(secondsBetween(*beside_, *newest_));
-  return !is_slow && !was_wrong && secondsBetween(*came_, *now) < kMinFollowed * jump &&
-         jump - secondsBetween(*came_, *now) >= restart_after_;
+  return !is_slow && !was_wrong && secondsBetween(*arrived_, *now) < kMinFollowed * jump &&
+         jump - secondsBetween(*arrived_, *now) >= restart_after_;
 }
 
 void StampGate::accept(Stamp stamp, double step, const std::optional<Stamp>& now,
                        const std::optional<Stamp>& others) {
   newest_ = stamp;
-  came_ = now;
+  arrived_ = now;
   beside_ = others;
   last_step_ = step;
   stray_.reset();

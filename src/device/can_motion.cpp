@@ -24,15 +24,16 @@ std::string optionName(const std::string& option) { return "can/" + option; }
 
 CanMotion::CanMotion(const Checked<CanOptions>& options, Warn warn)
     : options_(*options), warn_(std::move(warn)) {
-  add(kSpeed, "speed", options_.speed, "speed");
-  add(kYawRate, "yaw_rate", options_.yaw_rate, "rate");
-  add(kSteering, "steering", options_.steering, "angle");
-  add(kDirection, "direction", options_.direction, "");
-  add(kAcceleration, "acceleration", options_.acceleration, "acceleration");
+  add(kSpeed, "speed", options_.speed, CanQuantity::kSpeed);
+  add(kYawRate, "yaw_rate", options_.yaw_rate, CanQuantity::kYawRate);
+  add(kSteering, "steering", options_.steering, CanQuantity::kSteeringAngle);
+  add(kDirection, "direction", options_.direction, CanQuantity::kDirection);
+  add(kAcceleration, "acceleration", options_.acceleration, CanQuantity::kAcceleration);
   const std::array<const std::string*, 4> wheels = {&options_.front_left, &options_.front_right,
                                                     &options_.rear_left, &options_.rear_right};
   for (std::size_t i = 0; i < wheels.size(); ++i) {
-    add(static_cast<Role>(kWheel + i), kSignalNames[kWheel + i], *wheels[i], "wheel");
+    add(static_cast<Role>(kWheel + i), kSignalNames[kWheel + i], *wheels[i],
+        CanQuantity::kWheelSpeed);
   }
   check();
   addCounter("counter", options_.counter, channels_[kSpeed] ? kSpeed : kWheel,
@@ -45,20 +46,16 @@ CanMotion::CanMotion(const Checked<CanOptions>& options, Warn warn)
   }
 }
 
-void CanMotion::add(Role role, const char* name, const std::string& text, const char* quantity) {
+void CanMotion::add(Role role, const char* name, const std::string& text, CanQuantity quantity) {
   if (text.empty()) {
     return;
   }
   Channel channel;
   channel.signal = canSignalFrom(optionName(name), text, options_.dbc);
-  const std::string kind = quantity;
   const std::string& unit = channel.signal.unit;
-  Units units = kind.empty() ? Units{{unit, 1.0}} : unitsOf(kind == "wheel" ? "speed" : kind);
-  if (kind == "wheel") {
-    for (const auto& [turning, scale] : unitsOf("turning")) {
-      units.emplace(turning, scale * options_.wheel_radius);
-    }
-  }
+  const Units units = quantity == CanQuantity::kDirection
+                          ? Units{{unit, 1.0}}
+                          : unitsOf(quantity, options_.wheel_radius);
   const auto found = units.find(unit);
   if (found == units.end()) {
     std::string known;

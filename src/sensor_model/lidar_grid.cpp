@@ -92,8 +92,8 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
       {"free_probability", "1", "occupancy of the cells that a beam passes (thesis 3.2.1)"},
       free_probability, {0.01, 0.49});
   visitor.number({"beam_width", "rad",
-                  "opening angle of a beam; 0: it reaches half way to its neighbors (thesis "
-                  "3.2.1: each cell asks the nearest beam)",
+                  "opening angle of a beam; 0: it reaches halfway to its neighbors (thesis "
+                  "3.2.1: each cell uses the nearest beam)",
                   Tier::kPublic},
                  beam_width, {0.0, 0.2});
   visitor.number({"min_incidence", "rad",

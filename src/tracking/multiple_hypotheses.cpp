@@ -99,13 +99,13 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
 
 /// Merges clusters whose targets may share an object.
 void MultipleHypotheses::mergeCompeting(std::size_t objects) {
-  constexpr std::size_t kNobody = kUnseen;
-  std::vector<std::size_t> claimer(objects, kNobody);
+  constexpr std::size_t kUnclaimed = kUnseen;
+  std::vector<std::size_t> claimer(objects, kUnclaimed);
   DisjointSets groups(clusters_.size());
   for (std::size_t i = 0; i < clusters_.size(); ++i) {
     findObjects(clusters_[i]);
     for (const std::size_t object : clusters_[i].objects) {
-      if (claimer[object] == kNobody) {
+      if (claimer[object] == kUnclaimed) {
         claimer[object] = i;
       } else {
         groups.join(claimer[object], i);

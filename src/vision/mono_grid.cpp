@@ -56,10 +56,9 @@ void MonoGridOptions::visit(OptionVisitor& visitor) {
       occupied_probability, {0.51, 0.99});
   visitor.number({"free_probability", "1", "occupancy of a free cell (thesis 4.1.4: low)"},
                  free_probability, {0.01, 0.49});
-  visitor.number(
-      {"beam_width", "rad",
-       "opening angle of a beam of the scanner; 0: it reaches half way to its neighbors"},
-      beam_width, {0.0, 0.2});
+  visitor.number({"beam_width", "rad",
+                  "opening angle of a beam of the scanner; 0: it reaches halfway to its neighbors"},
+                 beam_width, {0.0, 0.2});
   visitor.number({"effective_range", "m",
                   "cells farther from the camera are unknown (lines only): there, a cell is less "
                   "than a row of the image",

@@ -54,12 +54,12 @@ TEST(CanDeviceTest, AVehiclesBusBecomesOdometryAndFaultsAreReported) {
   std::ofstream(recording + ".part") << log;
   ASSERT_EQ(std::rename((recording + ".part").c_str(), recording.c_str()), 0);
   // The first counter gives no motion yet; measurements that a busy machine discards are counted.
-  const auto came = [&recorder] {
+  const auto arrived = [&recorder] {
     return static_cast<double>(recorder.odometry.size()) +
            std::max(recorder.diagnostic("device", "measurements discarded"), 0.0);
   };
-  ASSERT_TRUE(recorder.waitFor([&came] { return came() >= kFrames - 1; }));
-  EXPECT_EQ(came(), kFrames - 1.0);
+  ASSERT_TRUE(recorder.waitFor([&arrived] { return arrived() >= kFrames - 1; }));
+  EXPECT_EQ(arrived(), kFrames - 1.0);
   const nav_msgs::Odometry& last = *recorder.odometry.back();
   EXPECT_NEAR(last.twist.twist.linear.x, 5.0, 1e-9);
   EXPECT_NEAR(last.twist.twist.angular.z, 0.15708, 1e-4);

@@ -37,15 +37,15 @@ class TopicList : public datmo::StagePorts {
  public:
   explicit TopicList(const datmo::GraphStage& stage) : stage_(stage) {}
 
-  std::map<std::string, std::string> takes;
-  std::map<std::string, std::string> makes;
+  std::map<std::string, std::string> inputs;
+  std::map<std::string, std::string> outputs;
 
  private:
   void addInput(datmo::StageInput input) override {
-    takes[stage_.resolved(input.topic)] = input.data_type;
+    inputs[stage_.resolved(input.topic)] = input.data_type;
   }
   datmo::StageOutput::Publish addOutput(datmo::StageOutput output) override {
-    makes[stage_.resolved(output.topic)] = output.data_type;
+    outputs[stage_.resolved(output.topic)] = output.data_type;
     return {};
   }
 
@@ -69,8 +69,8 @@ nlohmann::json toJson(const datmo::GraphStage& stage) {
       datmo::stageTypeNamed(stage.type).make(stage.parameters, {}, {transforms, monitor, {}});
   TopicList topics(stage);
   made->connect(topics);
-  return {{"type", stage.type},         {"remaps", remaps},      {"parameters", parameters},
-          {"part", nameOf(stage.part)}, {"takes", topics.takes}, {"makes", topics.makes}};
+  return {{"type", stage.type},         {"remaps", remaps},        {"parameters", parameters},
+          {"part", nameOf(stage.part)}, {"inputs", topics.inputs}, {"outputs", topics.outputs}};
 }
 
 nlohmann::json switchNames() {

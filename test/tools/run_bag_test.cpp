@@ -233,6 +233,45 @@ TEST(RunBagArguments, UnknownWordsAreRefused) {
             LastStage::kGridSlam);
 }
 
+std::string untilError(std::vector<std::string> options) {
+  options.insert(options.begin(), {"a.bag", "b.bag", "--config", "c.yaml"});
+  try {
+    parseArguments(options);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunBagArguments, TheStagesAreListedWhereTheyAreRefused) {
+  EXPECT_EQ(untilError({"--until", "slam"}),
+            "--until 'slam': expected grid_fusion, grid_slam, loop_closing, road_border, "
+            "moving_objects, object_fusion, tracker, track_fusion or risk");
+  EXPECT_EQ(untilError({"--until", "grid_fusion"}),
+            "--until grid_fusion: expected --low-level-fusion with it");
+  EXPECT_EQ(untilError({"--track-fusion", "--until", "moving_objects"}),
+            "--track-fusion: expected no --until before tracker");
+  EXPECT_EQ(untilError({"--radar", "--until", "moving_objects"}),
+            "--radar: expected no --until before object_fusion");
+  EXPECT_EQ(untilError({"--map-fusion", "--until", "grid_slam"}),
+            "--map-fusion: expected no --until before road_border");
+  for (const char* always : {"grid_slam", "moving_objects", "tracker"}) {
+    EXPECT_EQ(untilError({"--until", always}), "");
+  }
+}
+
+TEST(RunBagArguments, TheHelpListsTheStages) {
+  try {
+    parseArguments({"--help"});
+    FAIL();
+  } catch (const Answer& help) {
+    for (const char* line : {"stops after grid_fusion, grid_slam, loop_closing, road_border,\n",
+                             " moving_objects, object_fusion, tracker, track_fusion or risk\n"}) {
+      EXPECT_TRUE(holds(help.what(), line)) << help.what();
+    }
+  }
+}
+
 TEST(StageTimes, SummariesComeInTheOrderOfTheFirstRuns) {
   StageTimes times;
   times.add("b", 3.0);

@@ -59,11 +59,11 @@ class Relay(unittest.TestCase):
         for i in range(100):
             self.ends["10.77.0.1"].send(packet("10.77.0.2", bytes([i])))
         self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # no machine has this address
-        came = []
-        while self.comes("10.77.0.2", ENOUGH if len(came) < 30 else 1.0):
-            came.append(self.ends["10.77.0.2"].recv(100)[-1])
-        self.assertGreater(len(came), 30)
-        self.assertLess(len(came), 70)
+        arrived = []
+        while self.comes("10.77.0.2", ENOUGH if len(arrived) < 30 else 1.0):
+            arrived.append(self.ends["10.77.0.2"].recv(100)[-1])
+        self.assertGreater(len(arrived), 30)
+        self.assertLess(len(arrived), 70)
 
 
 class Figures(unittest.TestCase):

@@ -36,9 +36,9 @@ def graph_topics():
     for given in ([], ["merge_scans"], all_but_merging, ["cloud", "stereo_objects", *all_but_merging],
                   ["rectified_images", "stereo_objects", *switches]):
         stages = printed(*given).values()
-        made = {topic for stage in stages for topic in stage["makes"]}
+        made = {topic for stage in stages for topic in stage["outputs"]}
         outputs |= made
-        inputs.update({topic: kind for stage in stages for topic, kind in stage["takes"].items() if topic not in made})
+        inputs.update({topic: kind for stage in stages for topic, kind in stage["inputs"].items() if topic not in made})
     return inputs, outputs
 
 

@@ -72,9 +72,9 @@ def crossing_topics():
     crossing = {}
     for switches in (LEVELS, ["rectified_images", *LEVELS, *OTHERS], ["merge_scans", *LEVELS]):
         stages = graph_stages(switches).values()
-        makers = {topic: stage["part"] for stage in stages for topic in stage["makes"]}
+        makers = {topic: stage["part"] for stage in stages for topic in stage["outputs"]}
         for stage in stages:
-            for topic, kind in stage["takes"].items():
+            for topic, kind in stage["inputs"].items():
                 maker = makers.get(topic, "drivers")
                 if maker != stage["part"]:
                     crossing.setdefault((topic, kind, maker), set()).add(stage["part"])

@@ -93,7 +93,6 @@ datmo_fusion_add_core_test(risk
 target_include_directories(unit_risk PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(road
-  road/border_filter_test.cpp
   road/border_offset_test.cpp
   road/border_scan_test.cpp
   road/border_search_test.cpp
@@ -190,6 +189,7 @@ target_include_directories(unit_slam PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 datmo_fusion_run_in_parts(slam 4)
 
 datmo_fusion_add_core_test(detection
+  detection/border_filter_test.cpp
   detection/box_fit_test.cpp
   detection/camera_consistency_test.cpp
   detection/moving_object_detector_test.cpp

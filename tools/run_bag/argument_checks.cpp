@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "argument_checks.h"
 
-#include <algorithm>
-
 #include "command_line.h"
 #include "output_bag.h"
 
@@ -12,24 +10,10 @@ namespace datmo {
 
 namespace {
 
-/// A stage that runs only with its option.
-struct OptionalStage {
-  const char* option;
-  bool Arguments::*is_given;
-  LastStage stage;
-  LastStage earliest_end;  ///< earliest --until that includes it
-};
-
-constexpr OptionalStage kOptionalStages[] = {
-    {"--low-level-fusion", &Arguments::low_level_fusion, LastStage::kGridFusion,
-     LastStage::kGridFusion},
-    {"--loop-closing", &Arguments::loop_closing, LastStage::kLoopClosing, LastStage::kLoopClosing},
-    {"--road-border", &Arguments::road_border, LastStage::kRoadBorder, LastStage::kRoadBorder},
-    {"--object-fusion", &Arguments::object_fusion, LastStage::kObjectFusion,
-     LastStage::kObjectFusion},
-    {"--track-fusion", &Arguments::track_fusion, LastStage::kTrackFusion, LastStage::kTracker},
-    {"--risk", &Arguments::risk, LastStage::kRisk, LastStage::kRisk},
-};
+/// The error of an option that does not go with an --until before this stage.
+UsageError tooEarlyEnd(const std::string& option, LastStage stage) {
+  return UsageError(option + ": expected no --until before " + stageType(stage));
+}
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
@@ -64,28 +48,30 @@ void checkOutputs(const Arguments& arguments) {
 }
 
 void checkStages(const Arguments& arguments) {
-  for (const OptionalStage& one : kOptionalStages) {
+  for (const NamedLastStage& one : lastStages()) {
+    if (one.enabled_by == nullptr) {
+      continue;
+    }
+    const std::string option = optionOf(one.enabled_by);
     const bool is_fusion = one.stage == LastStage::kObjectFusion;
     const std::string source = is_fusion ? arguments.fusedSource() : "";
-    const std::string by = source.empty() ? one.option : source;
-    const bool is_given = arguments.*one.is_given || !source.empty();
+    const bool is_given = arguments.*one.enabled_by || !source.empty();
     if (arguments.last_stage == one.stage && !is_given) {
-      throw UsageError("--until " + stageType(one.stage) + ": expected " + one.option + " with it");
+      throw UsageError("--until " + stageType(one.stage) + ": expected " + option + " with it");
     }
     if (arguments.last_stage < one.earliest_end && is_given) {
-      throw UsageError(by + ": expected no --until before " + stageType(one.earliest_end));
+      throw tooEarlyEnd(source.empty() ? option : source, one.earliest_end);
     }
   }
 }
 
 void checkMaps(const Arguments& arguments) {
   if (arguments.last_stage <= LastStage::kGridSlam && arguments.map_fusion) {
-    throw UsageError("--map-fusion: expected no --until before road_border");
+    throw tooEarlyEnd(optionOf(&StackSwitches::map_fusion), LastStage::kRoadBorder);
   }
   if (arguments.last_stage < LastStage::kGridSlam &&
       !(arguments.map.empty() && arguments.save_map.empty())) {
-    throw UsageError((arguments.map.empty() ? "--save-map" : "--map") +
-                     std::string(": expected no --until before grid_slam"));
+    throw tooEarlyEnd(arguments.map.empty() ? "--save-map" : "--map", LastStage::kGridSlam);
   }
 }
 

@@ -36,21 +36,14 @@ const std::vector<std::string> kInputTopics = {
     "acceleration",
 };
 
-const Choices<LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
-                                    {"grid_slam", LastStage::kGridSlam},
-                                    {"loop_closing", LastStage::kLoopClosing},
-                                    {"road_border", LastStage::kRoadBorder},
-                                    {"moving_objects", LastStage::kMovingObjects},
-                                    {"object_fusion", LastStage::kObjectFusion},
-                                    {"tracker", LastStage::kTracker},
-                                    {"track_fusion", LastStage::kTrackFusion},
-                                    {"risk", LastStage::kRisk}};
-
 const Choices<FusionLevel> kFusionLevels = {{"none", FusionLevel::kNone},
                                             {"low", FusionLevel::kLow},
                                             {"object", FusionLevel::kObject},
                                             {"track", FusionLevel::kTrack},
                                             {"recommended", FusionLevel::kRecommended}};
+
+/// Where the list of stages in the help is wrapped.
+constexpr std::size_t kMaxHelpLine = 70;
 
 constexpr char kDescription[] =
     "Runs the stack on the scans and the odometry of a bag, as fast as possible, and writes\n"
@@ -74,10 +67,27 @@ void switchOn(FusionLevel level, Arguments& arguments) {
   }
 }
 
-/// `road_border` -> --road-border.
-std::string optionOf(std::string name) {
-  std::replace(name.begin(), name.end(), '_', '-');
-  return "--" + name;
+Choices<LastStage> stageChoices() {
+  Choices<LastStage> choices;
+  for (const NamedLastStage& each : lastStages()) {
+    choices.emplace_back(each.name, each.stage);
+  }
+  return choices;
+}
+
+/// All stages that --until accepts, in lines of at most kMaxHelpLine characters.
+std::string untilHelp() {
+  std::string help = "stops after";
+  std::size_t line = help.size();
+  for (std::size_t i = 0; i < lastStages().size(); ++i) {
+    const std::size_t after = lastStages().size() - 1 - i;
+    const char* const separator = after > 1 ? "," : after == 1 ? " or" : "";
+    const std::string name = std::string(lastStages()[i].name) + separator;
+    const bool fits = line + 1 + name.size() <= kMaxHelpLine;
+    help += (fits ? " " : "\n") + name;
+    line = fits ? line + 1 + name.size() : name.size();
+  }
+  return help;
 }
 
 void addFiles(CommandLine& line, Arguments& arguments) {
@@ -117,19 +127,16 @@ void addMaps(CommandLine& line, Arguments& arguments) {
 }
 
 void addStages(CommandLine& line, Arguments& arguments) {
-  line.addChoice("--until", arguments.last_stage, kStages,
-                 "stops after grid_fusion, grid_slam, loop_closing, road_border,\n"
-                 "moving_objects, object_fusion, tracker, track_fusion or risk",
-                 "STAGE");
+  line.addChoice("--until", arguments.last_stage, stageChoices(), untilHelp(), "STAGE");
   line.addChoice(
       "--fusion", arguments.fusion, kFusionLevels,
       "level of fusion: none, low, object or track, as set by the individual options below;\n"
       "recommended: the level recommended by measurements, with road borders",
       "LEVEL");
   for (const NamedSwitch& each : stackSwitches()) {
-    line.add_flag(optionOf(each.name), arguments.*each.value, each.help);
+    line.add_flag(optionOf(each.value), arguments.*each.value, each.help);
   }
-  CLI::Option* low_level = line.get_option(optionOf("low_level_fusion"));
+  CLI::Option* low_level = line.get_option(optionOf(&StackSwitches::low_level_fusion));
   line.add_option("--grid-rule", arguments.grid_rule,
                   "weighted_sum, priority, maximum, log_odds or dempster_shafer")
       ->option_text("RULE")
@@ -141,10 +148,12 @@ void addStages(CommandLine& line, Arguments& arguments) {
 
 }  // namespace
 
-std::string stageType(LastStage stage) {
-  for (const auto& [type, each] : kStages) {
-    if (each == stage) {
-      return type;
+std::string optionOf(bool StackSwitches::*value) {
+  for (const NamedSwitch& each : stackSwitches()) {
+    if (each.value == value) {
+      std::string name = each.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      return "--" + name;
     }
   }
   return "";

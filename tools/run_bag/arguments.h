@@ -48,8 +48,8 @@ struct Arguments : StackSwitches {
   std::string inputTopic(const std::string& topic, const std::string& usual) const;
 };
 
-/// The type of the stage; empty for kEnd.
-std::string stageType(LastStage stage);
+/// The option of a switch of the stack: --road-border for road_border.
+std::string optionOf(bool StackSwitches::*value);
 
 /// Parses the words after the program's name. Throws UsageError, and Answer for --help.
 Arguments parseArguments(std::vector<std::string> words);

@@ -86,7 +86,7 @@ class SensorClock {
 
   /// Whether a message arrived one period (s) after the last one, which was on time by a clock that
   /// runs at the same rate.
-  bool cameInTime(const Message& message, double period) const;
+  bool arrivedOnTime(const Message& message, double period) const;
 
   /// Decides whether the time between two messages is the sensor's, or a step of its clock.
   void judge(const Message& message);

@@ -55,10 +55,10 @@ class StampGate {
 
   double restart_after_;
   std::optional<Stamp> newest_;
-  std::optional<Stamp> came_;    ///< ROS time of its arrival
-  std::optional<Stamp> beside_;  ///< the last stamp of the others at that time
-  double last_step_ = 0.0;       ///< s, from one message to the next, without jumps and gaps
-  std::optional<Stamp> stray_;   ///< the last unconfirmed one
+  std::optional<Stamp> arrived_;  ///< ROS time of its arrival
+  std::optional<Stamp> beside_;   ///< the last stamp of the others at that time
+  double last_step_ = 0.0;        ///< s, from one message to the next, without jumps and gaps
+  std::optional<Stamp> stray_;    ///< the last unconfirmed one
 };
 
 }  // namespace datmo

@@ -16,6 +16,8 @@
 
 namespace datmo {
 
+enum class CanQuantity;
+
 /// Source of the yaw rate.
 enum class CanYaw { kSignal, kWheels, kSteering, kNone };
 
@@ -98,7 +100,7 @@ class CanMotion {
     bool is_frozen = true;  ///< until it has changed
   };
 
-  void add(Role role, const char* name, const std::string& text, const char* quantity);
+  void add(Role role, const char* name, const std::string& text, CanQuantity quantity);
   /// Adds the counter of a message with one of the signals of these roles.
   void addCounter(const char* name, const std::string& text, int first, int last);
   void check() const;

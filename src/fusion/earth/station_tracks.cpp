@@ -106,7 +106,7 @@ bool StationTracks::isNew(const StationTrackList& list) const {
 /// False if its part has not been received since: other parts of a message do not show that it is
 /// gone. A part that has expired is assumed to have been received without it, otherwise a station
 /// could declare each of its lists another part.
-bool StationTracks::couldComeAgain(const Claim& claim, const StationTrackList& list) const {
+bool StationTracks::couldHaveReappeared(const Claim& claim, const StationTrackList& list) const {
   const auto last_list = lists_.find({list.station, claim.part});
   return claim.part == list.part ||
          (last_list != lists_.end() && claim.stamp < last_list->second.stamp) ||
@@ -127,7 +127,7 @@ StationTracks::Before StationTracks::before(const StationTrackList& list) const 
   for (auto claim = begin; claim != end; ++claim) {
     if (claim->second.messages > 1 || listed.count(claim->first.second) > 0) {
       ++again;
-    } else if (couldComeAgain(claim->second, list)) {
+    } else if (couldHaveReappeared(claim->second, list)) {
       ++once;
     }
   }

@@ -43,7 +43,7 @@ bool mayBeOfOneClass(const Object& a, const Object& b) {
 
 /// An object that the scan knows to be static does not match one that may move: a person beside a
 /// tree or a parked car, or an echo of the curb below it.
-bool oneStands(const Object& a, const Object& b) { return standsStill(a) != standsStill(b); }
+bool onlyOneIsStatic(const Object& a, const Object& b) { return standsStill(a) != standsStill(b); }
 
 /// Difference between two objects along an axis, m, and its variance, m^2, without that of the
 /// positions as a whole.
@@ -219,7 +219,7 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
 }
 
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
-  if (!mayBeOfOneClass(a, b) || oneStands(a, b)) {
+  if (!mayBeOfOneClass(a, b) || onlyOneIsStatic(a, b)) {
     return {};
   }
   const CommonAxes axes(a, b, commonHeading(a, b));

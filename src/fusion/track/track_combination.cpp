@@ -30,7 +30,7 @@ double headingVarianceOf(const Track& track) {
 
 /// The track that knows best which end is the front: a moving one; among several, the one with the
 /// most information on the velocity.
-const Track& whoKnowsFront(const std::vector<Track>& tracks, const TrackState& fused) {
+const Track& mostCertainFront(const std::vector<Track>& tracks, const TrackState& fused) {
   const auto order = [&](const Track& track) {
     const double ahead = Point2(fused.segment<2>(2)).dot(track.box.center.rotation().col(0));
     return std::make_tuple(!track.moving, ahead < 0.0, headingVarianceOf(track), headingOf(track));
@@ -68,7 +68,7 @@ Heading fusedHeading(const std::vector<Track>& tracks, const TrackState& fused) 
     }
   }
   Heading heading{headingOf(surest) + pull / information, weights / information};
-  const double front = headingOf(whoKnowsFront(tracks, fused));
+  const double front = headingOf(mostCertainFront(tracks, fused));
   if (std::abs(angleBetween(heading.value, front)) > kQuarterTurn) {
     heading.value += kPi;
   }

@@ -153,14 +153,14 @@ std::vector<Track> TrackFuser::fused(const std::vector<TrackGroup>& groups,
                                      TrackFusionCounts& counts) {
   std::vector<Track> tracks;
   for (const TrackGroup& group : groups) {
-    tracks.push_back(joined(group, present, sensors));
+    tracks.push_back(fusedTrack(group, present, sensors));
     counts.fused += group.size() > 1 ? 1 : 0;
   }
   return tracks;
 }
 
-Track TrackFuser::joined(TrackGroup group, const std::vector<PresentTracks>& present,
-                         const std::vector<std::optional<Point2>>& sensors) {
+Track TrackFuser::fusedTrack(TrackGroup group, const std::vector<PresentTracks>& present,
+                             const std::vector<std::optional<Point2>>& sensors) {
   const auto trackAt = [&](const TrackPosition& position) -> const Track& {
     return present[position.list].tracks[position.track];
   };

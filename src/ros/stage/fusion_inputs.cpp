@@ -54,7 +54,7 @@ void FusionInputs::take(const std::string& source, const std_msgs::Header& heade
 
 void FusionInputs::checkAhead(const std::string& source, Stamp stamp, Stamp now) const {
   if (!reference_ || source == options_.matcher.reference ||
-      secondsBetween(reference_->came, now) > options_.input.silence_after) {
+      secondsBetween(reference_->arrived, now) > options_.input.silence_after) {
     return;
   }
   const double ahead = secondsBetween(timeSince(*reference_, now), stamp);
@@ -79,7 +79,7 @@ void FusionInputs::reset() {
 }
 
 Stamp FusionInputs::timeSince(const Arrived& last, Stamp now) {
-  return last.stamp + std::max(0.0, secondsBetween(last.came, now));
+  return last.stamp + std::max(0.0, secondsBetween(last.arrived, now));
 }
 
 std::optional<Stamp> FusionInputs::dataTime(Stamp now) const {

@@ -33,7 +33,7 @@ std::string reasonOf(const SlamResult& result) {
   if (result.searches_prior_map) {
     return std::string(is_lost ? "lost" : "uncertain") +
            ": searches the prior map, and does not update it until a single position fits the "
-           "scans along the way";
+           "scans while driving";
   }
   if (result.kidnapped) {
     return "kidnapped, since the map contradicts the scans: searches all of its window, and does "

@@ -63,7 +63,7 @@ std::vector<InputProgress::Line> InputProgress::missing(const StageMonitor& moni
     if (!monitor.hasReceived(input.name)) {
       lines.push_back(
           {!isPublished(input, published_type),
-           "waits for " + nameAndTopics(input) + ": " + whyNothingComes(input, published_type)});
+           "waits for " + nameAndTopics(input) + ": " + whyNotReceived(input, published_type)});
     }
   }
   return lines;

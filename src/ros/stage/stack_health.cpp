@@ -27,14 +27,14 @@ const StageState* producerOf(const Stages& stages, const std::string& topic) {
 }
 
 /// The most upstream stage from this one that has no output.
-const StageState& sourceOfNothing(const Stages& stages, const StageState& stage,
-                                  std::set<std::string>& visited) {
+const StageState& rootCause(const Stages& stages, const StageState& stage,
+                            std::set<std::string>& visited) {
   visited.insert(stage.stage);
   for (const std::string& topic : stage.topics.inputs) {
     const StageState* const producer = producerOf(stages, topic);
     if (producer != nullptr && producer->level == HealthLevel::kNoOutput &&
         visited.count(producer->stage) == 0) {
-      return sourceOfNothing(stages, *producer, visited);
+      return rootCause(stages, *producer, visited);
     }
   }
   return stage;
@@ -54,8 +54,8 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
   }
   if (last->level == HealthLevel::kNoOutput) {
     std::set<std::string> visited;
-    return {HealthLevel::kNoOutput, "no " + withoutSlash(result) + ": " +
-                                        firstFault(sourceOfNothing(stages, *last, visited))};
+    return {HealthLevel::kNoOutput,
+            "no " + withoutSlash(result) + ": " + firstFault(rootCause(stages, *last, visited))};
   }
   const auto worse = std::find_if(stages.begin(), stages.end(), [](const StageState& stage) {
     return stage.level != HealthLevel::kOk;

@@ -31,7 +31,7 @@ bool isPublished(const WatchedInput& input, const PublishedType& published_type)
   });
 }
 
-std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type) {
+std::string whyNotReceived(const WatchedInput& input, const PublishedType& published_type) {
   if (isPublished(input, published_type)) {
     return "it is published, but no message has been received";
   }
@@ -82,7 +82,7 @@ std::vector<std::string> StageHealth::inputFaults(const StageMonitor& monitor, S
   for (const WatchedInput& watched : inputs_) {
     const InputStatus input = monitor.input(watched.name, now);
     if (!input.silence) {
-      faults.push_back("no " + watched.name + " yet: " + whyNothingComes(watched, published_type) +
+      faults.push_back("no " + watched.name + " yet: " + whyNotReceived(watched, published_type) +
                        " (" + nameAndTopics(watched) + ")");
     } else if (*input.silence > silence_after_) {
       faults.push_back("no " + watched.name + " for " + inSeconds(*input.silence));

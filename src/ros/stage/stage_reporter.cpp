@@ -58,7 +58,7 @@ std::optional<std::map<std::string, std::string>> publishedTopics() {
   }
 }
 
-std::string joined(const std::vector<std::string>& topics) {
+std::string joinNames(const std::vector<std::string>& topics) {
   std::string text;
   for (const std::string& topic : topics) {
     text += (text.empty() ? "" : " ") + topic;
@@ -72,8 +72,8 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 /// Keys of a status that stateOf() reads.
-constexpr char kTakes[] = "takes";
-constexpr char kMakes[] = "makes";
+constexpr char kInputs[] = "inputs";
+constexpr char kOutputs[] = "outputs";
 constexpr char kCause[] = "first cause";
 
 double milliseconds(double seconds) { return 1e3 * seconds; }
@@ -100,9 +100,9 @@ std::optional<StageState> stateOf(const DiagnosticStatus& status) {
                                                          : HealthLevel::kOk;
   bool is_stage = false;
   for (const diagnostic_msgs::KeyValue& entry : status.values) {
-    if (entry.key == kTakes) {
+    if (entry.key == kInputs) {
       state.topics.inputs = split(entry.value);
-    } else if (entry.key == kMakes) {
+    } else if (entry.key == kOutputs) {
       state.topics.outputs = split(entry.value);
       is_stage = true;
     } else if (entry.key == kCause && !entry.value.empty()) {
@@ -127,7 +127,7 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
   updater_.add("stage", [this](DiagnosticStatusWrapper& status) { diagnose(status); });
   timer_ = node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                                   [this](const ros::SteadyTimerEvent&) {
-                                    sayNews();
+                                    logChanges();
                                     updater_.force_update();
                                   });
 }
@@ -153,7 +153,7 @@ PublishedType StageReporter::askMaster() {
   };
 }
 
-void StageReporter::sayNews() {
+void StageReporter::logChanges() {
   const char* const stage = monitor_.stage().c_str();
   const double seconds = since_start_.seconds();
   for (const InputProgress::Line& line : progress_.news(monitor_, seconds, askMaster())) {
@@ -185,8 +185,8 @@ void StageReporter::diagnose(DiagnosticStatusWrapper& status) {
   listInputs(status);
   listCounts(status);
   status.add(kCause, state.faults.empty() ? "" : state.faults.front());
-  status.add(kTakes, joined(topics_.inputs));
-  status.add(kMakes, joined(topics_.outputs));
+  status.add(kInputs, joinNames(topics_.inputs));
+  status.add(kOutputs, joinNames(topics_.outputs));
 }
 
 void StageReporter::listInputs(DiagnosticStatusWrapper& status) const {

@@ -31,7 +31,7 @@ Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp)
       streams_.try_emplace(input, Stream{StampCheck(restart_after_), {}, {}}).first->second;
   StampCheck::checkValue(stamp);
   stream.last = toStamp(stamp);
-  stream.came = now;
+  stream.arrived = now;
   const Arrival arrival = stream.stamps.check(stamp, now, lastOfOthers(input));
   monitor_.noteInput(toStamp(stamp));
   return arrival;
@@ -41,9 +41,9 @@ std::optional<Stamp> StageRunner::lastOfOthers(const std::string& input) const {
   const Stream* newest = nullptr;
   for (const auto& [name, stream] : streams_) {
     const bool is_present =
-        name != input && stream.came &&
-        std::abs(secondsBetween(*stream.came, *monitor_.now())) < restart_after_;
-    if (is_present && (newest == nullptr || *newest->came < *stream.came)) {
+        name != input && stream.arrived &&
+        std::abs(secondsBetween(*stream.arrived, *monitor_.now())) < restart_after_;
+    if (is_present && (newest == nullptr || *newest->arrived < *stream.arrived)) {
       newest = &stream;
     }
   }

@@ -23,7 +23,7 @@ class Mailbox {
   void put(Item item) {
     const std::lock_guard<std::mutex> lock(mutex_);
     items_.push_back(std::move(item));
-    came_.notify_all();
+    arrived_.notify_all();
   }
 
   bool isEmpty() {
@@ -33,7 +33,7 @@ class Mailbox {
 
   Item take() {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (!came_.wait_for(lock, std::chrono::minutes(1), [this] { return !items_.empty(); })) {
+    if (!arrived_.wait_for(lock, std::chrono::minutes(1), [this] { return !items_.empty(); })) {
       throw std::runtime_error("nothing came");
     }
     Item item = std::move(items_.front());
@@ -43,7 +43,7 @@ class Mailbox {
 
  private:
   std::mutex mutex_;
-  std::condition_variable came_;
+  std::condition_variable arrived_;
   std::deque<Item> items_;
 };
 

@@ -32,6 +32,13 @@ inline Scan scanTo(const std::vector<Point2>& ends, double seconds = 0.0, bool h
   return scan;
 }
 
+/// The same with another angle between the beams, rad.
+inline Scan scanWithSpacing(double beam_spacing, const std::vector<Point2>& ends) {
+  Scan scan = scanTo(ends);
+  scan.field.beam_spacing = beam_spacing;
+  return scan;
+}
+
 inline void updateWith(OccupancyMap& map, const Scan& scan, PointState state = PointState::kUnknown,
                        const Pose2& pose = {}) {
   map.update(scan, std::vector<PointState>(scan.rays.size(), state), pose);

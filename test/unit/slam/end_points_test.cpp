@@ -7,14 +7,12 @@
 namespace datmo::end_points_test {
 namespace {
 
-Scan scanOf(const std::vector<Point2>& ends) {
-  Scan scan = samples::scanTo(ends);
-  scan.field.beam_spacing = 0.1;
-  return scan;
-}
+using samples::scanWithSpacing;
+
+constexpr double kSpacing = 0.1;  // rad
 
 TEST(EndPointsTest, LeavesOutBeamsWithoutAHit) {
-  Scan scan = scanOf({{5.0, 0.0}, {6.0, 1.0}});
+  Scan scan = scanWithSpacing(kSpacing, {{5.0, 0.0}, {6.0, 1.0}});
   scan.rays[0].hit = false;
   const auto points = endPoints(scan, 3.0);
   ASSERT_EQ(points.size(), 1U);
@@ -23,7 +21,8 @@ TEST(EndPointsTest, LeavesOutBeamsWithoutAHit) {
 
 TEST(EndPointsTest, ASurfaceIsSampledBetweenItsPoints) {
   // A wall along y, hit every 0.6 m.
-  const auto points = endPoints(scanOf({{5.0, -0.6}, {5.0, 0.0}, {5.0, 0.6}}), 3.0);
+  const auto points =
+      endPoints(scanWithSpacing(kSpacing, {{5.0, -0.6}, {5.0, 0.0}, {5.0, 0.6}}), 3.0);
   for (const EndPoint& point : points) {
     EXPECT_NEAR(point.sampling(1, 1), 0.6 * 0.6 / 12.0, 1e-12);
     EXPECT_NEAR(point.sampling(0, 0), 0.0, 1e-12);
@@ -32,14 +31,16 @@ TEST(EndPointsTest, ASurfaceIsSampledBetweenItsPoints) {
 
 TEST(EndPointsTest, AWallAtAFlatAngleIsSampledAlongItselfHoweverFarTheStep) {
   // A wall along x, 2 m to the left: the beams end at increasing spacing.
-  const auto points = endPoints(scanOf({{28.0, 2.0}, {20.0, 2.0}, {15.0, 2.0}}), 3.0);
+  const auto points =
+      endPoints(scanWithSpacing(kSpacing, {{28.0, 2.0}, {20.0, 2.0}, {15.0, 2.0}}), 3.0);
   EXPECT_NEAR(points[0].sampling(0, 0), 8.0 * 8.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(0, 0), 5.0 * 5.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(1, 1), 0.0, 1e-12);
 }
 
 TEST(EndPointsTest, ProtrudingPointsAreSampledByTheBeamsSpacing) {
-  const auto points = endPoints(scanOf({{30.0, -3.0}, {10.0, 0.0}, {30.0, 3.0}}), 3.0);
+  const auto points =
+      endPoints(scanWithSpacing(kSpacing, {{30.0, -3.0}, {10.0, 0.0}, {30.0, 3.0}}), 3.0);
   EXPECT_NEAR(points[1].sampling(1, 1), 1.0 / 12.0, 1e-12);
   EXPECT_NEAR(points[1].sampling(0, 0), 0.0, 1e-12);
 }

@@ -37,9 +37,7 @@ Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
   for (const Point2& point : points) {
     ends.push_back(pose.inverse() * point);
   }
-  Scan scan = samples::scanTo(ends);
-  scan.field.beam_spacing = degrees(1.0);
-  return scan;
+  return samples::scanWithSpacing(degrees(1.0), ends);
 }
 
 OccupancyMap emptyMap() {

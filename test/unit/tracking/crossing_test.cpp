@@ -9,7 +9,7 @@
 namespace datmo::crossing_test {
 namespace {
 
-constexpr double kSeconds = 4.0;  // they meet half way
+constexpr double kSeconds = 4.0;  // they meet halfway
 constexpr int kScans = 40;
 
 /// One moves from the right to the left of the other, both ahead.

@@ -114,8 +114,8 @@ def outcomes(drives, horizon):
     for drive in drives:
         for frame in drive.frames:
             if drive.contact is not None:
-                came = drive.contact - frame.time <= horizon
-                pairs.append((frame.probability[index], float(came)))
+                is_contact = drive.contact - frame.time <= horizon
+                pairs.append((frame.probability[index], float(is_contact)))
             elif frame.time + horizon <= drive.end:
                 pairs.append((frame.probability[index], 0.0))
     return np.array(pairs).reshape(-1, 2)
@@ -140,7 +140,7 @@ def calibration_error(pairs):
     """Returns the mean distance of predicted and observed frequency over the bins; NaN: none."""
     if not len(pairs):
         return float("nan")
-    return sum(abs(said - came) * count for said, came, count in reliability(pairs)) / len(pairs)
+    return sum(abs(predicted - observed) * count for predicted, observed, count in reliability(pairs)) / len(pairs)
 
 
 def score(drives):

@@ -34,28 +34,28 @@ def shift(message, duration):
 
 def wait_for_nodelets(names):
     """Waits until all have reported; returns their subscriptions: (topic, node of the process)."""
-    missing, takes = set(names), set()
+    missing, subscriptions = set(names), set()
 
     def take(list_of_all):
         process = list_of_all._connection_header["callerid"]
         for status in list_of_all.status:
             missing.discard(status.name.split(":")[0])
             for value in status.values:
-                if value.key == "takes":
-                    takes.update((topic, process) for topic in value.value.split())
+                if value.key == "inputs":
+                    subscriptions.update((topic, process) for topic in value.value.split())
     subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, take)
     while missing and not rospy.is_shutdown():
         time.sleep(POLL)
     subscriber.unregister()
-    return takes
+    return subscriptions
 
 
-def wait_for_connections(publishers, takes):
+def wait_for_connections(publishers, subscriptions):
     """Waits until all subscribers of the topics are known to the master, and connected."""
     master = rosgraph.Master(rospy.get_name())
     while not rospy.is_shutdown():
         subscribers = {topic: set(nodes) for topic, nodes in master.getSystemState()[1]}
-        known = all(process in subscribers.get(topic, ()) for topic, process in takes if topic in publishers)
+        known = all(process in subscribers.get(topic, ()) for topic, process in subscriptions if topic in publishers)
         if known and all(publisher.get_num_connections() >= len(subscribers.get(topic, ()))
                          for topic, publisher in publishers.items()):
             return

@@ -128,11 +128,11 @@ class StationTracks {
 
   /// What a station reported before a list.
   struct Before {
-    bool renames = false;     ///< most ids that could have come again appeared only once
+    bool renames = false;     ///< most ids that could have reappeared appeared only once
     std::vector<Claim> last;  ///< if so: tracks of its last list of the same part
   };
 
-  bool couldComeAgain(const Claim& claim, const StationTrackList& list) const;
+  bool couldHaveReappeared(const Claim& claim, const StationTrackList& list) const;
   Before before(const StationTrackList& list) const;
   bool isCredible(const StationTrackList& list, const StationTrack& track, const Before& before);
   bool follows(const Claim& last, Stamp stamp, const StationTrack& track) const;

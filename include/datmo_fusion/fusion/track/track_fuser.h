@@ -99,8 +99,8 @@ class TrackFuser {
   /// Fuses the tracks of a group, most certain first, independent of the order of the sources. The
   /// disagreement of sensors about the body's center (comparison/body_std) is in no tracker's
   /// covariance and does not average out.
-  Track joined(TrackGroup group, const std::vector<PresentTracks>& present,
-               const std::vector<std::optional<Point2>>& sensors);
+  Track fusedTrack(TrackGroup group, const std::vector<PresentTracks>& present,
+                   const std::vector<std::optional<Point2>>& sensors);
 
   /// Updates how probably each source would have detected each target lately. Sources that have a
   /// track of it are not evaluated: after losing it, it takes a while until they are expected to

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datmo_fusion/road/border_filter.h"
+#include "datmo_fusion/detection/border_filter.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/ros/convert/messages.h"
 

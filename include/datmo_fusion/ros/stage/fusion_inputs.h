@@ -117,10 +117,10 @@ class FusionInputs {
   }
 
  private:
-  /// A message's arrival; `came`: time on the caller's clock.
+  /// A message's arrival; `arrived`: time on the caller's clock.
   struct Arrived {
     Stamp stamp;
-    Stamp came;
+    Stamp arrived;
   };
 
   /// Absence of a source from the last set.

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "datmo_fusion/detection/border_filter.h"
 #include "datmo_fusion/detection/moving_object_detector.h"
-#include "datmo_fusion/road/border_filter.h"
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"

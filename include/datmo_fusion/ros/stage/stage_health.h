@@ -36,7 +36,7 @@ bool isPublished(const WatchedInput& input, const PublishedType& published_type)
 /// Returns why no message of an input can be received: "it has no publisher", "it is published as
 /// A, expected B", "it is published, but no message has been received", or "the master has not
 /// answered".
-std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type);
+std::string whyNotReceived(const WatchedInput& input, const PublishedType& published_type);
 
 /// Topics of a stage, resolved.
 struct StageTopics {

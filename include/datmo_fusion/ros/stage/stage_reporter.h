@@ -52,7 +52,7 @@ class StageReporter {
   /// Queries the master when the first type is needed, in a thread of its own: if its computer
   /// cannot be reached, that takes minutes, and the stage continues with its last answer.
   PublishedType askMaster();
-  void sayNews();
+  void logChanges();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void listInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void listCounts(diagnostic_updater::DiagnosticStatusWrapper& status) const;

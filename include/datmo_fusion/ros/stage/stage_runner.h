@@ -68,8 +68,8 @@ class StageRunner {
  private:
   struct Stream {
     StampCheck stamps;
-    Stamp last;                 ///< last stamp that passed the other checks, including stray ones
-    std::optional<Stamp> came;  ///< ROS time of its arrival
+    Stamp last;  ///< last stamp that passed the other checks, including stray ones
+    std::optional<Stamp> arrived;  ///< ROS time of its arrival
   };
 
   Arrival arrivalOf(const std::string& input, const ros::Time& stamp);

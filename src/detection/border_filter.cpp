@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/road/border_filter.h"
+#include "datmo_fusion/detection/border_filter.h"
 
 #include <algorithm>
 #include <cmath>
