@@ -15,6 +15,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Path.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -247,7 +248,7 @@ void MutatedDrive::take(const Publications& published) {
         faultOf<nav_msgs::Odometry, tf2_msgs::TFMessage, geometry_msgs::PoseWithCovarianceStamped,
                 LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
                 StereoAlignmentMessage, RiskArray, EarthFrameMessage, StationTracksMessage,
-                sensor_msgs::LaserScan>(publication);
+                nav_msgs::OccupancyGrid, nav_msgs::Path, sensor_msgs::LaserScan>(publication);
     if (!fault.empty()) {
       note("published on " + publication.topic + " " + fault);
     }
