@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <iterator>
 #include <utility>
 
 #include "message_mutation.h"
+#include "processor_time.h"
 #include <boost/make_shared.hpp>
 
 #include <geometry_msgs/AccelWithCovarianceStamped.h>
@@ -15,6 +15,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Path.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -38,13 +39,6 @@ constexpr const char* kClock = "clock_answer";
 /// Reasons to drop a message before anything else in it is checked.
 constexpr std::array<const char*, 5> kStampReasons{"zero_stamp", "stamp_out_of_range",
                                                    "repeated_stamp", "old_stamp", "stray_stamp"};
-
-/// CPU time of this process, s: independent of other load on the machine.
-double processorSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 template <typename Message>
 std::pair<std::string, std::function<AnyMessage(const AnyMessage&, ros::Duration, std::mt19937&)>>
@@ -247,7 +241,7 @@ void MutatedDrive::take(const Publications& published) {
         faultOf<nav_msgs::Odometry, tf2_msgs::TFMessage, geometry_msgs::PoseWithCovarianceStamped,
                 LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
                 StereoAlignmentMessage, RiskArray, EarthFrameMessage, StationTracksMessage,
-                sensor_msgs::LaserScan>(publication);
+                nav_msgs::OccupancyGrid, nav_msgs::Path, sensor_msgs::LaserScan>(publication);
     if (!fault.empty()) {
       note("published on " + publication.topic + " " + fault);
     }

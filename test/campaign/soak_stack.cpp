@@ -2,8 +2,8 @@
 // The stack on an endless drive, in one process and without a master, as fast as possible:
 //   soak_stack CONFIG.yaml [--minutes N] [--max-tiles N] [--out FILE.json]
 // Minutes: of data. Writes what each of them needed. The exit code is 1 if a message was dropped,
-// no track was published for a minute, or the heap grew by more than is allowed once the map is
-// full, and 2 if nothing could be run.
+// no track was published for a minute, or the heap or the CPU time of a scan grew by more than is
+// allowed once the map is full, and 2 if nothing could be run.
 #include <cstddef>
 #include <iostream>
 #include <string>
@@ -17,6 +17,7 @@
 #include <ros/console.h>
 #include <ros/time.h>
 
+#include "datmo_fusion/common/quantile.h"
 #include "datmo_fusion/ros/whole_file.h"
 
 namespace {
@@ -27,6 +28,8 @@ constexpr double kSettledShare = 0.5;
 constexpr double kMaxChange = 1.0;
 /// MiB per hour.
 constexpr double kMaxGrowth = 1.0;
+/// Tolerance of a scan's CPU time in the last quarter, relative to the second.
+constexpr double kMaxSlowing = 1.5;
 
 nlohmann::json toJson(const datmo::campaign::SoakSample& sample) {
   return {{"hours", sample.hours},
@@ -69,28 +72,64 @@ std::string growthFault(const std::vector<double>& heap) {
              : "";
 }
 
+/// CPU time of a scan early and late, ms: the first quarter fills memory, and is left out.
+struct ScanTimes {
+  double second_quarter = 0.0;
+  double last_quarter = 0.0;
+};
+
+/// `medians`: of two or more minutes, ms.
+ScanTimes scanTimes(const std::vector<double>& medians) {
+  constexpr std::size_t kQuarters = 4;
+  const auto quarter = [&medians](std::size_t index) {
+    const auto end_of = [&medians](std::size_t quarters) {
+      return medians.begin() + static_cast<std::ptrdiff_t>(quarters * medians.size() / kQuarters);
+    };
+    return datmo::quantile(std::vector<double>(end_of(index), end_of(index + 1)), 0.5);
+  };
+  return {quarter(1), quarter(kQuarters - 1)};
+}
+
+/// Returns in what way the growth of a scan's CPU time is a fault; empty: none.
+std::string slowingFault(const ScanTimes& times) {
+  return times.last_quarter > kMaxSlowing * times.second_quarter
+             ? "a scan took " + std::to_string(times.last_quarter) +
+                   " ms of a processor in the last quarter, expected at most " +
+                   std::to_string(kMaxSlowing) + " times the " +
+                   std::to_string(times.second_quarter) + " ms in the second one"
+             : "";
+}
+
 /// Returns whether nothing failed.
 bool soak(const Arguments& arguments) {
   datmo::campaign::SoakedDrive drive(arguments.config, arguments.max_tiles);
   nlohmann::json samples = nlohmann::json::array();
   std::vector<double> heap;
+  std::vector<double> medians;
   for (unsigned minute = 0; minute < arguments.minutes; ++minute) {
     const datmo::campaign::SoakSample sample = drive.nextMinute();
     heap.push_back(sample.heap_mib);
+    medians.push_back(sample.median_ms);
     samples.push_back(toJson(sample));
     std::cout << samples.back().dump() << std::endl;
   }
   std::vector<std::string> faults = drive.faults();
-  const std::string growth = growthFault(heap);
-  if (!growth.empty()) {
-    faults.push_back(growth);
+  const ScanTimes times = scanTimes(medians);
+  for (const std::string& fault : {growthFault(heap), slowingFault(times)}) {
+    if (!fault.empty()) {
+      faults.push_back(fault);
+    }
   }
   for (const std::string& fault : faults) {
     std::cout << fault << "\n";
   }
   if (!arguments.out.empty()) {
-    datmo::writeWholeFile(arguments.out,
-                          nlohmann::json{{"samples", samples}, {"faults", faults}}.dump(1) + "\n");
+    const nlohmann::json done{{"samples", samples},
+                              {"second_quarter_ms", times.second_quarter},
+                              {"last_quarter_ms", times.last_quarter},
+                              {"max_slowing", kMaxSlowing},
+                              {"faults", faults}};
+    datmo::writeWholeFile(arguments.out, done.dump(1) + "\n");
   }
   return faults.empty();
 }

@@ -16,7 +16,7 @@ struct SoakSample {
   double hours = 0.0;         ///< of data, at its end
   double heap_mib = 0.0;      ///< allocated; the process has more, in fragments and caches
   double resident_mib = 0.0;  ///< of the process
-  double median_ms = 0.0;     ///< for a scan and all that follows from it
+  double median_ms = 0.0;     ///< of CPU time, for a scan and all that follows from it
   double percentile_99_ms = 0.0;
   std::size_t track_lists = 0;
   std::size_t tracks = 0;
@@ -48,7 +48,7 @@ class SoakedDrive {
   World world_{World::Length::kEndless};
   std::uint64_t steps_ = 0;
   SoakSample sample_;
-  std::vector<double> milliseconds_;  ///< of the scans of this minute
+  std::vector<double> milliseconds_;  ///< CPU time of the scans of this minute
   std::uint64_t minutes_without_tracks_ = 0;
 };
 

@@ -147,6 +147,16 @@ class Soak(unittest.TestCase):
         self.assertLess(abs(drift["per_hour"]), 4.0 * drift["error"])
         self.assertGreater(drift["error"], 0.05)
 
+    def test_the_page_compares_the_time_of_a_scan_early_and_late(self):
+        samples = [{"hours": i / 60, "dropped": 0, "tracks": 9, "heap_mib": 100, "resident_mib": 200, "median_ms": 5,
+                    "percentile_99_ms": 9} for i in range(1, 61)]  # fmt: skip
+        soaked = {"samples": samples, "second_quarter_ms": 5.0, "last_quarter_ms": 5.25, "max_slowing": 1.5, "faults": []}
+        drive = {"drive": "a.bag", "options": (), "of": 1, "runs": [{"fault": "none", "error": "ended"}]}
+        text = page({"made": "", "beyond": [], "begin_s": 8.0, "drives": [drive], "soak": soaked,
+                     **dict.fromkeys(("silent", "mutated", "load", "outages"))})  # fmt: skip
+        self.assertIn("took 5.00 ms of processor time\nin the second quarter of the drive and 5.25 ms in the last one "
+                      "(medians; more than 1.5 times as much is a fault)", text)  # fmt: skip
+
 
 class Effect(unittest.TestCase):
     """A drive of 20 s with a fault from 8 s to 11 s; without it the pose error is 0.1 m."""

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/risk/object_futures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -147,6 +148,80 @@ TEST(ObjectFutures, SwitchingModesSpreadThem) {
   const ObjectFutureOptions switching;
   EXPECT_GT(endsOf(ObjectFutures(track, std::nullopt, switching, kHorizon, kDraws)).sigma,
             1.5 * endsOf(ObjectFutures(track, std::nullopt, kept, kHorizon, kDraws)).sigma);
+}
+
+/// How a pedestrian starts from rest.
+struct StartFromRest {
+  double direction = 0.0;     ///< rad
+  double speed = 0.0;         ///< m/s
+  double acceleration = 0.0;  ///< m/s^2
+};
+
+/// Returns the starts into a mode of many futures, before any other noise.
+std::vector<StartFromRest> startsInto(MotionMode mode) {
+  constexpr std::size_t kFutures = 20000;
+  ObjectFutureOptions options;
+  options.pedestrian_turning = 0.0;
+  options.motion.pedestrian.acceleration_density = 0.0;
+  options.transitions.standing_sojourn = 1e-3;
+  HorizonOptions horizon;
+  horizon.step = 0.01;
+  const Track track = knownTrack(1, {5, 2}, {0, 0}, ObjectClass::kPedestrian);
+  const ObjectFutures futures(track, std::nullopt, options, horizon, kDraws);
+  std::vector<StartFromRest> starts;
+  for (std::size_t i = 0; i < kFutures; ++i) {
+    const ObjectFutures::State state = futures.next(futures.begin(i), i, 0);
+    if (state.mode == mode) {
+      starts.push_back({std::atan2(state.course.y(), state.course.x()), state.speed,
+                        std::abs(state.acceleration)});
+    }
+  }
+  return starts;
+}
+
+/// Returns the share of those that start in the same direction that also have the same value.
+double shareOfSame(std::vector<StartFromRest> starts, double StartFromRest::*value) {
+  constexpr double kSame = 1e-4;  // rad; a quarter of what a random number resolves
+  std::sort(starts.begin(), starts.end(), [](const StartFromRest& a, const StartFromRest& b) {
+    return a.direction < b.direction;
+  });
+  int pairs = 0;
+  int same = 0;
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    if (starts[i].direction - starts[i - 1].direction < kSame) {
+      ++pairs;
+      same += starts[i].*value == starts[i - 1].*value ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pairs, 100);
+  return static_cast<double>(same) / pairs;
+}
+
+/// Returns the coefficient of correlation of speed and acceleration.
+double correlationOf(const std::vector<StartFromRest>& starts) {
+  StartFromRest mean;
+  for (const StartFromRest& start : starts) {
+    mean.speed += start.speed / static_cast<double>(starts.size());
+    mean.acceleration += start.acceleration / static_cast<double>(starts.size());
+  }
+  double both = 0.0;
+  double speeds = 0.0;
+  double accelerations = 0.0;
+  for (const StartFromRest& start : starts) {
+    const double speed = start.speed - mean.speed;
+    const double acceleration = start.acceleration - mean.acceleration;
+    both += speed * acceleration;
+    speeds += speed * speed;
+    accelerations += acceleration * acceleration;
+  }
+  return both / std::sqrt(speeds * accelerations);
+}
+
+TEST(ObjectFutures, DirectionSpeedAndAccelerationOfAStartAreIndependent) {
+  EXPECT_LT(shareOfSame(startsInto(MotionMode::kConstantVelocity), &StartFromRest::speed), 0.1);
+  const std::vector<StartFromRest> accelerating = startsInto(MotionMode::kConstantAcceleration);
+  EXPECT_LT(shareOfSame(accelerating, &StartFromRest::acceleration), 0.1);
+  EXPECT_NEAR(correlationOf(accelerating), 0.0, 0.1);
 }
 
 TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {

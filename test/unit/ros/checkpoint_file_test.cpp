@@ -140,5 +140,16 @@ TEST_F(CheckpointTest, AFolderThatCannotBeWrittenIsOnlyAWarning) {
   EXPECT_GE(samples::warnings(*monitor_, "checkpoint_not_written"), 1U);
 }
 
+TEST_F(CheckpointTest, ALastStateThatCannotBeWrittenIsAWarning) {
+  drive(35);
+  waitForCheckpoint();
+  ASSERT_EQ(samples::warnings(*monitor_, "checkpoint_not_written"), 0U);
+  const std::string folder = std::filesystem::path(file()).parent_path();
+  std::filesystem::rename(folder, folder + ".away");
+  unload();
+  EXPECT_GE(samples::warnings(*monitor_, "checkpoint_not_written"), 1U);
+  std::filesystem::remove_all(folder + ".away");
+}
+
 }  // namespace
 }  // namespace datmo::checkpoint_test

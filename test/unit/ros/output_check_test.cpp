@@ -5,6 +5,7 @@
 
 #include "monitor_counts.h"
 #include <datmo_fusion/RiskArray.h>
+#include <datmo_fusion/StationTracks.h>
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -78,6 +79,32 @@ TEST(ContentFault, ACovarianceIsPositiveSemidefinite) {
   tracks.tracks.resize(1);
   tracks.tracks[0].covariance[0] = -1.0;
   EXPECT_NE(contentFault(tracks), "");
+}
+
+TEST(ContentFault, TheCovarianceOfTheMapOnTheEarthIsPositiveSemidefinite) {
+  datmo_fusion::EarthFrame frame;
+  EXPECT_EQ(contentFault(frame), "");
+  frame.covariance = {1.0, 0.0, 0.9, 0.0, 1.0, 0.0, 0.9, 0.0, 1.0};
+  EXPECT_EQ(contentFault(frame), "");
+  frame.covariance[2] = frame.covariance[6] = 1.1;
+  EXPECT_EQ(contentFault(frame), "a covariance that is not positive semidefinite");
+  frame.covariance[2] = 0.9;
+  frame.covariance[6] = 0.5;
+  EXPECT_NE(contentFault(frame), "") << "not symmetric";
+}
+
+TEST(ContentFault, TheCovariancesOfTracksForOtherStationsArePositiveSemidefinite) {
+  datmo_fusion::StationTracks list;
+  list.tracks.resize(2);
+  EXPECT_EQ(contentFault(list), "");
+  auto& covariance = list.tracks[1].covariance;  // of position and velocity
+  covariance[0] = covariance[5] = covariance[10] = covariance[15] = 1.0;
+  covariance[7] = covariance[13] = 0.9;
+  EXPECT_EQ(contentFault(list), "");
+  covariance[7] = covariance[13] = 1.1;
+  EXPECT_EQ(contentFault(list), "a covariance that is not positive semidefinite");
+  covariance[13] = 0.9;
+  EXPECT_NE(contentFault(list), "") << "not symmetric";
 }
 
 TEST(OutputCheck, InvalidOutputIsCountedAndTheStageStartsOver) {

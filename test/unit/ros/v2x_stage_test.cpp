@@ -34,14 +34,16 @@ class V2xStageTest : public testing::Test {
     transforms_.addStatic(mount);
   }
 
-  /// Sends the vehicle's pose at a step, and the receiver's fix at it, if it has one.
-  void drive(int from, int to, bool has_fix = true) {
+  /// Sends the vehicle's pose at a step, and the receiver's fix at it, if it has one. `jump`: m, of
+  /// the fixes, in the map.
+  void drive(int from, int to, bool has_fix = true, const Point2& jump = Point2::Zero()) {
     for (int step = from; step < to; ++step) {
       const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
       sensor_msgs::NavSatFix fix;
       fix.header.stamp = toTime(stampAt(step));
       fix.header.frame_id = "antenna";
-      const GeodeticPosition position = plane_.toGeodetic(kMap * (base * Point2(1.0, 0.0)));
+      const Point2 antenna = base * Point2(1.0, 0.0) + jump;
+      const GeodeticPosition position = plane_.toGeodetic(kMap * antenna);
       fix.latitude = toDegrees(position.latitude);
       fix.longitude = toDegrees(position.longitude);
       fix.altitude = position.altitude;
@@ -133,6 +135,63 @@ TEST_F(V2xStageTest, UnusableListsAreDroppedByReason) {
   ours.station = 1;
   EXPECT_EQ(stage_.takeStation(ours, stampAt(kSteps + 1)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "own_number"), 1U);
+}
+
+TEST_F(V2xStageTest, ATrackFasterThanAnyVehicleIsLeftOutAndReported) {
+  drive(0, kSteps);
+  StationTracksMessage list = listAt(kSteps, {120.0, 5.0});
+  list.tracks.push_back(list.tracks[0]);
+  list.tracks[1].id = 6;
+  list.tracks[1].velocity_east = 200.0 / 3.6;
+  const TrackArrayPtr tracks = stage_.takeStation(list, stampAt(kSteps));
+  ASSERT_TRUE(tracks);
+  ASSERT_EQ(tracks->tracks.size(), 1U);
+  EXPECT_NEAR(tracks->tracks[0].velocity.x, 0.0, 1e-6) << "the pedestrian at the same place";
+  EXPECT_EQ(samples::warnings(monitor_, "fast_track"), 1U);
+  EXPECT_EQ(monitor_.figures().at("tracks left out: too fast"), 1.0);
+  EXPECT_EQ(monitor_.figures().at("tracks left out: jumped"), 0.0);
+  EXPECT_TRUE(monitor_.drops().empty()) << "the rest of the list is used";
+}
+
+TEST_F(V2xStageTest, ATrackThatJumpsIsLeftOutUntilItHasProvenItself) {
+  drive(0, kSteps);
+  const auto tracksAt = [this](int step, const Point2& in_map) {
+    const TrackArrayPtr tracks = stage_.takeStation(listAt(step, in_map), stampAt(step));
+    return tracks ? static_cast<int>(tracks->tracks.size()) : -1;
+  };
+  ASSERT_EQ(tracksAt(kSteps, {120.0, 5.0}), 1);
+  const int probation = StationTrackOptions().probation;
+  for (int message = 1; message <= probation; ++message) {
+    EXPECT_EQ(tracksAt(kSteps + message, {150.0, 5.0}), 0) << message;
+    EXPECT_EQ(samples::warnings(monitor_, "jumped_track"), static_cast<std::uint64_t>(message));
+  }
+  EXPECT_EQ(tracksAt(kSteps + probation + 1, {150.0, 5.0}), 1);
+  EXPECT_EQ(samples::warnings(monitor_, "jumped_track"), static_cast<std::uint64_t>(probation));
+  EXPECT_EQ(monitor_.figures().at("tracks left out: jumped"), probation);
+  EXPECT_EQ(monitor_.figures().at("tracks left out: too fast"), 0.0);
+  EXPECT_TRUE(monitor_.drops().empty());
+}
+
+TEST_F(V2xStageTest, AJumpOfTheReceiverIsRejectedUntilItLasts) {
+  const Point2 jump(200.0, 0.0);
+  constexpr int kShort = 4;  // fixes
+  const int restart_after = EarthFrameOptions().restart_after;
+  drive(0, kSteps);
+  EXPECT_EQ(samples::warnings(earth_monitor_, "far_position"), 0U);
+  drive(kSteps, kSteps + kShort, true, jump);
+  EXPECT_EQ(samples::warnings(earth_monitor_, "far_position"), std::uint64_t{kShort});
+  EXPECT_EQ(earth_monitor_.health(), HealthLevel::kOk);
+  const int last = kSteps + kShort - 1;
+  const TrackArrayPtr tracks = stage_.takeStation(listAt(last, {140.0, 5.0}), stampAt(last));
+  ASSERT_TRUE(tracks);
+  ASSERT_EQ(tracks->tracks.size(), 1U);
+  EXPECT_NEAR(tracks->tracks[0].pose.position.x, 140.0, 0.2) << "the map is where it was";
+  drive(last + 1, last + 2);
+  EXPECT_EQ(samples::warnings(earth_monitor_, "far_position"), std::uint64_t{kShort});
+  drive(last + 2, last + 2 + restart_after, true, jump);
+  EXPECT_EQ(samples::warnings(earth_monitor_, "far_position"),
+            static_cast<std::uint64_t>(kShort + restart_after));
+  EXPECT_EQ(earth_monitor_.health(), HealthLevel::kDegraded) << "starts over from there";
 }
 
 TEST_F(V2xStageTest, AlternatingStationsMakeOneListWithIncreasingStamps) {

@@ -104,6 +104,27 @@ TEST(StereoGridTest, ALongHoleInTheTextureOfTheRoadIsNotFree) {
   EXPECT_EQ(at(grid, 21.0, 0.0), kFree);
 }
 
+/// One row of a level image: points 20 m ahead, `down` m below the camera.
+MadeCloud rowOfPoints(double down) {
+  constexpr double kDepth = 20.0;
+  constexpr int kHalfWidth = 200;  // px, of the made camera, whose tangents are -0.5 to 0.5
+  MadeCloud row;
+  for (int column = -kHalfWidth; column < kHalfWidth; ++column) {
+    row.add({(column + 0.5) / (2.0 * kHalfWidth) * kDepth, down, kDepth});
+  }
+  return row;
+}
+
+TEST(StereoGridTest, AHorizontalLineOfSightDoesNotSeeTheGround) {
+  const double camera_height = MadeScene().camera_height;
+  MadeCloud on_road = rowOfPoints(camera_height);
+  EXPECT_EQ(at(gridOf(on_road, onFlatRoad()), 18.5, 0.0), kFree) << "below the layer from 15 m on";
+  MadeCloud level = rowOfPoints(0.0);
+  const StereoGridResult result = StereoGridModel(onFlatRoad()).grid(level.cloud());
+  EXPECT_GT(result.in_layer, 0U);
+  EXPECT_EQ(count(result.grid, kFree), 0U) << "always as high as the camera";
+}
+
 TEST(StereoGridTest, AThinPoleIsFoundAndCellsBesideItStayFree) {
   MadeScene scene;
   scene.boxes = {{{15.0, 1.0, 0.0}, {15.1, 1.1, 2.0}}};

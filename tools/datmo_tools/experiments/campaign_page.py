@@ -123,13 +123,14 @@ def _soak_lines(soaked):
         f"`soak_stack`: {stack['hours']:.2f} hours of an endless drive, all levels of fusion, in one process as fast as possible;",
         f"{stack['dropped']} messages dropped, at least {stack['tracks_least']} tracks in the lists of each minute. Growth: of a straight line through",
         "the minutes' samples, once memory holds the maximum number of tiles (`map/max_tiles`: the first half, or half an hour), +- its standard error. Loop closing",
-        "is left out, because it stores the drive ([limits.md](limits.md)). Times are those of a computer that also runs other jobs.",
+        f"is left out, because it stores the drive ([limits.md](limits.md)). A scan with all processing took {soaked['second_quarter_ms']:.2f} ms of processor time",
+        f"in the second quarter of the drive and {soaked['last_quarter_ms']:.2f} ms in the last one (medians; more than {soaked['max_slowing']:g} times as much is a fault).",
         "",
         "| | median | growth per hour of data |",
         "|---|---|---|",
         *(_drift_row(name, stack[key]) for name, key in (
             ("allocated memory [MiB]", "heap_mib"), ("memory of the process [MiB]", "resident_mib"),
-            ("a scan with all processing, median of a minute [ms]", "median_ms"))),
+            ("a scan with all processing, median of a minute [ms of processor time]", "median_ms"))),
     ]  # fmt: skip
 
 

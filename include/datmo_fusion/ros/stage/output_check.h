@@ -10,7 +10,9 @@
 #include <vector>
 
 #include <boost/array.hpp>
+#include <datmo_fusion/EarthFrame.h>
 #include <datmo_fusion/Risk.h>
+#include <datmo_fusion/StationTrack.h>
 
 #include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/TwistWithCovariance.h>
@@ -110,6 +112,12 @@ class FieldCheck {
   void checkCovariances(const ObjectMessage& object) {
     covariance(object.position_covariance.data(), 2);
     covariance(object.velocity_covariance.data(), 2);
+  }
+  void checkCovariances(const datmo_fusion::EarthFrame& frame) {
+    covariance(frame.covariance.data(), 3);
+  }
+  void checkCovariances(const datmo_fusion::StationTrack& track) {
+    covariance(track.covariance.data(), 4);
   }
 
   void covariance(const double* values, std::size_t size) {
