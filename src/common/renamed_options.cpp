@@ -13,7 +13,6 @@ const std::map<std::string, std::string> kRenamed = {
     {"across_per_metre", "across_per_meter"},
     {"along_per_metre", "along_per_meter"},
     {"coincidence", "false_agreement_probability"},
-    {"else_share", "other_share"},
     {"farthest", "max_distance"},
     {"highest", "max_height"},
     {"kerb_hit_probability", "curb_hit_probability"},

@@ -100,10 +100,6 @@ void KindSize::visit(OptionVisitor& visitor) {
   visitor.number({"length_sigma", "m", "standard deviation"}, length_sigma, {0.01, 10.0});
   visitor.number({"width", "m", "mean"}, width, {0.01, 10.0});
   visitor.number({"width_sigma", "m", "standard deviation"}, width_sigma, {0.01, 10.0});
-  visitor.number({"relief_sigma", "m",
-                  "standard deviation of the depth of its surface about that of a box: from bumper "
-                  "to windshield, from wheel to rider"},
-                 relief_sigma, {0.0, 10.0});
 }
 
 void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
@@ -113,8 +109,6 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
   visitor.group("van", [&] { van.visit(visitor); });
   visitor.group("truck", [&] { truck.visit(visitor); });
   visitor.group("pole", [&] { pole.visit(visitor); });
-  visitor.number({"other_share", "1", "prior share of other objects, relative to these kinds"},
-                 other_share, {0.001, 1000.0});
 }
 
 ObjectClassifier::ObjectClassifier(const Checked<ObjectClassifierOptions>& options)

@@ -17,10 +17,9 @@ void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
 
 void SurfaceGroupOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"depth_gap", "m", "neighboring surfaces of one object differ in depth by less than this"},
-      depth_gap, {0.01, 5.0});
-  visitor.number(
-      {"depth_sigmas", "1", "or by less than this many standard deviations of the depth"},
+      {"depth_sigmas", "1",
+       "neighboring surfaces belong to one object, too, if their depths differ by less than this "
+       "many standard deviations"},
       depth_sigmas, {0.0, 10.0});
   visitor.number({"tall", "m", "a surface higher than this does not belong to one lower than low"},
                  tall, {0.5, 20.0});
@@ -61,8 +60,6 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
       {"sure_range", "m", "up to here every visible object is detected; beyond, fewer and fewer",
        Tier::kPublic},
       sure_range, {1.0, 200.0});
-  visitor.number({"min_surface", "m^2", "an object with less visible surface is rejected"},
-                 min_surface, {0.0, 10.0});
   visitor.number(
       {"max_size", "m", "longer segments are not objects but walls or hedges", Tier::kPublic},
       max_size, {0.5, 100.0});

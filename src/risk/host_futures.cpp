@@ -117,26 +117,13 @@ void HostFutureOptions::visit(OptionVisitor& visitor) {
                   "straight roads (Verster, Roth, Standard operation procedures for conducting the "
                   "on-the-road driving test, 2011), more in towns"},
                  lane_deviation, {0.0, 5.0});
-  visitor.number({"lane_time", "s", "time constant with which a driver returns to it"}, lane_time,
-                 {0.6, 10.0});
   visitor.number({"steering_spread", "m/s^2",
                   "standard deviation of the error of the host's course, as a lateral "
                   "acceleration: noise of the yaw rate, and bends ahead that no border shows"},
                  steering_spread, {0.0, 5.0});
-  visitor.number(
-      {"max_steering_spread", "rad",
-       "its limit, as a steering angle: without one, a slow vehicle would turn on the spot"},
-      max_steering_spread, {0.0, 0.5});
   visitor.number({"steering_time", "s",
                   "time constant with which a driver reaches the intended steering angle"},
                  steering_time, {0.05, 5.0});
-  visitor.number({"course_time", "s", "how far ahead a driver follows the course of the road"},
-                 course_time, {0.2, 5.0});
-  visitor.number({"min_course_distance", "m", "the same at low speed"}, min_course_distance,
-                 {1.0, 50.0});
-  visitor.number(
-      {"border_probability", "1", "a less probable border of the road is not used for the course"},
-      border_probability, {0.0, 1.0});
 }
 
 std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,

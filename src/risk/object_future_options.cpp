@@ -27,26 +27,13 @@ std::size_t HorizonOptions::steps() const {
 }
 
 void ObjectFutureOptions::visit(OptionVisitor& visitor) {
-  constexpr Bounds kTurning{0.0, 3.0};
   visitor.number({"vehicle_turning", "rad/sqrt(s)",
                   "random walk of the course of a vehicle between turns: 0.4 m/s to the side after "
                   "1 s at 14 m/s, as drivers sway in their lane"},
-                 vehicle_turning, kTurning);
-  visitor.number({"cyclist_turning", "rad/sqrt(s)", "the same for cyclists and unknown objects"},
-                 cyclist_turning, kTurning);
-  visitor.number({"pedestrian_turning", "rad/sqrt(s)",
-                  "the same for pedestrians, who change direction easily (thesis 5.3.5)"},
-                 pedestrian_turning, kTurning);
+                 vehicle_turning, {0.0, 3.0});
   visitor.number(
       {"turning_time", "s", "time constant with which a driver or rider returns to the course"},
       turning_time, {0.1, 100.0});
-  visitor.number(
-      {"start_acceleration", "m/s^2",
-       "standard deviation of the acceleration of an object that begins to accelerate or brake"},
-      start_acceleration, {0.0, 10.0});
-  visitor.number(
-      {"stop_deceleration", "m/s^2", "deceleration with which an object comes to a stop"},
-      stop_deceleration, {0.1, 10.0});
   visitor.number({"max_acceleration", "m/s^2", "no road user accelerates or brakes harder"},
                  max_acceleration, {0.1, 15.0});
   visitor.number({"max_lateral", "m/s^2", "no road user has a larger lateral acceleration"},

@@ -95,13 +95,6 @@ void RoadFollowingOptions::visit(OptionVisitor& visitor) {
                   "share of the drivers not following the road that turn into it or off it; the "
                   "others cross it"},
                  turning, {0.0, 1.0});
-  visitor.number({"crossing_sigma", "rad",
-                  "standard deviation of the angle between crossing roads about a right angle"},
-                 crossing_sigma, {0.05, 1.0});
-  visitor.number({"direction_sigma", "rad",
-                  "standard deviation of a course about the road's direction: swaying, and bends "
-                  "beyond the known part of the road"},
-                 direction_sigma, {0.001, 1.0});
   visitor.number({"min_speed", "m/s", "slower objects have no measurable course"}, min_speed,
                  {0.1, 10.0});
 }

@@ -80,15 +80,6 @@ void RiskOptions::visit(OptionVisitor& visitor) {
                   max_objects, {1, 1000});
   visitor.number({"max_silence", "s", "a track that was not observed for longer is ignored"},
                  max_silence, {0.0, 10.0});
-  visitor.number({"point_spacing", "m",
-                  "spacing of the points of stationary obstacles: closer ones count once"},
-                 point_spacing, {0.05, 2.0});
-  visitor.number({"point_margin", "m", "points this close to a track's box belong to the track"},
-                 point_margin, {0.0, 5.0});
-  visitor.number(
-      {"default_size", "m",
-       "extent of a track whose own is not measured or is smaller: that of a pedestrian"},
-      default_size, {0.1, 5.0});
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
   visitor.group("horizon", [&] { horizon.visit(visitor); });
   visitor.group("host", [&] { host.visit(visitor); });

@@ -108,51 +108,15 @@ Gap gapAlong(const Point2& axis, double reach, const Point2& apart, const Point2
 }  // namespace
 
 void RuleOptions::visit(OptionVisitor& visitor) {
-  constexpr Bounds kTime{0.0, 5.0};
-  constexpr Bounds kRadius{0.1, 10.0};
-  constexpr Bounds kBraking{0.1, 15.0};
-  visitor.number(
-      {"driver_time", "s", "reaction time of a driver (thesis 5.3.5: Zhang et al. 2006)"},
-      driver_time, kTime);
-  visitor.number({"vehicle_time", "s", "reaction time of the vehicle (thesis 5.3.5)"}, vehicle_time,
-                 kTime);
   visitor.number({"host_radius", "m", "radius of the host's circle (thesis 5.3.5; our assumption)"},
-                 host_radius, kRadius);
-  visitor.number({"vehicle_radius", "m",
-                  "radius of the circle of a vehicle or anything else but a pedestrian (thesis "
-                  "5.3.5; our assumption)"},
-                 vehicle_radius, kRadius);
-  visitor.number({"pedestrian_radius", "m",
-                  "radius of a pedestrian's circle (thesis 5.3.5: predefined; our assumption)"},
-                 pedestrian_radius, kRadius);
+                 host_radius, {0.1, 10.0});
   visitor.number({"growth", "1",
                   "growth of a vehicle's circle with each meter that it travels (thesis 5.3.5; our "
                   "assumption)"},
                  growth, {0.0, 1.0});
-  visitor.number(
-      {"response_time", "s", "rss: response time (Shalev-Shwartz et al. 2017), a usual value"},
-      response_time, kTime);
-  visitor.number({"response_acceleration", "m/s^2",
-                  "rss: acceleration of all road users within the response time"},
-                 response_acceleration, {0.0, 10.0});
-  visitor.number(
-      {"host_braking", "m/s^2", "rss: deceleration that the host is certain to reach after it"},
-      host_braking, kBraking);
-  visitor.number({"vehicle_braking", "m/s^2", "rss: largest deceleration of a vehicle ahead"},
-                 vehicle_braking, kBraking);
-  visitor.number({"cyclist_braking", "m/s^2", "rss: the same for a cyclist"}, cyclist_braking,
-                 kBraking);
-  visitor.number(
-      {"pedestrian_braking", "m/s^2", "rss: the same for a pedestrian, who stops at once"},
-      pedestrian_braking, kBraking);
-  visitor.number({"lateral_braking", "m/s^2", "rss: lateral deceleration"}, lateral_braking,
-                 kBraking);
-  visitor.number(
-      {"lateral_acceleration", "m/s^2", "rss: lateral acceleration within the response time"},
-      lateral_acceleration, {0.0, 10.0});
-  visitor.number(
-      {"lateral_margin", "m", "rss: lateral distance by which all road users sway in their lane"},
-      lateral_margin, {0.0, 5.0});
+  visitor.number({"host_braking", "m/s^2",
+                  "rss: deceleration that the host is certain to reach after the response time"},
+                 host_braking, {0.1, 15.0});
 }
 
 ObjectRisk thesisRisk(const Track& track, const BodyPath& host, const RuleOptions& options) {

@@ -7,10 +7,6 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number({"length", "m", "length of a window, along the border (thesis 3.5: 20)"}, length,
                  {1.0, 200.0});
   visitor.number({"width", "m", "width of a window (thesis 3.5: 1)"}, width, {0.1, 10.0});
-  visitor.number(
-      {"first_distance", "m",
-       "distance from the vehicle to the center line of the first window (thesis 3.5: 1)"},
-      first_distance, {0.0, 50.0});
   visitor.number({"step", "m", "distance from one window to the next (thesis 3.5: 0.9)"}, step,
                  {0.05, 10.0});
   visitor.integer({"left_windows", "1", "windows on the left side (thesis 3.5: 25)"}, left_windows,
@@ -21,10 +17,6 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
                   "windows are also rotated by up to this, since the vehicle changes lanes and "
                   "roads bend; 0: parallel to the vehicle only (thesis 3.5)"},
                  heading_range, {0.0, 1.0});
-  visitor.number({"heading_step", "rad",
-                  "angle between rotated windows: a line at half of it to a window should not "
-                  "leave the window"},
-                 heading_step, {0.005, 0.5});
   visitor.integer(
       {"sections", "1", "sections along a window, whose share that is hit is the score"}, sections,
       {1, 64});
@@ -41,11 +33,6 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
                   "first: the nearest window with the score of a border whose next window does not "
                   "score higher; highest: the window with the highest score (thesis 3.5 has both)"},
                  take, {{"first", BorderChoice::kFirst}, {"highest", BorderChoice::kHighest}});
-  visitor.number(
-      {"hit_sigma", "m", "standard deviation of the hits about the border, by range noise"},
-      hit_sigma, {0.01, 2.0});
-  visitor.number({"shape_sigma", "m", "standard deviation of the border about a straight line"},
-                 shape_sigma, {0.0, 2.0});
 }
 
 }  // namespace datmo

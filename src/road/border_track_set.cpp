@@ -41,8 +41,6 @@ bool sameLine(const FollowedBorder& one, const FollowedBorder& other, double dis
 
 void BorderTrackSetOptions::visit(OptionVisitor& visitor) {
   visitor.group("border", [&] { border.visit(visitor); });
-  visitor.numbers({"search_from", "m", "distances ahead of the scanner at which searches begin"},
-                  search_from, {-50.0, 100.0});
 }
 
 void BorderTrackSet::clear() {

@@ -76,27 +76,11 @@ void BranchSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"width", "m", "its width: two lanes; driveways and gaps between cars are narrower"}, width,
       {1.0, 20.0});
-  visitor.number({"max_shift", "m",
-                  "distance from the vehicle to its center line, at most: the vehicle is beside a "
-                  "yard of that length only briefly"},
-                 max_shift, {0.0, 10.0});
-  visitor.number({"heading_step", "rad", "step between the headings that are tried"}, heading_step,
-                 {degrees(1.0), degrees(30.0)});
-  visitor.number({"min_free", "1", "minimum share of a street that beams have passed"}, min_free,
-                 {0.1, 1.0});
-  visitor.number({"blocked_weight", "1",
-                  "additional share that beams must have passed, beyond min_free, for each share "
-                  "of the length that is blocked, as by a waiting vehicle"},
-                 blocked_weight, {0.0, 100.0});
   visitor.number(
       {"min_sides", "1",
        "minimum share of a street's length, beyond the vehicle's own road, with obstacles "
        "beside it, mean of both sides: open ground that is seen through a gap has none"},
       min_sides, {0.0, 1.0});
-  visitor.number({"max_angle", "rad", "free headings that span a wider angle are open space"},
-                 max_angle, {degrees(10.0), kTurn});
-  visitor.number({"min_separation", "rad", "minimum angle between the headings of two streets"},
-                 min_separation, {degrees(10.0), degrees(120.0)});
 }
 
 double BranchSearch::sidesOf(const PassageGrid& grid, const Pose2& axis) const {

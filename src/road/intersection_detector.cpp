@@ -23,24 +23,16 @@ constexpr int kMinBranches = 3;
 }  // namespace
 
 void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"evidence_length", "m",
-                  "distance between two positions at which the observed streets are independent of "
-                  "each other"},
-                 evidence_length, {0.1, 50.0});
-  visitor.number({"seen_at_intersection", "1",
-                  "probability that three streets are seen at an intersection, despite waiting and "
-                  "crossing traffic"},
-                 seen_at_intersection, {0.01, 0.99});
-  visitor.number({"seen_on_road", "1", "probability that three are seen on a road, which has two"},
-                 seen_on_road, {0.001, 0.99});
+  visitor.number(
+      {"seen_on_road", "1", "probability that three streets are seen on a road, which has two"},
+      seen_on_road, {0.001, 0.99});
   visitor.number(
       {"min_road", "m",
        "length of border that the road had recently: with less, it is a parking lot or a square"},
       min_road, {0.0, 50.0});
-  visitor.number({"enter_above", "1", "probability above which the vehicle is at an intersection"},
-                 enter_above, {0.01, 0.99});
-  visitor.number({"leave_below", "1", "probability below which it is no longer at one"},
-                 leave_below, {0.01, 0.99});
+  visitor.number(
+      {"leave_below", "1", "probability below which the vehicle is no longer at an intersection"},
+      leave_below, {0.01, 0.99});
 }
 
 void IntersectionDetectorOptions::check() const {

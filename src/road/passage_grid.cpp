@@ -16,10 +16,6 @@ void PassageGridOptions::visit(OptionVisitor& visitor) {
       "window", [&] { window.visit(visitor); }, Tier::kExpert);
   visitor.integer({"min_hits", "1", "minimum number of beams that end in a cell that is not free"},
                   min_hits, {1, 1000});
-  visitor.number({"hit_share", "1",
-                  "minimum share of a cell's beams, ending or passing, that end in a cell that is "
-                  "not free: moving objects leave fewer"},
-                 hit_share, {0.0, 1.0});
   visitor.number({"end_margin", "m",
                   "distance before the end of a beam in which it does not free cells: noise of its "
                   "range, and the cell's size"},

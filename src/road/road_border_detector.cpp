@@ -73,7 +73,7 @@ void RoadBorderDetectorOptions::check() const {
   if (window < min_window) {
     throw OptionError("passages/window: length and width " + std::to_string(window) +
                       " m: expected " + std::to_string(min_window) +
-                      " m or more, twice branches/length and branches/max_shift");
+                      " m or more, for streets of branches/length on both sides");
   }
 }
 

@@ -81,10 +81,6 @@ void SignalWireOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"max_ahead", "s", "traffic lights with stamps farther ahead of our clock are rejected"},
       max_ahead, {0.0, 10.0});
-  visitor.number(
-      {"map_age", "s",
-       "how long the map of an intersection is valid (ETSI TS 103 301: sent once a second)"},
-      map_age, {1.0, 86400.0});
   advice.visit(visitor);
 }
 

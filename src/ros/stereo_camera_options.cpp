@@ -30,11 +30,6 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
                   "against the scanner; they are left out while the mount or clock is certainly "
                   "wrong, or camera and scanner do not agree"},
                  align);
-  visitor.number(
-      {"alignment_hold", "s",
-       "how long after its stamp a disagreement of camera and scanner is assumed to last, since a "
-       "silent scanner cannot confirm it; the time over which agreement is judged"},
-      alignment_hold, {0.1, 3600.0});
   DepthNoiseOptions::visit(visitor);
 }
 

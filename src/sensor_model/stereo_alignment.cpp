@@ -54,24 +54,14 @@ void StereoAlignmentOptions::visit(OptionVisitor& visitor) {
       {"disparity_sigma", "px",
        "standard deviation of the disparity error that all points of a surface have in common"},
       disparity_sigma, {0.01, 10.0});
-  constexpr Bounds kOnce{0.0, 1000.0};
   visitor.number({"surface_distance", "m",
                   "a surface counts once while the vehicle moves this far, since its errors are "
                   "the same from image to image: the length of a parked car; 0: each time"},
-                 surface_distance, kOnce);
-  visitor.number({"surface_time", "s", "and once in this time while the vehicle is stationary"},
-                 surface_time, kOnce);
+                 surface_distance, {0.0, 1000.0});
   visitor.number({"gate", "1",
                   "squared differences beyond this, over their variance, belong to two surfaces; "
                   "16: four standard deviations"},
                  gate, {1.0, 100.0});
-  visitor.number(
-      {"agreement_time", "s", "time over which the share of agreeing surfaces is averaged"},
-      agreement_time, {0.1, 100.0});
-  visitor.number({"min_agreement", "1",
-                  "if fewer of them agree, the clouds do not show what the scanner sees, and "
-                  "nothing is computed from them"},
-                 min_agreement, {0.0, 1.0});
 }
 
 std::array<const AlignmentTermOptions*, kAlignmentTerms> StereoAlignmentOptions::terms() const {

@@ -40,22 +40,10 @@ void StereoConesOptions::visit(OptionVisitor& visitor) {
 }
 
 void StereoColumnsOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"min_surface", "m^2",
-       "a cell is occupied if at least this much surface is seen in it between the bottom and the "
-       "top of the layer; a pole of 0.1 m width has 0.1 m^2 for each meter of height"},
-      min_surface, {0.0001, 10.0});
   visitor.integer({"min_points", "1",
-                   "and at least this many points: far away, a single point covers much surface"},
+                   "minimum number of points in an occupied cell, besides their surface: far away, "
+                   "a single point covers much surface"},
                   min_points, {1, 10000});
-  visitor.number({"road_sigmas", "1",
-                  "a point belongs to the road if a depth error of this many standard deviations "
-                  "explains its position"},
-                 road_sigmas, {0.0, 10.0});
-  visitor.number(
-      {"obstacle_sigmas", "1",
-       "cells within this many standard deviations of an obstacle's depth are not marked free"},
-      obstacle_sigmas, {0.0, 10.0});
 }
 
 void StereoGridOptions::visit(OptionVisitor& visitor) {

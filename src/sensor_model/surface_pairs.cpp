@@ -27,14 +27,10 @@ void SurfacePairOptions::visit(OptionVisitor& visitor) {
                   "upper limit of that height: near the scanner's, since bodies are not upright"},
                  max_height, {0.1, 5.0});
   visitor.number({"max_range", "m", "farther surfaces are not compared"}, max_range, {2.0, 200.0});
-  visitor.number({"max_step", "m", "largest distance between neighboring beams of one surface"},
-                 max_step, {0.01, 5.0});
-  visitor.number({"max_step_ratio", "1",
-                  "or this many times the spacing of the beams there: 2, on a surface that is "
-                  "slanted by 60 degrees"},
-                 max_step_ratio, {1.0, 100.0});
-  visitor.number({"max_length", "m", "length of a surface; longer ones are divided"}, max_length,
-                 {0.1, 20.0});
+  visitor.number(
+      {"max_step", "m",
+       "distance between neighboring beams of one surface, at most; more if they are wide apart"},
+      max_step, {0.01, 5.0});
   visitor.integer({"min_beams", "1", "minimum number of beams on a surface"}, min_beams, {3, 100});
   visitor.number(
       {"min_incidence", "1",

@@ -19,12 +19,6 @@ void KeyframeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"distance", "m", "distance from one keyframe to the next"}, distance,
                  {0.05, 100.0});
   visitor.number({"turn", "rad", "or this turn"}, turn, {0.01, kPi});
-  visitor.number({"max_position_sigma", "m",
-                  "a scan with a less certain pose (standard deviation) is not kept; as "
-                  "grid_slam's recovery/from_position_sigma, above which it searches its map"},
-                 max_position_sigma, {0.01, 1000.0});
-  visitor.number({"max_heading_sigma", "rad", "the same for the heading"}, max_heading_sigma,
-                 {0.001, 10.0});
   visitor.number({"new_map_after", "s",
                   "a pose that stays uncertain for this long is in a new map; more than "
                   "grid_slam's recovery/kidnapped_after and give_up_after together"},

@@ -39,14 +39,11 @@ void LoopCloserOptions::visit(OptionVisitor& visitor) {
                   "distance between the poses of a loop, in addition to the possible drift since "
                   "the last loop"},
                  max_distance, {0.1, 1000.0});
-  visitor.number({"trusted_sigma", "m",
-                  "where the drift may be larger (standard deviation), a loop needs a second one "
-                  "that confirms it"},
-                 trusted_sigma, {0.0, 1000.0});
-  visitor.number({"max_sigma", "m",
-                  "where the drift may be larger, no loop is searched for: in so wide an area some "
-                  "place looks similar"},
-                 max_sigma, {0.1, 1000.0});
+  visitor.number(
+      {"max_sigma", "m",
+       "where the drift may be larger (standard deviation), no loop is searched for: in so "
+       "wide an area some place looks similar"},
+      max_sigma, {0.1, 1000.0});
   visitor.number({"position_drift", "m/m^0.5",
                   "drift of the live SLAM along the drive, in addition to its own covariance "
                   "(standard deviation)"},

@@ -27,12 +27,6 @@ constexpr double kMaxInterval = 0.5;
 }  // namespace
 
 void MapRecoveryOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"from_position_sigma", "m",
-                  "a gap that makes the position this uncertain (standard deviation) requires a "
-                  "search of the map; after shorter ones the next scan is matched as usual"},
-                 from_position_sigma, {0.01, 1000.0});
-  visitor.number({"from_heading_sigma", "rad", "the same for the heading"}, from_heading_sigma,
-                 {0.001, 10.0});
   visitor.number({"first_search_after", "s",
                   "how long the new map needs to learn what is stationary (map/static_after) and "
                   "what is free"},
@@ -60,12 +54,10 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.integer(
       {"prior_boxes_per_second", "1/s", "recovery/boxes_per_second of a search in a prior map"},
       prior_boxes_per_second, {1, 100000000});
-  visitor.number(
-      {"confirmed_after", "m",
-       "a pose found in a prior map is accepted when it is found again after this distance"},
-      confirmed_after, {0.0, 1000.0});
-  visitor.number({"confirmed_after_turn", "rad", "or after this turn"}, confirmed_after_turn,
-                 {0.0, kPi});
+  visitor.number({"confirmed_after", "m",
+                  "a pose found in a prior map is accepted when it is found again after this "
+                  "distance, or after a turn"},
+                 confirmed_after, {0.0, 1000.0});
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });
 }
 

@@ -14,10 +14,6 @@ MapSearchOptions MapSearchOptions::inCompleteMap() {
 }
 
 void MapSearchOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"changed_share", "1",
-                  "mean share of the surfaces of one map that are contradicted by another map of "
-                  "the same place, made a short time later"},
-                 changed_share, {0.001, 1.0});
   visitor.number({"missing_share", "1",
                   "mean share of the surfaces of the newer map that are missing in a map of the "
                   "whole area; 0: the older map covers a part, and what it lacks does not count"},
@@ -25,20 +21,11 @@ void MapSearchOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"max_log_ratio", "1", "hypotheses are kept up to this log-likelihood ratio to the best one"},
       max_log_ratio, {0.0, 1000.0});
-  visitor.number(
-      {"max_changed_share", "1", "a pose that is contradicted by a larger share is rejected"},
-      max_changed_share, {0.0, 1.0});
-  visitor.number(
-      {"min_shared", "1", "minimum share of surfaces that both maps have, at the pose found"},
-      min_shared, {0.0, 1.0});
   visitor.number({"max_aligned_sigma", "m",
                   "if several poses fit, the maps are aligned if a covariance that reaches all of "
                   "them leaves no surface up to `reach` less certain than this (standard "
                   "deviation); 0: never"},
                  max_aligned_sigma, {0.0, 100.0});
-  visitor.integer(
-      {"min_surfaces", "1", "minimum number of static cells of the newer map for a search"},
-      min_surfaces, {1, 1000000});
   visitor.number({"reach", "m", "surfaces up to this range are compared"}, reach, {1.0, 1000.0});
   visitor.integer({"max_boxes", "1", "boxes of poses after which a search ends as ambiguous"},
                   max_boxes, {1, 100000000});

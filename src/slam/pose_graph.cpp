@@ -53,8 +53,6 @@ void PoseGraphOptions::visit(OptionVisitor& visitor) {
       {"loss_scale", "1",
        "a loop with an error of this many standard deviations has half the weight (Cauchy)"},
       loss_scale, {0.1, 100.0});
-  visitor.integer({"max_iterations", "1", "maximum number of iterations of one optimization"},
-                  max_iterations, {1, 1000});
 }
 
 PoseGraph::PoseGraph(const Checked<PoseGraphOptions>& options) : options_(*options) {}

@@ -56,12 +56,8 @@ bool reaches(Box2 box, const Box2& other, double scale) {
 void DuplicateOptions::visit(OptionVisitor& visitor) {
   visitor.number({"reach", "1",
                   "two targets may be parts of one object if the box of one, enlarged by this "
-                  "factor, contains the center of the other"},
+                  "factor, contains the center of the other, and if their velocities agree"},
                  reach, {0.0, 10.0});
-  visitor.number({"velocity_gate", "1",
-                  "they are if their velocities are within this Mahalanobis distance squared: 5.99 "
-                  "is the 95 % quantile of chi-square with two degrees of freedom"},
-                 velocity_gate, {0.0, 1000.0});
 }
 
 std::vector<std::uint64_t> findDuplicates(const std::vector<BestTarget>& targets,

@@ -73,10 +73,6 @@ void TargetMotionOptions::visit(OptionVisitor& visitor) {
                   "power of the random walk of a stationary object's position: its root is the "
                   "change in one second"},
                  standing_density, {0.0, 1.0});
-  visitor.number({"standing_fading", "s",
-                  "time constant with which the standing model forgets velocity and acceleration; "
-                  "well below the time between two scans"},
-                 standing_fading, {1e-3, 1.0});
   visitor.number({"start_speed_std", "m/s",
                   "standard deviation of each component of the velocity of an object that starts "
                   "to move, in the scan in which it does; three times this for one that stops"},

@@ -116,16 +116,8 @@ void TrackedBoxOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"heading_drift", "rad^2/s", "growth of the heading's variance while the object is not seen"},
       heading_drift, {0.0, 10.0});
-  visitor.number({"slip_std", "rad",
-                  "standard deviation of the angle between heading and velocity of the center: it "
-                  "is not zero in turns"},
-                 slip_std, {0.0, 1.0});
   visitor.number({"reverse_speed", "m/s", "nothing moves backward faster than this"}, reverse_speed,
                  {0.0, 100.0});
-  visitor.number(
-      {"reverse_time", "s",
-       "nothing moves backward for longer, nor for longer than it has moved forward before"},
-      reverse_time, {0.0, 1000.0});
 }
 
 TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)

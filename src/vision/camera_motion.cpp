@@ -174,9 +174,6 @@ void CameraMotionOptions::visit(OptionVisitor& visitor) {
       {"max_residual", "px",
        "their flow and disparity deviate from those of stationary features by up to this"},
       max_residual, {1.0, 1000.0});
-  visitor.number({"min_inliers", "1",
-                  "minimum number of stationary features; with fewer the motion is unknown"},
-                 min_inliers, {3.0, 1e4});
 }
 
 CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d& mounted_earlier,

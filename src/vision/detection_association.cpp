@@ -56,26 +56,10 @@ std::optional<Pairing> pairingOf(const ProjectedObject& object, const ImageDetec
 }  // namespace
 
 void DetectionAssociationOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"min_coverage", "1",
-       "minimum share of an object's columns that a detection must cover to be associated with it"},
-      min_coverage, {0.01, 1.0});
-  visitor.number(
-      {"column_share", "1",
-       "standard deviation between the centers of an object and its detection, as a share of the "
-       "detection's width: the scanner sees one side, the image the whole object"},
-      column_share, {0.01, 10.0});
-  visitor.number({"range_gate", "1",
-                  "largest squared Mahalanobis distance between the ranges from scanner and image"},
-                 range_gate, {0.1, 1000.0});
   visitor.number({"unrelated_density", "1",
-                  "density of unrelated objects at the same columns, per factor e of range: a pair "
-                  "must be likelier than one of them"},
+                  "density of unrelated objects at the same columns, per factor e of range: a "
+                  "detection and an object must be a likelier pair than one of them"},
                  unrelated_density, {1e-6, 100.0});
-  visitor.number(
-      {"piece_coverage", "1",
-       "an object without a detection is part of a vehicle that covers this share of its columns"},
-      piece_coverage, {0.01, 1.0});
 }
 
 std::vector<std::optional<std::size_t>> associate(const std::vector<ProjectedObject>& objects,

@@ -250,17 +250,10 @@ void DnnDetectorOptions::visit(OptionVisitor& visitor) {
                   {64.0, 4096.0});
   visitor.number({"min_score", "1", "minimum score of reported detections"}, min_score,
                  {0.01, 1.0});
-  visitor.number({"max_overlap", "1",
-                  "intersection over union of two detections of one class above which only the "
-                  "surer one is kept"},
-                 max_overlap, {0.0, 1.0});
   visitor.integer({"close_look", "px",
                    "persons are examined again, enlarged to a square of this size, to see whether "
                    "they ride; a multiple of 32; 0: not examined again"},
                   close_look, {0.0, 1024.0});
-  visitor.number(
-      {"close_margin", "1", "size of that square in the image, relative to the person's"},
-      close_margin, {1.0, 4.0});
   visitor.integer(
       {"max_close_looks", "1", "maximum number per image, the largest first: bounds its time"},
       max_close_looks, {0.0, 100.0});

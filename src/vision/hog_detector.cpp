@@ -111,13 +111,6 @@ class HogDetector::State {
 void HogDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"min_score", "1", "minimum margin of a person, as its score"}, min_score,
                  {0.0, 10.0});
-  visitor.number({"max_overlap", "1",
-                  "intersection over union of two persons above which only the surer one is kept"},
-                 max_overlap, {0.0, 1.0});
-  visitor.number({"max_upscaling", "1",
-                  "persons that would have to be enlarged by more are not searched for: those "
-                  "smaller than 96 px over this"},
-                 max_upscaling, {1.0, 10.0});
   visitor.integer({"max_regions", "1",
                    "maximum number of regions examined in an image, the nearest: bounds its time"},
                   max_regions, {1, 1000});

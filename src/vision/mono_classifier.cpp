@@ -110,17 +110,10 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"min_size", "m", "an object with a smaller measured size is assumed this long and wide"},
       min_size, {0.01, 10.0});
-  visitor.number({"region_sigmas", "1",
-                  "standard deviations of an object's position for which its region leaves room"},
-                 region_sigmas, {0.0, 10.0});
   visitor.number({"min_alone", "1",
                   "a detection from the image alone is an object if its class is at least this "
                   "probable; 1: none is"},
                  min_alone, {0.0, 1.0});
-  visitor.number({"thesis_overlap", "1",
-                  "method thesis: a detection belongs to a rectangle if their intersection over "
-                  "union is larger"},
-                 thesis_overlap, {0.0, 1.0});
 }
 
 MonoClassifier::MonoClassifier(const Checked<MonoClassifierOptions>& options)

@@ -75,10 +75,6 @@ void MonoGridOptions::visit(OptionVisitor& visitor) {
                   "standard deviation of the camera's pitch over the road: springs and slopes "
                   "(lines only)"},
                  pitch_sigma, {0.0, 0.2});
-  visitor.number({"thesis_distance", "1",
-                  "method thesis: a pixel this many standard deviations from the road's colors "
-                  "belongs to an object (thesis eq. 4.1.6: a threshold of the density)"},
-                 thesis_distance, {0.1, 100.0});
   visitor.group("color", [&] { color.visit(visitor); });
 }
 

@@ -91,23 +91,13 @@ struct QuadMatcher::Pyramids {
 };
 
 void QuadMatcherOptions::visit(OptionVisitor& visitor) {
-  visitor.integer(
-      {"max_features", "1", "maximum number of corners tracked in an image, the best ones"},
-      max_features, {10, 10000});
-  visitor.number({"min_distance", "px", "minimum distance between two of them"}, min_distance,
+  visitor.number({"min_distance", "px", "minimum distance between two corners"}, min_distance,
                  {1.0, 100.0});
-  visitor.number(
-      {"min_quality", "1", "minimum quality of a corner, relative to the best one of the image"},
-      min_quality, {1e-5, 1.0});
   visitor.integer({"window", "px", "side of the square around a corner that is compared"}, window,
                   {5, 63});
   visitor.integer({"pyramid_levels", "1",
                    "halvings of the image: each doubles how far a feature may have moved"},
                   pyramid_levels, {0, 8});
-  visitor.number({"max_closure", "px",
-                  "largest distance from its start at which a feature may end after tracking "
-                  "through all four images"},
-                 max_closure, {0.01, 10.0});
   visitor.number(
       {"max_row_offset", "px", "largest difference between the rows of a feature in both images"},
       max_row_offset, {0.1, 10.0});

@@ -49,12 +49,6 @@ void RoadColorOptions::visit(OptionVisitor& visitor) {
                   "time in which learned colors lose all but 1/e of their weight to newer images, "
                   "at any frame rate: a vehicle enters shade as quickly"},
                  learning_time, {0.01, 1000.0});
-  visitor.number({"min_new_share", "1",
-                  "colors missing in the mixture become its newest component if at least this "
-                  "share of an image's samples has them"},
-                 min_new_share, {0.0, 1.0});
-  visitor.number({"min_sigma", "1", "smallest standard deviation of a component, gray levels"},
-                 min_sigma, {0.1, 100.0});
 }
 
 void RoadColor::Moments::add(double share, const PixelColor& color) {

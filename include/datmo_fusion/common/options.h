@@ -45,7 +45,9 @@ using Choices = std::vector<std::pair<std::string, Enum>>;
 
 /// Visits the options of a stage. Each `Options` struct of the core declares its members in one
 /// function, `void visit(OptionVisitor&)`; reading, checking and documenting options are visitors,
-/// so that each option is declared only once.
+/// so that each option is declared only once. A member that visit() leaves out belongs to the
+/// method and is no parameter: code and tests set it, and its comment has its unit, valid range and
+/// source.
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;

@@ -15,7 +15,9 @@ struct KindSize {
   double height = 0.0, height_sigma = 0.0;  ///< m
   double length = 0.0, length_sigma = 0.0;  ///< m
   double width = 0.0, width_sigma = 0.0;    ///< m
-  double relief_sigma = 0.0;                ///< m
+  /// m, 0 to 10: standard deviation of the depth of its surface about that of a box: from bumper to
+  /// windshield, from wheel to rider
+  double relief_sigma = 0.0;
 
   void visit(OptionVisitor& visitor);
 };
@@ -28,7 +30,8 @@ struct ObjectClassifierOptions {
   KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15, 0.5};
   KindSize truck{1.0, 3.4, 0.4, 9.0, 2.5, 2.5, 0.15, 0.4};
   KindSize pole{3.0, 4.5, 1.2, 0.2, 0.1, 0.2, 0.1, 0.05};
-  double other_share = 2.0;  ///< relative to the kinds' shares
+  /// 0.001 to 1000: prior share of other objects, relative to these kinds
+  double other_share = 2.0;
 
   void visit(OptionVisitor& visitor);
 };

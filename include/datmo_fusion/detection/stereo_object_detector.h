@@ -26,7 +26,8 @@ struct StereoSurfaceOptions {
 
 /// Which surfaces belong together.
 struct SurfaceGroupOptions {
-  double depth_gap = 0.6;     ///< m
+  /// m, 0.01 to 5: neighboring surfaces of one object differ in depth by less than this
+  double depth_gap = 0.6;
   double depth_sigmas = 1.2;  ///< standard deviations of the depth
   double tall = 2.6;          ///< m
   double low = 2.0;           ///< m
@@ -51,10 +52,11 @@ struct StereoObjectDetectorOptions : RoadSceneOptions {
   SurfaceGroupOptions groups;
   StereoNoiseOptions noise;
   ObjectClassifierOptions classes;
-  double sure_range = 25.0;   ///< m
-  double min_surface = 0.15;  ///< m^2
-  double max_size = 12.0;     ///< m
-  double max_doubt = 3.0;     ///< log odds
+  double sure_range = 25.0;  ///< m
+  /// m^2, 0 to 10: an object with less visible surface is rejected
+  double min_surface = 0.15;
+  double max_size = 12.0;  ///< m
+  double max_doubt = 3.0;  ///< log odds
 
   void visit(OptionVisitor& visitor);
 };

@@ -13,15 +13,20 @@
 namespace datmo {
 
 struct HostFutureOptions {
-  double acceleration_spread = 0.5;   ///< m/s^2
-  double acceleration_time = 2.0;     ///< s
-  double lane_deviation = 0.3;        ///< m
-  double lane_time = 1.2;             ///< s
-  double steering_spread = 0.1;       ///< m/s^2
-  double max_steering_spread = 0.02;  ///< rad
-  double steering_time = 0.5;         ///< s
-  double course_time = 3.0;           ///< s
-  double min_course_distance = 6.0;   ///< m
+  double acceleration_spread = 0.5;  ///< m/s^2
+  double acceleration_time = 2.0;    ///< s
+  double lane_deviation = 0.3;       ///< m
+  /// s, 0.6 to 10: time constant with which a driver returns to the lane's middle
+  double lane_time = 1.2;
+  double steering_spread = 0.1;  ///< m/s^2
+  /// rad, 0 to 0.5: limit of steering_spread, as a steering angle: without one, a slow vehicle
+  /// would turn on the spot
+  double max_steering_spread = 0.02;
+  double steering_time = 0.5;  ///< s
+  /// s, 0.2 to 5: how far ahead a driver follows the course of the road
+  double course_time = 3.0;
+  double min_course_distance = 6.0;  ///< m, 1 to 50: the same at low speed
+  /// 0 to 1: a less probable border of the road is not used for the course
   double border_probability = 0.7;
 
   void visit(OptionVisitor& visitor);

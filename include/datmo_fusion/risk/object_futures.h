@@ -28,14 +28,19 @@ struct HorizonOptions {
 };
 
 struct ObjectFutureOptions {
-  double vehicle_turning = 0.03;     ///< rad/sqrt(s)
-  double cyclist_turning = 0.08;     ///< rad/sqrt(s)
-  double pedestrian_turning = 0.25;  ///< rad/sqrt(s)
-  double turning_time = 2.0;         ///< s
-  double start_acceleration = 1.5;   ///< m/s^2
-  double stop_deceleration = 3.0;    ///< m/s^2
-  double max_acceleration = 8.0;     ///< m/s^2
-  double max_lateral = 4.0;          ///< m/s^2
+  double vehicle_turning = 0.03;  ///< rad/sqrt(s)
+  /// rad/sqrt(s), 0 to 3: as vehicle_turning, of cyclists and unknown objects
+  double cyclist_turning = 0.08;
+  /// rad/sqrt(s), 0 to 3: the same of pedestrians, who change direction easily (thesis 5.3.5)
+  double pedestrian_turning = 0.25;
+  double turning_time = 2.0;  ///< s
+  /// m/s^2, 0 to 10: standard deviation of the acceleration of an object that begins to accelerate
+  /// or brake
+  double start_acceleration = 1.5;
+  /// m/s^2, 0.1 to 10: deceleration with which an object comes to a stop
+  double stop_deceleration = 3.0;
+  double max_acceleration = 8.0;  ///< m/s^2
+  double max_lateral = 4.0;       ///< m/s^2
   RoadFollowingOptions road_following;
   ClassMotionOptions motion;      ///< the tracker's
   TransitionOptions transitions;  ///< the tracker's sojourn times

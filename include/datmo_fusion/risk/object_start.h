@@ -10,11 +10,14 @@ namespace datmo {
 
 /// Prior that drivers and riders follow the direction of the road.
 struct RoadFollowingOptions {
-  double probability = 0.9;       ///< 1
-  double turning = 0.15;          ///< 1
-  double crossing_sigma = 0.35;   ///< rad
-  double direction_sigma = 0.05;  ///< rad
-  double min_speed = 1.0;         ///< m/s
+  double probability = 0.9;  ///< 1
+  double turning = 0.15;     ///< 1
+  /// rad, 0.05 to 1: standard deviation of the angle between crossing roads about a right angle
+  double crossing_sigma = 0.35;
+  /// rad, 0.001 to 1: standard deviation of a course about the road's direction: swaying, and bends
+  /// beyond the known part of the road
+  double direction_sigma = 0.05;
+  double min_speed = 1.0;  ///< m/s
 
   void visit(OptionVisitor& visitor);
 };

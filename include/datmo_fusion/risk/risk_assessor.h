@@ -26,10 +26,13 @@ enum class RiskMethod { kFutures, kThesis, kBoxes, kRss };
 struct RiskOptions {
   RiskMethod method = RiskMethod::kFutures;
   int max_objects = 64;
-  double max_silence = 1.0;     ///< s
-  double point_spacing = 0.25;  ///< m
-  double point_margin = 0.5;    ///< m
-  double default_size = 0.6;    ///< m
+  double max_silence = 1.0;  ///< s
+  /// m, 0.05 to 2: spacing of the points of stationary obstacles: closer ones count once
+  double point_spacing = 0.25;
+  /// m, 0 to 5: points this close to a track's box belong to the track
+  double point_margin = 0.5;
+  /// m, 0.1 to 5: extent of a track whose own is not measured or is smaller: that of a pedestrian
+  double default_size = 0.6;
   HostVehicleOptions vehicle;
   HorizonOptions horizon;
   HostFutureOptions host;

@@ -10,21 +10,31 @@ namespace datmo {
 
 /// Options of methods without probabilities, for comparison.
 struct RuleOptions {
-  double driver_time = 1.0;            ///< s
-  double vehicle_time = 1.0;           ///< s
-  double host_radius = 1.5;            ///< m
-  double vehicle_radius = 1.5;         ///< m
-  double pedestrian_radius = 0.5;      ///< m
-  double growth = 0.1;                 ///< 1
-  double response_time = 0.75;         ///< s
-  double response_acceleration = 2.0;  ///< m/s^2
-  double host_braking = 4.0;           ///< m/s^2
-  double vehicle_braking = 8.0;        ///< m/s^2
-  double cyclist_braking = 6.0;        ///< m/s^2
-  double pedestrian_braking = 10.0;    ///< m/s^2
-  double lateral_braking = 0.8;        ///< m/s^2
-  double lateral_acceleration = 0.2;   ///< m/s^2
-  double lateral_margin = 0.2;         ///< m
+  /// s, 0 to 5: reaction time of a driver (thesis 5.3.5: Zhang et al. 2006)
+  double driver_time = 1.0;
+  double vehicle_time = 1.0;  ///< s, 0 to 5: reaction time of the vehicle (thesis 5.3.5)
+  double host_radius = 1.5;   ///< m
+  /// m, 0.1 to 10: radius of the circle of a vehicle or anything else but a pedestrian (thesis
+  /// 5.3.5; our assumption)
+  double vehicle_radius = 1.5;
+  /// m, 0.1 to 10: radius of a pedestrian's circle (thesis 5.3.5: predefined; our assumption)
+  double pedestrian_radius = 0.5;
+  double growth = 0.1;  ///< 1
+  /// s, 0 to 5: rss: response time (Shalev-Shwartz et al. 2017), a usual value
+  double response_time = 0.75;
+  /// m/s^2, 0 to 10: rss: acceleration of all road users within the response time
+  double response_acceleration = 2.0;
+  double host_braking = 4.0;  ///< m/s^2
+  /// m/s^2, 0.1 to 15: rss: largest deceleration of a vehicle ahead
+  double vehicle_braking = 8.0;
+  double cyclist_braking = 6.0;  ///< m/s^2, 0.1 to 15: rss: the same for a cyclist
+  /// m/s^2, 0.1 to 15: rss: the same for a pedestrian, who stops at once
+  double pedestrian_braking = 10.0;
+  double lateral_braking = 0.8;  ///< m/s^2, 0.1 to 15: rss: lateral deceleration
+  /// m/s^2, 0 to 10: rss: lateral acceleration within the response time
+  double lateral_acceleration = 0.2;
+  /// m, 0 to 5: rss: lateral distance by which all road users sway in their lane
+  double lateral_margin = 0.2;
 
   void visit(OptionVisitor& visitor);
 };

@@ -21,21 +21,26 @@ enum class BorderScore { kShare, kHits };
 enum class BorderChoice { kFirst, kHighest };
 
 struct BorderSearchOptions {
-  double length = 20.0;         ///< m, of a window
-  double width = 1.0;           ///< m
-  double first_distance = 1.0;  ///< m, to the center line of the first window
-  double step = 0.9;            ///< m, between consecutive windows
+  double length = 20.0;  ///< m, of a window
+  double width = 1.0;    ///< m
+  /// m, 0 to 50: from the vehicle to the center line of the first window (thesis 3.5: 1)
+  double first_distance = 1.0;
+  double step = 0.9;  ///< m, between consecutive windows
   int left_windows = 25;
   int right_windows = 15;
   double heading_range = 0.15;  ///< rad, to either side
-  double heading_step = 0.05;   ///< rad
+  /// rad, 0.005 to 0.5: angle between rotated windows: a line at half of it to a window should not
+  /// leave the window
+  double heading_step = 0.05;
   int sections = 20;
   BorderScore score = BorderScore::kShare;
   double min_share = 0.4;  ///< 0 to 1
   double min_hits = 500.0;
   BorderChoice take = BorderChoice::kFirst;
-  double hit_sigma = 0.2;    ///< m
-  double shape_sigma = 0.1;  ///< m
+  /// m, 0.01 to 2: standard deviation of the hits about the border, by range noise
+  double hit_sigma = 0.2;
+  /// m, 0 to 2: standard deviation of the border about a straight line
+  double shape_sigma = 0.1;
 
   void visit(OptionVisitor& visitor);
 };

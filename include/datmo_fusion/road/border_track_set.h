@@ -13,7 +13,8 @@ namespace datmo {
 
 struct BorderTrackSetOptions {
   FollowedBorderOptions border;
-  std::vector<double> search_from{0.0, 12.0};  ///< m
+  /// m, -50 to 100: distances ahead of the scanner at which searches begin
+  std::vector<double> search_from{0.0, 12.0};
 
   void visit(OptionVisitor& visitor);
 };

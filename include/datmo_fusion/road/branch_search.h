@@ -12,15 +12,22 @@
 namespace datmo {
 
 struct BranchSearchOptions {
-  double length = 24.0;                   ///< m
-  double width = 5.5;                     ///< m
-  double max_shift = 2.0;                 ///< m
-  double heading_step = degrees(5.0);     ///< rad
-  double min_free = 0.9;                  ///< 1
-  double blocked_weight = 2.0;            ///< 1
-  double min_sides = 0.25;                ///< 1
-  double max_angle = degrees(70.0);       ///< rad
-  double min_separation = degrees(70.0);  ///< rad
+  double length = 24.0;  ///< m
+  double width = 5.5;    ///< m
+  /// m, 0 to 10: distance from the vehicle to the street's center line, at most: the vehicle is
+  /// beside a yard of that length only briefly
+  double max_shift = 2.0;
+  /// rad, 1 to 30 degrees: between the headings that are tried
+  double heading_step = degrees(5.0);
+  double min_free = 0.9;  ///< 0.1 to 1: minimum share of a street that beams have passed
+  /// 0 to 100: additional share that beams must have passed, beyond min_free, for each share of the
+  /// length that is blocked, as by a waiting vehicle
+  double blocked_weight = 2.0;
+  double min_sides = 0.25;  ///< 1
+  /// rad, 10 to 360 degrees: free headings that span a wider angle are open space
+  double max_angle = degrees(70.0);
+  /// rad, 10 to 120 degrees: minimum angle between the headings of two streets
+  double min_separation = degrees(70.0);
 
   void visit(OptionVisitor& visitor);
 };

@@ -8,12 +8,17 @@
 namespace datmo {
 
 struct IntersectionDetectorOptions {
-  double evidence_length = 2.0;        ///< m
-  double seen_at_intersection = 0.75;  ///< 1
-  double seen_on_road = 0.05;          ///< 1
-  double min_road = 15.0;              ///< m
-  double enter_above = 0.9;            ///< 1
-  double leave_below = 0.3;            ///< 1
+  /// m, 0.1 to 50: distance between two positions at which the observed streets are independent of
+  /// each other
+  double evidence_length = 2.0;
+  /// 0.01 to 0.99: probability that three streets are seen at an intersection, despite waiting and
+  /// crossing traffic
+  double seen_at_intersection = 0.75;
+  double seen_on_road = 0.05;  ///< 1
+  double min_road = 15.0;      ///< m
+  /// 0.01 to 0.99: probability above which the vehicle is at an intersection
+  double enter_above = 0.9;
+  double leave_below = 0.3;  ///< 1
 
   void visit(OptionVisitor& visitor);
   void check() const;

@@ -14,8 +14,10 @@ struct PassageGridOptions {
   PassageGridOptions();
 
   GridWindowOptions window;
-  int min_hits = 2;         ///< 1
-  double hit_share = 0.15;  ///< 1
+  int min_hits = 2;  ///< 1
+  /// 0 to 1: minimum share of a cell's beams, ending or passing, that end in a cell that is not
+  /// free: moving objects leave fewer
+  double hit_share = 0.15;
   double end_margin = 0.7;  ///< m
   int max_beams = 1000;     ///< 1
 

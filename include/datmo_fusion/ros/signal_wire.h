@@ -20,7 +20,9 @@ using SignalAdviceMessagePtr = datmo_fusion::SignalAdvicePtr;
 
 struct SignalWireOptions {
   double max_ahead = 0.5;  ///< s
-  double map_age = 60.0;   ///< s
+  /// s, 1 to 86400: how long the map of an intersection is valid (ETSI TS 103 301: sent once a
+  /// second)
+  double map_age = 60.0;
   SignalAdviceOptions advice;
 
   void visit(OptionVisitor& visitor);

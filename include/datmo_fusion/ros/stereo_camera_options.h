@@ -15,7 +15,9 @@ struct StereoCameraOptions : DepthNoiseOptions {
   double min_depth = 0.0;                ///< m; 0: no bound
   double max_depth = 0.0;                ///< m; 0: no bound
   bool align = true;
-  double alignment_hold = 5.0;  ///< s
+  /// s, 0.1 to 3600: how long after its stamp a disagreement of camera and scanner is assumed to
+  /// last, since a silent scanner cannot confirm it; the time over which agreement is judged
+  double alignment_hold = 5.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -44,10 +44,14 @@ struct StereoAlignmentOptions {
   double body_sigma = 0.15;       ///< m
   double disparity_sigma = 0.35;  ///< px
   double surface_distance = 5.0;  ///< m
-  double surface_time = 20.0;     ///< s
-  double gate = 16.0;             ///< 1
-  double agreement_time = 5.0;    ///< s
-  double min_agreement = 0.25;    ///< 1
+  /// s, 0 to 1000: a surface counts once in this time while the vehicle is stationary
+  double surface_time = 20.0;
+  double gate = 16.0;  ///< 1
+  /// s, 0.1 to 100: time over which the share of agreeing surfaces is averaged
+  double agreement_time = 5.0;
+  /// 0 to 1: if fewer surfaces agree, the clouds do not show what the scanner sees, and nothing is
+  /// computed from them
+  double min_agreement = 0.25;
 
   void visit(OptionVisitor& visitor);
   std::array<const AlignmentTermOptions*, kAlignmentTerms> terms() const;

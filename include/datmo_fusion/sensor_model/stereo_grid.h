@@ -23,10 +23,15 @@ struct StereoConesOptions {
 
 /// When the contents of image columns make a cell occupied or free.
 struct StereoColumnsOptions {
-  double min_surface = 0.01;  ///< m^2
+  /// m^2, 0.0001 to 10: a cell is occupied if at least this much surface is seen in it between the
+  /// bottom and the top of the layer; a pole of 0.1 m width has 0.1 m^2 for each meter of height
+  double min_surface = 0.01;
   int min_points = 3;
-  double road_sigmas = 2.0;      ///< standard deviations of the depth
-  double obstacle_sigmas = 1.5;  ///< standard deviations of the depth
+  /// 0 to 10: a point belongs to the road if a depth error of this many standard deviations
+  /// explains its position
+  double road_sigmas = 2.0;
+  /// 0 to 10: cells within this many standard deviations of an obstacle's depth are not marked free
+  double obstacle_sigmas = 1.5;
 
   void visit(OptionVisitor& visitor);
 };

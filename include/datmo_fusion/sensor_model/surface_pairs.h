@@ -14,12 +14,14 @@
 namespace datmo {
 
 struct SurfacePairOptions {
-  double min_height = 0.4;      ///< m
-  double max_height = 1.0;      ///< m
-  double max_range = 30.0;      ///< m
-  double max_step = 0.5;        ///< m
-  double max_step_ratio = 2.0;  ///< 1
-  double max_length = 2.0;      ///< m
+  double min_height = 0.4;  ///< m
+  double max_height = 1.0;  ///< m
+  double max_range = 30.0;  ///< m
+  double max_step = 0.5;    ///< m
+  /// 1 to 100: neighboring beams of one surface may also be this many times their spacing apart: 2,
+  /// on a surface that is slanted by 60 degrees
+  double max_step_ratio = 2.0;
+  double max_length = 2.0;      ///< m, 0.1 to 20: length of a surface; longer ones are divided
   int min_beams = 3;            ///< 1
   double min_incidence = 0.5;   ///< 1
   double straightness = 0.05;   ///< m

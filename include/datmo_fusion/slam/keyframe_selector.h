@@ -9,10 +9,12 @@
 namespace datmo {
 
 struct KeyframeOptions {
-  double distance = 1.0;                    ///< m
-  double turn = degrees(20.0);              ///< rad
-  double max_position_sigma = 0.5;          ///< m
-  double max_heading_sigma = degrees(5.0);  ///< rad
+  double distance = 1.0;        ///< m
+  double turn = degrees(20.0);  ///< rad
+  /// m, 0.01 to 1000: a scan with a less certain pose (standard deviation) is not kept; as
+  /// MapRecoveryOptions::from_position_sigma, above which the map is searched
+  double max_position_sigma = 0.5;
+  double max_heading_sigma = degrees(5.0);  ///< rad, 0.001 to 10: the same for the heading
   double new_map_after = 7.0;               ///< s
   double max_speed = 60.0;                  ///< m/s
 

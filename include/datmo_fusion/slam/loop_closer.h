@@ -13,11 +13,13 @@
 namespace datmo {
 
 struct LoopCloserOptions {
-  double submap_length = 20.0;          ///< m
-  double search_distance = 5.0;         ///< m
-  double min_loop = 60.0;               ///< m
-  double max_distance = 8.0;            ///< m
-  double trusted_sigma = 1.0;           ///< m
+  double submap_length = 20.0;   ///< m
+  double search_distance = 5.0;  ///< m
+  double min_loop = 60.0;        ///< m
+  double max_distance = 8.0;     ///< m
+  /// m, 0 to 1000: where the drift may be larger (standard deviation), a loop needs a second one
+  /// that confirms it
+  double trusted_sigma = 1.0;
   double max_sigma = 20.0;              ///< m
   double position_drift = 0.05;         ///< m per square root of m
   double heading_drift = degrees(0.2);  ///< rad per square root of m

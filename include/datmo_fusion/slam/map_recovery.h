@@ -24,8 +24,10 @@ enum class Localization : std::uint8_t {
 };
 
 struct MapRecoveryOptions {
-  double from_position_sigma = 0.5;          ///< m
-  double from_heading_sigma = degrees(5.0);  ///< rad
+  /// m, 0.01 to 1000: a gap that makes the position this uncertain (standard deviation) requires a
+  /// search of the map; after shorter ones the next scan is matched as usual
+  double from_position_sigma = 0.5;
+  double from_heading_sigma = degrees(5.0);  ///< rad, 0.001 to 10: the same for the heading
   double first_search_after = 1.2;           ///< s
   double search_period = 0.8;                ///< s
   double give_up_after = 5.0;                ///< s
@@ -35,8 +37,9 @@ struct MapRecoveryOptions {
   int boxes_per_second = 50000;
   MapSearchOptions search;
   int prior_boxes_per_second = 400000;
-  double confirmed_after = 0.5;       ///< m
-  double confirmed_after_turn = 0.5;  ///< rad
+  double confirmed_after = 0.5;  ///< m
+  /// rad, 0 to pi: or, instead of the distance confirmed_after, after this turn
+  double confirmed_after_turn = 0.5;
   MapSearchOptions prior_search = MapSearchOptions::inCompleteMap();
 
   void visit(OptionVisitor& visitor);

@@ -19,14 +19,19 @@
 namespace datmo {
 
 struct MapSearchOptions {
-  double changed_share = 0.03;      ///< of the surfaces
-  double missing_share = 0.0;       ///< of the surfaces; 0: missing surfaces do not count
-  double max_log_ratio = 6.0;       ///< between two hypotheses that are both kept
-  double max_changed_share = 0.15;  ///< of the surfaces
-  double min_shared = 0.4;          ///< of the surfaces
-  double max_aligned_sigma = 1.5;   ///< m; 0: maps are never aligned
-  int min_surfaces = 60;            ///< cells
-  double reach = 35.0;              ///< m
+  /// 0.001 to 1: mean share of the surfaces of one map that are contradicted by another map of the
+  /// same place, made a short time later
+  double changed_share = 0.03;
+  double missing_share = 0.0;  ///< of the surfaces; 0: missing surfaces do not count
+  double max_log_ratio = 6.0;  ///< between two hypotheses that are both kept
+  /// 0 to 1: a pose that is contradicted by a larger share of the surfaces is rejected
+  double max_changed_share = 0.15;
+  /// 0 to 1: minimum share of surfaces that both maps have, at the pose found
+  double min_shared = 0.4;
+  double max_aligned_sigma = 1.5;  ///< m; 0: maps are never aligned
+  /// 1 to 1000000: minimum number of static cells of the newer map for a search
+  int min_surfaces = 60;
+  double reach = 35.0;  ///< m
   int max_boxes = 60000;
 
   /// Returns options for a complete map of an area (a prior map), which lacks only what has

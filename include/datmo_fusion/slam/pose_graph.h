@@ -13,7 +13,7 @@ namespace datmo {
 
 struct PoseGraphOptions {
   double loss_scale = 2.0;  ///< standard deviations
-  int max_iterations = 50;
+  int max_iterations = 50;  ///< 1 to 1000: maximum number of iterations of one optimization
 
   void visit(OptionVisitor& visitor);
 };

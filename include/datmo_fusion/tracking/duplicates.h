@@ -14,8 +14,11 @@ namespace datmo {
 bool reaches(Box2 box, const Box2& other, double scale);
 
 struct DuplicateOptions {
-  double reach = 2.0;           ///< 1
-  double velocity_gate = 5.99;  ///< 1
+  double reach = 2.0;  ///< 1
+  /// 0 to 1000: two targets within reach are parts of one object if their velocities are within
+  /// this Mahalanobis distance squared: 5.99 is the 95 % quantile of chi-square with two degrees of
+  /// freedom
+  double velocity_gate = 5.99;
 
   void visit(OptionVisitor& visitor);
 };

@@ -17,8 +17,10 @@ struct TargetMotionOptions {
   double acceleration_fading = 0.3;   ///< s
   double standing_speed_std = 0.03;   ///< m/s
   double standing_density = 1e-4;     ///< m^2/s
-  double standing_fading = 0.02;      ///< s
-  double start_speed_std = 1.0;       ///< m/s
+  /// s, 0.001 to 1: time constant with which the standing model forgets velocity and acceleration;
+  /// well below the time between two scans
+  double standing_fading = 0.02;
+  double start_speed_std = 1.0;  ///< m/s
 
   void visit(OptionVisitor& visitor);
 };

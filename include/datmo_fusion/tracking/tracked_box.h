@@ -14,9 +14,13 @@ namespace datmo {
 struct TrackedBoxOptions {
   BoxSizeOptions size;
   double heading_drift = 0.05;  ///< rad^2/s
-  double slip_std = 0.05;       ///< rad
-  double reverse_speed = 3.0;   ///< m/s
-  double reverse_time = 10.0;   ///< s
+  /// rad, 0 to 1: standard deviation of the angle between heading and velocity of the center: it is
+  /// not zero in turns
+  double slip_std = 0.05;
+  double reverse_speed = 3.0;  ///< m/s
+  /// s, 0 to 1000: nothing moves backward for longer, nor for longer than it has moved forward
+  /// before
+  double reverse_time = 10.0;
 
   void visit(OptionVisitor& visitor);
 };

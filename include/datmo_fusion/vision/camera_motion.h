@@ -47,7 +47,8 @@ CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d
 struct CameraMotionOptions {
   double moving_share = 0.3;   ///< 1
   double max_residual = 30.0;  ///< px
-  double min_inliers = 12.0;   ///< 1
+  /// 3 to 10000: minimum number of stationary features; with fewer the motion is unknown
+  double min_inliers = 12.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -14,11 +14,18 @@
 namespace datmo {
 
 struct DetectionAssociationOptions {
-  double min_coverage = 0.5;       ///< 1
-  double column_share = 0.25;      ///< 1
-  double range_gate = 9.0;         ///< 1
+  /// 0.01 to 1: minimum share of an object's columns that a detection must cover to be associated
+  /// with it
+  double min_coverage = 0.5;
+  /// 0.01 to 10: standard deviation between the centers of an object and its detection, as a share
+  /// of the detection's width: the scanner sees one side, the image the whole object
+  double column_share = 0.25;
+  /// 0.1 to 1000: largest squared Mahalanobis distance between the ranges from scanner and image
+  double range_gate = 9.0;
   double unrelated_density = 0.3;  ///< 1, of the logarithm of range
-  double piece_coverage = 0.8;     ///< 1
+  /// 0.01 to 1: an object without a detection is part of a vehicle that covers this share of its
+  /// columns
+  double piece_coverage = 0.8;
 
   void visit(OptionVisitor& visitor);
 };

@@ -12,14 +12,17 @@
 namespace datmo {
 
 struct DnnDetectorOptions {
-  std::string model;          ///< path
-  std::string labels;         ///< path; empty: COCO's
-  int width = 832;            ///< px
-  int height = 256;           ///< px
-  double min_score = 0.3;     ///< 1
-  double max_overlap = 0.5;   ///< 1
-  int close_look = 320;       ///< px; 0: none
-  double close_margin = 1.3;  ///< 1
+  std::string model;       ///< path
+  std::string labels;      ///< path; empty: COCO's
+  int width = 832;         ///< px
+  int height = 256;        ///< px
+  double min_score = 0.3;  ///< 1
+  /// 0 to 1: intersection over union of two detections of one class above which only the surer one
+  /// is kept
+  double max_overlap = 0.5;
+  int close_look = 320;  ///< px; 0: none
+  /// 1 to 4: size of the square of a close look in the image, relative to the person's
+  double close_margin = 1.3;
   int max_close_looks = 4;
 
   void visit(OptionVisitor& visitor);

@@ -10,9 +10,12 @@
 namespace datmo {
 
 struct HogDetectorOptions {
-  double min_score = 0.0;      ///< 1
-  double max_overlap = 0.4;    ///< 1
-  double max_upscaling = 4.0;  ///< 1
+  double min_score = 0.0;  ///< 1
+  /// 0 to 1: intersection over union of two persons above which only the surer one is kept
+  double max_overlap = 0.4;
+  /// 1 to 10: persons that would have to be enlarged by more are not searched for: those smaller
+  /// than 96 px over this
+  double max_upscaling = 4.0;
   int max_regions = 20;
 
   void visit(OptionVisitor& visitor);

@@ -35,9 +35,12 @@ struct MonoClassifierOptions {
   DetectionAssociationOptions association;
   double default_height = 1.6;  ///< m
   double min_size = 0.4;        ///< m
-  double region_sigmas = 2.0;   ///< 1
-  double min_alone = 0.6;       ///< 1
-  double thesis_overlap = 0.4;  ///< 1
+  /// 0 to 10: standard deviations of an object's position for which its region leaves room
+  double region_sigmas = 2.0;
+  double min_alone = 0.6;  ///< 1
+  /// 0 to 1: method thesis: a detection belongs to a rectangle if their intersection over union is
+  /// larger
+  double thesis_overlap = 0.4;
 
   MonoClassifierOptions();
   void visit(OptionVisitor& visitor);

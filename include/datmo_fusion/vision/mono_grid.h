@@ -30,7 +30,9 @@ struct MonoGridOptions {
   double learning_range = 20.0;      ///< m
   double min_obstacle_height = 0.3;  ///< m
   double pitch_sigma = 0.01;         ///< rad
-  double thesis_distance = 3.0;      ///< 1
+  /// 0.1 to 100: method thesis: a pixel this many standard deviations from the road's colors
+  /// belongs to an object (thesis eq. 4.1.6: a threshold of the density)
+  double thesis_distance = 3.0;
   RoadColorOptions color;
 
   void visit(OptionVisitor& visitor);

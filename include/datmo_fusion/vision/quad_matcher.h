@@ -14,12 +14,16 @@ class Mat;
 namespace datmo {
 
 struct QuadMatcherOptions {
+  /// 10 to 10000: maximum number of corners tracked in an image, the best ones
   int max_features = 1500;
-  double min_distance = 5.0;    ///< px
-  double min_quality = 0.005;   ///< 1
-  int window = 15;              ///< px
-  int pyramid_levels = 3;       ///< 1
-  double max_closure = 0.5;     ///< px
+  double min_distance = 5.0;  ///< px
+  /// 0.00001 to 1: minimum quality of a corner, relative to the best one of the image
+  double min_quality = 0.005;
+  int window = 15;         ///< px
+  int pyramid_levels = 3;  ///< 1
+  /// px, 0.01 to 10: largest distance from its start at which a feature may end after tracking
+  /// through all four images
+  double max_closure = 0.5;
   double max_row_offset = 1.0;  ///< px
 
   void visit(OptionVisitor& visitor);

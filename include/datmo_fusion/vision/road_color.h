@@ -17,8 +17,11 @@ using PixelColors = std::vector<PixelColor>;
 struct RoadColorOptions {
   int components = 4;
   double learning_time = 0.45;  ///< s
-  double min_new_share = 0.1;   ///< 1
-  double min_sigma = 3.0;       ///< gray levels
+  /// 0 to 1: colors missing in the mixture become its newest component if at least this share of an
+  /// image's samples has them
+  double min_new_share = 0.1;
+  /// gray levels, 0.1 to 100: smallest standard deviation of a component
+  double min_sigma = 3.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -21,18 +21,6 @@ void EarthFrameOptions::visit(OptionVisitor& visitor) {
   visitor.integer(
       {"restart_after", "", "after this many rejected fixes in a row the filter restarts"},
       restart_after, {1.0, 1000.0});
-  visitor.number({"start_heading_sigma", "rad",
-                  "standard deviation of the map's heading below which it counts as known"},
-                 start_heading_sigma, {0.001, 0.5});
-  visitor.number({"start_spread", "m",
-                  "RMS distance of the first fixes from their mean; below it, jittering poses "
-                  "could pass for a drive"},
-                 start_spread, {0.01, 1000.0});
-  visitor.integer(
-      {"start_fixes", "",
-       "minimum number of first fixes that are consistent: with fewer, an outlier bends "
-       "the rest to itself"},
-      start_fixes, {3.0, 400.0});
   visitor.number({"start_share", "1", "minimum share of the first fixes that are consistent"},
                  start_share, {0.5, 1.0});
   visitor.number(

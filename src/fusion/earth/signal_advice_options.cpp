@@ -7,15 +7,8 @@ void SignalAdviceOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"max_distance", "m", "distance to the stop line; V2X reaches 300 m to 500 m in cities"},
       max_distance, {10.0, 2000.0});
-  visitor.number({"max_heading", "rad", "angle between the vehicle and its lane"}, max_heading,
-                 {0.05, 1.5});
   visitor.number({"lane_width", "m", "lane width of an intersection that does not report it"},
                  lane_width, {1.0, 10.0});
-  visitor.number(
-      {"max_position_sigma", "m",
-       "standard deviation of the vehicle's position on the earth, above which there is no "
-       "advice: a lane and a half"},
-      max_position_sigma, {0.1, 50.0});
   visitor.number({"bound", "1", "standard deviations within which the vehicle is assumed to be"},
                  bound, {0.0, 5.0});
   visitor.number({"time_margin", "s",
@@ -25,11 +18,6 @@ void SignalAdviceOptions::visit(OptionVisitor& visitor) {
                   "how long yellow and red last at least after a green phase whose next lights are "
                   "not given: 3 s of yellow at 50 km/h and a red of some seconds (RiLSA 2015)"},
                  stop_time, {0.0, 60.0});
-  visitor.number({"comfort_deceleration", "m/s^2",
-                  "deceleration with which the vehicle stops at yellow if it can (ITE: 3.05)"},
-                 comfort_deceleration, {0.5, 10.0});
-  visitor.number({"reaction_time", "s", "time before it brakes (ITE: 1)"}, reaction_time,
-                 {0.0, 3.0});
   visitor.number({"min_speed", "m/s", "a slower vehicle is stationary: it never arrives"},
                  min_speed, {0.1, 5.0});
   visitor.number(

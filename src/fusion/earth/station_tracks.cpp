@@ -78,17 +78,8 @@ void StationTrackOptions::visit(OptionVisitor& visitor) {
                   "chi-square with two degrees of freedom, 99.9 %"},
                  gate, {1.0, 1000.0});
   visitor.integer(
-      {"probation", "",
-       "a track that has jumped is ignored until this many messages in a row are consistent"},
-      probation, {1.0, 100.0});
-  visitor.number({"forget_after", "s", "a track that was not reported for longer is a new one"},
-                 forget_after, {0.1, 600.0});
-  visitor.integer(
       {"max_tracks", "", "maximum number of tracks of one list; the others are dropped"},
       max_tracks, {1.0, 10000.0});
-  visitor.number(
-      {"serves_for", "s", "how long a station's list is predicted while those of others arrive"},
-      serves_for, {0.0, 5.0});
   visitor.group("prediction", [&] { prediction.visit(visitor); });
   visitor.group("comparison", [&] { comparison.visit(visitor); });
 }

@@ -193,10 +193,6 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
                   "optimal: density of objects of one sensor that the other does not see, around "
                   "an object: a pair must be likelier than one of them"},
                  unrelated_density, {1e-9, 10.0});
-  visitor.number({"object_speed", "m/s",
-                  "standard deviation of the speed of moving objects between the stamps of two "
-                  "sensors; objects known to be stationary have none"},
-                 object_speed, {0.0, 100.0});
   visitor.number({"body_std", "m",
                   "optimal: standard deviation between the sides of a body that two sensors see at "
                   "different heights"},

@@ -30,12 +30,9 @@ void LoopClosingStageOptions::visit(OptionVisitor& visitor) {
                 "frame of the optimized map and trajectory; the stage publishes frames/map -> "
                 "global_frame: no other node may publish it"},
                global_frame, {});
-  visitor.number({"publish_period", "s", "minimum time between two optimized maps"}, publish_period,
-                 {0.0, 3600.0});
   visitor.number(
-      {"publish_share", "1",
-       "the same, as a share of the time driven: the map of a longer drive takes longer to draw"},
-      publish_share, {0.0, 1.0});
+      {"publish_period", "s", "minimum time between two optimized maps; more after a long drive"},
+      publish_period, {0.0, 3600.0});
   visitor.group("keyframe", [&] { keyframes.visit(visitor); });
   visitor.group("correction", [&] { correction.visit(visitor); });
   visitor.group("input", [&] { input.visit(visitor); });

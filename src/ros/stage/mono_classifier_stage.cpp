@@ -55,9 +55,6 @@ void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"max_age", "s", "an image older than the newest objects by more than this is dropped"},
       max_age, {0.0, 10.0});
-  visitor.number({"object_speed", "m/s",
-                  "standard deviation of the objects' speed between their time and the exposure"},
-                 object_speed, {0.0, 100.0});
   visitor.integer({"detector_threads", "1",
                    "threads that OpenCV may use, for the detector and, since it has no other "
                    "limit, for everything else in the process; 0: no limit. Not in run_bag"},

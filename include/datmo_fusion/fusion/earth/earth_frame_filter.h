@@ -20,8 +20,13 @@ struct EarthFrameOptions {
   double map_turn = 0.002;         ///< rad / sqrt(m)
   double gate = 13.8;              ///< 1
   int restart_after = 10;
-  double start_heading_sigma = 0.1;  ///< rad
-  double start_spread = 2.0;         ///< m
+  /// rad, 0.001 to 0.5: standard deviation of the map's heading below which it counts as known
+  double start_heading_sigma = 0.1;
+  /// m, 0.01 to 1000: RMS distance of the first fixes from their mean; below it, jittering poses
+  /// could pass for a drive
+  double start_spread = 2.0;
+  /// 3 to 400: minimum number of first fixes that are consistent: with fewer, an outlier bends the
+  /// rest to itself
   int start_fixes = 6;
   double start_share = 0.7;  ///< 1
   double max_gap = 10.0;     ///< s

@@ -15,17 +15,20 @@
 namespace datmo {
 
 struct SignalAdviceOptions {
-  double max_distance = 300.0;        ///< m
-  double max_heading = 0.6;           ///< rad
-  double lane_width = 3.5;            ///< m
-  double max_position_sigma = 5.0;    ///< m
-  double bound = 2.0;                 ///< 1
-  double time_margin = 0.5;           ///< s
-  double stop_time = 5.0;             ///< s
-  double comfort_deceleration = 3.0;  ///< m/s^2
-  double reaction_time = 1.0;         ///< s
-  double min_speed = 1.0;             ///< m/s
-  double max_age = 2.0;               ///< s
+  double max_distance = 300.0;  ///< m
+  double max_heading = 0.6;     ///< rad, 0.05 to 1.5: angle between the vehicle and its lane
+  double lane_width = 3.5;      ///< m
+  /// m, 0.1 to 50: standard deviation of the vehicle's position on the earth, above which there is
+  /// no advice: a lane and a half
+  double max_position_sigma = 5.0;
+  double bound = 2.0;        ///< 1
+  double time_margin = 0.5;  ///< s
+  double stop_time = 5.0;    ///< s
+  /// m/s^2, 0.5 to 10: deceleration with which the vehicle stops at yellow if it can (ITE: 3.05)
+  double comfort_deceleration = 3.0;
+  double reaction_time = 1.0;  ///< s, 0 to 3: time before it brakes (ITE: 1)
+  double min_speed = 1.0;      ///< m/s
+  double max_age = 2.0;        ///< s
 
   void visit(OptionVisitor& visitor);
 };

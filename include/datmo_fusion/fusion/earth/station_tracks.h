@@ -52,10 +52,13 @@ struct StationTrackOptions {
   double clock_sigma = 0.05;        ///< s
   double acceleration_sigma = 2.0;  ///< m/s^2
   double gate = 13.8;               ///< 1
+  /// 1 to 100: a track that has jumped is ignored until this many messages in a row are consistent
   int probation = 3;
-  double forget_after = 5.0;  ///< s
+  /// s, 0.1 to 600: a track that was not reported for longer is a new one
+  double forget_after = 5.0;
   int max_tracks = 200;
-  double serves_for = 0.5;  ///< s
+  /// s, 0 to 5: how long a station's list is predicted while those of others arrive
+  double serves_for = 0.5;
   TrackPredictionOptions prediction;
   TrackComparisonOptions comparison;
 

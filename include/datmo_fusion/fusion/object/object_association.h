@@ -16,9 +16,11 @@ struct ObjectAssociationOptions {
   ObjectAssociationMethod association = ObjectAssociationMethod::kOptimal;
   double gate = 13.8;                ///< 1
   double unrelated_density = 0.002;  ///< 1/m^2
-  double object_speed = 10.0;        ///< m/s
-  double body_std = 0.2;             ///< m
-  double unknown_size_std = 1.0;     ///< m
+  /// m/s, 0 to 100: standard deviation of the speed of moving objects between the stamps of two
+  /// sensors; objects known to be stationary have none
+  double object_speed = 10.0;
+  double body_std = 0.2;          ///< m
+  double unknown_size_std = 1.0;  ///< m
   int max_work = 2000000;
   double min_distance = 5.0;  ///< m
   double min_range = 36.0;    ///< m

@@ -29,7 +29,9 @@ struct LoopClosingStageOptions {
   FrameOptions frames;  ///< shared by all stages
   std::string global_frame = "global_map";
   double publish_period = 10.0;  ///< s
-  double publish_share = 0.05;   ///< share of the drive's duration
+  /// 0 to 1: minimum time between two optimized maps, as a share of the time driven: the map of a
+  /// longer drive takes longer to draw
+  double publish_share = 0.05;
   KeyframeOptions keyframes;
   GradualCorrectionOptions correction;
   LoopCloserOptions loops;

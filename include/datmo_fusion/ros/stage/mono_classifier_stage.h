@@ -28,12 +28,13 @@
 namespace datmo {
 
 struct MonoClassifierStageOptions {
-  FrameOptions frames;        ///< shared by all stages
-  MotionOptions motion;       ///< shared by all stages
-  double tolerance = 0.06;    ///< s
-  double max_wait = 0.15;     ///< s
-  double max_age = 0.5;       ///< s
-  double object_speed = 3.0;  ///< m/s
+  FrameOptions frames;      ///< shared by all stages
+  MotionOptions motion;     ///< shared by all stages
+  double tolerance = 0.06;  ///< s
+  double max_wait = 0.15;   ///< s
+  double max_age = 0.5;     ///< s
+  /// m/s, 0 to 100: standard deviation of the objects' speed between their time and the exposure
+  double object_speed = 3.0;
   int detector_threads = 1;
   int detector_nice = 10;
   ExposureCheckOptions exposure;

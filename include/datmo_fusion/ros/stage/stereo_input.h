@@ -50,8 +50,8 @@ class StereoInput {
 
   /// Sets the alignment of the clouds with the scanner's points from now on: the disparity bias,
   /// which is the camera's, is corrected, and clouds are rejected while they are not usable, until
-  /// `camera/alignment_hold` after its stamp. No effect if `camera/align` is off, or for a camera
-  /// that does not measure disparities. Throws InputError (`bad_alignment`).
+  /// `StereoCameraOptions::alignment_hold` after its stamp. No effect if `camera/align` is off, or
+  /// for a camera that does not measure disparities. Throws InputError (`bad_alignment`).
   void take(const StereoAlignmentMessage& message);
 
   /// Whether the camera is compared with the scanner: this is enabled, and it measures disparities.
