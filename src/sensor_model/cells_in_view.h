@@ -10,7 +10,7 @@
 namespace datmo {
 
 /// The part of the ground that a stereo camera's grid covers.
-struct FieldOfView {
+struct ViewSector {
   double left_tangent = 0.0;  ///< right / forward
   double right_tangent = 0.0;
   double min_depth = 0.0;        ///< m, along the camera's heading
@@ -26,7 +26,7 @@ struct FieldOfView {
 
 /// Calls `visit(CellIndex, PointInView)` for each cell whose center is in view, row by row.
 template <typename Visit>
-void forEachCellInView(const GridWindow& window, const StereoView& view, const FieldOfView& field,
+void forEachCellInView(const GridWindow& window, const StereoView& view, const ViewSector& field,
                        Visit&& visit) {
   const Point2 reach(field.effective_range, field.effective_range);
   const CellIndex low = window.cellAt(view.position() - reach);

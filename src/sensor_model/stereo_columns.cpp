@@ -39,7 +39,7 @@ constexpr double kSmearStep = 0.5;
 }  // namespace
 
 StereoColumns::StereoColumns(const StereoGridOptions& options, const StereoCamera& camera,
-                             const StereoView& view, const FieldOfView& field,
+                             const StereoView& view, const ViewSector& field,
                              const StereoEvidence& evidence)
     : options_(options),
       view_(view),

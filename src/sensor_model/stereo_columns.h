@@ -16,7 +16,7 @@ class StereoColumns {
  public:
   /// The arguments must outlive this object.
   StereoColumns(const StereoGridOptions& options, const StereoCamera& camera,
-                const StereoView& view, const FieldOfView& field, const StereoEvidence& evidence);
+                const StereoView& view, const ViewSector& field, const StereoEvidence& evidence);
 
   /// `grid`: with all cells unknown.
   void fill(SensorGrid& grid) const;
@@ -54,7 +54,7 @@ class StereoColumns {
 
   const StereoGridOptions& options_;
   const StereoView& view_;
-  const FieldOfView& field_;
+  const ViewSector& field_;
   const StereoEvidence& evidence_;
   double half_cell_;  ///< m
   DepthNoise noise_;

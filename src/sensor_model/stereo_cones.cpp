@@ -30,7 +30,7 @@ double rangeOf(const PointInView& position) { return std::hypot(position.right, 
 
 /// Number of points of the layer in each cell (eq. 3.2.2): the thesis's grid of counts.
 RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud& cloud,
-                             const StereoView& view, const FieldOfView& field,
+                             const StereoView& view, const ViewSector& field,
                              const GridWindow& window, StereoCounts& counts) {
   RollingGrid<int> grid(window, 0);
   for (std::size_t i = 0; i < cloud.points.count; ++i) {
@@ -83,7 +83,7 @@ bool isHidden(const PointInView& position, const std::vector<Cone>& cones) {
 }  // namespace
 
 StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cloud,
-                         const StereoView& view, const FieldOfView& field, SensorGrid& grid) {
+                         const StereoView& view, const ViewSector& field, SensorGrid& grid) {
   StereoCounts result;
   const GridWindow& window = grid.window();
   const RollingGrid<int> counts = countPoints(options, cloud, view, field, window, result);

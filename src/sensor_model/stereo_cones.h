@@ -17,6 +17,6 @@ struct StereoCounts {
 /// The method `cones` of StereoGridModel, as in the thesis (eq. 3.2.2 to 3.2.4). `grid`: with all
 /// cells unknown; heights are above the road of `view`.
 StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cloud,
-                         const StereoView& view, const FieldOfView& field, SensorGrid& grid);
+                         const StereoView& view, const ViewSector& field, SensorGrid& grid);
 
 }  // namespace datmo

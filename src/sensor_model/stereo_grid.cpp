@@ -14,7 +14,7 @@ namespace datmo {
 
 namespace {
 
-FieldOfView fieldOf(const StereoGridOptions& options, const StereoCamera& camera) {
+ViewSector fieldOf(const StereoGridOptions& options, const StereoCamera& camera) {
   return {camera.left_tangent, camera.right_tangent, options.min_depth, options.effective_range};
 }
 
@@ -81,7 +81,7 @@ StereoGridModel::~StereoGridModel() = default;
 StereoGridResult StereoGridModel::grid(const StereoCloud& cloud) {
   StereoGridResult result;
   result.grid = SensorGrid(cloud.stamp, window_);
-  const FieldOfView field = fieldOf(options_, cloud.camera);
+  const ViewSector field = fieldOf(options_, cloud.camera);
   if (options_.method == StereoGridMethod::kCones) {
     const StereoView view(cloud, result.road);
     const StereoCounts counts = fillByCones(options_, cloud, view, field, result.grid);
