@@ -5,13 +5,12 @@
 #include <variant>
 #include <vector>
 
-#include "callback_poster.h"
-
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/device/datagram_listener.h"
 #include "datmo_fusion/device/event_queue.h"
+#include "datmo_fusion/ros/callback_poster.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
@@ -51,7 +50,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
         node, getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
         StageTopics{{own_.getTopic()}, {stations_.getTopic(), advice_.getTopic()}},
         StreamOptions().silence_after);
-    callbacks_ = std::make_unique<CallbackPoster>(node, [this] { serveAll(); });
+    callbacks_ = std::make_unique<CallbackPoster>(*node.getCallbackQueue(), [this] { serveAll(); });
     DatagramHandlers handlers;
     handlers.listening = [this] { put(Listening()); };
     handlers.received = [this](std::string_view bytes) {
