@@ -68,13 +68,11 @@ void StageHost::addService(StageService service) {
 
 void StageHost::subscribe(const StageInput& input) {
   const auto take = [this, input](const AnyMessage& message, Stamp now) {
-    guarded(monitor_, input.topic, [&] {
-      input.take(message, now);
-      publishTiming();
-      publishReady();
-    });
+    input.take(message, now);
+    publishTiming();
+    publishReady();
   };
-  subscribers_.push_back(input.subscribe(node_, monitor_, take));
+  subscriptions_.push_back(input.subscribe(node_, monitor_, take));
 }
 
 void StageHost::publishReady() {
