@@ -26,7 +26,7 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
   const StageTopics topics = topicsOf(inputs_, outputs_, resolved);
   if (!stage_.live().empty()) {
     live_ = std::make_unique<LiveServer>(
-        private_node_, [this] { return stage_.live(); },
+        private_node_, monitor_, [this] { return stage_.live(); },
         [this](const OptionValues& values) { stage_.change(values); });
   }
   reporter_ = std::make_unique<StageReporter>(
