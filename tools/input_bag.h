@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "bounded_stream.h"
 #include <boost/make_shared.hpp>
 
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
+#include "datmo_fusion/ros/bounded_stream.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
@@ -63,10 +63,9 @@ boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
     stream.next(*content);
     return content;
   } catch (const std::exception& error) {
-    throw InputError("undecodable_message", message.getTopic() + " at " +
-                                                std::to_string(message.getTime().toSec()) +
-                                                " s: expected a complete " + message.getDataType() +
-                                                " (" + error.what() + "); skips it");
+    throw undecodable(
+        message.getTopic() + " at " + std::to_string(message.getTime().toSec()) + " s",
+        message.getDataType(), error.what());
   }
 }
 

@@ -11,6 +11,7 @@
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
+#include "datmo_fusion/ros/subscription.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
 namespace datmo {
@@ -32,44 +33,37 @@ class CameraViewNodelet : public nodelet::Nodelet {
                                                 options.input.silence_after);
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
                                                                       [this] { publish(); });
-    // The first subscriber to a topic determines the transport for its whole process (risk
-    // subscribes to tracks, too).
-    const auto hints = ros::TransportHints().tcpNoDelay();
-    camera_info_ =
-        node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this, hints);
-    tracks_ = node.subscribe("tracks", kQueue, &CameraViewNodelet::takeTracks, this, hints);
+    camera_info_ = Subscription::to(node, "camera_info", kQueue, *monitor_,
+                                    &CameraViewNodelet::takeCameraInfo, this);
+    tracks_ =
+        Subscription::to(node, "tracks", kQueue, *monitor_, &CameraViewNodelet::takeTracks, this);
     const auto update = [this](const ros::SingleSubscriberPublisher& /*subscriber*/) {
-      updateImageSubscription();
+      guarded(*monitor_, "camera_view", [this] { updateImageSubscription(); });
     };
     picture_ = node.advertise<sensor_msgs::Image>("camera_view", 1, update, update);
   }
 
   void updateImageSubscription() {
     if (picture_.getNumSubscribers() == 0) {
-      images_.shutdown();
+      images_ = Subscription();
     } else if (!images_) {
-      images_ = getNodeHandle().subscribe("image", kQueue, &CameraViewNodelet::takeImage, this,
-                                          ros::TransportHints().tcpNoDelay());
+      images_ = Subscription::to(getNodeHandle(), "image", kQueue, *monitor_,
+                                 &CameraViewNodelet::takeImage, this);
     }
   }
 
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-    guarded(*monitor_, "camera_info",
-            [&] { view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_)); });
+    view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_));
   }
 
   void takeTracks(const TrackArrayConstPtr& message) {
-    guarded(*monitor_, "tracks", [&] {
-      view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
-      publish();
-    });
+    view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
+    publish();
   }
 
   void takeImage(const sensor_msgs::ImageConstPtr& message) {
-    guarded(*monitor_, "image", [&] {
-      view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
-      publish();
-    });
+    view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
+    publish();
   }
 
   void publish() {
@@ -88,9 +82,9 @@ class CameraViewNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<TransformSubscription> transform_subscription_;
   ros::Publisher picture_;
-  ros::Subscriber camera_info_;
-  ros::Subscriber tracks_;
-  ros::Subscriber images_;
+  Subscription camera_info_;
+  Subscription tracks_;
+  Subscription images_;
 };
 
 }  // namespace datmo

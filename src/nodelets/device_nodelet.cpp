@@ -5,12 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include "callback_poster.h"
-
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/device/device_events.h"
+#include "datmo_fusion/ros/callback_poster.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/device_diagnostics.h"
 #include "datmo_fusion/ros/device_options.h"
@@ -34,7 +33,8 @@ class DeviceNodelet : public nodelet::Nodelet {
         StageTopics{{}, output_->topics()}, options_.input.silence_after);
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
     events_ = std::make_unique<DeviceEventQueue>(DeviceOutput::queueSize(options_.device.kind));
-    callbacks_ = std::make_unique<CallbackPoster>(getNodeHandle(), [this] { serveAll(); });
+    callbacks_ = std::make_unique<CallbackPoster>(*getNodeHandle().getCallbackQueue(),
+                                                  [this] { serveAll(); });
     DeviceHandlers handlers;
     handlers.connected = [this](const std::string& device) { post(DeviceConnected{device}); };
     handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {

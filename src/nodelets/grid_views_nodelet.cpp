@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/display/grid_views.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
+#include "datmo_fusion/ros/subscription.h"
 
 namespace datmo {
 
@@ -22,15 +23,15 @@ class GridViewsNodelet : public nodelet::Nodelet {
     views_ = std::make_unique<GridViews>(options);
     ros::NodeHandle& node = getNodeHandle();
     picture_ = node.advertise<sensor_msgs::Image>("grid_views", 1);
-    using Callback = boost::function<void(const nav_msgs::OccupancyGridConstPtr&)>;
     for (const std::string& panel : views_->panels()) {
-      const Callback take = [this, panel](const nav_msgs::OccupancyGridConstPtr& grid) {
-        guarded(*monitor_, topicOf(panel), [&] { views_->takeGrid(panel, grid); });
-        news_ = true;
-      };
-      grids_.push_back(node.subscribe<nav_msgs::OccupancyGrid>(topicOf(panel), 1, take));
+      grids_.push_back(Subscription::to<nav_msgs::OccupancyGrid>(
+          node, topicOf(panel), 1, *monitor_,
+          [this, panel](const nav_msgs::OccupancyGridConstPtr& grid) {
+            views_->takeGrid(panel, grid);
+            news_ = true;
+          }));
     }
-    pose_ = node.subscribe("pose", 1, &GridViewsNodelet::takePose, this);
+    pose_ = Subscription::to(node, "pose", 1, *monitor_, &GridViewsNodelet::takePose, this);
     timer_ = node.createTimer(ros::Duration(1.0 / options.rate),
                               [this](const ros::TimerEvent& /*event*/) { draw(); });
   }
@@ -40,7 +41,7 @@ class GridViewsNodelet : public nodelet::Nodelet {
   }
 
   void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    guarded(*monitor_, "pose", [&] { views_->takePose(message); });
+    views_->takePose(message);
   }
 
   void draw() {
@@ -54,8 +55,8 @@ class GridViewsNodelet : public nodelet::Nodelet {
   std::unique_ptr<GridViews> views_;
   bool news_ = false;  ///< a grid was received since the last picture
   ros::Publisher picture_;
-  std::vector<ros::Subscriber> grids_;
-  ros::Subscriber pose_;
+  std::vector<Subscription> grids_;
+  Subscription pose_;
   ros::Timer timer_;
 };
 

@@ -6,30 +6,46 @@
 #include <ros/console.h>
 
 #include "datmo_fusion/ros/convert/live_option_conversion.h"
+#include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
-LiveServer::LiveServer(ros::NodeHandle node, Present present, Change change)
-    : node_(std::move(node)), present_(std::move(present)), change_(std::move(change)) {
+namespace {
+
+constexpr char kService[] = "set_parameters";
+
+}  // namespace
+
+LiveServer::LiveServer(ros::NodeHandle node, StageMonitor& monitor, Present present, Change change)
+    : node_(std::move(node)),
+      monitor_(monitor),
+      present_(std::move(present)),
+      change_(std::move(change)) {
   descriptions_ =
       node_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
   updates_ = node_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   descriptions_.publish(descriptionOf(present_()));
   publish(present_());
-  service_ = node_.advertiseService("set_parameters", &LiveServer::take, this);
+  service_ = node_.advertiseService(kService, &LiveServer::take, this);
 }
 
 bool LiveServer::take(dynamic_reconfigure::Reconfigure::Request& request,
                       dynamic_reconfigure::Reconfigure::Response& response) {
-  try {
-    change_(valuesOf(request.config));
-  } catch (const OptionError& error) {
-    ROS_ERROR("%s: %s; keeps the previous values", node_.getNamespace().c_str(), error.what());
-  }
-  const std::vector<LiveOption> options = present_();
-  response.config = configOf(options);
-  publish(options);
-  return true;
+  guarded(monitor_, kService, [&] {
+    try {
+      change_(valuesOf(request.config));
+    } catch (const OptionError& error) {
+      ROS_ERROR("%s: %s; keeps the previous values", node_.getNamespace().c_str(), error.what());
+    }
+  });
+  bool answered = false;
+  guarded(monitor_, kService, [&] {
+    const std::vector<LiveOption> options = present_();
+    response.config = configOf(options);
+    publish(options);
+    answered = true;
+  });
+  return answered;
 }
 
 void LiveServer::publish(const std::vector<LiveOption>& options) {

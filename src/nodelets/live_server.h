@@ -10,6 +10,7 @@
 #include <ros/node_handle.h>
 
 #include "datmo_fusion/common/live_options.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
 
@@ -23,11 +24,13 @@ class LiveServer {
   using Present = std::function<std::vector<LiveOption>()>;
   using Change = std::function<void(const OptionValues&)>;
 
-  /// `node`: the nodelet's private one; the functions are called in its callback queue.
-  LiveServer(ros::NodeHandle node, Present present, Change change);
+  /// `node`: the nodelet's private one; the functions are called in its callback queue. `monitor`
+  /// must outlive it.
+  LiveServer(ros::NodeHandle node, StageMonitor& monitor, Present present, Change change);
 
  private:
-  /// Errors are printed on the console; the response has the values in effect.
+  /// Errors are printed on the console, and counted if they are no OptionError (guarded()); the
+  /// response has the values in effect. Returns false, as which the call fails, without them.
   bool take(dynamic_reconfigure::Reconfigure::Request& request,
             dynamic_reconfigure::Reconfigure::Response& response);
 
@@ -35,6 +38,7 @@ class LiveServer {
   void publish(const std::vector<LiveOption>& options);
 
   ros::NodeHandle node_;
+  StageMonitor& monitor_;
   Present present_;
   Change change_;
   ros::Publisher descriptions_;

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "live_server.h"
 
@@ -14,6 +15,7 @@
 #include "datmo_fusion/ros/display/risk_style.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
+#include "datmo_fusion/ros/subscription.h"
 
 namespace datmo {
 
@@ -26,25 +28,27 @@ class MarkersNodelet : public nodelet::Nodelet {
     monitor_ = std::make_unique<StageMonitor>(getName());
     options_ = loadOptions<MarkersOptions>(getPrivateNodeHandle());
     live_ = std::make_unique<LiveServer>(
-        getPrivateNodeHandle(), [this] { return liveOptions(options_); },
+        getPrivateNodeHandle(), *monitor_, [this] { return liveOptions(options_); },
         [this](const OptionValues& values) { options_ = withLiveValues(options_, values); });
     ros::NodeHandle& node = getNodeHandle();
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     host_ = node.advertise<visualization_msgs::Marker>("host_vehicle", 1);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
-    // The first subscriber to a topic determines the transport for its whole process (risk
-    // subscribes to tracks, too).
-    const auto hints = ros::TransportHints().tcpNoDelay();
-    labeled_scan_ =
-        node.subscribe("labeled_scan", kQueue, &MarkersNodelet::takeLabeledScan, this, hints);
-    borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this, hints);
-    objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this, hints);
-    dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this, hints);
-    tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this, hints);
-    risks_ = node.subscribe("risks", kQueue, &MarkersNodelet::takeRisks, this, hints);
-    truth_ =
-        node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this, hints);
+    subscribe("labeled_scan", &MarkersNodelet::takeLabeledScan);
+    subscribe("road_borders", &MarkersNodelet::takeBorders);
+    subscribe("objects", &MarkersNodelet::takeObjects);
+    subscribe("objects/dropped", &MarkersNodelet::takeDropped);
+    subscribe("tracks", &MarkersNodelet::takeTracks);
+    subscribe("risks", &MarkersNodelet::takeRisks);
+    subscribe("ground_truth/objects", &MarkersNodelet::takeTruth);
+  }
+
+  template <typename Message>
+  void subscribe(const std::string& topic,
+                 void (MarkersNodelet::*take)(const boost::shared_ptr<const Message>&)) {
+    subscriptions_.push_back(
+        Subscription::to(getNodeHandle(), topic, kQueue, *monitor_, take, this));
   }
 
   void takeLabeledScan(const LabeledScanConstPtr& message) {
@@ -52,7 +56,8 @@ class MarkersNodelet : public nodelet::Nodelet {
     draw("labeled_scan", *message);
     publishGuarded("vehicle", [&] { return vehicleMarkers(message->header, options_.vehicle); });
     if (host_.getNumSubscribers() > 0) {
-      host_.publish(hostMesh(message->header, options_.vehicle));
+      guarded(*monitor_, "host_vehicle",
+              [&] { host_.publish(hostMesh(message->header, options_.vehicle)); });
     }
   }
 
@@ -75,7 +80,8 @@ class MarkersNodelet : public nodelet::Nodelet {
     });
   }
 
-  /// `make`: creates the markers of a source; called only if there are subscribers.
+  /// `make`: creates the markers of a source; called only if there are subscribers. If it fails,
+  /// the other markers of the same message are drawn all the same.
   template <typename Make>
   void publishGuarded(const std::string& source, const Make& make) {
     if (markers_.getNumSubscribers() > 0) {
@@ -128,13 +134,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   ros::Publisher markers_;
   ros::Publisher host_;
   ros::Publisher legend_;
-  ros::Subscriber labeled_scan_;
-  ros::Subscriber borders_;
-  ros::Subscriber objects_;
-  ros::Subscriber dropped_;
-  ros::Subscriber tracks_;
-  ros::Subscriber risks_;
-  ros::Subscriber truth_;
+  std::vector<Subscription> subscriptions_;
 };
 
 }  // namespace datmo

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
+#include <memory>
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -7,6 +8,8 @@
 #include <std_msgs/Time.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+#include "datmo_fusion/ros/subscription.h"
 
 namespace datmo {
 
@@ -15,9 +18,10 @@ namespace datmo {
 class PartClockNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
+    monitor_ = std::make_unique<StageMonitor>(getName());
     answers_ = getNodeHandle().advertise<PartClock>("clock_answer", kQueue);
-    questions_ = getNodeHandle().subscribe("clock_question", kQueue, &PartClockNodelet::answer,
-                                           this, ros::TransportHints().tcpNoDelay());
+    questions_ = Subscription::to(getNodeHandle(), "clock_question", kQueue, *monitor_,
+                                  &PartClockNodelet::answer, this);
   }
 
   void answer(const std_msgs::TimeConstPtr& question) {
@@ -32,8 +36,9 @@ class PartClockNodelet : public nodelet::Nodelet {
   /// Only the latest question matters.
   static constexpr std::uint32_t kQueue = 1;
 
+  std::unique_ptr<StageMonitor> monitor_;
   ros::Publisher answers_;
-  ros::Subscriber questions_;
+  Subscription questions_;
 };
 
 }  // namespace datmo

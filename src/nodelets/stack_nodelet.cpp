@@ -10,10 +10,12 @@
 #include <std_msgs/Time.h>
 
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/part_clocks.h"
 #include "datmo_fusion/ros/stage/stack_health.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/subscription.h"
 
 namespace datmo {
 
@@ -27,6 +29,7 @@ class StackNodelet : public nodelet::Nodelet {
   using DiagnosticStatus = diagnostic_msgs::DiagnosticStatus;
 
   void onInit() override {
+    monitor_ = std::make_unique<StageMonitor>(getName());
     result_ = getNodeHandle().resolveName("tracks");
     clocks_ = std::make_unique<PartClocks>(loadOptions<PartClocksOptions>(getPrivateNodeHandle()));
     updater_ = std::make_unique<diagnostic_updater::Updater>(
@@ -34,15 +37,17 @@ class StackNodelet : public nodelet::Nodelet {
     updater_->setHardwareID("none");
     updater_->add("stack",
                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
-    diagnostics_ =
-        getNodeHandle().subscribe("/diagnostics", kQueue, &StackNodelet::takeDiagnostics, this);
+    diagnostics_ = Subscription::to(getNodeHandle(), "/diagnostics", kQueue, *monitor_,
+                                    &StackNodelet::takeDiagnostics, this);
     questions_ = getNodeHandle().advertise<std_msgs::Time>("clock_question", 1);
-    answers_ = getNodeHandle().subscribe("clock_answer", kQueue, &StackNodelet::takeAnswer, this,
-                                         ros::TransportHints().tcpNoDelay());
+    answers_ = Subscription::to(getNodeHandle(), "clock_answer", kQueue, *monitor_,
+                                &StackNodelet::takeAnswer, this);
     timer_ = getNodeHandle().createSteadyTimer(ros::WallDuration(kPeriod),
                                                [this](const ros::SteadyTimerEvent&) {
-                                                 updater_->force_update();
-                                                 askClocks();
+                                                 guarded(*monitor_, "timer", [this] {
+                                                   updater_->force_update();
+                                                   askClocks();
+                                                 });
                                                });
   }
 
@@ -92,6 +97,7 @@ class StackNodelet : public nodelet::Nodelet {
   static constexpr int kPatience = 6;          ///< periods before missing input is reported
   static constexpr std::uint32_t kQueue = 50;  ///< several stages for about a second
 
+  std::unique_ptr<StageMonitor> monitor_;
   std::string result_;
   ReportingStages stages_;
   std::unique_ptr<PartClocks> clocks_;
@@ -99,9 +105,9 @@ class StackNodelet : public nodelet::Nodelet {
   std::optional<HealthLevel> reported_;
   int beats_ = 0;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
-  ros::Subscriber diagnostics_;
+  Subscription diagnostics_;
   ros::Publisher questions_;
-  ros::Subscriber answers_;
+  Subscription answers_;
   ros::SteadyTimer timer_;
 };
 

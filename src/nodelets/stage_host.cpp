@@ -26,7 +26,7 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
   const StageTopics topics = topicsOf(inputs_, outputs_, resolved);
   if (!stage_.live().empty()) {
     live_ = std::make_unique<LiveServer>(
-        private_node_, [this] { return stage_.live(); },
+        private_node_, monitor_, [this] { return stage_.live(); },
         [this](const OptionValues& values) { stage_.change(values); });
   }
   reporter_ = std::make_unique<StageReporter>(
@@ -68,13 +68,11 @@ void StageHost::addService(StageService service) {
 
 void StageHost::subscribe(const StageInput& input) {
   const auto take = [this, input](const AnyMessage& message, Stamp now) {
-    guarded(monitor_, input.topic, [&] {
-      input.take(message, now);
-      publishTiming();
-      publishReady();
-    });
+    input.take(message, now);
+    publishTiming();
+    publishReady();
   };
-  subscribers_.push_back(input.subscribe(node_, monitor_, take));
+  subscriptions_.push_back(input.subscribe(node_, monitor_, take));
 }
 
 void StageHost::publishReady() {

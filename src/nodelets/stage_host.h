@@ -46,7 +46,7 @@ class StageHost : private StagePorts {
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;
-  std::vector<ros::Subscriber> subscribers_;
+  std::vector<Subscription> subscriptions_;
   std::vector<ros::ServiceServer> services_;
   ros::Timer timer_;
 };

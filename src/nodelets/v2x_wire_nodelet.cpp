@@ -5,16 +5,16 @@
 #include <variant>
 #include <vector>
 
-#include "callback_poster.h"
-
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/device/datagram_listener.h"
 #include "datmo_fusion/device/event_queue.h"
+#include "datmo_fusion/ros/callback_poster.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
+#include "datmo_fusion/ros/subscription.h"
 #include "datmo_fusion/ros/v2x_wire.h"
 
 namespace datmo {
@@ -44,14 +44,13 @@ class V2xWireNodelet : public nodelet::Nodelet {
     ros::NodeHandle& node = getNodeHandle();
     stations_ = node.advertise<StationTracksMessage>("stations", kQueue);
     advice_ = node.advertise<SignalAdviceMessage>("signal_advice", kQueue);
-    own_ = node.subscribe<StationTracksMessage>(
-        "stations/own", kQueue, [this](const auto& tracks) { serveOwn(*tracks); }, nullptr,
-        ros::TransportHints().tcpNoDelay());
+    own_ =
+        Subscription::to(node, "stations/own", kQueue, *monitor_, &V2xWireNodelet::serveOwn, this);
     reporter_ = std::make_unique<StageReporter>(
         node, getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
-        StageTopics{{own_.getTopic()}, {stations_.getTopic(), advice_.getTopic()}},
+        StageTopics{{own_.topic()}, {stations_.getTopic(), advice_.getTopic()}},
         StreamOptions().silence_after);
-    callbacks_ = std::make_unique<CallbackPoster>(node, [this] { serveAll(); });
+    callbacks_ = std::make_unique<CallbackPoster>(*node.getCallbackQueue(), [this] { serveAll(); });
     DatagramHandlers handlers;
     handlers.listening = [this] { put(Listening()); };
     handlers.received = [this](std::string_view bytes) {
@@ -87,12 +86,10 @@ class V2xWireNodelet : public nodelet::Nodelet {
     }
   }
 
-  void serveOwn(const StationTracksMessage& tracks) {
-    guarded(*monitor_, "stations/own", [&] {
-      if (const SignalAdviceMessagePtr advice = wire_->serveOwn(tracks)) {
-        advice_.publish(advice);
-      }
-    });
+  void serveOwn(const boost::shared_ptr<const StationTracksMessage>& tracks) {
+    if (const SignalAdviceMessagePtr advice = wire_->serveOwn(*tracks)) {
+      advice_.publish(advice);
+    }
   }
 
   std::unique_ptr<StageMonitor> monitor_;
@@ -100,7 +97,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
   std::unique_ptr<V2xWire> wire_;
   ros::Publisher advice_;
   ros::Publisher stations_;
-  ros::Subscriber own_;
+  Subscription own_;
   EventQueue<News, Datagram, DeviceError> news_{kWaiting};
   std::unique_ptr<CallbackPoster> callbacks_;
   std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before the objects it calls

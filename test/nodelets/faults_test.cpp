@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faults on the road: each one is counted and named in the diagnostics, nothing crashes, and the
 // chain works again afterward. The tests run through one drive, in this order.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "chain.h"
+#include "ros/raw_message.h"
 #include <gtest/gtest.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
@@ -15,6 +22,12 @@ namespace {
 constexpr double kStep = 1.0 / 16.0;  // s, between scans
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Publishes these bytes as a message, over the existing connections of this process.
+template <typename Message>
+void publishRaw(const std::string& topic, const RawMessage<Message>& raw) {
+  ros::NodeHandle().advertise<RawMessage<Message>>(topic, 1).publish(raw);
+}
 
 class FaultsTest : public testing::Test {
  protected:
@@ -52,6 +65,19 @@ class FaultsTest : public testing::Test {
     now_ += kStep;
   }
 
+  /// Sends the bytes of the world's current scan after `spoil`; expects that grid_slam counts them.
+  void expectUndecodable(const std::function<void(std::vector<std::uint8_t>&)>& spoil) {
+    const std::string key = "dropped: undecodable_message";
+    const double before = chain_->diagnostic("grid_slam", key);
+    auto raw = toRaw(world_.scan(now_));
+    spoil(raw.bytes);
+    chain_->sendMotion(now_);
+    publishRaw("scan", raw);
+    EXPECT_TRUE(
+        chain_->waitFor([&] { return chain_->diagnostic("grid_slam", key) == before + 1.0; }));
+    now_ += kStep;
+  }
+
   static Chain* chain_;
   static double now_;    // s, of the drive
   static double start_;  // s, where the present map begins
@@ -80,6 +106,63 @@ TEST_F(FaultsTest, InvalidScans) {
   expectCounted("dropped: bad_geometry", [](auto& scan) { scan.range_max = kNan; });
   expectCounted("dropped: zero_stamp", [](auto& scan) { scan.header.stamp = ros::Time(); });
   expectCounted("dropped: missing_frame", [](auto& scan) { scan.header.frame_id = ""; });
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, AnUndecodableScanCostsOneMessage) {
+  const std::string lost = "dropped: lost_message";
+  const double lost_before = chain_->diagnostic("grid_slam", lost);
+  expectUndecodable([](auto& bytes) { bytes.resize(bytes.size() / 2); });
+  EXPECT_NE(chain_->diagnosticText("grid_slam", "last error")
+                .find("/scan from " + ros::this_node::getName()),
+            std::string::npos)
+      << chain_->diagnosticText("grid_slam", "last error");
+  driveOn(0.5);
+  const std::size_t ranges_at =
+      ros::serialization::serializationLength(world_.scan(now_).header) + 7 * sizeof(float);
+  expectUndecodable([ranges_at](auto& bytes) {
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(ranges_at), 4, std::uint8_t{0xFF});
+  });
+  EXPECT_NE(chain_->diagnosticText("grid_slam", "last error").find("4294967295 elements"),
+            std::string::npos)
+      << chain_->diagnosticText("grid_slam", "last error");
+  driveOn(0.5);
+  expectRightPose();
+  // Diagnostics from after the gaps.
+  expectCounted("dropped: empty_scan", [](auto& scan) { scan.ranges.clear(); });
+  EXPECT_EQ(chain_->diagnostic("grid_slam", lost), lost_before);
+}
+
+TEST_F(FaultsTest, AnUndecodableTransformIsCountedByAllStages) {
+  const std::string key = "dropped: undecodable_message";
+  const std::vector<std::string> stages = {"grid_slam", "tracker"};
+  std::vector<double> before;
+  for (const std::string& stage : stages) {
+    before.push_back(chain_->diagnostic(stage, key));
+  }
+  auto raw = toRaw(tf2_msgs::TFMessage());
+  raw.bytes[0] = 1;  // one transform, but none follows
+  publishRaw("/tf", raw);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    EXPECT_TRUE(chain_->waitFor([&] {
+      return chain_->diagnostic(stages[i], key) == before[i] + 1.0;
+    })) << stages[i];
+  }
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, ATransformAtTheEndOfTimeIsIgnored) {
+  tf2_msgs::TFMessage nobody;
+  nobody.transforms.resize(1);
+  nobody.transforms[0].header.stamp = ros::Time(4294967295U, 0);
+  nobody.transforms[0].header.frame_id = "nobody";
+  nobody.transforms[0].child_frame_id = "knows";
+  nobody.transforms[0].transform.rotation.w = 1.0;
+  publishRaw("/tf", toRaw(nobody));
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("grid_slam", "warned: stamp_out_of_range") > 0.0; }));
   driveOn(0.5);
   expectRightPose();
 }

@@ -9,7 +9,7 @@
 
 #include "bag_fault.h"
 #include "output_bag.h"
-#include "raw_message.h"
+#include "ros/raw_message.h"
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>

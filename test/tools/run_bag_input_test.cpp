@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Recordings as found in practice: slashes in frame ids, no tf, no odometry, and rejected input.
-#include "raw_message.h"
+#include "ros/raw_message.h"
 #include "run_bag/input_refusals.h"
 #include "run_bag_drive.h"
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 
 #include <ros/node_handle.h>
 
+#include "datmo_fusion/ros/subscription.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
@@ -20,8 +21,8 @@ class TransformSubscription {
       std::function<void()> changed = [] {});
 
  private:
-  ros::Subscriber transforms_;
-  ros::Subscriber static_transforms_;
+  Subscription transforms_;
+  Subscription static_transforms_;
 };
 
 }  // namespace datmo

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -19,6 +20,9 @@ constexpr std::uint32_t kMaxGap = 1000000;
 
 /// Maximum number of remembered publishers: some have a new name at each start.
 constexpr std::size_t kMaxPublishers = 20;
+
+/// Maximum number of remembered undecodable messages per publisher: there may be no others.
+constexpr std::size_t kMaxUndecodable = 1000;
 
 std::string waitedFor(double seconds, double max_wait) {
   char text[200];
@@ -51,14 +55,31 @@ bool ArrivalCheck::passes(const Arrived& message, const ros::Time& now) {
   return false;
 }
 
-std::uint32_t ArrivalCheck::lostBefore(const Arrived& message) {
-  if (last_.size() >= kMaxPublishers && last_.count(message.publisher) == 0) {
-    last_.clear();
+void ArrivalCheck::noteUndecodable(const std::string& publisher, std::uint32_t sequence) {
+  std::set<std::uint32_t>& undecodable = publisherOf(publisher).undecodable;
+  undecodable.insert(sequence);
+  if (undecodable.size() > kMaxUndecodable) {
+    undecodable.erase(undecodable.begin());
   }
-  const auto [entry, is_first] = last_.try_emplace(message.publisher, message.sequence);
-  const std::uint32_t last = std::exchange(entry->second, message.sequence);
-  const bool goes_on = !is_first && message.sequence > last && message.sequence - last <= kMaxGap;
-  return goes_on ? message.sequence - last - 1 : 0;
+}
+
+ArrivalCheck::Publisher& ArrivalCheck::publisherOf(const std::string& name) {
+  if (publishers_.size() >= kMaxPublishers && publishers_.count(name) == 0) {
+    publishers_.clear();
+  }
+  return publishers_[name];
+}
+
+std::uint32_t ArrivalCheck::lostBefore(const Arrived& message) {
+  Publisher& publisher = publisherOf(message.publisher);
+  const std::uint32_t last = publisher.last.value_or(message.sequence);
+  publisher.last = message.sequence;
+  std::set<std::uint32_t>& noted = publisher.undecodable;
+  const auto end = noted.lower_bound(message.sequence);
+  const bool goes_on = message.sequence > last && message.sequence - last <= kMaxGap;
+  const auto undecodable = goes_on ? std::distance(noted.upper_bound(last), end) : 0;
+  noted.erase(noted.begin(), end);
+  return goes_on ? message.sequence - last - 1 - static_cast<std::uint32_t>(undecodable) : 0;
 }
 
 }  // namespace datmo

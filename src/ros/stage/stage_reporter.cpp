@@ -16,6 +16,7 @@
 #include <ros/this_node.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
@@ -127,8 +128,9 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
   updater_.add("stage", [this](DiagnosticStatusWrapper& status) { diagnose(status); });
   timer_ = node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                                   [this](const ros::SteadyTimerEvent&) {
-                                    logChanges();
-                                    updater_.force_update();
+                                    // Without news there are still diagnostics.
+                                    guarded(monitor_, "timer", [this] { logChanges(); });
+                                    guarded(monitor_, "timer", [this] { updater_.force_update(); });
                                   });
 }
 

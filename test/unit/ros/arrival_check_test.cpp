@@ -52,6 +52,32 @@ TEST_F(ArrivalCheckTest, LossesDuringAStandstillAreAllCounted) {
   EXPECT_EQ(dropped("lost_message"), 999999U) << "another count";
 }
 
+TEST_F(ArrivalCheckTest, UndecodableMessagesAreNotLost) {
+  take("/driver", 7);
+  check_.noteUndecodable("/driver", 8);
+  take("/driver", 9);
+  EXPECT_EQ(dropped("lost_message"), 0U);
+  check_.noteUndecodable("/driver", 12);  // while 10 still waits
+  check_.noteUndecodable("/other", 10);
+  take("/driver", 10);
+  EXPECT_EQ(dropped("lost_message"), 0U);
+  take("/driver", 14);
+  EXPECT_EQ(dropped("lost_message"), 2U) << "11 and 13";
+  take("/driver", 3);
+  check_.noteUndecodable("/driver", 4);
+  take("/driver", 5);
+  EXPECT_EQ(dropped("lost_message"), 2U) << "the numbers start over";
+}
+
+TEST_F(ArrivalCheckTest, AStreamOfUndecodableMessagesIsForgotten) {
+  take("/driver", 7);
+  for (std::uint32_t sequence = 8; sequence < 5008; ++sequence) {
+    check_.noteUndecodable("/driver", sequence);
+  }
+  take("/driver", 5008);
+  EXPECT_EQ(dropped("lost_message"), 4000U) << "the oldest ones";
+}
+
 TEST_F(ArrivalCheckTest, EachPublisherCountsByItself) {
   take("/driver", 7);
   take("/other", 100);

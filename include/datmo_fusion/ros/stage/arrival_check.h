@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -36,14 +38,26 @@ class ArrivalCheck {
   /// drops it if it is too old (`stale_message`).
   bool passes(const Arrived& message, const ros::Time& now);
 
+  /// Notes a message that has arrived but could not be decoded: it is not lost. `sequence` may be
+  /// ahead of the messages that still wait for passes(); 0: unknown, and then it counts as lost.
+  void noteUndecodable(const std::string& publisher, std::uint32_t sequence);
+
  private:
+  /// What is known of the messages of a publisher, by their sequence numbers.
+  struct Publisher {
+    std::optional<std::uint32_t> last;    ///< none before the first one
+    std::set<std::uint32_t> undecodable;  ///< after the last one
+  };
+
+  Publisher& publisherOf(const std::string& name);
+
   /// Number of messages lost before this one of the same publisher.
   std::uint32_t lostBefore(const Arrived& message);
 
   std::string topic_;
   double max_wait_;
   StageMonitor& monitor_;
-  std::map<std::string, std::uint32_t> last_;  ///< sequence number by publisher
+  std::map<std::string, Publisher> publishers_;  ///< by name
 };
 
 /// Returns the sequence number of a message; 0 without a header.

@@ -22,6 +22,7 @@
 #include "datmo_fusion/ros/stage/queue_length.h"
 #include "datmo_fusion/ros/stage/stage_health.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
+#include "datmo_fusion/ros/subscription.h"
 
 namespace datmo {
 
@@ -31,15 +32,15 @@ using AnyMessage = boost::shared_ptr<const void>;
 /// One input of a stage, without the type of its messages.
 struct StageInput {
   using Take = std::function<void(const AnyMessage& message, Stamp now)>;
-  using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, StageMonitor& monitor,
-                                                  const Take& take)>;
+  using Subscribe =
+      std::function<Subscription(ros::NodeHandle& node, StageMonitor& monitor, const Take& take)>;
 
   std::string topic;      ///< the stage's own name for it, before remapping
   std::string data_type;  ///< "sensor_msgs/LaserScan"
   std::string booked_as;  ///< input under which the monitor counts it
   bool required = true;   ///< its silence is a fault
   Take take;
-  Subscribe subscribe;  ///< frame ids without slashes; the arrival is recorded
+  Subscribe subscribe;  ///< guarded; frame ids without slashes; the arrival is recorded
 };
 
 /// Resolves a stage's topic name to its name in the graph.
@@ -177,19 +178,19 @@ class StagePorts {
                             Take<Message> take) {
     const auto subscribe = [topic, booked_as](ros::NodeHandle& node, StageMonitor& monitor,
                                               const StageInput::Take& take_any) {
-      using Event = const ros::MessageEvent<const Message>&;
       const auto check = std::make_shared<ArrivalCheck>(topic, maxWaitInQueue<Message>(), monitor);
-      const boost::function<void(Event)> callback = [booked_as, &monitor, take_any,
-                                                     check](Event event) {
+      const auto take_event = [booked_as, &monitor, take_any,
+                               check](const ros::MessageEvent<const Message>& event) {
         const auto message = receive(booked_as, event.getConstMessage(), monitor);
         if (check->passes(arrivedOf(event), ros::Time::now())) {
           take_any(message, toStamp(ros::Time::now()));
         }
       };
-      ros::SubscribeOptions options;
-      options.initByFullCallbackType<Event>(topic, queueLength<Message>(), callback);
-      options.transport_hints = ros::TransportHints().tcpNoDelay();
-      return node.subscribe(options);
+      const auto note = [check](const DecodeError& error) {
+        check->noteUndecodable(error.publisher, error.sequence);
+      };
+      return Subscription::toEvents<Message>(node, topic, queueLength<Message>(), monitor,
+                                             take_event, note);
     };
     return {topic,
             ros::message_traits::datatype<Message>(),

@@ -9,6 +9,8 @@
 
 #include <ros/serialization.h>
 
+#include "datmo_fusion/ros/stage/input_error.h"
+
 namespace datmo {
 
 /// The bytes of one message, to be decoded by ros::serialization. Its own IStream allocates memory
@@ -44,5 +46,13 @@ class BoundedStream : public ros::serialization::Stream {
     ros::serialization::deserialize(*this, elements);
   }
 };
+
+/// The error for a message whose bytes are corrupt (`undecodable_message`). `where`: its topic, and
+/// what else identifies it; `why`: what the stream has thrown.
+inline InputError undecodable(const std::string& where, const std::string& data_type,
+                              const std::string& why) {
+  return {"undecodable_message",
+          where + ": expected a complete " + data_type + " (" + why + "); skips it"};
+}
 
 }  // namespace datmo

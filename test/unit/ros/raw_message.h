@@ -10,7 +10,8 @@
 
 namespace datmo {
 
-/// Bytes that are written to a bag as a `Message`, whether they are a valid one or not.
+/// Bytes that are written to a bag or published as a `Message`, whether they are a valid one or
+/// not.
 template <typename Message>
 struct RawMessage {
   std::vector<std::uint8_t> bytes;
@@ -32,23 +33,20 @@ namespace ros::message_traits {
 
 template <typename Message>
 struct MD5Sum<datmo::RawMessage<Message>> {
-  static const char* value(const datmo::RawMessage<Message>& /*raw*/) {
-    return MD5Sum<Message>::value();
-  }
+  static const char* value() { return MD5Sum<Message>::value(); }
+  static const char* value(const datmo::RawMessage<Message>& /*raw*/) { return value(); }
 };
 
 template <typename Message>
 struct DataType<datmo::RawMessage<Message>> {
-  static const char* value(const datmo::RawMessage<Message>& /*raw*/) {
-    return DataType<Message>::value();
-  }
+  static const char* value() { return DataType<Message>::value(); }
+  static const char* value(const datmo::RawMessage<Message>& /*raw*/) { return value(); }
 };
 
 template <typename Message>
 struct Definition<datmo::RawMessage<Message>> {
-  static const char* value(const datmo::RawMessage<Message>& /*raw*/) {
-    return Definition<Message>::value();
-  }
+  static const char* value() { return Definition<Message>::value(); }
+  static const char* value(const datmo::RawMessage<Message>& /*raw*/) { return value(); }
 };
 
 }  // namespace ros::message_traits

@@ -8,16 +8,16 @@
 #include <boost/make_shared.hpp>
 
 #include <ros/callback_queue_interface.h>
-#include <ros/node_handle.h>
 
 namespace datmo {
 
-/// Posts calls of a function to the callback queue of a nodelet, from any thread. After its
+/// Posts calls of a function to a callback queue (of a nodelet), from any thread. After its
 /// destruction the function is no longer called; the posting threads must have stopped before.
 class CallbackPoster {
  public:
-  CallbackPoster(const ros::NodeHandle& node, std::function<void()> serve)
-      : queue_(*node.getCallbackQueue()), serve_(std::move(serve)) {}
+  /// `queue` must outlive it; `serve` must not throw.
+  CallbackPoster(ros::CallbackQueueInterface& queue, std::function<void()> serve)
+      : queue_(queue), serve_(std::move(serve)) {}
   ~CallbackPoster() { queue_.removeByID(id()); }
   CallbackPoster(const CallbackPoster&) = delete;
   CallbackPoster& operator=(const CallbackPoster&) = delete;

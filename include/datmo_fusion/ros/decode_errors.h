@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <ros/callback_queue_interface.h>
+
+#include "datmo_fusion/ros/callback_poster.h"
+#include "datmo_fusion/ros/stage/stage_health.h"
+
+namespace datmo {
+
+/// A received message that could not be decoded.
+struct DecodeError {
+  std::string publisher;
+  std::uint32_t sequence = 0;  ///< of its header; 0: unknown
+  std::string why;
+  std::uint64_t count = 1;  ///< messages, of which this is the first
+};
+
+/// The decode errors of one subscription, in the thread of its own callbacks.
+///
+/// roscpp decodes a message once for all subscriptions of a process to its topic: with the code of
+/// one of them, in the thread of another one, and the others are only left out. An error is
+/// therefore told to all of them through their callback queues, so that a StageMonitor needs no
+/// lock.
+class DecodeErrors {
+ public:
+  using Take = std::function<void(const DecodeError& error)>;
+
+  /// `topic`: resolved. `queue`: that of the subscription, which must call one callback at a time,
+  /// and outlive this. `take` is called only in its callbacks, and must not throw.
+  DecodeErrors(ros::CallbackQueueInterface& queue, InputTopic topic, Take take);
+
+  /// Afterward `take` is no longer called.
+  ~DecodeErrors();
+  DecodeErrors(const DecodeErrors&) = delete;
+  DecodeErrors& operator=(const DecodeErrors&) = delete;
+
+  /// Calls `take` with each new error. For the subscription's callback, before a message: an error
+  /// must be known before the gap that it leaves in the sequence numbers, and the call that tell()
+  /// has posted may be behind that message in the queue.
+  void deliver();
+
+  /// Tells an error to all subscriptions of this process to a topic. From any thread.
+  static void tell(const InputTopic& topic, const DecodeError& error);
+
+ private:
+  void put(const DecodeError& error);
+
+  InputTopic topic_;
+  Take take_;
+  std::mutex mutex_;
+  std::vector<DecodeError> waiting_;
+  CallbackPoster poster_;  ///< last: destroyed before what its calls use
+};
+
+}  // namespace datmo
