@@ -10,6 +10,8 @@ import struct
 import time
 import unittest
 
+import numpy as np
+
 from datmo_tools.experiments import lossy_network, machines
 from datmo_tools.experiments.lossy_network import Quality
 from datmo_tools.experiments.machines_run import Result, by_time, latencies, recovery
@@ -67,11 +69,22 @@ class Relay(unittest.TestCase):
 
 
 class Figures(unittest.TestCase):
-    def test_tracks_are_paired_with_the_nearest_each_once(self):
-        distances, alone = machines.paired([(1, 0.0, 0.0), (2, 10.0, 0.0)], [(7, 0.0, 0.1), (8, 0.0, 0.2), (9, 30.0, 0.0)])
-        self.assertEqual(len(distances), 1)
-        self.assertAlmostEqual(distances[0], 0.1)
-        self.assertEqual(alone, 3)
+    def test_tracks_within_the_gate_are_paired_each_once(self):
+        lists = [([(1, 0.0, 0.0), (2, 10.0, 0.0)], [(7, 0.0, 0.1), (8, 0.0, 0.2), (9, 30.0, 0.0)]),
+                 ([], []), ([(3, 5.0, 0.0)], []), ([(4, 5.0, 0.0)], [(5, 5.0, 0.3)])]  # fmt: skip
+        distances, alone = machines.paired(lists)
+        np.testing.assert_allclose(distances, [0.1, 0.3])
+        self.assertEqual(alone, 4)
+
+    def test_tracks_are_paired_by_score_runs_matcher(self):
+        """If each took its nearest one in turn, the second track would be left without any."""
+        one = [(1, 0.0, 0.0), (2, -0.6, 0.0)]
+        other = [(7, 1.9, 0.0), (8, -0.225, np.sqrt(0.16 - 0.225**2))]
+        apart = [[np.hypot(a[1] - b[1], a[2] - b[2]) for b in other] for a in one]
+        np.testing.assert_allclose(apart, [[1.9, 0.4], [2.5, 0.5]])
+        distances, alone = machines.paired([(one, other)], gate=2.0)
+        np.testing.assert_allclose(distances, [1.9, 0.5])
+        self.assertEqual(alone, 0)
 
     def test_runs_are_compared_by_the_time_of_the_drive(self):
         one = Result(100.0, {"tracks": [[100.0, 100.5, [(1, 0.0, 0.0)]], [100.06, 100.1, []]]}, [], [])

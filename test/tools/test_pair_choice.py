@@ -12,7 +12,7 @@ from datmo_tools.experiments.kept_ids import _ids_of
 from datmo_tools.pose_path import PosePath
 from geometry_msgs.msg import Point, Pose, Quaternion
 
-from datmo_fusion.msg import Object, Track, TrackArray, TrueObject, TrueObjectArray
+from datmo_fusion.msg import Object, Track, TrackArray, TrueObject
 
 STAMP = 10**9
 AT_ORIGIN = PosePath([0, 2 * STAMP], np.zeros((2, 3)))
@@ -53,8 +53,7 @@ class Users(unittest.TestCase):
         """An object gets its own track, or none."""
         tracks = TrackArray(tracks=[Track(id=7, pose=pose(10.0, 0.0)), Track(id=8, pose=pose(10.0, 1.9))])
         tracks.header.stamp.secs = 1
-        truth = TrueObjectArray(objects=[TrueObject(id=number, pose=pose(10.0, y))
-                                         for number, y in ((1, 0.4), (2, -0.5), (3, -1.0))])  # fmt: skip
+        truth = [TrueObject(id=number, pose=pose(10.0, y)) for number, y in ((1, 0.4), (2, -0.5), (3, -1.0))]
         found = _ids_of(tracks, truth, {1, 2, 3}, (AT_ORIGIN, AT_ORIGIN))
         self.assertEqual(found, {1: 8, 2: 7})
 

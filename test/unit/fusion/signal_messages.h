@@ -48,8 +48,8 @@ inline WireBits wireSpatem() {
       .add(8, 4);  // protected clearance
 }
 
-/// Two lanes: 5 with three nodes and two connections, 6 computed from it.
-inline WireBits wireMapem() {
+/// Up to its lanes: the intersection's position, and 3.5 m.
+inline WireBits wireMapemHead() {
   return signalHeader(5)
       .add(0, 1)           // MapData, not extended
       .add(0b00010000, 8)  // intersections alone
@@ -64,21 +64,29 @@ inline WireBits wireMapem() {
       .add(0b00, 2)  // no elevation, no region
       .add(451900000 + 900000000, 31)
       .add(57200000 + 1800000000, 32)
-      .add(350, 15)  // 3.5 m
-      .add(1, 8)     // two lanes
-      // Lane 5.
-      .add(0, 1)          // not extended
-      .add(0b0000100, 7)  // connections
-      .add(5, 8)
+      .add(350, 15);  // 3.5 m
+}
+
+/// Up to its nodes, which are listed (0b00) or computed from another lane (0b01).
+inline WireBits wireLaneHead(std::uint64_t optional_fields, std::uint64_t id, std::uint64_t nodes) {
+  return WireBits()
+      .add(0, 1)  // not extended
+      .add(optional_fields, 7)
+      .add(id, 8)
       .add(0, 1)       // attributes without region
       .add(0b10, 2)    // into it
       .add(0, 10)      // shared with nobody
       .add(0b0000, 4)  // not extended; for vehicles
       .add(0, 9)       // eight flags, not extended
-      .add(0b00, 2)    // nodes, not extended; not computed
-      .add(1, 6)       // three of them
-      .add(0, 2)       // not extended, without attributes
-      .add(0, 3)       // 20 bits
+      .add(nodes, 2);  // not extended, and their kind
+}
+
+/// Lane 5: three nodes and two connections.
+inline WireBits wireListedLane() {
+  return wireLaneHead(0b0000100, 5, 0b00)
+      .add(1, 6)  // three nodes
+      .add(0, 2)  // not extended, without attributes
+      .add(0, 3)  // 20 bits
       .add(500 + 512, 10)
       .add(-200 + 512, 10)
       .add(0, 2)
@@ -97,24 +105,26 @@ inline WireBits wireMapem() {
       .add(3, 8)
       .add(0, 4)
       .add(0, 1)
-      .add(12, 8)
-      // Lane 6.
-      .add(0, 1)
-      .add(0, 7)
-      .add(6, 8)
-      .add(0, 1)
-      .add(0b10, 2)
-      .add(0, 10)
-      .add(0b0000, 4)
-      .add(0, 9)
-      .add(0b01, 2)  // computed
-      .add(0, 1)     // not extended
-      .add(0, 4)     // no turn, scale, region
+      .add(12, 8);
+}
+
+/// Lane 6: beside lane 5.
+inline WireBits wireComputedLane() {
+  return wireLaneHead(0, 6, 0b01)
+      .add(0, 1)  // not extended
+      .add(0, 4)  // no turn, scale, region
       .add(5, 8)
       .add(0, 1)  // small
       .add(0 + 2047, 12)
       .add(1, 1)  // large
       .add(3500 + 32767, 16);
+}
+
+inline WireBits wireMapem() {
+  return wireMapemHead()
+      .add(1, 8)  // two lanes
+      .add(wireListedLane())
+      .add(wireComputedLane());
 }
 
 /// The same two as structures.

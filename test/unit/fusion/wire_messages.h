@@ -131,12 +131,9 @@ inline WireBits wireCpm() {
                    .add(wirePedestrian()));
 }
 
-/// Two objects in a vehicle's CPM: the first one has all optional fields, all of them extended
-/// where possible. `is_old`: by the data dictionary of version 2.1.1.
-inline WireBits wireRichCpm(bool is_old) {
+/// Its position, with z, and how it moves: all fields.
+inline WireBits wireRichMotion() {
   WireBits object;
-  object.add(1, 1).add(0x3FFF, 14);  // extended, all there
-  object.add(7, 16).add(2048 + 50, 12);
   object.add(1, 1).add(131072, 18).add(99, 12).add(131072 + 100, 18).add(99, 12);
   object.add(131072 + 3, 18).add(4095, 12);  // z
   object.add(0, 1)
@@ -150,7 +147,13 @@ inline WireBits wireRichCpm(bool is_old) {
   object.add(1, 1).add(1, 1).add(160, 9).add(5, 7).add(160, 9).add(5, 7).add(160, 9).add(5, 7);
   object.add(0b11, 2).add(450, 12).add(3, 7).add(0, 12).add(3, 7).add(0, 12).add(3, 7);
   object.add(255, 9).add(7, 3);  // angular velocity
-  object.add(0, 2);              // one matrix, of three components in two columns
+  return object;
+}
+
+/// One matrix, of three components in two columns. `is_old`: see wireRichCpm().
+inline WireBits wireRichCorrelations(bool is_old) {
+  WireBits object;
+  object.add(0, 2);
   object.add(0, 1).add(0b1101000000000, 13);
   if (!is_old) {
     object.add(0, 1);
@@ -158,9 +161,12 @@ inline WireBits wireRichCpm(bool is_old) {
   object.add(2 - 1, 4);
   object.add(0, 1).add(2 - 1, 4).add(100, 8).add(150, 8);
   object.add(0, 1).add(1 - 1, 4).add(201, 8);
-  object.add(14, 8).add(31, 5).add(17, 8).add(31, 5).add(42, 8).add(31, 5);  // height...length
-  object.add(1500, 11).add(15, 4);
-  object.add(0, 1).add(2 - 1, 7).add(1, 8).add(2, 8);                       // sensors
+  return object;
+}
+
+/// Six classes: all kinds, and one that is not known. `is_old`: see wireRichCpm().
+inline WireBits wireRichClasses(bool is_old) {
+  WireBits object;
   object.add(6 - 1, 3);                                                     // classes
   object.add(0, 1).add(0, 2).add(5, 4).add(50 - 1, 7);                      // a car
   object.add(0, 1).add(1, 2).add(0, 1).add(1, 2).add(1, 4).add(20 - 1, 7);  // bicyclist
@@ -173,12 +179,31 @@ inline WireBits wireRichCpm(bool is_old) {
   object.add(0, 1).add(2, 2).add(0, 1).add(0b101, 3).add(9, 8).add(4, 8).add(0xA, 4).add(5 - 1, 7);
   object.add(0, 1).add(3, 2).add(1, 8).add(5 - 1, 7);                        // other
   object.add(1, 1).add(0, 7).addOpen(WireBits().add(3, 8)).add(101 - 1, 7);  // not known
-  object.add(0, 1).add(0b1111, 4);                                           // position in a map
+  return object;
+}
+
+/// An object with all optional fields, all of them extended where possible. `is_old`: see
+/// wireRichCpm().
+inline WireBits wireRichObject(bool is_old) {
+  WireBits object;
+  object.add(1, 1).add(0x3FFF, 14);  // extended, all there
+  object.add(7, 16).add(2048 + 50, 12);
+  object.add(wireRichMotion()).add(wireRichCorrelations(is_old));
+  object.add(14, 8).add(31, 5).add(17, 8).add(31, 5).add(42, 8).add(31, 5);  // height...length
+  object.add(1500, 11).add(15, 4);
+  object.add(0, 1).add(2 - 1, 7).add(1, 8).add(2, 8);  // sensors
+  object.add(wireRichClasses(is_old));
+  object.add(0, 1).add(0b1111, 4);  // position in a map
   object.add(1, 1).add(1, 1).add(300, 16).add(400, 16).add(5, 8).add(6, 8).add(7, 15).add(8, 10);
   object.add(0, 7).add(1, 1).addOpen(WireBits().add(0xFF, 8));  // an addition
+  return object;
+}
 
+/// Two objects in a vehicle's CPM: a rich one, and a position alone. `is_old`: by the data
+/// dictionary of version 2.1.1.
+inline WireBits wireRichCpm(bool is_old) {
   WireBits objects;
-  objects.add(0, 1).add(2, 8).add(0, 1).add(2, 8).add(object);
+  objects.add(0, 1).add(2, 8).add(0, 1).add(2, 8).add(wireRichObject(is_old));
   WireBits second;  // a number, and where it is
   second.add(0, 1).add(0x2000, 14).add(8, 16).add(2048, 12);
   second.add(0, 1).add(131072 - 1, 18).add(4095, 12).add(131072 + 1, 18).add(4095, 12);

@@ -15,6 +15,21 @@ def add_truth(parser):
                         help="bag with the truth (default: the run's own, of run_bag --with-truth)")  # fmt: skip
 
 
+def add_truths(parser):
+    """Adds the option --truth of a tool of several runs, for drives_of()."""
+    parser.add_argument("--truth", action="append", type=Path, metavar="DRIVE.bag",
+                        help="bags with the truth, one for each run (default: the runs themselves)")  # fmt: skip
+
+
+def drives_of(values):
+    """Returns the bag with the truth of each run (Path). Raises InputError if there are more or
+    fewer of them than runs."""
+    drives = values.truth or values.runs
+    if len(drives) != len(values.runs):
+        raise InputError(f"{len(drives)} --truth for {len(values.runs)} runs: expected one for each")
+    return drives
+
+
 def add_grids(parser, topic):
     """Adds the run and the KITTI drive, and --topic of its grids; topic: the default."""
     add = parser.add_argument

@@ -8,7 +8,7 @@ import yaml
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.arguments import add_region, region_of
+from datmo_tools.evaluate.arguments import add_region, add_truths, drives_of, region_of
 from datmo_tools.evaluate.class_tally import NOTHING, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_lists
@@ -105,10 +105,7 @@ def _reports(run, drive, topic, region):
 
 def _run(values):
     region = region_of(values)
-    drives = values.truth or values.runs
-    if len(drives) != len(values.runs):
-        raise InputError(f"{len(drives)} --truth for {len(values.runs)} runs: expected one for each")
-    reports = [report for run, drive in zip(values.runs, drives)
+    reports = [report for run, drive in zip(values.runs, drives_of(values))
                for report in _reports(run, drive, values.topic, region)]  # fmt: skip
     text = as_yaml(values.detector, reports, values.bin_size)
     right = sum(report.is_right for report in reports)
@@ -121,8 +118,7 @@ def _parser():
     parser = command_line.new_parser("calibrate_classes", DESCRIPTION)
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
-    add("--truth", action="append", type=Path, metavar="DRIVE.bag",
-        help="bags with the truth, one for each run (default: the runs themselves)")  # fmt: skip
+    add_truths(parser)
     add("--detector", choices=("hog", "dnn"), required=True, help="detector of the runs")
     add("--topic", default=TOPIC, help="of the objects (default %(default)s)")
     add("--bin-size", type=command_line.count, default=BIN_SIZE, metavar="N",

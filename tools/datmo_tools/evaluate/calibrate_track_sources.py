@@ -7,7 +7,7 @@ import yaml
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.arguments import add_region, region_of
+from datmo_tools.evaluate.arguments import add_region, add_truths, drives_of, region_of
 from datmo_tools.evaluate.plot_files import plotter
 from datmo_tools.evaluate.source_tally import CLASSES, OTHER, SourceTally
 from datmo_tools.evaluate.track_frames import Scene
@@ -102,9 +102,7 @@ def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDT
 
 
 def _run(values):
-    drives = values.truth or values.runs
-    if len(drives) != len(values.runs):
-        raise InputError(f"{len(drives)} --truth for {len(values.runs)} runs: expected one for each")
+    drives = drives_of(values)
     plot = plotter(values.plot, "source_plot", "source_plot")
     tallies = tally_runs(values.runs, drives, values.sources, region_of(values), values.visible_to)
     print(summary(tallies))
@@ -119,8 +117,7 @@ def _parser():
     parser = command_line.new_parser("calibrate_track_sources", DESCRIPTION)
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --track-fusion")
-    add("--truth", action="append", type=Path, metavar="DRIVE.bag",
-        help="bags with the truth, one for each run (default: the runs themselves)")  # fmt: skip
+    add_truths(parser)
     add("--sources", nargs="+", default=list(SOURCES), metavar="NAME",
         help="sources, with tracks on /tracks/NAME (default: lidar stereo)")  # fmt: skip
     add("--visible-to", default=ANY, metavar="SENSOR",

@@ -7,40 +7,39 @@ from datmo_fusion.msg import RiskArray
 from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.risk_scores import HORIZONS, LIKELY, RiskDrive, RiskFrame, any_contact
+from datmo_tools.evaluate.truth import TRUE_OBJECTS, read_true_objects
+from datmo_tools.stamps import to_ros_time
 
 RISKS = "/risks"
 CONTACT = "/ground_truth/contact"
-OBJECTS = "/ground_truth/objects"
 
 GAP = 0.5  # s; hidden for longer, the struck object was not in view
 
 
 def read_drive(path):
     """Returns the RiskDrive of a bag (Path). Raises InputError if there are no risks in it."""
-    frames, contact, stamps, seen = [], None, [], {}
+    frames, contact = [], None
     with opened(path) as bag:
-        for topic, message, _ in bag.read_messages([RISKS, CONTACT, OBJECTS]):
-            time = message.header.stamp.to_sec()
+        for topic, message, _ in bag.read_messages([RISKS, CONTACT]):
             if topic == RISKS:
                 check_type(path, topic, message, RiskArray)
-                frames.append(_frame(time, message))
-            elif topic == CONTACT:
-                contact = message
+                frames.append(_frame(message.header.stamp.to_sec(), message))
             else:
-                stamps.append(time)
-                for item in message.objects:
-                    if item.lidar_beams > 0:
-                        seen.setdefault(item.id, []).append(time)
+                contact = message
     if not frames:
         raise InputError(f"{path}: nothing on {RISKS}, expected a bag of run_bag --risk --with-truth")
-    if not stamps:
-        raise InputError(f"{path}: nothing on {OBJECTS}, expected a bag of run_bag --with-truth")
+    objects = {to_ros_time(stamp).to_sec(): items
+               for stamp, items in sorted(read_true_objects(path).items())}  # fmt: skip
+    if not objects:
+        raise InputError(f"{path}: nothing on {TRUE_OBJECTS}, expected a bag of run_bag --with-truth")
     frames.sort()
     if contact is None:
-        return RiskDrive(path.stem, frames, max(frames[-1].time, stamps[-1]), None, None)
+        return RiskDrive(path.stem, frames, max(frames[-1].time, *objects), None, None)
     time = contact.header.stamp.to_sec()
     before = [frame for frame in frames if frame.time < time]
-    return RiskDrive(path.stem, before, time, time, _in_view_since(seen.get(contact.id, []), time))
+    seen = [when for when, items in objects.items()
+            if any(item.id == contact.id and item.lidar_beams > 0 for item in items)]  # fmt: skip
+    return RiskDrive(path.stem, before, time, time, _in_view_since(seen, time))
 
 
 def _in_view_since(times, end):

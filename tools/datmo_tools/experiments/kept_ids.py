@@ -6,10 +6,12 @@ import collections
 import numpy as np
 
 from datmo_tools import transforms
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.pair_choice import nearest_pairs
+from datmo_tools.evaluate.truth import TRUE_OBJECTS, TRUE_POSE, read_true_objects
 from datmo_tools.pose_path import planar, read_messages, read_path
+from datmo_tools.stamps import to_ros_time
 
-TRUTH = "/ground_truth/pose"
 NEAR = 2.0  # m, from an object's center to that of its track: half a car's length
 BESIDE = 0.5  # s, before and after
 SEEN = 0.5  # share of the time: others occlude them now and then
@@ -20,14 +22,17 @@ def kept_ids(computed, recorded, begin, end, sensor="stereo"):
     are tracked before and after, and how many of them under one id (dict); also how many lists of
     tracks were published in between.
 
-    computed, recorded: bags (Path) with tracks and pose, and with the truth.
+    computed, recorded: bags (Path) with tracks and pose, and with the truth. Raises InputError.
     """
-    paths = read_path(computed, "/pose"), read_path(recorded, TRUTH)
+    paths = read_path(computed, "/pose"), read_path(recorded, TRUE_POSE)
     lists = [message for message, _ in read_messages(computed, "/tracks")]
-    truth = [message for message, _ in read_messages(recorded, "/ground_truth/objects")]
-    stamps = np.array([message.header.stamp.to_sec() for message in truth])
+    objects = read_true_objects(recorded)
+    if not objects:
+        raise InputError(f"{recorded}: nothing on {TRUE_OBJECTS}, expected a drive with truth")
+    truth = list(objects.values())
+    stamps = np.array([to_ros_time(stamp).to_sec() for stamp in objects])
     within = [truth[i] for i in np.flatnonzero((stamps >= begin - BESIDE) & (stamps <= end + BESIDE))]
-    lists_with = collections.Counter(each.id for message in within for each in message.objects
+    lists_with = collections.Counter(each.id for items in within for each in items
                                      if each.moving and sensor in each.visible_to)  # fmt: skip
     seen = {each for each, count in lists_with.items() if count >= SEEN * len(within)}
     before = [message for message in lists if message.header.stamp.to_sec() < begin]
@@ -43,10 +48,11 @@ def kept_ids(computed, recorded, begin, end, sensor="stereo"):
     }
 
 
-def _ids_of(tracks, truth, seen, paths):
-    """Returns track id by object id, of those objects that have a track near them."""
+def _ids_of(tracks, items, seen, paths):
+    """Returns track id by object id, of those objects that have a track near them; items: list of
+    TrueObject."""
     own, true = (path.at(tracks.header.stamp.to_nsec()) for path in paths)
-    objects = [each for each in truth.objects if each.id in seen]
+    objects = [each for each in items if each.id in seen]
     at = [transforms.relative(true, planar(each.pose))[:2] for each in objects]
     positions = [transforms.relative(own, planar(track.pose))[:2] for track in tracks.tracks]
     apart = np.reshape([[np.hypot(*(mine - its)) for its in positions] for mine in at],

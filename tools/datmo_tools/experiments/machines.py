@@ -13,6 +13,7 @@ from tqdm import tqdm
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.experiments import lossy_network, machines_run, simulated_run
 from datmo_tools.experiments.machines_run import Drive, Kill
 from datmo_tools.programs import StepFailed
@@ -80,11 +81,7 @@ def sameness(one, other):
     """Returns how far the tracks of two Results agree (dict)."""
     first, second = (machines_run.by_time(result, "tracks") for result in (one, other))
     common = sorted(set(first) & set(second))
-    distances, alone = [], 0
-    for when in common:
-        pairs, unpaired = paired(first[when], second[when])
-        distances += pairs
-        alone += unpaired
+    distances, alone = paired([(first[when], second[when]) for when in common])
     return {
         "lists": len(first),
         "lists_missing": len(set(first) - set(second)),
@@ -95,18 +92,21 @@ def sameness(one, other):
     }
 
 
-def paired(first, second):
-    """Returns distances (m) of tracks of one list from the nearest of the other, one to one, and
-    how many of both are left."""
-    rest = list(second)
-    distances = []
-    for _, x, y in first:
-        near = min(rest, key=lambda track: np.hypot(track[1] - x, track[2] - y), default=None)
-        distance = np.inf if near is None else float(np.hypot(near[1] - x, near[2] - y))
-        if distance < PAIRED:
-            rest.remove(near)
-            distances.append(distance)
-    return distances, len(first) - len(distances) + len(rest)
+def paired(lists, gate=PAIRED):
+    """Returns the distances (m) of all tracks that score_run's matcher pairs, and how many tracks
+    are in no pair.
+
+    lists: of (tracks, the other run's tracks) of one time each, track: (id, x, y); gate (m): tracks
+    at least this far apart are no pair.
+    """
+    tables = []
+    for first, second in lists:
+        one, other = (np.reshape([track[1:] for track in tracks], (-1, 2)) for tracks in (first, second))
+        apart = np.linalg.norm(one[:, np.newaxis] - other, axis=2)
+        tables.append(np.where(apart < gate, apart, np.inf))
+    pairs = nearest_pairs(tables)
+    distances = [float(table[pair]) for table, chosen in zip(tables, pairs) for pair in chosen]
+    return distances, sum(sum(table.shape) for table in tables) - 2 * len(distances)
 
 
 def clock_offsets(result):

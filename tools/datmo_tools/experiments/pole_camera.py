@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools import command_line
+from datmo_tools import command_line, transforms
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.pair_choice import nearest_pairs
 from datmo_tools.experiments import pole_camera_bag, simulated_run
@@ -103,10 +103,8 @@ class MapOfRun:
         """Returns the position (m) of an item at a stamp (ns)."""
         near = int(self.stamps[np.argmin(np.abs(self.stamps - stamp))])
         true = min(self.truth.poses, key=lambda pose: abs(pose[0] - near))
-        x, y, heading = self.poses[near]
-        turn = heading - true[2]
-        c, s = np.cos(turn), np.sin(turn)
-        return np.array([x, y]) + np.array([[c, -s], [s, c]]) @ (item.at(stamp) - true[1])
+        seen = transforms.points_seen_from((*true[1], true[2]), item.at(stamp))
+        return transforms.points_in_parent(self.poses[near], seen)
 
 
 def _first_track(bag, truth):

@@ -11,7 +11,8 @@ from sensor_msgs.msg import NavSatFix, NavSatStatus
 
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.bag_messages import header
-from datmo_tools.pose_path import planar
+from datmo_tools.evaluate.truth import TRUE_POSE, read_true_objects
+from datmo_tools.pose_path import planar, read_messages
 
 PEDESTRIAN, VEHICLE = Object.CLASS_PEDESTRIAN, Object.CLASS_VEHICLE
 CLASSES = 5
@@ -52,17 +53,11 @@ class Item(NamedTuple):
 class Truth:
     """All true objects of a drive, and the vehicle's poses."""
 
-    def __init__(self, bag):
-        self.frames, self.poses = [], []
-        for topic, message, _ in bag.read_messages(["/ground_truth/objects", "/ground_truth/pose"]):
-            stamp = message.header.stamp.to_nsec()
-            if topic.endswith("pose"):
-                pose = message.pose.pose
-                speed = message.twist.twist.linear.x
-                heading = planar(pose)[2]
-                self.poses.append((stamp, np.array([pose.position.x, pose.position.y]), heading, speed))
-            else:
-                self.frames.append((stamp, [_item(one, stamp) for one in message.objects]))
+    def __init__(self, path):
+        """path: of the bag (Path). Raises InputError."""
+        self.frames = [(stamp, [_item(one, stamp) for one in objects])
+                       for stamp, objects in read_true_objects(path).items()]  # fmt: skip
+        self.poses = [_pose(message) for message, _ in read_messages(path, TRUE_POSE)]
         self.start = self.frames[0][0]
 
     def all(self, stamp):
@@ -78,6 +73,12 @@ class Truth:
         return next((item for item in self.all(stamp) if item.kind == kind), None)
 
 
+def _pose(message):
+    """Returns stamp (ns), position (m), heading (rad) and speed (m/s) of the vehicle."""
+    x, y, heading = planar(message.pose.pose)
+    return message.header.stamp.to_nsec(), np.array([x, y]), heading, message.twist.twist.linear.x
+
+
 def _item(one, stamp):
     position, velocity = one.pose.position, one.velocity
     return Item(one.id, one.classification, stamp, np.array([position.x, position.y]),
@@ -88,8 +89,8 @@ def _item(one, stamp):
 def write(recorded, written, seed, values):
     """Copies a bag (Path) and adds the two; returns its Truth. values: the command line's."""
     random = np.random.default_rng(seed)
+    truth = Truth(recorded)
     with rosbag.Bag(str(recorded)) as bag:
-        truth = Truth(bag)
         extra = [*_fixes(truth, random, values.gnss_sigma), *_lists(truth, random, values)]
         extra.sort(key=lambda one: one[0])
         with whole_bag(written, "pole_camera") as out:
