@@ -2,7 +2,6 @@
 #include "driver_painter.h"
 
 #include <QPainterPath>
-#include <QString>
 #include <algorithm>
 #include <cmath>
 
@@ -31,6 +30,7 @@ constexpr int kBanner = 88;
 constexpr int kTitle = 36;  // of it, above the reason
 constexpr int kBar = 26;
 constexpr int kMargin = 8;
+constexpr int kFault = 64;  // height of the text at the bottom
 
 const QColor kGround(38, 42, 48);
 const QColor kPale(150, 156, 164);
@@ -199,15 +199,28 @@ void paintBar(QPainter& painter, const QRect& bar, double seconds, const QString
                    QString("%1\n%2 s").arg(name).arg(seconds, 0, 'f', 1));
 }
 
+void paintFault(QPainter& painter, const QSize& size, const QString& fault) {
+  const QRect bottom(0, size.height() - kFault, size.width(), kFault);
+  painter.fillRect(bottom, kGround);
+  QFont font = painter.font();
+  font.setPixelSize(11);
+  painter.setFont(font);
+  painter.setPen(kHostPaint);
+  painter.drawText(bottom.adjusted(kMargin, 0, -kMargin, 0), Qt::AlignCenter | Qt::TextWordWrap,
+                   fault);
+}
+
 }  // namespace
 
-void paintDriverView(QPainter& painter, const QSize& size, const DriverView* view) {
+void paintDriverView(QPainter& painter, const QSize& size, const DriverView* view,
+                     const QString& fault) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.fillRect(QRect(QPoint(), size), kGround);
   if (!view) {
     painter.setPen(kPale);
-    painter.drawText(QRect(QPoint(), size), Qt::AlignCenter | Qt::TextWordWrap,
-                     "no risks: expected them with risk:=true");
+    painter.drawText(
+        QRect(QPoint(), size), Qt::AlignCenter | Qt::TextWordWrap,
+        fault.isEmpty() ? "no risks: expected them with risk:=true" : "no risks\n" + fault);
     return;
   }
   const Ground ground(QRect(0, kBanner, size.width(), size.height() - kBanner));
@@ -229,6 +242,9 @@ void paintDriverView(QPainter& painter, const QSize& size, const DriverView* vie
     paintBar(painter, QRect(kBar, top, kBar, height), *view->time_to_brake, "brake in");
   }
   paintBanner(painter, size.width(), *view);
+  if (!fault.isEmpty()) {
+    paintFault(painter, size, fault);
+  }
 }
 
 }  // namespace datmo

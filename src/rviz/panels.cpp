@@ -9,6 +9,7 @@
 #include <string>
 
 #include "driver_painter.h"
+#include "panel_topic.h"
 #include <rviz/panel.h>
 #include <rviz/visualization_manager.h>
 
@@ -22,14 +23,13 @@ namespace datmo {
 
 namespace {
 
-constexpr std::uint32_t kPanelQueue = 10;
-
 /// s; older risks are not shown: a driver must not trust them.
 constexpr double kFresh = 1.0;
 
-/// ms, period of the age check.
+/// ms, periods.
 constexpr int kAgeCheck = 250;
 constexpr int kTableUpdate = 1000;
+constexpr int kTopicCheck = 1000;
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -45,7 +45,8 @@ ros::NodeHandle windowNode(rviz::VisualizationManager& manager) {
 }  // namespace
 
 /// The host from above, nearby road users, and the level of risk with its reason. In: the topics
-/// with the keys "Risks Topic" and "Tracks Topic" in the configuration.
+/// with the keys "Risks Topic" and "Tracks Topic" in the configuration. A topic that cannot be
+/// subscribed, or that is of another type, is reported in the picture and in the panel's tool tip.
 class DriverPanel : public rviz::Panel {
  public:
   explicit DriverPanel(QWidget* parent = nullptr) : Panel(parent) {
@@ -53,28 +54,31 @@ class DriverPanel : public rviz::Panel {
     auto* timer = new QTimer(this);
     connect(timer, &QTimer::timeout, this, [this] { update(); });
     timer->start(kAgeCheck);
+    auto* topics = new QTimer(this);
+    connect(topics, &QTimer::timeout, this, [this] { checkTopics(); });
+    topics->start(kTopicCheck);
   }
 
   void onInitialize() override { subscribe(); }
 
   void load(const rviz::Config& config) override {
     Panel::load(config);
-    config.mapGetString("Risks Topic", &risks_topic_);
-    config.mapGetString("Tracks Topic", &tracks_topic_);
+    risks_.load(config);
+    tracks_.load(config);
     subscribe();
   }
 
   void save(rviz::Config config) const override {
     Panel::save(config);
-    config.mapSetValue("Risks Topic", risks_topic_);
-    config.mapSetValue("Tracks Topic", tracks_topic_);
+    risks_.save(config);
+    tracks_.save(config);
   }
 
  protected:
   void paintEvent(QPaintEvent* /*event*/) override {
     QPainter painter(this);
     const bool fresh = view_ && secondsNow() - received_at_ <= kFresh;
-    paintDriverView(painter, size(), fresh ? &*view_ : nullptr);
+    paintDriverView(painter, size(), fresh ? &*view_ : nullptr, toolTip());
   }
 
  private:
@@ -82,27 +86,32 @@ class DriverPanel : public rviz::Panel {
     if (!vis_manager_) {
       return;
     }
+    view_.reset();
+    last_tracks_.reset();
     ros::NodeHandle node = windowNode(*vis_manager_);
-    risks_ = node.subscribe(risks_topic_.toStdString(), kPanelQueue, &DriverPanel::takeRisks, this);
-    tracks_ =
-        node.subscribe(tracks_topic_.toStdString(), kPanelQueue, &DriverPanel::takeTracks, this);
+    risks_.subscribe(node, [this](const RiskArrayConstPtr& message) { takeRisks(*message); });
+    tracks_.subscribe(node, [this](const TrackArrayConstPtr& message) { last_tracks_ = message; });
+    checkTopics();
   }
 
-  void takeTracks(const TrackArrayConstPtr& message) { last_tracks_ = message; }
+  void checkTopics() {
+    const std::string risks = risks_.fault();
+    const std::string tracks = tracks_.fault();
+    const char* const separator = risks.empty() || tracks.empty() ? "" : "\n";
+    setToolTip(QString::fromStdString(risks + separator + tracks));
+  }
 
-  void takeRisks(const RiskArrayConstPtr& message) {
-    view_ = driverViewOf(*message, last_tracks_.get());
+  void takeRisks(const RiskArray& risks) {
+    view_ = driverViewOf(risks, last_tracks_.get());
     received_at_ = secondsNow();
     update();
   }
 
-  QString risks_topic_ = "/risks";
-  QString tracks_topic_ = "/tracks";
+  PanelTopic<RiskArray> risks_{"Risks Topic", "/risks"};
+  PanelTopic<TrackArray> tracks_{"Tracks Topic", "/tracks"};
   TrackArrayConstPtr last_tracks_;
   std::optional<DriverView> view_;
   double received_at_ = 0.0;  ///< s, when the risks were received
-  ros::Subscriber risks_;
-  ros::Subscriber tracks_;
 };
 
 /// Each input of each stage: rate, age, latency, number of dropped messages and reasons, from

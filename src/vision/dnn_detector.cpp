@@ -28,10 +28,12 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+[[noreturn]] void refuse(const std::string& file, const std::string& why,
+                         const std::string& remedy = "") {
   throw ModelError("model '" + file + "': " + why +
                    ": expected a complete YOLO of Darknet (.weights, its .cfg beside it) or YOLOX "
-                   "(.onnx)");
+                   "(.onnx)" +
+                   remedy);
 }
 
 void checkFile(const std::string& file) {
@@ -40,18 +42,13 @@ void checkFile(const std::string& file) {
   }
 }
 
-/// COCO's 80 labels, of which road users are among the first.
-std::vector<NetworkLabel> cocoLabels() {
-  std::vector<NetworkLabel> labels(80, NetworkLabel::kOther);
-  const std::vector<std::string> first = {"person",   "bicycle", "car",   "motorcycle",
-                                          "airplane", "bus",     "train", "truck"};
-  std::transform(first.begin(), first.end(), labels.begin(), labelOf);
-  return labels;
-}
-
 /// Reads one name per line. Throws ModelError.
 std::vector<NetworkLabel> labelsFrom(const std::string& file) {
+  constexpr char kExpected[] = ": expected one name per line, as in coco.names";
   std::ifstream in(file);
+  if (!in) {
+    throw ModelError("labels '" + file + "': cannot be read" + kExpected);
+  }
   std::vector<NetworkLabel> labels;
   for (std::string line; std::getline(in, line);) {
     line.erase(line.find_last_not_of(" \t\r") + 1);
@@ -62,7 +59,7 @@ std::vector<NetworkLabel> labelsFrom(const std::string& file) {
   if (std::all_of(labels.begin(), labels.end(),
                   [](NetworkLabel one) { return one == NetworkLabel::kOther; })) {
     throw ModelError("labels '" + file + "': " + std::to_string(labels.size()) +
-                     " names, none of a road user: expected one name per line, as in coco.names");
+                     " names, none of a road user" + kExpected);
   }
   return labels;
 }
@@ -157,15 +154,25 @@ class DnnDetector::State {
     }
   }
 
-  /// A first run, on an empty image.
+  /// First runs, on an empty image of each size: a network may take only one.
   void tryOut() {
+    tryOutAt({options_.width, options_.height},
+             "set dnn/width and dnn/height to the size of the network's input");
+    if (options_.close_look > 0 && options_.max_close_looks > 0) {
+      tryOutAt({options_.close_look, options_.close_look},
+               "set dnn/close_look to 0 to not examine persons again, or use another network");
+    }
+  }
+
+  void tryOutAt(const NetworkSize& size, const std::string& remedy) {
+    const std::string input =
+        "an input of " + std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
     try {
-      look(cv::Mat(options_.height, options_.width, CV_8UC3, cv::Scalar::all(kPadding)),
-           {options_.width, options_.height});
+      look(cv::Mat(size.height, size.width, CV_8UC3, cv::Scalar::all(kPadding)), size);
     } catch (const cv::Exception& error) {
-      refuse(options_.model, error.err);
+      refuse(options_.model, input + " fails: " + error.err, " for that size; " + remedy);
     } catch (const std::runtime_error& error) {
-      refuse(options_.model, error.what());
+      refuse(options_.model, input + " fails: " + error.what(), " for that size; " + remedy);
     }
   }
 

@@ -105,6 +105,14 @@ NetworkLabel labelOf(const std::string& coco_name) {
   return found == labels.end() ? NetworkLabel::kOther : found->second;
 }
 
+std::vector<NetworkLabel> cocoLabels() {
+  std::vector<NetworkLabel> labels(80, NetworkLabel::kOther);
+  const std::vector<std::string> first = {"person",   "bicycle", "car",   "motorcycle",
+                                          "airplane", "bus",     "train", "truck"};
+  std::transform(first.begin(), first.end(), labels.begin(), labelOf);
+  return labels;
+}
+
 std::vector<NetworkDetection> decodeYolo(const NetworkOutput& output, const NetworkSize& input,
                                          const std::vector<NetworkLabel>& labels,
                                          double min_score) {

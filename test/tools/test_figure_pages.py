@@ -25,7 +25,8 @@ PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distanc
 HORIZONS = ("1", "2", "3", "4")
 # Of one method, as in steps.risk; for the first one also the reliability.
 RISKS = {
-    "drives": 129, "contacts": 43, "ttc_median_s": 0.04, "ttc_95_s": 0.2, "lead_share": 0.75,
+    "drives": 129, "contacts": 43, "ttc_median_s": 0.04, "ttc_95_s": 0.2, "warned": 41, "lead_share": 0.75,
+    "lead_median_s": 1.71, "lead_5_s": 0.64,
     "near_misses": 86, "near_misses_warned": 4, "long_seen": {"contacts": 29, "in_time": 19},
     "briefly_seen": {"contacts": 14, "in_time": 5}, "brier": dict.fromkeys(HORIZONS, 0.05),
     "calibration_error": dict.fromkeys(HORIZONS, 0.09), "reliability": [[0.1, 0.05, 30]],
@@ -95,7 +96,7 @@ class Pages(InFolder):
                "tracks": scored}  # fmt: skip
         grids = {"mono": {"5 to 10 m": {"precision": 0.997, "recall": 0.69}}}
         without = self.pages(mono={"runs": {"2": {"none": run}}, "grids": grids})["doc/results.md"]
-        self.assertIn("| 2 deg | none | 88.3 | 0 | 0.01 | 1 of 3 | 0.31 | 100.0, 99.0 |", without)
+        self.assertIn("| 2 deg | none | 88.3 | 0 | 0.01 | 1 of 3 | 0.31 | 100.0, 99.0 | 2 of 9 |", without)
         self.assertIn("| `/grids/mono` | 99.7, 69.0 |", without)
         self.assertNotIn("YOLOX", without)
         runs = {"2": {"none": run, "dnn": {**run, "objects": scored}}}
@@ -113,7 +114,8 @@ class Pages(InFolder):
         self.assertIn("| own | `futures` (ours) | 0.04, 0.20 | 19 of 29 | 5 of 14 | 0.75 | 4 of 86 |", page)
         self.assertEqual(page.count("0.050, 0.050, 0.050, 0.050 | 0.090 |"), 8)
         self.assertIn("| 10 | 5 | 30 |", page)
-        row = "| `rss` | 4 of 86 | 0.050, 0.050, 0.050, 0.050 | 0.090, 0.090, 0.090, 0.090 |"
+        row = ("| `rss` | 0.04, 0.20 | 41 of 43 | 19 of 29 | 5 of 14 | 1.71, 0.64 | 0.75 | 4 of 86 | "
+               "0.050, 0.050, 0.050, 0.050 | 0.090, 0.090, 0.090, 0.090 |")
         self.assertIn(row, page)
 
     def test_rendered_twice_is_the_same(self):

@@ -41,9 +41,10 @@ class ModelError : public std::runtime_error {
 /// Scores: 0 to 1, those of the network, uncalibrated.
 class DnnDetector : public ImageDetector {
  public:
-  /// Loads the model and runs it on an empty image, to detect a bad one at once. Throws ModelError
-  /// for a file that is missing, truncated or of another kind, and for a network whose outputs do
-  /// not match its labels; OptionError.
+  /// Loads the model and runs it on empty images of both sizes (the whole image's, `close_look`),
+  /// to detect a bad one at once. Throws ModelError for a file that is missing, truncated or of
+  /// another kind, and for a network that does not take these sizes or whose outputs do not match
+  /// its labels; OptionError.
   explicit DnnDetector(const Checked<DnnDetectorOptions>& options);
   ~DnnDetector() override;
 

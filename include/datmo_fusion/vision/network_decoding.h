@@ -17,6 +17,9 @@ enum class NetworkLabel { kOther, kPerson, kCycle, kVehicle };
 /// "car", "bus", "truck" and "train" vehicles.
 NetworkLabel labelOf(const std::string& coco_name);
 
+/// COCO's 80 labels, of which road users are among the first.
+std::vector<NetworkLabel> cocoLabels();
+
 /// One detection of a network.
 struct NetworkDetection {
   Eigen::AlignedBox2d box;  ///< px of the network's input

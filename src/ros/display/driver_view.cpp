@@ -48,7 +48,11 @@ DriverView driverViewOf(const RiskArray& risks, const TrackArray* tracks) {
   }
   const Pose2 fixed_in_host = poseOf(risks.host_path.front()).inverse();
   for (const geometry_msgs::Pose2D& pose : risks.host_path) {
-    view.path.push_back(fixed_in_host * poseOf(pose));
+    const Pose2 in_host = fixed_in_host * poseOf(pose);
+    if (!isFinite(in_host)) {
+      break;
+    }
+    view.path.push_back(in_host);
   }
   addCause(risks, fixed_in_host, view);
   if (!tracks || tracks->header.frame_id != risks.header.frame_id) {
@@ -62,7 +66,7 @@ DriverView driverViewOf(const RiskArray& risks, const TrackArray* tracks) {
     const auto& q = track.pose.orientation;
     const Pose2 in_fixed(track.pose.position.x, track.pose.position.y, 2.0 * std::atan2(q.z, q.w));
     const Pose2 pose = fixed_in_host * in_fixed;
-    if (isFinite(pose)) {
+    if (isFinite(pose) && std::isfinite(track.size.x) && std::isfinite(track.size.y)) {
       const bool is_cause = risks.level != RiskArray::LEVEL_NONE && track.id == risks.cause;
       view.icons.push_back({track.id, classFromMessage(track.classification), pose, track.size.x,
                             track.size.y, probabilities[track.id], is_cause});

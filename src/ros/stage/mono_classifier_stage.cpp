@@ -27,7 +27,7 @@ std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& opti
   try {
     return std::make_unique<MonoClassifier>(options);
   } catch (const ModelError& error) {
-    throw OptionError(std::string("dnn/model: ") + error.what());
+    throw OptionError(std::string("dnn: ") + error.what());
   }
 }
 

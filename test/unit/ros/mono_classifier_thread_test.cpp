@@ -3,6 +3,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "monitor_counts.h"
@@ -22,7 +23,15 @@ using mono_classifier_case::kStart;
 using mono_classifier_case::objectsAt;
 using samples::drops;
 
-class MonoClassifierThread : public mono_classifier_case::MonoClassifierStageTest {};
+class MonoClassifierThread : public mono_classifier_case::MonoClassifierStageTest {
+ protected:
+  /// Returns the result when the detector has finished.
+  ObjectArrayPtr lookAndWait(const sensor_msgs::ImageConstPtr& image) {
+    const ObjectArrayPtr at_once = look(image, 1.0);
+    stage_->waitUntilIdle();
+    return at_once ? at_once : stage_->next(toStamp(image->header.stamp) + 1.0);
+  }
+};
 
 /// Runs a given function instead of looking, and detects nothing.
 class ToldDetector : public ImageDetector {
@@ -71,6 +80,24 @@ TEST_F(MonoClassifierThread, ADetectorThatIsTooSlowIsNamed) {
   EXPECT_EQ(drops(monitor_, "superseded_image"), 0U);
   waited_enough.set_value();
   stage_->waitUntilIdle();
+}
+
+TEST_F(MonoClassifierThread, ADetectorThatFailsOnceIsCountedAndTheNextImageWorks) {
+  stage_ =
+      makeStage([] { return 0.0; }, std::make_unique<ToldDetector>([is_first = true]() mutable {
+                  if (std::exchange(is_first, false)) {
+                    throw std::runtime_error("out of memory");
+                  }
+                }));
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_EQ(lookAndWait(imageAt(kStart)), nullptr);
+  EXPECT_EQ(drops(monitor_, "detector_failed"), 1U);
+  EXPECT_EQ(monitor_.processedCount(), 0U);
+  const ObjectArrayPtr next = lookAndWait(imageAt(kStart + 0.1));
+  ASSERT_NE(next, nullptr);
+  EXPECT_EQ(next->header.stamp, ros::Time(kStart + 0.1));
+  EXPECT_EQ(drops(monitor_, "detector_failed"), 1U);
 }
 
 }  // namespace

@@ -126,20 +126,50 @@ TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneIsUsed) {
   mount();
   const auto black = imageAt(kStart);
   black->data.assign(black->data.size(), 0);
+  const auto white = imageAt(kStart);
+  white->data.assign(white->data.size(), 255);
+  const auto gray_below = imageAt(kStart);
+  std::fill(gray_below->data.begin() + gray_below->data.size() / 2, gray_below->data.end(),
+            std::uint8_t{128});
   const auto half = imageAt(kStart);
   half->data.resize(half->data.size() / 2);
   const auto other = imageAt(kStart);
   other->encoding = "no encoding";
   const auto narrow = imageAt(kStart);
   narrow->width /= 2;
-  for (const auto& image : {black, half, other, narrow}) {
+  for (const auto& image : {black, white, gray_below, half, other, narrow}) {
     EXPECT_EQ(look(image, 1.0), nullptr);
   }
-  EXPECT_EQ(drops(monitor_, "blank_image"), 1U);
+  EXPECT_EQ(drops(monitor_, "blank_image"), 2U);
+  EXPECT_EQ(drops(monitor_, "half_image"), 1U);
   EXPECT_EQ(drops(monitor_, "bad_encoding"), 2U);
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
   stage_.takeScan(scanAt(kStart + 0.1));
   EXPECT_NE(look(imageAt(kStart + 0.1)), nullptr);
+}
+
+TEST_F(MonoGridStageTest, AFrozenImageIsDroppedAndTheNextOneIsUsed) {
+  mount();
+  stage_.takeScan(scanAt(kStart));
+  const auto first = imageAt(kStart);
+  EXPECT_NE(look(first), nullptr);
+  const auto again = boost::make_shared<sensor_msgs::Image>(*first);
+  again->header.stamp = ros::Time(kStart + 0.1);
+  stage_.takeScan(scanAt(kStart + 0.1));
+  EXPECT_EQ(look(again), nullptr);
+  EXPECT_EQ(drops(monitor_, "frozen_image"), 1U);
+  stage_.takeScan(scanAt(kStart + 0.2));
+  EXPECT_NE(look(imageAt(kStart + 0.2)), nullptr);
+}
+
+TEST_F(MonoGridStageTest, AnInfoOfZerosIsDroppedAndTheLastOneIsKept) {
+  mount();
+  sensor_msgs::CameraInfo zeros = kCamera.info();
+  zeros.P.fill(0.0);
+  stage_.takeCameraInfo(zeros);
+  EXPECT_EQ(drops(monitor_, "bad_camera_info"), 1U);
+  stage_.takeScan(scanAt(kStart));
+  EXPECT_NE(look(imageAt(kStart)), nullptr);
 }
 
 TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {

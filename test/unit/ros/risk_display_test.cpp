@@ -157,6 +157,24 @@ TEST(DriverView, IsDrawnWithoutTracksAndWithoutPath) {
   EXPECT_TRUE(driverViewOf(risks, nullptr).path.empty());
 }
 
+TEST(DriverView, ThePathEndsBeforeANonFinitePose) {
+  for (const double number :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    RiskArray at_x = northward();
+    at_x.host_path[2].x = number;
+    EXPECT_EQ(driverViewOf(at_x, nullptr).path.size(), 2U) << number;
+    RiskArray at_heading = northward();
+    at_heading.host_path[3].theta = number;
+    EXPECT_EQ(driverViewOf(at_heading, nullptr).path.size(), 3U) << number;
+  }
+}
+
+TEST(DriverView, ARoadUserOfNonFiniteSizeIsNotDrawn) {
+  TrackArray tracks = oneTrack();
+  tracks.tracks[0].size.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(driverViewOf(northward(), &tracks).icons.empty());
+}
+
 /// Black without a body.
 std_msgs::ColorRGBA bodyColor(const MarkerArray& markers, int id) {
   const Marker* body = find(markers, "track bodies", id);

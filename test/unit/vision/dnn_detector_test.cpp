@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Networks are not in the repository: if one is missing, its tests are skipped.
+// Networks are not in the repository: if one is missing, its tests are skipped. The others use
+// a tiny one, which they write themselves.
 #include "datmo_fusion/vision/dnn_detector.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -68,6 +72,129 @@ TEST_P(DnnDetectorOf, ATruncatedFileIsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Networks, DnnDetectorOf, testing::Values(kDarknet, kOnnx),
                          [](const auto& one) { return one.index == 0 ? "Darknet" : "Onnx"; });
+
+/// Returns a new file of the running test.
+fs::path newFile(const std::string& ending) {
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  return fs::path(testing::TempDir()) / (std::string(test.name()) + ending);
+}
+
+/// Of one convolution, whose input is pooled, upsampled and put beside itself: the sizes match only
+/// for multiples of 64 px.
+constexpr char kSizedNetwork[] = R"([net]
+width=64
+height=64
+channels=3
+[maxpool]
+size=32
+stride=32
+[maxpool]
+size=2
+stride=2
+[upsample]
+stride=2
+[route]
+layers=-1,-3
+[convolutional]
+filters=85
+size=1
+stride=1
+pad=0
+activation=linear
+[yolo]
+mask=0
+anchors=32,32
+classes=80
+num=1
+)";
+
+template <typename Numbers>
+void append(std::ofstream& out, const Numbers& numbers) {
+  out.write(reinterpret_cast<const char*>(numbers.data()),
+            static_cast<std::streamsize>(numbers.size() * sizeof(numbers[0])));
+}
+
+/// Writes that network with COCO's labels, which detects a person in each of its cells of 32 px,
+/// whatever the image. Returns its file.
+std::string sizedNetwork() {
+  constexpr std::size_t kChannels = 6;
+  constexpr std::size_t kFilters = 85;  // a rectangle, its confidence, 80 scores
+  constexpr std::size_t kConfidence = 4;
+  constexpr std::size_t kPerson = 5;
+  constexpr float kCertain = 9.0F;  // before the logistic function
+  std::vector<float> biases_and_weights(kFilters + kFilters * kChannels, 0.0F);
+  biases_and_weights[kConfidence] = kCertain;
+  biases_and_weights[kPerson] = kCertain;
+  std::ofstream(newFile(".cfg")) << kSizedNetwork;
+  const fs::path model = newFile(".weights");
+  std::ofstream out(model, std::ios::binary);
+  append(out, std::array<std::int32_t, 5>{0, 2, 0, 0, 0});  // version, images seen
+  append(out, biases_and_weights);
+  return model.string();
+}
+
+DnnDetectorOptions sizedOptions() {
+  DnnDetectorOptions options;
+  options.model = sizedNetwork();
+  options.width = 64;
+  options.height = 64;
+  options.close_look = 64;
+  return options;
+}
+
+/// Returns the message of the ModelError; empty: none.
+std::string refusalOf(const DnnDetectorOptions& options) {
+  try {
+    const DnnDetector detector(options);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expectAll(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+  }
+}
+
+TEST(DnnDetector, ANetworkOfSomeSizesDetectsAtThem) {
+  DnnDetectorOptions options = sizedOptions();
+  for (const int close_look : {0, 64}) {
+    options.close_look = close_look;
+    DnnDetector detector(options);
+    const auto found = detector.detect(cv::Mat(128, 128, CV_8UC1, cv::Scalar(100)), {});
+    ASSERT_FALSE(found.empty()) << close_look;
+    EXPECT_EQ(found[0].object_class, ObjectClass::kPedestrian);
+  }
+}
+
+TEST(DnnDetector, ACloseLookOfAnotherSizeIsRefusedAtTheStart) {
+  DnnDetectorOptions options = sizedOptions();
+  options.close_look = 96;
+  expectAll(refusalOf(options),
+            {options.model, "an input of 96 x 96 px fails: ", "set dnn/close_look to 0"});
+  options.max_close_looks = 0;
+  EXPECT_EQ(refusalOf(options), "") << "there is none";
+}
+
+TEST(DnnDetector, AnInputOfAnotherSizeIsRefusedAtTheStart) {
+  DnnDetectorOptions options = sizedOptions();
+  options.width = 96;
+  expectAll(refusalOf(options),
+            {options.model, "an input of 96 x 64 px fails: ", "set dnn/width and dnn/height"});
+}
+
+TEST(DnnDetector, LabelsThatAreMissingOrWithoutRoadUsersAreRefused) {
+  DnnDetectorOptions options = sizedOptions();
+  options.labels = "/nowhere/labels.txt";
+  expectAll(refusalOf(options),
+            {"'/nowhere/labels.txt'", "cannot be read", "expected one name per line"});
+  options.labels = newFile(".txt").string();
+  std::ofstream(options.labels) << "cat\ndog\n\n";
+  expectAll(refusalOf(options),
+            {options.labels, "2 names, none of a road user", "expected one name per line"});
+}
 
 TEST(DnnDetector, AMissingModelIsRefused) {
   DnnDetectorOptions options;

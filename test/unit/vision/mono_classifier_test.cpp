@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/vision/mono_classifier.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -100,6 +101,31 @@ TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   const MonoClassification result = classified({kPerson, kCar}, objects, options);
   ASSERT_EQ(result.list.objects.size(), 1U) << "what the scanner does not see is not there";
   EXPECT_EQ(result.list.objects[0].objectClass(), ObjectClass::kPedestrian);
+}
+
+TEST(MonoClassifier, AsInTheThesisTheHighestScoreInTheRectanglesOfAnObjectWins) {
+  MonoClassifierOptions options = dnnOptions();
+  options.method = MonoMethod::kThesis;
+  options.calibrated = false;
+  ObjectList objects;
+  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
+  const ImageDetection rider = detectionOf(ObjectClass::kCyclist, 475, 190, 525, 274, 0.6);
+  ImageDetection person = kPerson;
+  for (const double score : {0.5, 0.7}) {
+    person.score = score;
+    ImageDetection narrower = person;
+    narrower.box.min().x() += 5.0;
+    narrower.score = 0.4;
+    for (const auto& seen : {std::vector<ImageDetection>{narrower, person, rider},
+                             std::vector<ImageDetection>{rider, person, narrower}}) {
+      const MonoClassification result = classified(seen, objects, options);
+      ASSERT_EQ(result.list.objects.size(), 1U);
+      const ObjectClass surest = score > rider.score ? person.object_class : rider.object_class;
+      EXPECT_EQ(result.list.objects[0].objectClass(), surest) << score;
+      EXPECT_NEAR(probabilityOf(surest, result.list.objects[0].class_probabilities),
+                  std::max(score, rider.score), 1e-5);
+    }
+  }
 }
 
 TEST(MonoClassifier, ObjectsThatAreNotValidAreLeftOut) {

@@ -39,7 +39,8 @@ struct DriverView {
 };
 
 /// Combines risks with the tracks they refer to. `tracks`: null or in another frame if there are
-/// none; then the icons are missing. Non-finite poses are omitted.
+/// none; then the icons are missing. Icons with a non-finite pose or size are omitted; the path
+/// ends before its first non-finite pose, as its later ones would have other times.
 DriverView driverViewOf(const RiskArray& risks, const TrackArray* tracks);
 
 }  // namespace datmo

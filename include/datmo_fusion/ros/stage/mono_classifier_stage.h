@@ -55,8 +55,9 @@ struct MonoClassifierStageOptions {
 /// reject, `blank_image` (black, white), `half_image` (truncated), `frozen_image` (repeated
 /// pixels), `old_image` (older than the newest objects by more than `max_age`), `superseded_image`
 /// (a newer one came before objects of its time), `slow_detector` (a newer one came before the
-/// detector was idle), `missing_transform`. Objects are forgotten when the clock jumps. A
-/// detector that is no better than chance causes a warning (`detector_tells_nothing`).
+/// detector was idle), `detector_failed` (it threw), `missing_transform`. Objects are forgotten
+/// when the clock jumps. A detector that is no better than chance causes a warning
+/// (`detector_tells_nothing`).
 class MonoClassifierStage : public Stage {
  public:
   using Options = MonoClassifierStageOptions;
