@@ -63,7 +63,7 @@ StageOutput::Publish StageHost::addOutput(StageOutput output) {
 }
 
 void StageHost::addService(StageService service) {
-  services_.push_back(service.advertise(private_node_));
+  services_.push_back(service.advertise(private_node_, monitor_));
 }
 
 void StageHost::subscribe(const StageInput& input) {

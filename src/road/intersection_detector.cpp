@@ -37,12 +37,12 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
 
 void IntersectionDetectorOptions::check() const {
   if (leave_below > enter_above) {
-    throw OptionError("leave_below is " + toText(leave_below) + ": expected at most enter_above, " +
-                      toText(enter_above));
+    throw OptionError("leave_below is " + toText(leave_below) + ": expected at most " +
+                      toText(enter_above) + ", from which the vehicle is at an intersection");
   }
   if (seen_on_road >= seen_at_intersection) {
-    throw OptionError("seen_on_road is " + toText(seen_on_road) +
-                      ": expected less than seen_at_intersection, " + toText(seen_at_intersection));
+    throw OptionError("seen_on_road is " + toText(seen_on_road) + ": expected less than " +
+                      toText(seen_at_intersection) + ", at an intersection");
   }
 }
 

@@ -15,6 +15,7 @@
 #include "datmo_fusion/fusion/wire/wire_error.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

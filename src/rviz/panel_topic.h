@@ -30,6 +30,8 @@ class PanelTopic {
   void load(const rviz::Config& config) { config.mapGetString(key_, &name_); }
   void save(rviz::Config config) const { config.mapSetValue(key_, name_); }
 
+  void unsubscribe() { subscriber_.shutdown(); }
+
   /// Subscribes to the loaded topic only, or reports in fault() why it cannot be subscribed.
   void subscribe(ros::NodeHandle& node, const Callback& callback) {
     subscriber_.shutdown();

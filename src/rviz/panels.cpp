@@ -89,6 +89,9 @@ class DriverPanel : public rviz::Panel {
     view_.reset();
     last_tracks_.reset();
     ros::NodeHandle node = windowNode(*vis_manager_);
+    // First, as a new configuration may exchange the two topics, and each has one type.
+    risks_.unsubscribe();
+    tracks_.unsubscribe();
     risks_.subscribe(node, [this](const RiskArrayConstPtr& message) { takeRisks(*message); });
     tracks_.subscribe(node, [this](const TrackArrayConstPtr& message) { last_tracks_ = message; });
     checkTopics();

@@ -30,6 +30,8 @@ constexpr double kMaxChange = 1.0;
 constexpr double kMaxGrowth = 1.0;
 /// Tolerance of a scan's CPU time in the last quarter, relative to the second.
 constexpr double kMaxSlowing = 1.5;
+/// Shorter runs have single minutes as quarters.
+constexpr std::size_t kMinutesToJudge = 8;
 
 nlohmann::json toJson(const datmo::campaign::SoakSample& sample) {
   return {{"hours", sample.hours},
@@ -91,7 +93,10 @@ ScanTimes scanTimes(const std::vector<double>& medians) {
 }
 
 /// Returns in what way the growth of a scan's CPU time is a fault; empty: none.
-std::string slowingFault(const ScanTimes& times) {
+std::string slowingFault(const ScanTimes& times, std::size_t minutes) {
+  if (minutes < kMinutesToJudge) {
+    return "";
+  }
   return times.last_quarter > kMaxSlowing * times.second_quarter
              ? "a scan took " + std::to_string(times.last_quarter) +
                    " ms of a processor in the last quarter, expected at most " +
@@ -115,7 +120,7 @@ bool soak(const Arguments& arguments) {
   }
   std::vector<std::string> faults = drive.faults();
   const ScanTimes times = scanTimes(medians);
-  for (const std::string& fault : {growthFault(heap), slowingFault(times)}) {
+  for (const std::string& fault : {growthFault(heap), slowingFault(times, medians.size())}) {
     if (!fault.empty()) {
       faults.push_back(fault);
     }

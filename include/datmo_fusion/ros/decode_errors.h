@@ -28,6 +28,10 @@ struct DecodeError {
 /// one of them, in the thread of another one, and the others are only left out. An error is
 /// therefore told to all of them through their callback queues, so that a StageMonitor needs no
 /// lock.
+///
+/// An empty message, and a corrupt latched one when another subscription is added, are decoded more
+/// than once and counted each time. In a flood, further errors are counted under the publisher of
+/// the last one that waits, and as lost as well.
 class DecodeErrors {
  public:
   using Take = std::function<void(const DecodeError& error)>;

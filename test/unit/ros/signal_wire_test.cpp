@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 namespace {

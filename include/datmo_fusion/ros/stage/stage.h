@@ -18,6 +18,7 @@
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/arrival_check.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/queue_length.h"
 #include "datmo_fusion/ros/stage/stage_health.h"
@@ -84,7 +85,8 @@ class StagePublisher {
 /// A service of a stage, without the types of request and response.
 struct StageService {
   std::string name;  ///< in the nodelet's private namespace
-  std::function<ros::ServiceServer(ros::NodeHandle& private_node)> advertise;
+  /// `monitor` must outlive the server.
+  std::function<ros::ServiceServer(ros::NodeHandle& private_node, StageMonitor& monitor)> advertise;
 };
 
 /// Where a stage declares its inputs and outputs. Its host connects them to topics (StageHost) or
@@ -138,15 +140,20 @@ class StagePorts {
         addOutput({topic, ros::message_traits::datatype<Message>(), advertise, content}));
   }
 
-  /// A service, if there is a ROS master; `answer` must not throw.
+  /// A service, if there is a ROS master. If `answer` throws, the call fails (guarded()).
   template <typename Service>
   void service(const std::string& name,
                std::function<typename Service::Response(const typename Service::Request&)> answer) {
-    const auto advertise = [name, answer = std::move(answer)](ros::NodeHandle& private_node) {
+    const auto advertise = [name, answer = std::move(answer)](ros::NodeHandle& private_node,
+                                                              StageMonitor& monitor) {
       const boost::function<bool(typename Service::Request&, typename Service::Response&)> call =
-          [answer](auto& request, auto& response) {
-            response = answer(request);
-            return true;
+          [name, answer, &monitor](auto& request, auto& response) {
+            bool answered = false;
+            guarded(monitor, name, [&] {
+              response = answer(request);
+              answered = true;
+            });
+            return answered;
           };
       return private_node.advertiseService(name, call);
     };
