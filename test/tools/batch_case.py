@@ -44,7 +44,10 @@ case $(cat "$1") in
       kill -9 $parent
       exit 1
     fi ;;
-  full) echo "in to out: Problem writing data to disk" >&2; exit 1 ;;
+  full) cat "$1" > /dev/full || exit 1 ;;
+  full_in_german)
+    case $LC_ALL in C|POSIX) cat "$1" > /dev/full ;; *) echo "cat: Kein Platz" >&2; false ;; esac || exit 1 ;;
+  cannot_write) echo "$1 to $2: $2: cannot be written (Error seeking)" >&2; exit 1 ;;
 esac
 cp "$1" "$2"
 cp "$here/run.json" "$6"

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A batch of recordings: its plan, and its runs by Snakemake with stand-in programs."""
 
+import errno
+import os
 import shutil
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from batch_case import RUN, BatchCase
 
@@ -61,12 +64,16 @@ class Batch(BatchCase):
         self.assertFalse((self.drives / "batch" / "work").exists())
 
     def test_full_disk_is_reported_and_not_blamed_on_the_recording(self):
-        self.record(a="full")
-        code, said, report = self.batch()
+        self.record(a="full", b="full_in_german", c="cannot_write")
+        with mock.patch.dict(os.environ, LC_ALL="de_DE.UTF-8", LANGUAGE="de"):
+            code, said, report = self.batch()
         self.assertEqual(code, 1)
         self.assertIn("is full", said)
-        self.assertIn("is full", report["failed"][0]["error"])
-        self.assertFalse(report["failed"][0]["finished"])
+        for failed, reason in zip(report["failed"], (*2 * [os.strerror(errno.ENOSPC)], "cannot be written")):
+            self.assertIn(reason, failed["error"])
+            self.assertIn("is full", failed["error"])
+            self.assertFalse(failed["finished"])
+        self.assertEqual(len(report["failed"]), 3)
 
     def test_options_of_run_bag_reach_it(self):
         self.record(one="")
