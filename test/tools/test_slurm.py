@@ -139,13 +139,15 @@ class Profile(BatchCase):
             with self.subTest(profile=profile.name):
                 done = subprocess.run(
                     [find_snakemake(), "--dry-run", "--profile", profile, "--snakefile", HERE / "Snakefile",
-                     "--directory", out, "--config", f"out={out}"],
+                     "--directory", out],
                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=TIMEOUT,
                     check=False)  # fmt: skip
                 self.assertEqual(done.returncode, 0, done.stdout)
                 self.assertRegex(done.stdout, r"recording +1\b")
 
     def test_jobs_are_submitted_asked_about_and_submitted_again(self):
+        self.drives = self.folder / "it's; touch pwned {x}"
+        self.drives.mkdir()
         self.record(a="good", b="good")
         self.lose(1)
         # CI: Snakemake asks about its jobs every second instead of every ten.
@@ -158,6 +160,19 @@ class Profile(BatchCase):
         self.assertEqual(len(submissions), 3, said)
         for line in submissions:
             self.assertRegex(line, r"--cpus-per-task=1 --mem=\d+ --time=\d+ --job-name=datmo-[ab]-[0-9a-f]{8} ")
+        self.assertEqual(list(self.folder.rglob("pwned")), [])
+
+    def test_a_folder_whose_name_snakemake_would_run_is_refused(self):
+        for name in ("$(touch pwned)", "`touch pwned`", '"; touch pwned; "', "back\\slash"):
+            with self.subTest(name=name):
+                self.drives = self.folder / name
+                self.drives.mkdir()
+                self.record(a="good")
+                with self.commands.on_path():
+                    code, said, report = self.batch("--profile", "slurm")
+                self.assertEqual((code, report), (1, None))
+                self.assertIn(f"{self.drives / 'batch'}: a job of Snakemake cannot have", said)
+                self.assertEqual(list(self.folder.rglob("pwned")), [])
 
 
 if __name__ == "__main__":
