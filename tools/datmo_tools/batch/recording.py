@@ -16,6 +16,7 @@ from datmo_tools import command_line, programs
 from datmo_tools.batch.moments import worst_moments
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
+from datmo_tools.text_table import one_line
 from datmo_tools.whole_files import write_whole
 
 FORMAT = 1  # of the outcome
@@ -62,7 +63,7 @@ def process(settings, outcome):
         with contextlib.suppress(OSError):
             cause_file(outcome.parent.parent, settings["id"]).write_text(str(error))
         raise Unfinished(f"{settings['name']}: {error}") from error
-    print(f"batch: {line(result)}", file=sys.stderr)
+    print(f"batch: {one_line(line(result))}", file=sys.stderr)
 
 
 def cause_file(out, recording):
