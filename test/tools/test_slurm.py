@@ -159,7 +159,7 @@ class Profile(BatchCase):
         submissions = self.submissions()
         self.assertEqual(len(submissions), 3, said)
         for line in submissions:
-            self.assertRegex(line, r"--cpus-per-task=1 --mem=\d+ --time=\d+ --job-name=datmo-[ab]-[0-9a-f]{8} ")
+            self.assertRegex(line, r"--mem=\d+ --time=\d+ --job-name=datmo-[ab]-[0-9a-f]{8} ")
         self.assertEqual(list(self.folder.rglob("pwned")), [])
 
     def test_a_folder_whose_name_snakemake_would_run_is_refused(self):
