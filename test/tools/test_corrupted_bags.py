@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""run_bag on corrupted recordings: refused in one line, or processed to finite numbers; never a crash.
+"""Corrupted recordings: refused in one line, or processed to finite numbers; never a crash.
 
 DATMO_FUSION_BIT_FLIPS, DATMO_FUSION_DAMAGED_RANGES and DATMO_FUSION_FLIPPED_NUMBERS set how many are tried,
 DATMO_FUSION_SEED which; doc/development.md has the long version.
 """
 
+import contextlib
+import io
 import math
 import os
 import resource
@@ -19,6 +21,8 @@ import genpy
 import numpy as np
 import rosbag
 from bag_damage import chunks, flipped, with_damaged_range, with_flipped_number
+
+from datmo_tools.check_bag.main import main as check_bag
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SCENE = REPOSITORY / "rosbag_fixtures" / "scenes" / "intersection.yaml"
@@ -98,6 +102,24 @@ class CorruptedBags(unittest.TestCase):
         self.work.mkdir()
         self.bag, self.out = self.work / "corrupted.bag", self.work / "result.bag"
 
+    def check(self, content):
+        """Calls check_bag, within bounded memory, on a bag (bytes), as judge()."""
+        self.bag.write_bytes(content)
+        out, errors = io.StringIO(), io.StringIO()
+        limits = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, limits[1]))
+        try:
+            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+                code = check_bag([str(self.bag), "--no-yaml"])
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, limits)
+        self.assertIn(code, CODES)
+        if code == 2:
+            lines = [line for line in errors.getvalue().splitlines() if line.startswith("check_bag: ")]
+            self.assertEqual(len(lines), 1, errors.getvalue())  # genpy may have written others before
+            self.assertRegex(lines[0], r"corrupted\.bag: \S")
+        return code
+
     def judge(self, content):
         """Runs run_bag on a bag (bytes); fails unless it refuses it in one line that names the file
         or a topic and leaves nothing behind, or writes a readable bag of finite numbers. Returns its
@@ -131,14 +153,15 @@ class CorruptedBags(unittest.TestCase):
         self.assertGreater(count["/pose"], 0)
         self.assertGreater(count["/tracks"], 0)
 
-    def judge_all(self, number, damage):
-        """damage: function of the intact bag and the random numbers that returns a Damaged."""
+    def judge_all(self, number, damage, judge=None):
+        """damage: function of the intact bag and the random numbers that returns a Damaged; judge:
+        function of the damaged one (bytes) that returns an exit code."""
         codes = Counter()
         for index in range(number):
             compression = COMPRESSIONS[index % len(COMPRESSIONS)]
             damaged = damage(self.intact[compression], np.random.default_rng([SEED, index]))
             with self.subTest(seed=SEED, index=index, compression=compression, damage=damaged.what):
-                codes[self.judge(damaged.content)] += 1
+                codes[(judge or self.judge)(damaged.content)] += 1
         print(f"\nseed {SEED}, {number} corrupted recordings, by exit code: {dict(codes)}", flush=True)
 
     def test_intact_ones_are_accepted(self):
@@ -155,6 +178,11 @@ class CorruptedBags(unittest.TestCase):
 
     def test_flipped_numbers(self):
         self.judge_all(FLIPPED_NUMBERS, with_flipped_number)
+
+    def test_check_bag(self):
+        for number, damage in ((BIT_FLIPS, flipped), (DAMAGED_RANGES, with_damaged_range),
+                               (FLIPPED_NUMBERS, with_flipped_number)):  # fmt: skip
+            self.judge_all(number, damage, self.check)
 
 
 if __name__ == "__main__":
