@@ -20,6 +20,7 @@ using Length = std::uint32_t;
 
 constexpr std::uint64_t kCountSize = 8;   ///< bytes, of a connection's number of messages
 constexpr std::uint64_t kIndexSize = 12;  ///< bytes, of a message's entry in an index
+constexpr Length kMaxHeader = 1U << 24U;  ///< bytes; the longest ones hold a message's definition
 constexpr Length kMaxChunk = 1U << 31U;   ///< bytes; rosbag allocates 4 GiB for more
 
 /// Header and place of a record of the file.
@@ -65,7 +66,7 @@ class File {
   std::optional<Record> record(std::uint64_t at) {
     Length length = 0;
     Record found;
-    if (!read(at, &length, sizeof(length)) || length > size_) {
+    if (!read(at, &length, sizeof(length)) || length > kMaxHeader) {
       return {};
     }
     found.header.resize(length);
@@ -150,7 +151,8 @@ bool hasPossibleIndex(const std::string& file_name) {
   const auto connections = head->field<std::uint32_t>("conn_count").value_or(0);
   for (std::uint32_t i = 0; i < connections; ++i) {
     const std::optional<Record> connection = file.record(at);
-    if (!connection || !file.holds(connection->data, connection->data_size)) {
+    if (!connection || connection->data_size > kMaxHeader ||
+        !file.holds(connection->data, connection->data_size)) {
       return false;
     }
     at = connection->data + connection->data_size;
