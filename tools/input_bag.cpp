@@ -6,24 +6,37 @@
 #include <stdexcept>
 
 #include "bag_fault.h"
+#include "bag_index.h"
+#include "message_record.h"
 
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
 
 namespace datmo {
 
+namespace {
+
+[[noreturn]] void failForIndex(const std::string& file) {
+  throw std::runtime_error(file +
+                           ": has no index: it was cut short, or is still being written;"
+                           " 'rosbag reindex " +
+                           file + "' recovers its messages");
+}
+
+}  // namespace
+
 void openInput(const std::string& file, rosbag::Bag& bag) {
   const std::string fault = bagFault(file);
   if (!fault.empty()) {
     throw std::runtime_error(file + ": " + fault);
   }
+  if (!hasPossibleIndex(file)) {
+    failForIndex(file);
+  }
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagException&) {  // any part of the index cannot be read
-    throw std::runtime_error(file +
-                             ": has no index: it was cut short, or is still being written;"
-                             " 'rosbag reindex " +
-                             file + "' recovers its messages");
+    failForIndex(file);
   } catch (const std::exception& error) {  // from rosbag, and from ros::Time for an invalid stamp
     throw std::runtime_error(file + ": cannot be read as a bag (" + error.what() + ")");
   }
@@ -53,6 +66,7 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic, const std::str
 }
 
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message) {
+  checkRecord(message);
   std::vector<std::uint8_t> bytes(message.size());
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   message.write(stream);

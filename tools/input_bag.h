@@ -42,7 +42,7 @@ std::string optionalTopic(const rosbag::Bag& bag, const std::string& topic, bool
   return asked || holdsTopic(bag, topic, type) ? topic : "";
 }
 
-/// The bytes of a message as recorded in the bag.
+/// The bytes of a message as recorded in the bag. Throws InputError as checkRecord().
 std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message);
 
 /// Throws InputError that names the topic of a message, and its type (`wrong_type`) or, if that is
@@ -62,6 +62,8 @@ boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
     const auto content = boost::make_shared<Message>();
     stream.next(*content);
     return content;
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& error) {
     throw undecodable(
         message.getTopic() + " at " + std::to_string(message.getTime().toSec()) + " s",

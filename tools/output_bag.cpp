@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "message_record.h"
+
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
 
@@ -48,6 +50,7 @@ OutputBag::~OutputBag() {
 }
 
 void OutputBag::copy(const rosbag::MessageInstance& message) {
+  checkRecord(message);
   guarded([&] {
     bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
   });

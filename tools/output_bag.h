@@ -45,7 +45,8 @@ class OutputBag {
     guarded([&] { bag_->write(topic, time, message, header); });
   }
 
-  /// Copies a message of another bag unchanged, including its latched connection.
+  /// Copies a message of another bag unchanged, including its latched connection. Throws InputError
+  /// as checkRecord().
   void copy(const rosbag::MessageInstance& message);
 
   /// Closes the bag and gives it its name.

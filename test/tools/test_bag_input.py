@@ -105,6 +105,21 @@ class Unreadable(BagInput):
         self.bag.write_bytes(content[:position] + nothing + content[position + len(nothing) :])
         self.assert_refused("has no index", "or is still being written")
 
+    def test_damaged_record(self):
+        """A field that is not UTF-8, and a message of a connection that there is not."""
+        self.write()
+        content = self.bag.read_bytes()
+        self.bag.write_bytes(content.replace(b"time=", b"t\xe8me=", 1))
+        self.assert_refused("cannot be read as a bag (UnicodeDecodeError in a record: ")
+        record = content.index(b"op=\x02")
+        self.bag.write_bytes(content[:record] + content[record:].replace(b"conn=\0", b"conn=\x81", 1))
+        self.assert_refused("cannot be read as a bag (KeyError in a record: 129)")
+
+    def test_errors_of_the_caller_are_not_the_bags(self):
+        self.write()
+        with self.assertRaises(KeyError), opened(self.bag):
+            {}["a key"]  # pylint: disable=expression-not-assigned
+
     def test_damaged_chunk(self):
         for compression in ("bz2", "lz4"):
             self.write(compression)

@@ -2,111 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A batch of recordings: its plan, and its runs by Snakemake with stand-in programs."""
 
-import contextlib
-import io
-import json
+import errno
+import os
 import shutil
-import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from datmo_tools.batch.main import find_snakemake, main
+from batch_case import RUN, BatchCase
+
 from datmo_tools.batch.moments import NO_OUTPUT, worst_moments
 from datmo_tools.batch.plan import find_recordings
 from datmo_tools.errors import InputError
 
-RUN = {
-    "format": 1, "start_s": 100.0, "duration_s": 3.0, "wall_s": 1.0, "processor_s": 1.0, "scans": 30,
-    "has_truth": True, "distance_m": 12.0, "tracks": 2, "silences": [], "conditions": [],
-    "pose": {"longest_gap_s": 0.1, "longest_gap_from_s": 0.0, "first_s": 0.0,
-             "widest_sigma_m": 0.1, "widest_sigma_at_s": 1.0},
-    "dropped": [{"stage": "tracker", "reason": "old", "count": 2, "max_from_s": 1.0, "max_count": 2}],
-}  # fmt: skip
-SCORE = {
-    "start_s": 100.5, "identity": {}, "hota": {}, "errors": {}, "pose": None,
-    "clear_mot": {"mota": 0.8, "misses": 1, "false_positives": 1, "id_switches": 0, "required": 10},
-    "series": {"time_s": [0.0, 0.5, 1.0, 1.5], "missed": [0, 1, 0, 0], "false": [0, 0, 0, 1]},
-}  # fmt: skip
 
-# Notes each start, and does to itself or its parent process what the recording says.
-RUN_BAG = """\
-#!/bin/sh
-here=$(dirname "$0")
-echo "$(basename "$1")" >> "$here/starts"
-echo "$@" > "$here/words"
-case $(cat "$1") in
-  broken) echo "$1: is not a bag" >&2; exit 1 ;;
-  kills_itself) kill -9 $$ ;;
-  kills_once) if [ ! -e "$here/killed" ]; then touch "$here/killed"; kill -9 $$; fi ;;
-  kills_snakemake)
-    if [ ! -e "$here/killed" ]; then
-      touch "$here/killed"
-      parent=$PPID
-      until tr '\\0' ' ' < /proc/$parent/cmdline | grep -q -- --snakefile; do
-        parent=$(sed -n 's/^PPid:.//p' /proc/$parent/status)
-      done
-      kill -9 $parent
-      exit 1
-    fi ;;
-  full) echo "in to out: Problem writing data to disk" >&2; exit 1 ;;
-esac
-cp "$1" "$2"
-cp "$here/run.json" "$6"
-"""
-SCORE_RUN = """\
-#!/bin/sh
-cp "$(dirname "$0")/score.json" "$3"
-"""
-
-
-def why_not():
-    """Returns why Snakemake cannot be used; empty if it can."""
-    try:
-        find_snakemake()
-    except InputError as error:
-        return f"skipped: {error}"
-    return ""
-
-
-@unittest.skipIf(why_not(), why_not())
-class Batch(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.drives = self.folder / "some drives"
-        self.drives.mkdir()
-        self.programs = self.folder / "lib" / "datmo_fusion"
-        self.programs.mkdir(parents=True)
-        for name, text in (("run_bag", RUN_BAG), ("score_run", SCORE_RUN),
-                           ("check_configuration", "#!/bin/sh\n")):  # fmt: skip
-            (self.programs / name).write_text(text)
-            (self.programs / name).chmod(0o755)
-        (self.programs / "run.json").write_text(json.dumps(RUN))
-        (self.programs / "score.json").write_text(json.dumps(SCORE))
-        (self.folder / "sensors.yaml").touch()
-
-    def record(self, **drives):
-        """Writes recordings with these names; the content is what each
-        of them does to the program."""
-        for name, content in drives.items():
-            (self.drives / f"{name}.bag").write_text(content)
-
-    def batch(self, *words):
-        """Returns exit code, output, and report; the starts of run_bag are counted anew."""
-        (self.programs / "starts").write_text("")
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main([str(self.drives), "--config", str(self.folder / "sensors.yaml"),
-                         "--programs", str(self.programs), "--jobs", "1", *words])  # fmt: skip
-        report = self.drives / "batch" / "batch.json"
-        log = self.drives / "batch" / "snakemake.log"
-        said = out.getvalue() + err.getvalue() + (log.read_text() if log.exists() else "")
-        return code, said, json.loads(report.read_text()) if report.exists() else None
-
-    def starts(self):
-        return sorted((self.programs / "starts").read_text().split())
-
+class Batch(BatchCase):
     def test_broken_recording_is_one_line_and_nothing_is_done_twice(self):
         self.record(a="good", b="good", c="good", d="broken")
         code, said, report = self.batch()
@@ -154,12 +64,16 @@ class Batch(unittest.TestCase):
         self.assertFalse((self.drives / "batch" / "work").exists())
 
     def test_full_disk_is_reported_and_not_blamed_on_the_recording(self):
-        self.record(a="full")
-        code, said, report = self.batch()
+        self.record(a="full", b="full_in_german", c="cannot_write")
+        with mock.patch.dict(os.environ, LC_ALL="de_DE.UTF-8", LANGUAGE="de"):
+            code, said, report = self.batch()
         self.assertEqual(code, 1)
         self.assertIn("is full", said)
-        self.assertIn("is full", report["failed"][0]["error"])
-        self.assertFalse(report["failed"][0]["finished"])
+        for failed, reason in zip(report["failed"], (*2 * [os.strerror(errno.ENOSPC)], "cannot be written")):
+            self.assertIn(reason, failed["error"])
+            self.assertIn("is full", failed["error"])
+            self.assertFalse(failed["finished"])
+        self.assertEqual(len(report["failed"]), 3)
 
     def test_options_of_run_bag_reach_it(self):
         self.record(one="")

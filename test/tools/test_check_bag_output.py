@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which files check_bag writes, and which it does not overwrite."""
+"""Which files check_bag writes, and which it does not overwrite; that it ends at all with huge numbers."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import os
 import unittest
 
 import simulated_recording as simulated
-from check_bag_case import Tool
+from check_bag_case import Tool, of_topic
 
 from datmo_tools.check_bag.main import main
 
@@ -51,6 +51,20 @@ class Output(Tool):
         self.said(code=0)
         self.assertTrue((self.folder / "drive.yaml").is_file())
         self.assertIn("drive.yaml: exists", self.said(code=1))
+
+
+class FlippedBits(Tool):
+    """One bit of a number makes it huge: it must not be the size of an array, nor overflow."""
+
+    def test_stray_stamp(self):
+        items = simulated.recording()
+        of_topic(items, "/odometry")[-1].message.header.stamp = simulated.ros_time(2.6e9)
+        self.assertIn("Measured", self.run_tool(items)[1])
+
+    def test_huge_quaternion(self):
+        items = simulated.recording()
+        of_topic(items, "/odometry")[100].message.pose.pose.orientation.x = 1e200
+        self.assertIn("Measured", self.run_tool(items)[1])
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ tools/input_bag.cpp has the same messages.
 import contextlib
 import os
 import struct
+import traceback
 from pathlib import Path
 
 import genpy
@@ -60,6 +61,18 @@ def opened(path):
         genpy.MessageException,
     ) as error:
         raise InputError(f"{path}: cannot be read as a bag ({_reason(error)})") from error
+    except (LookupError, ValueError, ArithmeticError, AttributeError) as error:
+        if not _is_of_reader(error):
+            raise
+        # rosbag has no words for a wrong name or number in a damaged record.
+        kind = type(error).__name__
+        raise InputError(f"{path}: cannot be read as a bag ({kind} in a record: {error})") from error
+
+
+def _is_of_reader(error):
+    """Returns whether rosbag or genpy has raised an exception, not the code that uses them."""
+    file = Path(traceback.extract_tb(error.__traceback__)[-1].filename)
+    return file.parent in (Path(rosbag.__file__).parent, Path(genpy.__file__).parent)
 
 
 def check_type(path, topic, message, kind):

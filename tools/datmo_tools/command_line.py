@@ -2,6 +2,7 @@
 """What the tools' command lines share: exit codes, and options that are numbers or paths."""
 
 import argparse
+import io
 import json
 import math
 import signal
@@ -16,8 +17,11 @@ def run(name, work, product="bag"):
     """Calls `work()`, which writes a `product`; returns the exit code of the tool `name`.
 
     An InputError or an interruption prints one line to standard error and returns 1. SIGTERM is
-    handled like Ctrl-C, so that `work` can clean up.
+    handled like Ctrl-C, so that `work` can clean up. A file's name that is not UTF-8 is printed as the
+    bytes that it is.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="surrogateescape")
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         work()

@@ -67,6 +67,7 @@ def _run(program, words, stdout):
         encoding="utf-8",
         errors="replace",
         check=False,
+        env={**os.environ, "LC_ALL": "C"},  # texts of the system, which callers search, in English
     )
     if done.returncode != 0:
         raise StepFailed(program.name, done.stderr, done.returncode)

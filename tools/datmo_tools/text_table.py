@@ -31,3 +31,9 @@ def spread_text(values, digits=0, scale=1.0):
 def percent(share, digits=1):
     """Formats a share as percent; NO_VALUE for None."""
     return NO_VALUE if share is None else f"{100.0 * share:.{digits}f}"
+
+
+def one_line(text):
+    """Returns text of unknown origin, as names from a bag, for a line: control characters as their
+    escapes, so that it neither ends the line nor controls the terminal."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

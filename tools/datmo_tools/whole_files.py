@@ -31,7 +31,8 @@ def write_whole(folder, texts):
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
-            data = text if isinstance(text, bytes) else text.encode("utf-8")
+            # Bytes of a file's name that are not UTF-8 are escaped: the text has to stay readable.
+            data = text if isinstance(text, bytes) else text.encode("utf-8", "backslashreplace")
             parts[name].write_bytes(data)
         for name, part in parts.items():
             os.replace(part, folder / name)

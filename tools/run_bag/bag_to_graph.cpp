@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "command_line.h"
+#include "message_record.h"
 
 #include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -71,8 +72,15 @@ void BagToGraph::takeStaticTransforms(const rosbag::Bag& bag) {
 void BagToGraph::take(const rosbag::MessageInstance& message) {
   const auto readers = readers_.find(message.getTopic());
   if (readers == readers_.end()) {
-    output_.copy(message);
-    report_.noteTruth();
+    bool is_whole = false;
+    guarded(graph_.inputs(), message.getTopic(), [&] {
+      checkRecord(message);
+      is_whole = true;
+    });
+    if (is_whole) {
+      output_.copy(message);
+      report_.noteTruth();
+    }
     return;
   }
   for (const auto& [graph_topic, reader] : readers->second) {

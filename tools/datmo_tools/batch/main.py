@@ -5,6 +5,7 @@ import contextlib
 import fcntl
 import functools
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -28,6 +29,7 @@ HERE = Path(__file__).parent
 PROFILES = HERE / "profiles"
 MIN_VERSION = 7  # of Snakemake
 NEEDED = ("run_bag", "score_run", "check_configuration")
+UNQUOTED = re.compile(r'["$`\\]')  # what a shell replaces, or ends at, between double quotes
 MIN_FREE = 64 * 2**20  # bytes: with less, the disk counts as full
 
 
@@ -100,12 +102,15 @@ def find_snakemake():
 def _snakemake(out, values):
     """Runs Snakemake and returns its exit code; it has ended when this returns, in any case."""
     program = find_snakemake()
+    if values.profile != "local" and UNQUOTED.search(str(out.resolve())):
+        # Snakemake puts the name of a job's script, which is below it, between double quotes.
+        raise InputError(f"{out.resolve()}: a job of Snakemake cannot have \", $, ` or \\ in the name of"
+                         " its folder, expected another one: --out DIR")  # fmt: skip
     profile = PROFILES / values.profile
     words = [program, "--snakefile", HERE / "Snakefile", "--directory", out, "--nolock", "--quiet",
              "--profile", profile if profile.is_dir() else values.profile]  # fmt: skip
     if values.jobs is not None:
         words += ["--jobs" if values.profile != "local" else "--cores", values.jobs]
-    words += ["--config", f"out={out.resolve()}"]
     with _log(out).open("wb") as log, subprocess.Popen(
         [str(word) for word in words], stdout=log, stderr=subprocess.STDOUT, env=_environment()
     ) as process:

@@ -16,11 +16,16 @@ from datmo_tools import command_line, programs
 from datmo_tools.batch.moments import worst_moments
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
+from datmo_tools.text_table import one_line
 from datmo_tools.whole_files import write_whole
 
 FORMAT = 1  # of the outcome
-# Error texts of programs that could not write; the second one is rosbag's.
-DISK_FAULTS = (os.strerror(errno.ENOSPC), "Problem writing data to disk")
+# What our programs say after the name of a file that they could not write. The reason that follows is
+# rosbag's or iostream's, and of a full disk there are several: a write, a flush or a seek may fail first.
+NOT_WRITTEN = ": cannot be written"
+# In the language of LC_ALL=C, which programs.call() sets, and which os.strerror() has as long as
+# nothing calls locale.setlocale().
+DISK_FAULTS = (os.strerror(errno.ENOSPC), os.strerror(errno.EDQUOT), os.strerror(errno.EIO))
 SCORES = ("clear_mot", "identity", "hota", "errors", "pose")  # of score_run, copied to an outcome
 
 
@@ -58,7 +63,7 @@ def process(settings, outcome):
         with contextlib.suppress(OSError):
             cause_file(outcome.parent.parent, settings["id"]).write_text(str(error))
         raise Unfinished(f"{settings['name']}: {error}") from error
-    print(f"batch: {line(result)}", file=sys.stderr)
+    print(f"batch: {one_line(line(result))}", file=sys.stderr)
 
 
 def cause_file(out, recording):
@@ -107,7 +112,8 @@ def _call(program, *words):
     except StepFailed as error:
         if error.code < 0:
             raise Unfinished(str(error)) from error
-        if any(fault in str(error) for fault in DISK_FAULTS):
+        faults = (*DISK_FAULTS, *(f"{word}{NOT_WRITTEN}" for word in words))
+        if any(fault in str(error) for fault in faults):
             raise Unfinished(f"{error}: the disk is full or broken") from error
         raise
 

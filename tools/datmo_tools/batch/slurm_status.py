@@ -4,7 +4,11 @@
 import subprocess
 import sys
 
-GOING_ON = ("PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "REQUEUED", "RESIZING")
+# Of the states that squeue(1) lists; in all others the job has ended, or will not go on by itself.
+GOING_ON = (
+    "PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "STOPPED", "REQUEUED", "RESIZING",
+    "SIGNALING", "STAGE_OUT",
+)  # fmt: skip
 UNKNOWN = "running"  # for a job whose state is not available now: Snakemake asks again
 
 

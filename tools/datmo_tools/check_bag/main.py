@@ -10,6 +10,7 @@ from datmo_tools.check_bag.checks import check
 from datmo_tools.check_bag.findings import Severity
 from datmo_tools.check_bag.opening import open_recording
 from datmo_tools.errors import InputError
+from datmo_tools.text_table import one_line
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
@@ -62,7 +63,7 @@ def _run(values):
     _print(recording, result)
     if not values.no_yaml and result.can_start:
         write_whole(out.parent, {out.name: result.yaml_text()})
-        print(f"\nInitial parameters: {out}\nTo start:")
+        print(f"\nInitial parameters: {one_line(str(out))}\nTo start:")
         print("\n".join(f"  {line}" for line in result.start_lines(values.bag, out)))
     command_line.write_json(values.json, result.as_dictionary())
     return 1 if result.findings.worst() == Severity.ERROR else 0
@@ -81,7 +82,7 @@ def _check_output(bag, out, force):
 
 
 def _print(recording, result):
-    print(f"{recording.path}: {recording.duration:.1f} s\n")
+    print(f"{one_line(str(recording.path))}: {recording.duration:.1f} s\n")
     print(report.topics_text(recording))
     print("\nLevels")
     print(report.levels_text(result.levels))

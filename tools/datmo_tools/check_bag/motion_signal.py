@@ -7,6 +7,8 @@ import numpy as np
 
 from datmo_tools import transforms
 
+MAX_DURATION = 1e5  # s: a longer signal has stray stamps
+
 
 class MotionSignal:
     """Heading, and position if known, over time; each at the sensor's own stamps."""
@@ -46,9 +48,13 @@ class MotionSignal:
         """Returns speeds (m/s) between stamps at least 0.1 s apart; empty without positions."""
         if self.positions is None:
             return np.zeros(0)
-        times = np.arange(self.stamps[0], self.stamps[-1], 0.1)
-        if len(times) < 2:
+        start, end = self.stamps[0], self.stamps[-1]
+        if end - start > MAX_DURATION and len(self.stamps) > 3:
+            stray = 1 + len(self.stamps) // 100  # at each end
+            start, end = self.stamps[stray], self.stamps[-1 - stray]
+        if not 0.1 < end - start < MAX_DURATION:
             return np.zeros(0)
+        times = np.arange(start, end, 0.1)
         return np.linalg.norm(np.diff(self._positions(times), axis=0), axis=1) / 0.1
 
 
@@ -94,7 +100,7 @@ class OdometrySamples:
             2.0 * (turn.w * turn.z + turn.x * turn.y),
             1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z),
         )
-        norm = math.sqrt(turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2)
+        norm = math.hypot(turn.x, turn.y, turn.z, turn.w)
         self._rows.append(
             (stamp, pose.position.x, pose.position.y, yaw, norm, twist.linear.x, twist.angular.z)
         )

@@ -3,6 +3,7 @@
 
 from datmo_tools.check_bag.findings import Severity
 from datmo_tools.check_bag.yaml_text import mount_text
+from datmo_tools.text_table import one_line
 
 TITLES = {Severity.ERROR: "ERROR", Severity.WARNING: "warning", Severity.NOTE: "note"}
 ADVICE_INDENT = "         -> "
@@ -14,7 +15,8 @@ def topics_text(recording):
     for topic in sorted(recording.topics.values(), key=lambda item: item.name):
         period = topic.period()
         rate = f"{1.0 / period:.1f}" if period else ""
-        rows.append((topic.name, topic.type, str(topic.count), rate, topic.frame()))
+        cells = (topic.name, topic.type, str(topic.count), rate, topic.frame())
+        rows.append(tuple(map(one_line, cells)))
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = ("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in rows)
     return "\n".join(line.rstrip() for line in lines)
@@ -25,9 +27,9 @@ def findings_text(findings):
     lines = []
     for item in findings.sorted():
         where = f"{item.where}: " if item.where else ""
-        lines.append(f"{TITLES[item.severity]:8} {where}{item.what}. [{item.kind}]")
+        lines.append(f"{TITLES[item.severity]:8} {one_line(where + item.what)}. [{item.kind}]")
         if item.advice:
-            lines.append(ADVICE_INDENT + item.advice)
+            lines.append(ADVICE_INDENT + one_line(item.advice))
     return "\n".join(lines or ["No findings."])
 
 
@@ -35,7 +37,7 @@ def levels_text(levels):
     """Returns what each level of fusion has."""
     lines = []
     for level in levels:
-        lacks = "ready" if not level.missing else "missing: " + "; ".join(level.missing)
+        lacks = "ready" if not level.missing else "missing: " + one_line("; ".join(level.missing))
         lines.append(f"  {level.name:24} {lacks}")
     return "\n".join(lines)
 
@@ -54,7 +56,7 @@ def measured_text(facts, measured, mount, results):
     if mount is not None:
         lines.append(f"  mounted at {mount_text(mount)}")
     for result in results.values():
-        lines.append(f"  {result.signal.source}: {_fit_text(result)}")
+        lines.append(f"  {one_line(result.signal.source)}: {_fit_text(result)}")
     return "\n".join(lines or ["  nothing"])
 
 

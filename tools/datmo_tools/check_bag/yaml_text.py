@@ -8,6 +8,7 @@ import yaml
 from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.motion_signal import euler_degrees
 from datmo_tools.check_bag.transform_table import bare
+from datmo_tools.text_table import one_line
 
 HEADER = """\
 # Initial parameters for the robot of {bag}, by check_bag.
@@ -20,9 +21,9 @@ LOOKS_AHEAD = {"yaw": -1.5708, "pitch": 0.0, "roll": -1.5708}  # rad, of an opti
 
 def yaml_text(bag, sections, remarks):
     """Returns the text of the yaml file. remarks: section -> comment lines above the section."""
-    parts = [HEADER.format(bag=bag)]
+    parts = [HEADER.format(bag=one_line(bag))]
     for name, section in sections.items():
-        lines = "".join(f"# {line}\n" for line in remarks.get(name, ()))
+        lines = "".join(f"# {one_line(line)}\n" for line in remarks.get(name, ()))
         body = yaml.safe_dump({name: section}, sort_keys=False, default_flow_style=False)
         parts.append(lines + body)
     return "\n".join(parts)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import jinja2
 
-from datmo_tools.text_table import aligned
+from datmo_tools.text_table import aligned, one_line
 from datmo_tools.whole_files import write_whole
 
 TEMPLATE = "report.html"  # next to this file
@@ -41,8 +41,10 @@ def as_text(sections):
     blocks = []
     for section in sections:
         if (section.rows or section.lines) and not section.for_page:
-            table = [aligned(section.rows)] if section.rows else []
-            blocks.append("\n".join([*filter(None, [section.title]), *table, *section.lines]))
+            rows = [[one_line(str(cell)) for cell in row] for row in section.rows]
+            table = [aligned(rows)] if rows else []
+            lines = map(one_line, section.lines)
+            blocks.append("\n".join([*filter(None, [section.title]), *table, *lines]))
     return "\n\n".join(blocks)
 
 

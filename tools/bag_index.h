@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace datmo {
+
+/// Whether all records that rosbag reads to open the bag `file` are as long as they can be in a
+/// file of this size. rosbag allocates what a record's length says before it reads it, up to 4 GiB,
+/// and ends the program by an assertion where there is less memory. True for anything but a bag of
+/// format 2.0, for which rosbag has messages of its own.
+bool hasPossibleIndex(const std::string& file);
+
+}  // namespace datmo
