@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/cross.h"
@@ -13,6 +14,10 @@
 namespace datmo {
 
 namespace {
+
+bool isPositiveDefinite(const Eigen::Matrix3d& matrix) {
+  return Eigen::LLT<Eigen::Matrix3d>(matrix).info() == Eigen::Success;
+}
 
 /// Maximum number of fixes kept for the start; beyond it every second one is dropped.
 constexpr std::size_t kMaxFirstFixes = 400;
@@ -47,24 +52,29 @@ std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base
   if (!has_started_) {
     return std::nullopt;
   }
-  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)), driftedTo(base_in_map)};
+  const Eigen::Matrix3d covariance = driftedTo(base_in_map);
+  if (!isPositiveDefinite(covariance)) {
+    return std::nullopt;  // the vehicle is so far off that no significant digits are left
+  }
+  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)), covariance};
 }
 
 void EarthFrameFilter::add(const EarthFix& fix) {
   take(fix);
-  restartIfNotFinite();
+  restartIfInvalid();
 }
 
 void EarthFrameFilter::moveTo(const Pose2& base_in_map) {
   if (has_started_ && (base_in_map.position() - driven_to_.position()).norm() >= kMinDrive) {
     drift(base_in_map);
-    restartIfNotFinite();
+    restartIfInvalid();
   }
 }
 
 /// A pose and a fix with very different magnitudes may leave no significant digits.
-void EarthFrameFilter::restartIfNotFinite() {
-  if (has_started_ && !(state_.allFinite() && covariance_.allFinite())) {
+void EarthFrameFilter::restartIfInvalid() {
+  if (has_started_ && !(state_.allFinite() && covariance_.allFinite() &&
+                        isPositiveDefinite(covariance_.topLeftCorner<3, 3>()))) {
     ++counts_.restarts;
     reset();
   }

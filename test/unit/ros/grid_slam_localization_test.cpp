@@ -44,7 +44,7 @@ class GridSlamLocalizationTest : public testing::Test {
 };
 
 TEST_F(GridSlamLocalizationTest, LocatedIsReportedWithoutAReason) {
-  const GridSlamOutput output = stand(20, 20.0F);
+  const GridSlamOutput output = stand(20, 19.0F);
   ASSERT_TRUE(output.localization && output.pose);
   EXPECT_EQ(output.localization->header.stamp, output.pose->header.stamp);
   EXPECT_EQ(output.localization->header.frame_id, "map");
@@ -54,7 +54,7 @@ TEST_F(GridSlamLocalizationTest, LocatedIsReportedWithoutAReason) {
 }
 
 TEST_F(GridSlamLocalizationTest, CarriedElsewhereItIsUncertainThenLostThenInANewMap) {
-  stand(40, 20.0F);
+  stand(40, 19.0F);
   const GridSlamOutput suspected = stand(1, 10.0F);
   ASSERT_TRUE(suspected.localization);
   EXPECT_EQ(suspected.localization->state, LocalizationState::UNCERTAIN);

@@ -107,7 +107,7 @@ class EarthFrameFilter {
   void begin(const Start& start, double factor);
   Eigen::Matrix3d driftedTo(const Pose2& base_in_map) const;
   void drift(const Pose2& base_in_map);
-  void restartIfNotFinite();
+  void restartIfInvalid();
   void predict(const EarthFix& fix);
   bool update(const EarthFix& fix);
 
