@@ -73,8 +73,12 @@ void EarthFrameFilter::moveTo(const Pose2& base_in_map) {
 
 /// A pose and a fix with very different magnitudes may leave no significant digits.
 void EarthFrameFilter::restartIfInvalid() {
-  if (has_started_ && !(state_.allFinite() && covariance_.allFinite() &&
-                        isPositiveDefinite(covariance_.topLeftCorner<3, 3>()))) {
+  if (!has_started_) {
+    return;
+  }
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  if (!state_.allFinite() || !covariance_.allFinite() ||
+      !isPositiveDefinite(covariance_.topLeftCorner<3, 3>())) {
     ++counts_.restarts;
     reset();
   }
