@@ -29,7 +29,7 @@ one of them has grown by more than its spread."""
 SLOWER = 3  # exit code
 
 QUICK = "--duration=3"  # s of a drive
-ALL_LEVELS = ("chain:=live", "fusion:=recommended", "risk:=true")
+ALL_LEVELS = ("early_tracks:=true", "fusion:=recommended", "risk:=true")
 CAMERA = ("stereo/enabled=true",)
 HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
 
