@@ -50,7 +50,7 @@ void DecodeErrors::deliver() {
   }
 }
 
-void DecodeErrors::tell(const InputTopic& topic, const DecodeError& error) {
+void DecodeErrors::report(const InputTopic& topic, const DecodeError& error) {
   Subscribers& others = subscribers();
   const std::lock_guard<std::mutex> lock(others.mutex);
   for (DecodeErrors* const each : others.all) {

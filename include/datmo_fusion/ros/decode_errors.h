@@ -26,7 +26,7 @@ struct DecodeError {
 ///
 /// roscpp decodes a message once for all subscriptions of a process to its topic: with the code of
 /// one of them, in the thread of another one, and the others are only left out. An error is
-/// therefore told to all of them through their callback queues, so that a StageMonitor needs no
+/// therefore reported to all of them through their callback queues, so that a StageMonitor needs no
 /// lock.
 ///
 /// An empty message, and a corrupt latched one when another subscription is added, are decoded more
@@ -46,12 +46,12 @@ class DecodeErrors {
   DecodeErrors& operator=(const DecodeErrors&) = delete;
 
   /// Calls `take` with each new error. For the subscription's callback, before a message: an error
-  /// must be known before the gap that it leaves in the sequence numbers, and the call that tell()
-  /// has posted may be behind that message in the queue.
+  /// must be known before the gap that it leaves in the sequence numbers, and the call posted by
+  /// report() may be behind that message in the queue.
   void deliver();
 
-  /// Tells an error to all subscriptions of this process to a topic. From any thread.
-  static void tell(const InputTopic& topic, const DecodeError& error);
+  /// Reports an error to all subscriptions of this process to a topic. From any thread.
+  static void report(const InputTopic& topic, const DecodeError& error);
 
  private:
   void put(const DecodeError& error);

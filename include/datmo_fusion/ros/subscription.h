@@ -37,7 +37,8 @@ class BoundedDecoder
   BoundedDecoder(std::string topic, const typename Base::Callback& callback)
       : Base(callback), topic_{std::move(topic), ros::message_traits::datatype<Message>()} {}
 
-  /// Returns null for corrupt bytes, for which roscpp calls no callback, and tells DecodeErrors.
+  /// Returns null for corrupt bytes, for which roscpp calls no callback, and reports to
+  /// DecodeErrors.
   ros::VoidConstPtr deserialize(
       const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
     const auto message = boost::make_shared<Message>();
@@ -47,7 +48,7 @@ class BoundedDecoder
       return message;
     } catch (const std::exception& error) {
       // The header comes first, so its number is known unless that is what is cut off.
-      DecodeErrors::tell(topic_, {publisherIn(params), sequenceOf(*message), error.what()});
+      DecodeErrors::report(topic_, {publisherIn(params), sequenceOf(*message), error.what()});
       return {};
     }
   }
