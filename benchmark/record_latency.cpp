@@ -34,7 +34,7 @@ class LatencyRecorder {
   LatencyRecorder() {
     handOn<sensor_msgs::LaserScan>("scan");
     handOn<sensor_msgs::MultiEchoLaserScan>("echoes");
-    listen<TrackArray>("tracks", [this](const auto& tracks) { takeTracks(*tracks); });
+    listen<TrackArray>("tracks", [this](const auto& tracks) { handleTracks(*tracks); });
     listen<StageTiming>("timing", [this](const auto& timing) {
       stages_[timing->stage].push_back(timing->processing_time);
     });
@@ -93,7 +93,7 @@ class LatencyRecorder {
     departures_[stamp] = last_scan_;
   }
 
-  void takeTracks(const TrackArray& tracks) {
+  void handleTracks(const TrackArray& tracks) {
     const auto scan = departures_.find(tracks.header.stamp);
     if (scan != departures_.end()) {
       latency_.push_back(std::chrono::duration<double>(Clock::now() - scan->second).count());

@@ -152,7 +152,7 @@ void SensorClock::decide() {
   }
   other_.reset();
   if (ahead_ != 0.0 && isRight()) {
-    takeAsRight();
+    acceptStep();
   }
 }
 
@@ -166,7 +166,7 @@ bool SensorClock::isRight() const {
   return secondsBetween(set_, last_->arrival) >= kMaxDoubt;
 }
 
-void SensorClock::takeAsRight() {
+void SensorClock::acceptStep() {
   ++taken_;
   min_delay_ -= ahead_;
   for (double& delay : recent_) {

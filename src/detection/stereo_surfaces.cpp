@@ -51,14 +51,14 @@ constexpr std::int32_t kNoSurface = -1;
 
 void StereoSurfaces::find(const StereoCloud& cloud, const StereoView& view,
                           const StereoSurfaceOptions& options, double farthest) {
-  takePoints(cloud, view, options, farthest);
+  addPoints(cloud, view, options, farthest);
   countLayer(cloud.camera, options, farthest);
   findModes(options);
   measure(options);
 }
 
-void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view,
-                                const StereoSurfaceOptions& options, double farthest) {
+void StereoSurfaces::addPoints(const StereoCloud& cloud, const StereoView& view,
+                               const StereoSurfaceOptions& options, double farthest) {
   density_.reset(cloud.camera);
   points_ = 0;
   upright_.clear();

@@ -71,8 +71,8 @@ class StereoSurfaces {
     int column, first_bin, peak, end_bin;
   };
 
-  void takePoints(const StereoCloud& cloud, const StereoView& view,
-                  const StereoSurfaceOptions& options, double farthest);
+  void addPoints(const StereoCloud& cloud, const StereoView& view,
+                 const StereoSurfaceOptions& options, double farthest);
   void countLayer(const StereoCamera& camera, const StereoSurfaceOptions& options, double farthest);
   void findModes(const StereoSurfaceOptions& options);
   void smoothColumn(int column);

@@ -111,7 +111,7 @@ void CanMotion::check() const {
   }
 }
 
-std::optional<CanMotion::Motion> CanMotion::take(const CanFrame& frame, Stamp stamp) {
+std::optional<CanMotion::Motion> CanMotion::update(const CanFrame& frame, Stamp stamp) {
   if (!isCounting(frame)) {
     return std::nullopt;
   }

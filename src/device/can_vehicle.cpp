@@ -69,11 +69,11 @@ DeviceMeasurement CanVehicle::nextMotion() {
                                      " were lost: is this computer too busy?"});
     }
     if (frame.error) {
-      takeError(*frame.error);
+      handleError(*frame.error);
     } else {
       ++frames_;
       const Stamp stamp = host_.clock.now() + -(frame.age + delay_);
-      if (const std::optional<CanMotion::Motion> motion = motion_.take(frame, stamp)) {
+      if (const std::optional<CanMotion::Motion> motion = motion_.update(frame, stamp)) {
         last_motion_ = Clock::now();
         return {stamp, motion->twist, motion->missed};
       }
@@ -107,7 +107,7 @@ CanFrame CanVehicle::nextFrame() {
   }
 }
 
-void CanVehicle::takeError(std::uint32_t error) const {
+void CanVehicle::handleError(std::uint32_t error) const {
   const std::string text = name_ + " reports an error (" + errorText(error) +
                            "): expected none; check the bit rate, the termination and the cable";
   if ((error & CAN_ERR_BUSOFF) != 0) {

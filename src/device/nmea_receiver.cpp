@@ -92,13 +92,13 @@ std::optional<DeviceMeasurement> NmeaReceiver::measurementOf(const NmeaSentence&
   has_rmc_ = has_rmc_ || is_rmc;
   if (sentence.type == "GGA") {
     const std::optional<GroundVelocity> velocity = std::exchange(waiting_velocity_, std::nullopt);
-    if (takeTime(sentence.field(0))) {
+    if (readTime(sentence.field(0))) {
       if (velocity) {
         pending_ = DeviceMeasurement{stamp_, *velocity, 0};
       }
       return DeviceMeasurement{stamp_, nmeaFix(sentence, options_.sigma), 0};
     }
-  } else if (is_rmc ? takeTime(sentence.field(0))
+  } else if (is_rmc ? readTime(sentence.field(0))
                     : sentence.type == "VTG" && has_time_ && !has_rmc_) {
     const std::optional<GroundVelocity> velocity = nmeaVelocity(sentence);
     if (velocity && !is_rmc && isOfNextTime()) {
@@ -115,7 +115,7 @@ bool NmeaReceiver::isOfNextTime() const {
   return period > 0.0 && 2.0 * secondsBetween(arrival_, host_.clock.now()) > period;
 }
 
-bool NmeaReceiver::takeTime(const std::string& field) {
+bool NmeaReceiver::readTime(const std::string& field) {
   constexpr double kOld = 1.0;  // s; an older time means that the clock was set
   const std::optional<std::uint64_t> ticks = nmeaTime(field);
   if (!ticks) {

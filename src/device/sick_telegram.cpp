@@ -92,7 +92,7 @@ float rangeOf(std::uint32_t value, const Channel& channel) {
 }
 
 /// Converts the ranges, and their geometry and timing.
-void takeDistances(const Channel& channel, double frequency, DeviceScan& scan) {
+void readDistances(const Channel& channel, double frequency, DeviceScan& scan) {
   constexpr double kMillimeter = 1e-3;  // m
   scan.first_bearing = degrees(channel.first_angle - kAhead);
   scan.beam_spacing = degrees(channel.spacing);
@@ -104,12 +104,12 @@ void takeDistances(const Channel& channel, double frequency, DeviceScan& scan) {
   }
 }
 
-void takeChannels(ColaFields& fields, std::size_t size, double frequency, DeviceScan& scan) {
+void readChannels(ColaFields& fields, std::size_t size, double frequency, DeviceScan& scan) {
   const std::uint32_t count = fields.number(kTwo, "the number of channels");
   for (std::uint32_t i = 0; i < count; ++i) {
     const Channel channel = readChannel(fields, size);
     if (channel.content == "DIST1") {
-      takeDistances(channel, frequency, scan);
+      readDistances(channel, frequency, scan);
     } else if (channel.content == "RSSI1") {
       for (const std::uint32_t value : channel.values) {
         scan.intensities.push_back(static_cast<float>(value) * channel.factor + channel.offset);
@@ -126,7 +126,7 @@ SickState stateOf(std::uint32_t status) {
 }
 
 /// Reads the fields up to the time of transmission.
-void takeStatus(ColaFields& fields, SickScan& scan) {
+void readStatus(ColaFields& fields, SickScan& scan) {
   fields.skip(kTwo, "its version");
   fields.skip(kTwo, "the device's number");
   fields.skip(kFour, "its serial number");
@@ -183,10 +183,10 @@ SickModel sickModel(const ColaTelegram& answer) {
 SickScan sickScan(const ColaTelegram& telegram, const SickModel& model) {
   ColaFields fields(telegram);
   SickScan scan;
-  takeStatus(fields, scan);
+  readStatus(fields, scan);
   const double frequency = takeFrequency(fields);
-  takeChannels(fields, kTwo, frequency, scan.scan);
-  takeChannels(fields, kOne, frequency, scan.scan);
+  readChannels(fields, kTwo, frequency, scan.scan);
+  readChannels(fields, kOne, frequency, scan.scan);
   scan.scan.max_range = model.max_range;
   if (scan.scan.ranges.size() < 2) {
     throw badAnswer("a scan of " + std::to_string(scan.scan.ranges.size()) +

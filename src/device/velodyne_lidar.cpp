@@ -57,7 +57,7 @@ std::string VelodyneLidar::connect() {
   host_.clock.restart(kVelodyneTicks);
   packet_ = nextPacket();
   model_ = &modelOf(*packet_);
-  takeTime(*packet_);
+  readTime(*packet_);
   return model_->name + (packet_->isDual() ? ", two returns" : ", one return");
 }
 
@@ -124,7 +124,7 @@ bool VelodyneLidar::isLate(const VelodynePacket& packet) const {
   return true;
 }
 
-void VelodyneLidar::takeTime(const VelodynePacket& packet) {
+void VelodyneLidar::readTime(const VelodynePacket& packet) {
   const double span = packetSpan(*model_, packet.isDual());
   const bool is_first = !host_.clock.hasMessage();
   // A packet is sent after its last firing.
@@ -149,17 +149,17 @@ void VelodyneLidar::takeTime(const VelodynePacket& packet) {
 
 DeviceMeasurement VelodyneLidar::next() {
   while (true) {
-    if (std::optional<DeviceMeasurement> measurement = takeBlocks()) {
+    if (std::optional<DeviceMeasurement> measurement = readBlocks()) {
       return *std::move(measurement);
     }
     do {
       packet_ = nextPacket();
     } while (isLate(*packet_));
-    takeTime(*packet_);
+    readTime(*packet_);
   }
 }
 
-std::optional<DeviceMeasurement> VelodyneLidar::takeBlocks() {
+std::optional<DeviceMeasurement> VelodyneLidar::readBlocks() {
   constexpr unsigned kFullTurn = VelodynePacket::kFullTurn;
   const RangeLimits limits{options_.min_range, options_.max_range};
   while (next_block_ < VelodynePacket::kBlocks) {

@@ -34,9 +34,9 @@ class CameraViewNodelet : public nodelet::Nodelet {
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
                                                                       [this] { publish(); });
     camera_info_ = Subscription::to(node, "camera_info", kQueue, *monitor_,
-                                    &CameraViewNodelet::takeCameraInfo, this);
+                                    &CameraViewNodelet::handleCameraInfo, this);
     tracks_ =
-        Subscription::to(node, "tracks", kQueue, *monitor_, &CameraViewNodelet::takeTracks, this);
+        Subscription::to(node, "tracks", kQueue, *monitor_, &CameraViewNodelet::handleTracks, this);
     const auto update = [this](const ros::SingleSubscriberPublisher& /*subscriber*/) {
       guarded(*monitor_, "camera_view", [this] { updateImageSubscription(); });
     };
@@ -48,21 +48,21 @@ class CameraViewNodelet : public nodelet::Nodelet {
       images_ = Subscription();
     } else if (!images_) {
       images_ = Subscription::to(getNodeHandle(), "image", kQueue, *monitor_,
-                                 &CameraViewNodelet::takeImage, this);
+                                 &CameraViewNodelet::handleImage, this);
     }
   }
 
-  void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-    view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_));
+  void handleCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
+    view_->handleCameraInfo(*withPlainFrames("camera_info", message, *monitor_));
   }
 
-  void takeTracks(const TrackArrayConstPtr& message) {
-    view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
+  void handleTracks(const TrackArrayConstPtr& message) {
+    view_->handleTracks(withPlainFrames("tracks", message, *monitor_));
     publish();
   }
 
-  void takeImage(const sensor_msgs::ImageConstPtr& message) {
-    view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
+  void handleImage(const sensor_msgs::ImageConstPtr& message) {
+    view_->handleImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
     publish();
   }
 

@@ -27,11 +27,11 @@ class GridViewsNodelet : public nodelet::Nodelet {
       grids_.push_back(Subscription::to<nav_msgs::OccupancyGrid>(
           node, topicOf(panel), 1, *monitor_,
           [this, panel](const nav_msgs::OccupancyGridConstPtr& grid) {
-            views_->takeGrid(panel, grid);
+            views_->handleGrid(panel, grid);
             news_ = true;
           }));
     }
-    pose_ = Subscription::to(node, "pose", 1, *monitor_, &GridViewsNodelet::takePose, this);
+    pose_ = Subscription::to(node, "pose", 1, *monitor_, &GridViewsNodelet::handlePose, this);
     timer_ = node.createTimer(ros::Duration(1.0 / options.rate),
                               [this](const ros::TimerEvent& /*event*/) { draw(); });
   }
@@ -40,8 +40,8 @@ class GridViewsNodelet : public nodelet::Nodelet {
     return panel == "map" ? panel : "grids/" + panel;
   }
 
-  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    views_->takePose(message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
+    views_->handlePose(message);
   }
 
   void draw() {

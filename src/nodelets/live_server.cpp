@@ -26,11 +26,11 @@ LiveServer::LiveServer(ros::NodeHandle node, StageMonitor& monitor, Present pres
   updates_ = node_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   descriptions_.publish(descriptionOf(present_()));
   publish(present_());
-  service_ = node_.advertiseService(kService, &LiveServer::take, this);
+  service_ = node_.advertiseService(kService, &LiveServer::setParameters, this);
 }
 
-bool LiveServer::take(dynamic_reconfigure::Reconfigure::Request& request,
-                      dynamic_reconfigure::Reconfigure::Response& response) {
+bool LiveServer::setParameters(dynamic_reconfigure::Reconfigure::Request& request,
+                               dynamic_reconfigure::Reconfigure::Response& response) {
   guarded(monitor_, kService, [&] {
     try {
       change_(valuesOf(request.config));

@@ -31,8 +31,8 @@ class LiveServer {
  private:
   /// Errors are printed on the console, and counted if they are no OptionError (guarded()); the
   /// response has the values in effect. Returns false, as which the call fails, without them.
-  bool take(dynamic_reconfigure::Reconfigure::Request& request,
-            dynamic_reconfigure::Reconfigure::Response& response);
+  bool setParameters(dynamic_reconfigure::Reconfigure::Request& request,
+                     dynamic_reconfigure::Reconfigure::Response& response);
 
   /// Publishes to clients and the parameter server.
   void publish(const std::vector<LiveOption>& options);

@@ -35,13 +35,13 @@ class MarkersNodelet : public nodelet::Nodelet {
     host_ = node.advertise<visualization_msgs::Marker>("host_vehicle", 1);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
-    subscribe("labeled_scan", &MarkersNodelet::takeLabeledScan);
-    subscribe("road_borders", &MarkersNodelet::takeBorders);
-    subscribe("objects", &MarkersNodelet::takeObjects);
-    subscribe("objects/dropped", &MarkersNodelet::takeDropped);
-    subscribe("tracks", &MarkersNodelet::takeTracks);
-    subscribe("risks", &MarkersNodelet::takeRisks);
-    subscribe("ground_truth/objects", &MarkersNodelet::takeTruth);
+    subscribe("labeled_scan", &MarkersNodelet::handleLabeledScan);
+    subscribe("road_borders", &MarkersNodelet::handleBorders);
+    subscribe("objects", &MarkersNodelet::handleObjects);
+    subscribe("objects/dropped", &MarkersNodelet::handleDropped);
+    subscribe("tracks", &MarkersNodelet::handleTracks);
+    subscribe("risks", &MarkersNodelet::handleRisks);
+    subscribe("ground_truth/objects", &MarkersNodelet::handleTruth);
   }
 
   template <typename Message>
@@ -51,7 +51,7 @@ class MarkersNodelet : public nodelet::Nodelet {
         Subscription::to(getNodeHandle(), topic, kQueue, *monitor_, take, this));
   }
 
-  void takeLabeledScan(const LabeledScanConstPtr& message) {
+  void handleLabeledScan(const LabeledScanConstPtr& message) {
     last_scan_ = message;
     draw("labeled_scan", *message);
     publishGuarded("vehicle", [&] { return vehicleMarkers(message->header, options_.vehicle); });
@@ -61,13 +61,13 @@ class MarkersNodelet : public nodelet::Nodelet {
     }
   }
 
-  void takeBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
-  void takeObjects(const ObjectArrayConstPtr& message) { draw("objects", *message); }
-  void takeDropped(const DroppedObjectsConstPtr& message) { draw("objects/dropped", *message); }
-  void takeTracks(const TrackArrayConstPtr& message) { draw("tracks", *message); }
-  void takeTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
+  void handleBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
+  void handleObjects(const ObjectArrayConstPtr& message) { draw("objects", *message); }
+  void handleDropped(const DroppedObjectsConstPtr& message) { draw("objects/dropped", *message); }
+  void handleTracks(const TrackArrayConstPtr& message) { draw("tracks", *message); }
+  void handleTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
 
-  void takeRisks(const RiskArrayConstPtr& message) {
+  void handleRisks(const RiskArrayConstPtr& message) {
     publishGuarded("risks", [&] { return markersOf(*message, RiskStyle()); });
   }
 

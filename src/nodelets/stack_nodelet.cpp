@@ -38,10 +38,10 @@ class StackNodelet : public nodelet::Nodelet {
     updater_->add("stack",
                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
     diagnostics_ = Subscription::to(getNodeHandle(), "/diagnostics", kQueue, *monitor_,
-                                    &StackNodelet::takeDiagnostics, this);
+                                    &StackNodelet::handleDiagnostics, this);
     questions_ = getNodeHandle().advertise<std_msgs::Time>("clock_question", 1);
     answers_ = Subscription::to(getNodeHandle(), "clock_answer", kQueue, *monitor_,
-                                &StackNodelet::takeAnswer, this);
+                                &StackNodelet::handleAnswer, this);
     timer_ = getNodeHandle().createSteadyTimer(ros::WallDuration(kPeriod),
                                                [this](const ros::SteadyTimerEvent&) {
                                                  guarded(*monitor_, "timer", [this] {
@@ -63,14 +63,14 @@ class StackNodelet : public nodelet::Nodelet {
     questions_.publish(question);
   }
 
-  void takeAnswer(const PartClockConstPtr& answer) {
-    clocks_->take(*answer, toStamp(machineTime()));
+  void handleAnswer(const PartClockConstPtr& answer) {
+    clocks_->addAnswer(*answer, toStamp(machineTime()));
   }
 
-  void takeDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& list) {
+  void handleDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& list) {
     for (const DiagnosticStatus& status : list->status) {
       if (const auto state = stateOf(status)) {
-        stages_.take(*state, since_start_.seconds());
+        stages_.update(*state, since_start_.seconds());
       }
     }
   }

@@ -67,12 +67,12 @@ void StageHost::addService(StageService service) {
 }
 
 void StageHost::subscribe(const StageInput& input) {
-  const auto take = [this, input](const AnyMessage& message, Stamp now) {
-    input.take(message, now);
+  const auto callback = [this, input](const AnyMessage& message, Stamp now) {
+    input.callback(message, now);
     publishTiming();
     publishReady();
   };
-  subscriptions_.push_back(input.subscribe(node_, monitor_, take));
+  subscriptions_.push_back(input.subscribe(node_, monitor_, callback));
 }
 
 void StageHost::publishReady() {

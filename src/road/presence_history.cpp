@@ -80,8 +80,8 @@ void PresenceHistory::moveTo(const Pose2& base_in_map) {
   shift(presence_.right);
 }
 
-void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide which,
-                           double seconds, SidePresence& side) {
+void PresenceHistory::update(const std::vector<FollowedBorder>& borders, RoadSide which,
+                             double seconds, SidePresence& side) {
   updated_.assign(side.probability.size(), std::nullopt);
   const Pose2 map_in_base = vehicle_->inverse();
   for (const FollowedBorder& border : borders) {
@@ -119,8 +119,8 @@ void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide 
 void PresenceHistory::update(const std::vector<FollowedBorder>& borders, const Pose2& base_in_map,
                              double seconds) {
   moveTo(base_in_map);
-  take(borders, RoadSide::kLeft, seconds, presence_.left);
-  take(borders, RoadSide::kRight, seconds, presence_.right);
+  update(borders, RoadSide::kLeft, seconds, presence_.left);
+  update(borders, RoadSide::kRight, seconds, presence_.right);
 }
 
 }  // namespace datmo

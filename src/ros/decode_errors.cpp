@@ -26,8 +26,10 @@ Subscribers& subscribers() {
 
 }  // namespace
 
-DecodeErrors::DecodeErrors(ros::CallbackQueueInterface& queue, InputTopic topic, Take take)
-    : topic_(std::move(topic)), take_(std::move(take)), poster_(queue, [this] { deliver(); }) {
+DecodeErrors::DecodeErrors(ros::CallbackQueueInterface& queue, InputTopic topic, Callback callback)
+    : topic_(std::move(topic)),
+      callback_(std::move(callback)),
+      poster_(queue, [this] { deliver(); }) {
   Subscribers& others = subscribers();
   const std::lock_guard<std::mutex> lock(others.mutex);
   others.all.push_back(this);
@@ -46,7 +48,7 @@ void DecodeErrors::deliver() {
     errors.swap(waiting_);
   }
   for (const DecodeError& error : errors) {
-    take_(error);
+    callback_(error);
   }
 }
 

@@ -62,7 +62,7 @@ struct PixelImage {
 };
 
 template <typename Value>
-void takeIfThere(const YAML::Node& node, Value& value) {
+void readIfPresent(const YAML::Node& node, Value& value) {
   if (node) {
     value = node.as<Value>();
   }
@@ -92,10 +92,10 @@ MapDescription readDescription(const std::string& file) {
     description.resolution = yaml["resolution"].as<double>();
     const auto origin = yaml["origin"].as<std::vector<double>>();
     description.origin = {origin.at(0), origin.at(1), origin.at(2)};
-    takeIfThere(yaml["negate"], description.negate);
-    takeIfThere(yaml["occupied_thresh"], description.occupied_above);
-    takeIfThere(yaml["free_thresh"], description.free_below);
-    takeIfThere(yaml["mode"], description.mode);
+    readIfPresent(yaml["negate"], description.negate);
+    readIfPresent(yaml["occupied_thresh"], description.occupied_above);
+    readIfPresent(yaml["free_thresh"], description.free_below);
+    readIfPresent(yaml["mode"], description.mode);
   } catch (const std::exception& error) {
     throw MapFileError(file + ": not a yaml file of map_server (" + error.what() +
                        "): expected image, resolution and origin");

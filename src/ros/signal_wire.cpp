@@ -101,7 +101,7 @@ void SignalWire::received(std::string_view bytes, Stamp now) {
   }
   last_ = now;
   try {
-    is_map ? takeMaps(bytes, now) : takeSignals(bytes, now);
+    is_map ? handleMaps(bytes, now) : handleSignals(bytes, now);
   } catch (const WireError& error) {
     monitor_.dropped(InputError(error.reason(), error.what()));
   }
@@ -110,13 +110,13 @@ void SignalWire::received(std::string_view bytes, Stamp now) {
   monitor_.figure("intersections with traffic lights", static_cast<double>(signals_.size()));
 }
 
-void SignalWire::takeMaps(std::string_view bytes, Stamp now) {
+void SignalWire::handleMaps(std::string_view bytes, Stamp now) {
   for (const MapIntersection& intersection : decodeMapem(bytes).intersections) {
     maps_[intersection.id] = {now, intersection};
   }
 }
 
-void SignalWire::takeSignals(std::string_view bytes, Stamp now) {
+void SignalWire::handleSignals(std::string_view bytes, Stamp now) {
   const Spatem message = decodeSpatem(bytes);
   for (const SpatIntersection& intersection : message.intersections) {
     try {

@@ -92,7 +92,7 @@ class DriverPanel : public rviz::Panel {
     // First, as a new configuration may exchange the two topics, and each has one type.
     risks_.unsubscribe();
     tracks_.unsubscribe();
-    risks_.subscribe(node, [this](const RiskArrayConstPtr& message) { takeRisks(*message); });
+    risks_.subscribe(node, [this](const RiskArrayConstPtr& message) { handleRisks(*message); });
     tracks_.subscribe(node, [this](const TrackArrayConstPtr& message) { last_tracks_ = message; });
     checkTopics();
   }
@@ -104,7 +104,7 @@ class DriverPanel : public rviz::Panel {
     setToolTip(QString::fromStdString(risks + separator + tracks));
   }
 
-  void takeRisks(const RiskArray& risks) {
+  void handleRisks(const RiskArray& risks) {
     view_ = driverViewOf(risks, last_tracks_.get());
     received_at_ = secondsNow();
     update();
@@ -136,12 +136,13 @@ class SourcesPanel : public rviz::Panel {
 
   void onInitialize() override {
     diagnostics_ =
-        windowNode(*vis_manager_).subscribe("/diagnostics", kPanelQueue, &SourcesPanel::take, this);
+        windowNode(*vis_manager_)
+            .subscribe("/diagnostics", kPanelQueue, &SourcesPanel::handleDiagnostics, this);
   }
 
  private:
-  void take(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
-    sources_.take(*message, secondsNow());
+  void handleDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+    sources_.update(*message, secondsNow());
   }
 
   void fill() {

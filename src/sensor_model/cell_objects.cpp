@@ -9,7 +9,7 @@ namespace datmo {
 namespace {
 
 /// Extracts the object that a cell belongs to from the remaining cells.
-std::vector<CellIndex> takeObject(CellIndex seed, RollingGrid<char>& left) {
+std::vector<CellIndex> extractObject(CellIndex seed, RollingGrid<char>& left) {
   std::vector<CellIndex> object = {seed};
   left.at(seed) = 0;
   for (std::size_t i = 0; i < object.size(); ++i) {
@@ -35,7 +35,7 @@ std::vector<std::vector<CellIndex>> objectsOf(const std::vector<CellIndex>& cell
   std::vector<std::vector<CellIndex>> objects;
   for (const CellIndex cell : cells) {
     if (left.at(cell) != 0) {
-      objects.push_back(takeObject(cell, left));
+      objects.push_back(extractObject(cell, left));
     }
   }
   return objects;

@@ -117,7 +117,7 @@ double StereoAlignmentFilter::newShare(double seconds, const Twist2& twist) cons
       1.0, moved / options_.surface_distance + std::max(0.0, seconds) / options_.surface_time);
 }
 
-void StereoAlignmentFilter::takeFrozen(Stamp stamp) {
+void StereoAlignmentFilter::handleFrozen(Stamp stamp) {
   alignment_.stamp = stamp;
   alignment_.usable = false;
 }

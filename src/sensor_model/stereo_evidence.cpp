@@ -42,8 +42,8 @@ int roundedUp(double value) {
 
 }  // namespace
 
-void StereoEvidence::take(const StereoCloud& cloud, const StereoView& view,
-                          const EvidenceLimits& limits) {
+void StereoEvidence::add(const StereoCloud& cloud, const StereoView& view,
+                         const EvidenceLimits& limits) {
   prepare(cloud.camera, limits);
   addPoints(cloud, view, limits);
   pixels_per_line_ = pixelsPerLine();

@@ -28,7 +28,7 @@ struct EvidenceLimits {
 class StereoEvidence {
  public:
   /// Replaces the contents by the cloud's points. `view`: of this cloud.
-  void take(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
+  void add(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
 
   /// Returns the surface (m^2) in the layer of obstacles that is seen between two depths (m),
   /// within `half_width` (m) to either side of a point in view.

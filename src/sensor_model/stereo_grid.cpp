@@ -92,7 +92,7 @@ StereoGridResult StereoGridModel::grid(const StereoCloud& cloud) {
   result.road_seen = road_.update(cloud).has_value();
   result.road = road_.last();
   const StereoView view(cloud, result.road);
-  evidence_->take(cloud, view, limitsOf(options_, cloud));
+  evidence_->add(cloud, view, limitsOf(options_, cloud));
   StereoColumns(options_, cloud.camera, view, field, *evidence_).fill(result.grid);
   result.points = evidence_->points();
   result.in_layer = evidence_->inLayer();

@@ -61,7 +61,7 @@ std::vector<SurfacePair> SurfacePairFinder::find(const StereoCloud& cloud,
                                                  const StereoAlignment& expected,
                                                  const Twist2& twist) {
   const StereoView view(cloud, RoadPlane());
-  takePoints(cloud, view);
+  addPoints(cloud, view);
   std::vector<SurfacePair> pairs;
   for (const Piece& piece : piecesOf(rays, view)) {
     add(piece, cloud.camera, expected, twist, pairs);
@@ -69,7 +69,7 @@ std::vector<SurfacePair> SurfacePairFinder::find(const StereoCloud& cloud,
   return pairs;
 }
 
-void SurfacePairFinder::takePoints(const StereoCloud& cloud, const StereoView& view) {
+void SurfacePairFinder::addPoints(const StereoCloud& cloud, const StereoView& view) {
   left_ = cloud.camera.left_tangent;
   per_tangent_ = kColumns / (cloud.camera.right_tangent - cloud.camera.left_tangent);
   for (std::vector<InView>& column : columns_) {

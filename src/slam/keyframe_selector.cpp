@@ -52,7 +52,7 @@ KeyframeSelector::Use KeyframeSelector::startAt(Stamp stamp,
   return Use::kFirst;
 }
 
-KeyframeSelector::Use KeyframeSelector::take(Stamp stamp, const PoseWithCovariance& base_in_map) {
+KeyframeSelector::Use KeyframeSelector::select(Stamp stamp, const PoseWithCovariance& base_in_map) {
   const Pose2& pose = base_in_map.pose;
   const Eigen::Matrix3d expected =
       last_ ? withLeverArm(last_->covariance, pose.position() - last_->pose.position())

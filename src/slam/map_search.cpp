@@ -160,7 +160,7 @@ bool MapSearch::areAllSameHypothesis() const {
                      [this](const Box& leaf) { return isSameHypothesis(leaf); });
 }
 
-MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
+MapSearch::Outcome MapSearch::evaluateLeaf(const Box& leaf) {
   if (leaves_.empty() && leaf.contradicted > options_.max_changed_share) {
     return Outcome::kNone;
   }
@@ -205,7 +205,7 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
     Box box = open_.top();
     open_.pop();
     if (box.half.isZero()) {
-      outcome_ = takeLeaf(box);
+      outcome_ = evaluateLeaf(box);
     } else if (isLeaf(box)) {
       // Its center represents the whole box: the tolerance of surfaces is larger than the box.
       box.half.setZero();

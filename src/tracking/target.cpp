@@ -91,10 +91,10 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       height_(object.height),
       motion_log_odds_(object.motion_log_odds),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
-  takeClass(object, options);
+  updateClass(object, options);
   seen_points_.add(object, 0.0, options.motion_likelihood.window);
   if (object.velocity) {
-    takeVelocity(*object.velocity, options);
+    updateVelocity(*object.velocity, options);
   }
 }
 
@@ -114,7 +114,7 @@ void Target::update(const Observation& observation, std::size_t index, double de
   existence_.detect(likelihood, detection_probability, observation.log_density, object.log_odds,
                     options.existence);
   if (object.velocity) {
-    takeVelocity(*object.velocity, options);
+    updateVelocity(*object.velocity, options);
   }
   const Point2 shift = box_.update(object, since_update_, options.box);
   filter_.shift(shift);
@@ -134,7 +134,7 @@ void Target::update(const Observation& observation, std::size_t index, double de
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
-  takeClass(object, options);
+  updateClass(object, options);
   if (!confirmed()) {
     seen_points_.add(object, age_, options.motion_likelihood.window);
   }
@@ -188,7 +188,7 @@ void Target::confirm(std::uint64_t order, bool moves) {
   seen_points_.clear();
 }
 
-void Target::takeClass(const Object& object, const TargetOptions& options) {
+void Target::updateClass(const Object& object, const TargetOptions& options) {
   class_.update(object.class_probabilities);
   if (options.hasClassBySize(object)) {
     class_by_size_.update(object.class_probabilities);
@@ -197,7 +197,7 @@ void Target::takeClass(const Object& object, const TargetOptions& options) {
 
 /// The measured velocity is its own, or of something else: then it is distributed as that of a new
 /// object, and the measurement is ignored if this explains it better.
-void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
+void Target::updateVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
   const double wrong =
       std::max(options.motion_likelihood.wrong_velocity, measured.wrong_probability);
   const Eigen::Matrix2d of_new = square(options.birth_speed_std) * Eigen::Matrix2d::Identity();

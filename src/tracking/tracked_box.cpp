@@ -215,7 +215,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
     sign_known_ = false;
     ahead_ = 0.0;
   }
-  takeFrontAhead(direction, speed, options);
+  setFrontAhead(direction, speed, options);
   // Velocities of successive scans are not independent measurements of the heading: keep the best.
   if (variance < heading_variance_) {
     setHeading(nearerDirection(direction, heading_));
@@ -248,7 +248,7 @@ Eigen::Vector2d TrackedBox::offset() const {
 }
 
 /// The first motion is forward, and so is fast motion; otherwise it may be reversing.
-void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options) {
+void TrackedBox::setFrontAhead(double direction, double speed, const TrackedBoxOptions& options) {
   const bool backward = std::cos(direction - heading_) < 0.0;
   ahead_ += backward ? -since_velocity_ : since_velocity_;
   if (backward && (!sign_known_ || speed > options.reverse_speed || ahead_ < 0.0)) {

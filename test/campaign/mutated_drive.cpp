@@ -190,17 +190,17 @@ void MutatedDrive::deliver(const Publication& message, std::uint64_t mutated_bef
   const double begin = processorSeconds();
   try {
     if (message.topic == "/tf_static") {
-      runner_.takeStaticTransforms(
+      runner_.handleStaticTransforms(
           *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)));
     } else if (message.topic == "/tf") {
-      take(runner_.takeTransforms(
+      take(runner_.handleTransforms(
           *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)), now_));
     } else if (message.topic == kClock) {
-      clocks_.take(*boost::static_pointer_cast<const PartClock>(givenFor(message)), now_);
+      clocks_.addAnswer(*boost::static_pointer_cast<const PartClock>(givenFor(message)), now_);
       clocks_.judged({}, now_);
       clocks_.descriptions(now_);
     } else {
-      take(runner_.take(message, now_));
+      take(runner_.handle(message, now_));
     }
   } catch (const std::exception& error) {
     note(std::string("an exception left the graph: ") + error.what());

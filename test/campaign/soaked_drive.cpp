@@ -56,7 +56,7 @@ tf2_msgs::TFMessage listOf(std::vector<geometry_msgs::TransformStamped> transfor
 
 SoakedDrive::SoakedDrive(const std::string& config, int max_tiles)
     : runner_(sensorsOf(config, max_tiles), allLevels()) {
-  runner_.takeStaticTransforms(listOf({world_.scannerInBase(), world_.cameraInBase()}));
+  runner_.handleStaticTransforms(listOf({world_.scannerInBase(), world_.cameraInBase()}));
 }
 
 SoakSample SoakedDrive::nextMinute() {
@@ -81,7 +81,7 @@ SoakSample SoakedDrive::nextMinute() {
 void SoakedDrive::step(bool with_cloud) {
   const double seconds = static_cast<double>(steps_) / kStepsPerSecond;
   const Stamp now = Stamp::fromSeconds(World::kStart + seconds);
-  take(runner_.takeTransforms(listOf({world_.baseInOdom(seconds)}), now));
+  take(runner_.handleTransforms(listOf({world_.baseInOdom(seconds)}), now));
   send("odometry", world_.odometry(seconds));
   if (with_cloud) {
     send("stereo/right/camera_info", World::rightCameraInfo());
@@ -97,8 +97,8 @@ void SoakedDrive::step(bool with_cloud) {
 template <typename Message>
 void SoakedDrive::send(const std::string& topic, const Message& message) {
   const double seconds = static_cast<double>(steps_) / kStepsPerSecond;
-  take(runner_.take(topic, boost::shared_ptr<const Message>(boost::make_shared<Message>(message)),
-                    Stamp::fromSeconds(World::kStart + seconds)));
+  take(runner_.handle(topic, boost::shared_ptr<const Message>(boost::make_shared<Message>(message)),
+                      Stamp::fromSeconds(World::kStart + seconds)));
 }
 
 void SoakedDrive::take(const Publications& published) {

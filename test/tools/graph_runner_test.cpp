@@ -30,11 +30,11 @@ TEST_F(GraphRunnerTest, AChangeIsCalledOncePerMessageAndNullDropsIt) {
     }
     return count;
   };
-  graph.take("odometry", odometry, kStart);
+  graph.handle("odometry", odometry, kStart);
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(receivers(), 0);
   given = odometry;
-  graph.take("odometry", odometry, kStart);
+  graph.handle("odometry", odometry, kStart);
   EXPECT_EQ(asked, 2);
   EXPECT_GE(receivers(), 2);
 }

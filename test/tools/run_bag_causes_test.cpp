@@ -54,13 +54,14 @@ class RunBagCauses : public RunBag {
                 scanAt(stamp)};
       cause.spoil(sent);
       if (sent.odometry) {
-        graph.take("odometry", boost::make_shared<const nav_msgs::Odometry>(*sent.odometry), stamp);
+        graph.handle("odometry", boost::make_shared<const nav_msgs::Odometry>(*sent.odometry),
+                     stamp);
       }
       if (sent.transform) {
-        graph.takeTransforms(*sent.transform, stamp);
+        graph.handleTransforms(*sent.transform, stamp);
       }
       if (sent.scan) {
-        graph.take("scan", boost::make_shared<const sensor_msgs::LaserScan>(*sent.scan), stamp);
+        graph.handle("scan", boost::make_shared<const sensor_msgs::LaserScan>(*sent.scan), stamp);
       }
     }
     return stackHealth(graph.states(stamp), "tracks");

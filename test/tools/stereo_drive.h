@@ -71,12 +71,12 @@ class StereoRunBag : public RunBag {
     options.disparity_range = 32;
     StereoImages images(options, monitor);
     append([&](rosbag::Bag& bag, Stamp stamp) {
-      images.takeImage(StereoSide::kLeft, sample_.image(stamp, false, "mono8"));
-      images.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));
-      images.takeImage(StereoSide::kRight, sample_.image(stamp, true, "mono8"));
+      images.handleImage(StereoSide::kLeft, sample_.image(stamp, false, "mono8"));
+      images.handleInfo(StereoSide::kLeft, sample_.info(stamp, false));
+      images.handleImage(StereoSide::kRight, sample_.image(stamp, true, "mono8"));
       bag.write("/stereo/right/camera_info", toTime(stamp), sample_.info(stamp, true));
       bag.write("/stereo/points2", toTime(stamp),
-                images.takeInfo(StereoSide::kRight, sample_.info(stamp, true)));
+                images.handleInfo(StereoSide::kRight, sample_.info(stamp, true)));
     });
   }
 

@@ -59,10 +59,10 @@ class StereoImagesTest : public testing::Test {
     if (change) {
       change(*image, *info);
     }
-    stage.takeImage(StereoSide::kRight, image);
-    stage.takeInfo(StereoSide::kRight, info);
-    stage.takeImage(StereoSide::kLeft, sample_.image(stamp, false, encoding));
-    return stage.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));
+    stage.handleImage(StereoSide::kRight, image);
+    stage.handleInfo(StereoSide::kRight, info);
+    stage.handleImage(StereoSide::kLeft, sample_.image(stamp, false, encoding));
+    return stage.handleInfo(StereoSide::kLeft, sample_.info(stamp, false));
   }
 
   /// Expects that the pair is dropped for this reason, and the next one is processed.
@@ -196,7 +196,7 @@ TEST_F(StereoImagesTest, LoopedBagStartsOver) {
 TEST_F(StereoImagesTest, ImagesWithoutPartnerAreCounted) {
   StageMonitor monitor("stereo_images");
   StereoImages stage(semiGlobal(), monitor);
-  stage.takeImage(StereoSide::kLeft, sample_.image(kStart, false, "mono8"));
+  stage.handleImage(StereoSide::kLeft, sample_.image(kStart, false, "mono8"));
   EXPECT_TRUE(take(stage, kStart + 0.1));
   EXPECT_EQ(monitor.warnings().at("unpaired_image"), 1U);
 }

@@ -21,17 +21,17 @@ boost::shared_ptr<Message> at(Stamp stamp) {
   return message;
 }
 
-std::optional<StereoPair> takeFrame(StereoPairs& pairs, StereoSide side, Stamp stamp) {
-  EXPECT_FALSE(pairs.takeImage(side, at<sensor_msgs::Image>(stamp)));
-  return pairs.takeInfo(side, at<sensor_msgs::CameraInfo>(stamp));
+std::optional<StereoPair> handleFrame(StereoPairs& pairs, StereoSide side, Stamp stamp) {
+  EXPECT_FALSE(pairs.handleImage(side, at<sensor_msgs::Image>(stamp)));
+  return pairs.handleInfo(side, at<sensor_msgs::CameraInfo>(stamp));
 }
 
 TEST(StereoPairs, AllFourMessagesOfAStampAreAPair) {
   StereoPairs pairs(0.0);
-  EXPECT_FALSE(pairs.takeInfo(StereoSide::kRight, at<sensor_msgs::CameraInfo>(kStart)));
-  EXPECT_FALSE(pairs.takeInfo(StereoSide::kLeft, at<sensor_msgs::CameraInfo>(kStart)));
-  EXPECT_FALSE(pairs.takeImage(StereoSide::kLeft, at<sensor_msgs::Image>(kStart)));
-  const auto pair = pairs.takeImage(StereoSide::kRight, at<sensor_msgs::Image>(kStart));
+  EXPECT_FALSE(pairs.handleInfo(StereoSide::kRight, at<sensor_msgs::CameraInfo>(kStart)));
+  EXPECT_FALSE(pairs.handleInfo(StereoSide::kLeft, at<sensor_msgs::CameraInfo>(kStart)));
+  EXPECT_FALSE(pairs.handleImage(StereoSide::kLeft, at<sensor_msgs::Image>(kStart)));
+  const auto pair = pairs.handleImage(StereoSide::kRight, at<sensor_msgs::Image>(kStart));
   ASSERT_TRUE(pair);
   EXPECT_TRUE(pair->left.complete());
   EXPECT_TRUE(pair->right.complete());
@@ -41,22 +41,22 @@ TEST(StereoPairs, AllFourMessagesOfAStampAreAPair) {
 TEST(StereoPairs, StampsMayDifferByTheTolerance) {
   for (const double difference : {-0.009, 0.009}) {
     StereoPairs pairs(kTolerance);
-    EXPECT_FALSE(takeFrame(pairs, StereoSide::kLeft, kStart));
-    const auto pair = takeFrame(pairs, StereoSide::kRight, kStart + difference);
+    EXPECT_FALSE(handleFrame(pairs, StereoSide::kLeft, kStart));
+    const auto pair = handleFrame(pairs, StereoSide::kRight, kStart + difference);
     ASSERT_TRUE(pair) << difference;
     EXPECT_EQ(pair->left.stamp, kStart);
     EXPECT_EQ(pair->right.stamp, kStart + difference);
   }
   StereoPairs pairs(kTolerance);
-  takeFrame(pairs, StereoSide::kLeft, kStart);
-  EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart + 0.011));
+  handleFrame(pairs, StereoSide::kLeft, kStart);
+  EXPECT_FALSE(handleFrame(pairs, StereoSide::kRight, kStart + 0.011));
 }
 
 TEST(StereoPairs, FrameWithoutPartnerIsDroppedWithTheNextPair) {
   StereoPairs pairs(kTolerance);
-  takeFrame(pairs, StereoSide::kLeft, kStart);
-  takeFrame(pairs, StereoSide::kLeft, kStart + kPeriod);
-  EXPECT_TRUE(takeFrame(pairs, StereoSide::kRight, kStart + kPeriod));
+  handleFrame(pairs, StereoSide::kLeft, kStart);
+  handleFrame(pairs, StereoSide::kLeft, kStart + kPeriod);
+  EXPECT_TRUE(handleFrame(pairs, StereoSide::kRight, kStart + kPeriod));
   EXPECT_EQ(pairs.unpaired(), 1U);
 }
 
@@ -64,23 +64,23 @@ TEST(StereoPairs, OneCameraAloneFillsNoMemory) {
   StereoPairs pairs(kTolerance);
   constexpr int kFrames = 100;
   for (int i = 0; i < kFrames; ++i) {
-    EXPECT_FALSE(takeFrame(pairs, StereoSide::kLeft, kStart + i * kPeriod));
+    EXPECT_FALSE(handleFrame(pairs, StereoSide::kLeft, kStart + i * kPeriod));
   }
   EXPECT_EQ(pairs.unpaired(), 95U);  // five wait
-  EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart));
-  EXPECT_TRUE(takeFrame(pairs, StereoSide::kRight, kStart + 99 * kPeriod));
+  EXPECT_FALSE(handleFrame(pairs, StereoSide::kRight, kStart));
+  EXPECT_TRUE(handleFrame(pairs, StereoSide::kRight, kStart + 99 * kPeriod));
 }
 
 TEST(StereoPairs, LateFrameOfAFullQueueIsDroppedItself) {
   StereoPairs pairs(kTolerance);
   for (int i = 1; i <= 5; ++i) {
-    takeFrame(pairs, StereoSide::kLeft, kStart + i * kPeriod);
+    handleFrame(pairs, StereoSide::kLeft, kStart + i * kPeriod);
   }
-  EXPECT_FALSE(takeFrame(pairs, StereoSide::kLeft, kStart));
-  EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart));
+  EXPECT_FALSE(handleFrame(pairs, StereoSide::kLeft, kStart));
+  EXPECT_FALSE(handleFrame(pairs, StereoSide::kRight, kStart));
   for (int i = 1; i <= 5; ++i) {
     const Stamp stamp = kStart + i * kPeriod;
-    const auto pair = takeFrame(pairs, StereoSide::kRight, stamp);
+    const auto pair = handleFrame(pairs, StereoSide::kRight, stamp);
     ASSERT_TRUE(pair) << i;
     EXPECT_EQ(pair->left.stamp, stamp);
     EXPECT_EQ(toStamp(pair->left.image->header.stamp), stamp);
@@ -90,9 +90,9 @@ TEST(StereoPairs, LateFrameOfAFullQueueIsDroppedItself) {
 
 TEST(StereoPairs, NothingIsLeftAfterClear) {
   StereoPairs pairs(kTolerance);
-  takeFrame(pairs, StereoSide::kLeft, kStart);
+  handleFrame(pairs, StereoSide::kLeft, kStart);
   pairs.clear();
-  EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart));
+  EXPECT_FALSE(handleFrame(pairs, StereoSide::kRight, kStart));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ class CloudConversion {
       if (interrupted()) {
         throw std::runtime_error("interrupted");
       }
-      take(message);
+      handle(message);
     }
     if (result_.scans == 0) {
       throw NoUsableInput(arguments_.input + ": none of " + std::to_string(result_.dropped) +
@@ -83,22 +83,22 @@ class CloudConversion {
     }
   }
 
-  void take(const rosbag::MessageInstance& message) {
+  void handle(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
     monitor_.setTime(toStamp(message.getTime()));
     if (topic == kTransforms) {
       transforms_.add(*plain<tf2_msgs::TFMessage>(message));
     }
     if (topic == arguments_.cloud_topic) {
-      takeCloud(message);
+      handleCloud(message);
     }
     if (topic != arguments_.cloud_topic || arguments_.keep_clouds) {
       output_.copy(message);
     }
   }
 
-  void takeCloud(const rosbag::MessageInstance& message) {
-    const auto scan = stage_.takeCloud(*plain<sensor_msgs::PointCloud2>(message));
+  void handleCloud(const rosbag::MessageInstance& message) {
+    const auto scan = stage_.handleCloud(*plain<sensor_msgs::PointCloud2>(message));
     if (!scan) {
       ++result_.dropped;
       return;

@@ -28,10 +28,11 @@ class TopicReader {
 
   bool isThere() const { return holdsTopic(bag_, topic_); }
 
-  /// Calls `take` with each message, in the order of their record times; exceptions of `take` are
-  /// rethrown with the location. Throws if there is no message, and after an interruption.
-  template <typename Message, typename Take>
-  void forEach(const Take& take) {
+  /// Calls `callback` with each message, in the order of their record times; exceptions of
+  /// `callback` are rethrown with the location. Throws if there is no message, and after an
+  /// interruption.
+  template <typename Message, typename Callback>
+  void forEach(const Callback& callback) {
     if (!isThere()) {
       failForTopic(bag_,
                    std::string("no ") + ros::message_traits::datatype<Message>() + " on " + topic_);
@@ -44,7 +45,7 @@ class TopicReader {
         location = topic_;
         const auto message = read<Message>(instance);
         location += " at " + std::to_string(message->header.stamp.toSec()) + " s";
-        take(*message);
+        callback(*message);
       }
     } catch (const std::exception& error) {
       fail(location, error.what());

@@ -60,13 +60,13 @@ class Runner {
   SequenceRun run() {
     for (std::size_t frame = 0; frame < run_.frames; ++frame) {
       const double seconds = static_cast<double>(frame) * options_.frame_period;
-      takeFrame(frame, Stamp::fromSeconds(seconds));
+      handleFrame(frame, Stamp::fromSeconds(seconds));
     }
     return std::move(run_);
   }
 
  private:
-  void takeFrame(std::size_t frame, Stamp stamp) {
+  void handleFrame(std::size_t frame, Stamp stamp) {
     std::vector<ObjectList> objects;
     for (std::size_t i = 0; i < kTrackedClasses; ++i) {
       objects.push_back(classes_[i].objects(detections_[i][frame], stamp));

@@ -64,7 +64,7 @@ void carry(rosbag::View& view, const InputTopics& topics, BagToGraph& run, std::
     if (interrupted()) {
       throw std::runtime_error("interrupted, no bag written");
     }
-    run.take(message);
+    run.handle(message);
     const double done = (order.first - view.getBeginTime()).toSec();
     bar.show(length > 0.0 ? done / length : 1.0, speedNote(done, watch.seconds()));
   }
@@ -168,7 +168,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   DriveSummary drive;
   BagToGraph run(topics, graph, drive, output, arguments);
 
-  run.takeStaticTransforms(bag);
+  run.handleStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
   const Stopwatch watch;
   try {

@@ -61,15 +61,15 @@ void BagToGraph::readSources(const InputTopics& topics) {
   }
 }
 
-void BagToGraph::takeStaticTransforms(const rosbag::Bag& bag) {
+void BagToGraph::handleStaticTransforms(const rosbag::Bag& bag) {
   rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
   for (const rosbag::MessageInstance& message : view) {
     guarded(graph_.inputs(), message.getTopic(),
-            [&] { graph_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message)); });
+            [&] { graph_.handleStaticTransforms(*plain<tf2_msgs::TFMessage>(message)); });
   }
 }
 
-void BagToGraph::take(const rosbag::MessageInstance& message) {
+void BagToGraph::handle(const rosbag::MessageInstance& message) {
   const auto readers = readers_.find(message.getTopic());
   if (readers == readers_.end()) {
     bool is_whole = false;
@@ -95,7 +95,7 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
 
 void BagToGraph::readMotion(const InputTopics& topics) {
   readers_["/tf"]["tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
-    return graph_.takeTransforms(*plain<tf2_msgs::TFMessage>(message), now);
+    return graph_.handleTransforms(*plain<tf2_msgs::TFMessage>(message), now);
   };
   const MotionTopics& motion = topics.motion;
   on<nav_msgs::Odometry>(motion.odometry, "odometry");

@@ -30,10 +30,10 @@ class BagToGraph {
              const Arguments& arguments);
 
   /// Of the whole bag, regardless of their position in it.
-  void takeStaticTransforms(const rosbag::Bag& bag);
+  void handleStaticTransforms(const rosbag::Bag& bag);
 
   /// A message on a topic that no stage reads is copied.
-  void take(const rosbag::MessageInstance& message);
+  void handle(const rosbag::MessageInstance& message);
 
   /// `end`: end of the bag.
   void finish(const ros::Time& end) { write(end, graph_.finish(toStamp(end))); }
@@ -52,7 +52,7 @@ class BagToGraph {
     if (!topic.empty()) {
       readers_[topic].try_emplace(
           graph_topic, [this, graph_topic](const rosbag::MessageInstance& message, Stamp now) {
-            return graph_.take(graph_topic, plain<Message>(message), now);
+            return graph_.handle(graph_topic, plain<Message>(message), now);
           });
     }
   }

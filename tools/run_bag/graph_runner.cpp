@@ -86,7 +86,7 @@ void GraphRunner::addStage(const GraphStage& row, const SensorSet& sensors) {
   nodes_.push_back(std::move(node));
 }
 
-void GraphRunner::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
+void GraphRunner::handleStaticTransforms(const tf2_msgs::TFMessage& message) {
   transforms_.addStatic(message);
 }
 
@@ -96,7 +96,7 @@ bool GraphRunner::isFromSlam(const geometry_msgs::TransformStamped& transform) c
          (!shared_.motion.fromOdometry() && transform.child_frame_id == frames.base);
 }
 
-Publications GraphRunner::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
+Publications GraphRunner::handleTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
   tf2_msgs::TFMessage others = message;
   auto& transforms = others.transforms;
   transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
@@ -107,7 +107,7 @@ Publications GraphRunner::takeTransforms(const tf2_msgs::TFMessage& message, Sta
   return settle(now);
 }
 
-Publications GraphRunner::take(const Publication& message, Stamp now) {
+Publications GraphRunner::handle(const Publication& message, Stamp now) {
   deliver(message);
   return settle(now);
 }
@@ -137,10 +137,10 @@ void GraphRunner::serveNext(Stamp now) {
   const auto& [stage, input, age] = first->first;
   Node& node = nodes_[stage];
   const AnyMessage message = first->second;
-  const StageInput::Take& take = node.inputs[input].take;
+  const StageInput::Callback& callback = node.inputs[input].callback;
   waiting_.erase(first);
   node.monitor->received(node.inputs[input].booked_as, now);
-  guarded(*node.monitor, node.inputs[input].topic, [&] { take(message, now); });
+  guarded(*node.monitor, node.inputs[input].topic, [&] { callback(message, now); });
   bookTime(node);
 }
 

@@ -60,20 +60,20 @@ class GraphRunner {
   using Change = std::function<AnyMessage(const Publication& message)>;
   void changeInputs(Change change) { change_ = std::move(change); }
 
-  void takeStaticTransforms(const tf2_msgs::TFMessage& message);
+  void handleStaticTransforms(const tf2_msgs::TFMessage& message);
 
   /// Transforms that grid_slam publishes itself are ignored, as a bag of an earlier run may contain
   /// them. This and the following functions return the results, in the order in which they were
   /// published. `now`: arrival time of the message.
-  Publications takeTransforms(const tf2_msgs::TFMessage& message, Stamp now);
+  Publications handleTransforms(const tf2_msgs::TFMessage& message, Stamp now);
 
   /// A message on one of the graph's topics.
   template <typename Message>
-  Publications take(const std::string& topic, const boost::shared_ptr<const Message>& message,
-                    Stamp now) {
-    return take({topic, ros::message_traits::datatype<Message>(), message}, now);
+  Publications handle(const std::string& topic, const boost::shared_ptr<const Message>& message,
+                      Stamp now) {
+    return handle({topic, ros::message_traits::datatype<Message>(), message}, now);
   }
-  Publications take(const Publication& message, Stamp now);
+  Publications handle(const Publication& message, Stamp now);
 
   /// The remaining results if the last message arrived at `now`: nothing waits any longer.
   Publications finish(Stamp now);

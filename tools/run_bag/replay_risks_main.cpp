@@ -149,7 +149,7 @@ class Replay {
     readers_.push_back([this, graph_topic](const rosbag::MessageInstance& message) {
       const boost::shared_ptr<const Message> plain =
           withPlainFrames<Message>(message.getTopic(), read<Message>(message), graph_.inputs());
-      return graph_.take(graph_topic, plain, toStamp(message.getTime()));
+      return graph_.handle(graph_topic, plain, toStamp(message.getTime()));
     });
   }
 

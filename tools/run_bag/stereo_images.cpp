@@ -61,18 +61,18 @@ StereoImages::StereoImages(const StereoImagesOptions& options, StageMonitor& mon
 
 StereoImages::~StereoImages() = default;
 
-sensor_msgs::PointCloud2Ptr StereoImages::takeImage(StereoSide side,
-                                                    const sensor_msgs::ImageConstPtr& image) {
+sensor_msgs::PointCloud2Ptr StereoImages::handleImage(StereoSide side,
+                                                      const sensor_msgs::ImageConstPtr& image) {
   return runner_.serve([&] {
     runner_.check(side == StereoSide::kLeft ? "left" : "right", image->header.stamp);
     checkImage(*image);
-    return serve(pairs_.takeImage(side, image));
+    return serve(pairs_.handleImage(side, image));
   });
 }
 
-sensor_msgs::PointCloud2Ptr StereoImages::takeInfo(StereoSide side,
-                                                   const sensor_msgs::CameraInfoConstPtr& info) {
-  return runner_.serve([&] { return serve(pairs_.takeInfo(side, info)); });
+sensor_msgs::PointCloud2Ptr StereoImages::handleInfo(StereoSide side,
+                                                     const sensor_msgs::CameraInfoConstPtr& info) {
+  return runner_.serve([&] { return serve(pairs_.handleInfo(side, info)); });
 }
 
 sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>& pair) {

@@ -38,9 +38,9 @@ class StereoImages : public Stage {
 
   /// The cloud of the pair that the message completes; null if there is none. An image is mono8,
   /// rgb8 or bgr8.
-  sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
-  sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
-                                       const sensor_msgs::CameraInfoConstPtr& info);
+  sensor_msgs::PointCloud2Ptr handleImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  sensor_msgs::PointCloud2Ptr handleInfo(StereoSide side,
+                                         const sensor_msgs::CameraInfoConstPtr& info);
 
   void connect(StagePorts& ports) override;
 

@@ -124,17 +124,17 @@ std::optional<RayHit> LaserScanner::castSubRay(const RayCaster& caster, double h
                                                const BeamFaults& faults) const {
   double reach = std::min(options_.effective_range, options_.max_range);
   std::optional<RayHit> nearest = caster.nearest(heading, band, Surface::kBody, reach);
-  const auto take = [&](Surface surface, double farthest) {
+  const auto add = [&](Surface surface, double farthest) {
     reach = std::min(nearest ? nearest->range : reach, farthest);
     if (const auto hit = caster.nearest(heading, band, surface, reach)) {
       nearest = hit;
     }
   };
   if (faults.curbs) {
-    take(Surface::kCurb, reach);
+    add(Surface::kCurb, reach);
   }
   if (faults.paint) {
-    take(Surface::kPaint, options_.paint_range);
+    add(Surface::kPaint, options_.paint_range);
   }
   return nearest;
 }

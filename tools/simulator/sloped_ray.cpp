@@ -6,14 +6,14 @@ namespace datmo::simulator {
 std::optional<RayEnd> endOf(const SlopedRay& line, const std::vector<Passage>& passages) {
   std::optional<RayEnd> nearest;
   double reach = line.reach;
-  const auto take = [&](const RayEnd& end) {
+  const auto add = [&](const RayEnd& end) {
     if (end.range <= reach) {
       nearest = end;
       reach = end.range;
     }
   };
   if (line.fall > 0.0) {
-    take({line.height / line.fall, 0.0, nullptr});
+    add({line.height / line.fall, 0.0, nullptr});
   }
   for (const Passage& passage : passages) {
     if (passage.span.enter > reach) {
@@ -22,9 +22,9 @@ std::optional<RayEnd> endOf(const SlopedRay& line, const std::vector<Passage>& p
     const double height = line.height - line.fall * passage.span.enter;
     const double top = passage.solid->height;
     if (height <= top) {
-      take({passage.span.enter, height, passage.solid});
+      add({passage.span.enter, height, passage.solid});
     } else if (line.height - line.fall * passage.span.leave < top) {
-      take({(line.height - top) / line.fall, top, passage.solid});
+      add({(line.height - top) / line.fall, top, passage.solid});
     }
   }
   return nearest;

@@ -98,7 +98,7 @@ class SensorClock {
   /// Whether the clock that was set is the right one, as far as can be determined.
   bool isRight() const;
   void set(double ahead);
-  void takeAsRight();
+  void acceptStep();
   void restart(const Message& message);
 
   std::optional<Message> last_;

@@ -72,7 +72,7 @@ class CanMotion {
   /// Processes a frame that was received at the stamp, but not an error frame. Returns a motion if
   /// the frame completes one. Warns of `bad_frame` (too short), `bad_signal` (out of its limits),
   /// `frozen_counter`, `stale_signal`.
-  std::optional<Motion> take(const CanFrame& frame, Stamp stamp);
+  std::optional<Motion> update(const CanFrame& frame, Stamp stamp);
 
   /// Returns the id of the message that sets the pace, in readable form.
   std::string paceText() const { return toText(pace_); }

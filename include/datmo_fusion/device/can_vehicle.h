@@ -38,7 +38,7 @@ class CanVehicle : public Device {
   /// recording.
   CanFrame nextFrame();
   /// Throws DeviceError (`bus_off`) unless it is recorded; warns of other errors.
-  void takeError(std::uint32_t error) const;
+  void handleError(std::uint32_t error) const;
   DeviceMeasurement nextMotion();
 
   CanOpener open_;

@@ -53,7 +53,7 @@ class NmeaReceiver : public Device {
   /// Throws DeviceError if sentences with positions or velocities have been missing for too long.
   void checkHasPositions(const NmeaSentence& sentence);
   /// Updates the newest time, and returns whether the sentence belongs to it.
-  bool takeTime(const std::string& field);
+  bool readTime(const std::string& field);
   /// Returns whether a sentence that arrives now is closer to the next time than to the newest one.
   bool isOfNextTime() const;
 

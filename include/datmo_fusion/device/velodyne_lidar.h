@@ -56,9 +56,9 @@ class VelodyneLidar : public Device {
   bool isOf(const VelodyneModel& model, const VelodynePacket& packet) const;
   /// Returns whether a packet is older than the last one, or a duplicate; warns if so.
   bool isLate(const VelodynePacket& packet) const;
-  void takeTime(const VelodynePacket& packet);
+  void readTime(const VelodynePacket& packet);
   /// Processes the blocks of the packet up to the end of a turn, or of the packet.
-  std::optional<DeviceMeasurement> takeBlocks();
+  std::optional<DeviceMeasurement> readBlocks();
   std::optional<DeviceMeasurement> endTurn(std::size_t block);
 
   PacketOpener open_;

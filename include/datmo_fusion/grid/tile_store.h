@@ -39,7 +39,7 @@ class TileStore {
   void put(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
-      tile->second = takeFromFile(tile->first);
+      tile->second = loadFromFile(tile->first);
       order_.push_back(tile->first);
     }
     tile->second[slotOf(cell)] = content;
@@ -53,7 +53,7 @@ class TileStore {
   void putPermanently(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
-      tile->second = takeFromFile(tile->first);
+      tile->second = loadFromFile(tile->first);
     }
     tile->second[slotOf(cell)] = content;
   }
@@ -160,7 +160,7 @@ class TileStore {
   }
 
   /// Returns an empty tile if it is not there.
-  Tile takeFromFile(const Key& key) {
+  Tile loadFromFile(const Key& key) {
     std::optional<Tile> cells = readTile(key);
     const bool was_filed = filed_.erase(key) > 0;
     forgotten_ += was_filed && !cells ? 1 : 0;

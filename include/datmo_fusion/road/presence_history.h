@@ -36,8 +36,8 @@ class PresenceHistory {
  private:
   void moveTo(const Pose2& base_in_map);
   void shift(SidePresence& side) const;
-  void take(const std::vector<FollowedBorder>& borders, RoadSide which, double seconds,
-            SidePresence& side);
+  void update(const std::vector<FollowedBorder>& borders, RoadSide which, double seconds,
+              SidePresence& side);
 
   PresenceHistoryOptions options_;
   BorderPresence presence_;

@@ -34,20 +34,20 @@ struct DecodeError {
 /// the last one that waits, and as lost as well.
 class DecodeErrors {
  public:
-  using Take = std::function<void(const DecodeError& error)>;
+  using Callback = std::function<void(const DecodeError& error)>;
 
   /// `topic`: resolved. `queue`: that of the subscription, which must call one callback at a time,
-  /// and outlive this. `take` is called only in its callbacks, and must not throw.
-  DecodeErrors(ros::CallbackQueueInterface& queue, InputTopic topic, Take take);
+  /// and outlive this. `callback` is called only in its callbacks, and must not throw.
+  DecodeErrors(ros::CallbackQueueInterface& queue, InputTopic topic, Callback callback);
 
-  /// Afterward `take` is no longer called.
+  /// Afterward `callback` is no longer called.
   ~DecodeErrors();
   DecodeErrors(const DecodeErrors&) = delete;
   DecodeErrors& operator=(const DecodeErrors&) = delete;
 
-  /// Calls `take` with each new error. For the subscription's callback, before a message: an error
-  /// must be known before the gap that it leaves in the sequence numbers, and the call posted by
-  /// report() may be behind that message in the queue.
+  /// Calls `callback` with each new error. For the subscription's callback, before a message: an
+  /// error must be known before the gap that it leaves in the sequence numbers, and the call posted
+  /// by report() may be behind that message in the queue.
   void deliver();
 
   /// Reports an error to all subscriptions of this process to a topic. From any thread.
@@ -57,7 +57,7 @@ class DecodeErrors {
   void put(const DecodeError& error);
 
   InputTopic topic_;
-  Take take_;
+  Callback callback_;
   std::mutex mutex_;
   std::vector<DecodeError> waiting_;
   CallbackPoster poster_;  ///< last: destroyed before what its calls use

@@ -52,8 +52,8 @@ class SignalWire {
     MapIntersection intersection;
   };
 
-  void takeMaps(std::string_view bytes, Stamp now);
-  void takeSignals(std::string_view bytes, Stamp now);
+  void handleMaps(std::string_view bytes, Stamp now);
+  void handleSignals(std::string_view bytes, Stamp now);
   /// Throws InputError (`old_signals`, `future_signals`, `repeated_signals`).
   void keep(const Spatem& message, const SpatIntersection& intersection, Stamp now);
   void forgetOld(Stamp now);

@@ -75,33 +75,34 @@ class BoundedDecoder
 class Subscription {
  public:
   template <typename Message>
-  using Take = std::function<void(const boost::shared_ptr<const Message>& message)>;
+  using Callback = std::function<void(const boost::shared_ptr<const Message>& message)>;
   template <typename Message>
-  using TakeEvent = std::function<void(const ros::MessageEvent<const Message>& event)>;
+  using EventCallback = std::function<void(const ros::MessageEvent<const Message>& event)>;
 
   /// Subscribes to nothing.
   Subscription() = default;
 
-  /// Subscribes to a topic; `queue`: maximum number of waiting messages. `take` is called with each
-  /// message, in the callback queue of `node`, which must call one callback at a time. `monitor`
-  /// must outlive the subscription.
+  /// Subscribes to a topic; `queue`: maximum number of waiting messages. `callback` is called with
+  /// each message, in the callback queue of `node`, which must call one callback at a time.
+  /// `monitor` must outlive the subscription.
   template <typename Message>
   static Subscription to(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue,
-                         StageMonitor& monitor, const Take<Message>& take) {
-    return toEvents<Message>(
-        node, topic, queue, monitor,
-        [take](const ros::MessageEvent<const Message>& event) { take(event.getConstMessage()); });
+                         StageMonitor& monitor, const Callback<Message>& callback) {
+    return toEvents<Message>(node, topic, queue, monitor,
+                             [callback](const ros::MessageEvent<const Message>& event) {
+                               callback(event.getConstMessage());
+                             });
   }
 
   /// The same with a member function of `owner`.
   template <typename Message, typename Owner>
   static Subscription to(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue,
                          StageMonitor& monitor,
-                         void (Owner::*take)(const boost::shared_ptr<const Message>&),
+                         void (Owner::*callback)(const boost::shared_ptr<const Message>&),
                          Owner* owner) {
     return to<Message>(
         node, topic, queue, monitor,
-        Take<Message>([owner, take](const auto& message) { (owner->*take)(message); }));
+        Callback<Message>([owner, callback](const auto& message) { (owner->*callback)(message); }));
   }
 
   /// The same with what roscpp knows of each message. `note` is called with each corrupt
@@ -109,7 +110,8 @@ class Subscription {
   template <typename Message>
   static Subscription toEvents(
       ros::NodeHandle& node, const std::string& topic, std::uint32_t queue, StageMonitor& monitor,
-      const TakeEvent<Message>& take, const DecodeErrors::Take& note = [](const auto&) {}) {
+      const EventCallback<Message>& callback,
+      const DecodeErrors::Callback& note = [](const auto&) {}) {
     const InputTopic resolved{node.resolveName(topic), ros::message_traits::datatype<Message>()};
     // Runs in the callback queue of `node`, as all that uses the monitor: it needs no lock.
     const auto count = [resolved, &monitor, note](const DecodeError& error) {
@@ -123,11 +125,11 @@ class Subscription {
     Subscription made;
     made.state_ = std::make_unique<State>(*node.getCallbackQueue(), resolved, count);
     // Called only while the subscriber of this state exists, unlike the decoder's own code.
-    const auto call = [topic, &monitor, take, &errors = made.state_->errors](
+    const auto call = [topic, &monitor, callback, &errors = made.state_->errors](
                           const ros::MessageEvent<const Message>& event) {
       guarded(monitor, topic, [&] {
         errors.deliver();
-        take(event);
+        callback(event);
       });
     };
     ros::SubscribeOptions options(topic, queue, ros::message_traits::md5sum<Message>(),
@@ -148,7 +150,7 @@ class Subscription {
  private:
   struct State {
     State(ros::CallbackQueueInterface& queue, const InputTopic& topic,
-          const DecodeErrors::Take& count)
+          const DecodeErrors::Callback& count)
         : errors(queue, topic, count) {}
 
     DecodeErrors errors;

@@ -115,7 +115,7 @@ class StereoAlignmentFilter {
               const Twist2& twist);
 
   /// The image has not changed while the vehicle moved: it is not used, and marked as not usable.
-  void takeFrozen(Stamp stamp);
+  void handleFrozen(Stamp stamp);
 
   /// Returns whether a term is outside its normal range with certainty (two standard deviations).
   bool isFault(AlignmentTerm term) const;

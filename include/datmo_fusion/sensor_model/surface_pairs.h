@@ -58,7 +58,7 @@ class SurfacePairFinder {
   /// Connected points of the scan.
   using Piece = std::vector<InView>;
 
-  void takePoints(const StereoCloud& cloud, const StereoView& view);
+  void addPoints(const StereoCloud& cloud, const StereoView& view);
   /// Whether a beam's end continues a piece that began at `begin`.
   bool goesOn(const Ray& last, const Ray& ray, const Point2& begin) const;
   std::vector<Piece> piecesOf(const std::vector<Ray>& rays, const StereoView& view) const;

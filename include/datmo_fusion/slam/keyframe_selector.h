@@ -42,7 +42,7 @@ class KeyframeSelector {
   explicit KeyframeSelector(const Checked<KeyframeOptions>& options);
 
   /// Decides on the next scan, in ascending stamp order.
-  Use take(Stamp stamp, const PoseWithCovariance& base_in_map);
+  Use select(Stamp stamp, const PoseWithCovariance& base_in_map);
 
   /// Forgets the drive.
   void reset();

@@ -168,7 +168,7 @@ class MapSearch {
   double distanceAt(const Pose2& pose) const;
   /// The pose near this one that minimizes distanceAt().
   Pose2 refined(Pose2 pose) const;
-  Outcome takeLeaf(const Box& leaf);
+  Outcome evaluateLeaf(const Box& leaf);
   /// Whether all leaves that are kept belong to the hypothesis of the best one.
   bool areAllSameHypothesis() const;
   double maxShared() const;

@@ -141,8 +141,8 @@ class Target {
   Track track(const TargetOptions& options) const;
 
  private:
-  void takeClass(const Object& object, const TargetOptions& options);
-  void takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
+  void updateClass(const Object& object, const TargetOptions& options);
+  void updateVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
   void judgeMotion(const TargetOptions& options);
   double falseMotion(const TargetOptions& options) const;
   double trackedVelocityEvidence(double false_motion, const TargetOptions& options) const;

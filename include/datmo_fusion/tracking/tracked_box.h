@@ -90,7 +90,7 @@ class TrackedBox {
  private:
   Eigen::Vector2d offset() const;
   void turnByQuarters(int quarters);
-  void takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options);
+  void setFrontAhead(double direction, double speed, const TrackedBoxOptions& options);
   void updateHeading(double measured, double variance);
   void setHeading(double heading);
 

@@ -60,7 +60,7 @@ std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base
 }
 
 void EarthFrameFilter::add(const EarthFix& fix) {
-  take(fix);
+  incorporate(fix);
   restartIfInvalid();
 }
 
@@ -84,7 +84,7 @@ void EarthFrameFilter::restartIfInvalid() {
   }
 }
 
-void EarthFrameFilter::take(const EarthFix& fix) {
+void EarthFrameFilter::incorporate(const EarthFix& fix) {
   if (!has_started_) {
     first_fixes_.push_back(fix);
     ++counts_.used;

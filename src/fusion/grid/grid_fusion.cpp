@@ -71,7 +71,7 @@ Percent rounded(float value) {
 /// The evidence of several sources on one cell, combined by Dempster's rule but not normalized.
 class Evidence {
  public:
-  void take(const ValueEvidence& value_evidence) {
+  void add(const ValueEvidence& value_evidence) {
     may_be_occupied_ *= value_evidence.may_be_occupied;
     may_be_free_ *= value_evidence.may_be_free;
     open_ *= value_evidence.open;
@@ -93,7 +93,7 @@ class Evidence {
 struct WeightedSum {
   float sum = 0.0F;
   float weights = 0.0F;
-  void take(const Source& source, Percent, const ValueEvidence& value_evidence) {
+  void add(const Source& source, Percent, const ValueEvidence& value_evidence) {
     sum += value_evidence.weighted;
     weights += source.weight;
   }
@@ -103,7 +103,7 @@ struct WeightedSum {
 /// Sources come in the order of their priority.
 struct Priority {
   Percent first = kUnknownPercent;
-  void take(const Source&, Percent value, const ValueEvidence&) {
+  void add(const Source&, Percent value, const ValueEvidence&) {
     first = first == kUnknownPercent ? value : first;
   }
   Percent result(const Evidence&) const { return first; }
@@ -111,7 +111,7 @@ struct Priority {
 
 struct Maximum {
   Percent max = kUnknownPercent;
-  void take(const Source&, Percent value, const ValueEvidence&) { max = std::max(max, value); }
+  void add(const Source&, Percent value, const ValueEvidence&) { max = std::max(max, value); }
   Percent result(const Evidence&) const { return max; }
 };
 
@@ -119,7 +119,7 @@ struct Maximum {
 struct LogOdds {
   float occupied = 1.0F;
   float free = 1.0F;
-  void take(const Source&, Percent, const ValueEvidence& value_evidence) {
+  void add(const Source&, Percent, const ValueEvidence& value_evidence) {
     occupied *= value_evidence.probability;
     free *= 1.0F - value_evidence.probability;
   }
@@ -127,7 +127,7 @@ struct LogOdds {
 };
 
 struct DempsterShafer {
-  void take(const Source&, Percent, const ValueEvidence&) {}
+  void add(const Source&, Percent, const ValueEvidence&) {}
   Percent result(const Evidence& evidence) const {
     return rounded(kPercent * evidence.pignisticProbability());
   }
@@ -152,8 +152,8 @@ void fuseCells(const std::vector<Source>& sources, FusedGrids& result) {
       value = source.cells[cell];
       const ValueEvidence& value_evidence =
           source.evidence_of_value[static_cast<std::uint8_t>(value)];
-      rule.take(source, value, value_evidence);
-      evidence.take(value_evidence);
+      rule.add(source, value, value_evidence);
+      evidence.add(value_evidence);
     }
     if (known > 1) {
       fused[cell] = rule.result(evidence);

@@ -61,7 +61,7 @@ double AgingMap::logOdds(CellIndex cell, Stamp now) const {
   return Decay(timeOf(now), time_constant_).logOddsOf(cells_.atOrEmpty(cell));
 }
 
-void AgingMap::take(CellIndex index, double log_odds_step, float now, Decay& decay) {
+void AgingMap::update(CellIndex index, double log_odds_step, float now, Decay& decay) {
   if (!window().contains(index)) {
     return;
   }
@@ -82,12 +82,13 @@ void AgingMap::update(const SensorGrid& grid, const Pose2& base_in_map) {
   Decay decay(now, time_constant_);
   grid.forEach([&](CellIndex cell, Percent percent) {
     if (isOccupied(percent)) {
-      take(window().cellAt(base_in_map * grid.window().centerOf(cell)), hit_log_odds_, now, decay);
+      update(window().cellAt(base_in_map * grid.window().centerOf(cell)), hit_log_odds_, now,
+             decay);
     }
   });
   resample(grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
     if (isFree(percent)) {
-      take(cell, free_log_odds_, now, decay);
+      update(cell, free_log_odds_, now, decay);
     }
   });
 }

@@ -147,8 +147,8 @@ void MapFuser::moveTo(const PoseWithCovariance& base_in_map, const std::optional
   }
 }
 
-void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
-                    const std::vector<Point2>& movers) {
+void MapFuser::add(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
+                   const std::vector<Point2>& movers) {
   std::optional<AgingMap>& map = maps_.at(source);
   if (!map) {
     const auto any = std::find_if(maps_.begin(), maps_.end(),

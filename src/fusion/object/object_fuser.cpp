@@ -247,7 +247,7 @@ class ObjectFuser::Fusion {
       }
     }
     if (isPole(object)) {
-      takeForStanding(object);
+      treatAsStanding(object);
     }
     object.log_odds = std::clamp(object.log_odds, -kMaxLogOdds, kMaxLogOdds);
   }

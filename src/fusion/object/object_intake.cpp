@@ -54,7 +54,7 @@ PositionEvidence evidenceOf(Object& object, const ScanSupport& scan_support,
   const double moved = options.association.object_speed * std::abs(object.delay);
   const PositionEvidence evidence = scan_support.evidence(object, moved);
   if (scan_support.standsStill(evidence)) {
-    takeForStanding(object);
+    treatAsStanding(object);
   }
   return evidence;
 }
@@ -92,7 +92,7 @@ ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupp
   return intake;
 }
 
-void takeForStanding(Object& object) {
+void treatAsStanding(Object& object) {
   if (object.dynamic_state == DynamicState::kUnknown) {
     object.dynamic_state = DynamicState::kStatic;
   }

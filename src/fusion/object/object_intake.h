@@ -25,6 +25,6 @@ ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupp
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts);
 
 /// Sets an object to static unless it was seen to move.
-void takeForStanding(Object& object);
+void treatAsStanding(Object& object);
 
 }  // namespace datmo

@@ -47,11 +47,11 @@ CameraView::CameraView(const Checked<CameraViewOptions>& options, const Transfor
         tracks_.clear();
       }) {}
 
-void CameraView::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { camera_.take(message); });
+void CameraView::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { camera_.update(message); });
 }
 
-void CameraView::takeTracks(const TrackArrayConstPtr& message) {
+void CameraView::handleTracks(const TrackArrayConstPtr& message) {
   runner_.serve([&] {
     runner_.check("tracks", message->header.stamp);
     tracks_.push_back(message);
@@ -61,7 +61,7 @@ void CameraView::takeTracks(const TrackArrayConstPtr& message) {
   });
 }
 
-void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
+void CameraView::handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
   runner_.serve([&] {
     runner_.check("image", message->header.stamp);
     camera_.check(*message);

@@ -141,7 +141,7 @@ GridViews::GridViews(const Checked<GridViewsOptions>& options)
   }
 }
 
-void GridViews::takeGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid) {
+void GridViews::handleGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid) {
   const Stamp stamp = toStamp(grid->header.stamp);
   if (panel != kMap) {
     if (newest_ && secondsBetween(stamp, *newest_) > options_.silent_after) {

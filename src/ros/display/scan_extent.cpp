@@ -30,7 +30,7 @@ std::string sizeOf(const GridWindowOptions& window) {
 
 }  // namespace
 
-std::optional<InputError> ScanExtent::take(const Scan& scan) {
+std::optional<InputError> ScanExtent::update(const Scan& scan) {
   if (scans_ >= kScans) {
     return std::nullopt;
   }

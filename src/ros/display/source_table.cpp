@@ -78,7 +78,7 @@ std::vector<SourceRow> rowsOf(const DiagnosticStatus& status) {
 
 }  // namespace
 
-void SourceTable::take(const diagnostic_msgs::DiagnosticArray& message, double now) {
+void SourceTable::update(const diagnostic_msgs::DiagnosticArray& message, double now) {
   for (const DiagnosticStatus& status : message.status) {
     nodes_[status.name] = {now, rowsOf(status)};
   }

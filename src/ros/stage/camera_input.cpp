@@ -21,7 +21,7 @@ std::string sizeText(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-void CameraInput::take(const sensor_msgs::CameraInfo& message) {
+void CameraInput::update(const sensor_msgs::CameraInfo& message) {
   const auto& p = message.P;
   const bool finite =
       std::all_of(p.begin(), p.end(), [](double value) { return std::isfinite(value); });

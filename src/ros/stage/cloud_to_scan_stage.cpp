@@ -39,7 +39,7 @@ CloudToScanStage::CloudToScanStage(const Checked<CloudToScanStageOptions>& optio
   options_.scan_frame = options->frames.prefix + options->scan_frame;
 }
 
-std::optional<CloudToScanOutput> CloudToScanStage::takeCloud(
+std::optional<CloudToScanOutput> CloudToScanStage::handleCloud(
     const sensor_msgs::PointCloud2& message) {
   return runner_.serve([&] {
     ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
@@ -130,7 +130,7 @@ void CloudToScanStage::connect(StagePorts& ports) {
   const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
   const auto scans = ports.out<sensor_msgs::LaserScan>("scan");
   ports.in<sensor_msgs::PointCloud2>("cloud", [=](const auto& cloud, Stamp /*now*/) {
-    const auto output = takeCloud(*cloud);
+    const auto output = handleCloud(*cloud);
     if (output && output->mount) {
       const auto mount = boost::make_shared<tf2_msgs::TFMessage>();
       mount->transforms = {*output->mount};

@@ -49,7 +49,7 @@ void EarthFrameStage::reset() {
   waiting_.clear();
 }
 
-void EarthFrameStage::takeFix(const sensor_msgs::NavSatFix& message) {
+void EarthFrameStage::handleFix(const sensor_msgs::NavSatFix& message) {
   runner_.serve([&] {
     const GeodeticPosition position = positionOf(message);
     const Eigen::Isometry3d antenna =
@@ -72,7 +72,7 @@ void EarthFrameStage::takeFix(const sensor_msgs::NavSatFix& message) {
   });
 }
 
-EarthFrameMessagePtr EarthFrameStage::takePose(
+EarthFrameMessagePtr EarthFrameStage::handlePose(
     const geometry_msgs::PoseWithCovarianceStamped& message) {
   return runner_.serve([&]() -> EarthFrameMessagePtr {
     runner_.check("pose/local", message.header.stamp);
@@ -126,10 +126,10 @@ void EarthFrameStage::report() {
 void EarthFrameStage::connect(StagePorts& ports) {
   const auto frames = ports.out<EarthFrameMessage>("earth_frame");
   ports.in<sensor_msgs::NavSatFix>("gnss",
-                                   [this](const auto& fix, Stamp /*now*/) { takeFix(*fix); });
+                                   [this](const auto& fix, Stamp /*now*/) { handleFix(*fix); });
   ports.in<geometry_msgs::PoseWithCovarianceStamped>(
       "pose/local",
-      [this, frames](const auto& pose, Stamp /*now*/) { frames.publish(takePose(*pose)); });
+      [this, frames](const auto& pose, Stamp /*now*/) { frames.publish(handlePose(*pose)); });
 }
 
 }  // namespace datmo

@@ -20,7 +20,7 @@ constexpr std::size_t kPoseBytes = 4 * sizeof(double);
 
 }  // namespace
 
-bool FrozenOdometry::take(const nav_msgs::Odometry& message) {
+bool FrozenOdometry::update(const nav_msgs::Odometry& message) {
   const auto& pose = message.pose.pose;
   const auto& twist = message.twist.twist;
   const Measured measured = {pose.position.x,    pose.position.y, pose.orientation.z,

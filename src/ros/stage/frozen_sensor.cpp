@@ -35,8 +35,8 @@ std::vector<std::uint8_t> bytesOf(const std::vector<float>& ranges, float min_ra
 
 }  // namespace
 
-bool FrozenSensor::take(Stamp stamp, std::vector<std::uint8_t> measured,
-                        const MotionBetween& motion) {
+bool FrozenSensor::update(Stamp stamp, std::vector<std::uint8_t> measured,
+                          const MotionBetween& motion) {
   const Stamp before = std::exchange(last_stamp_, stamp);
   if (measured.empty() || measured != last_) {
     last_ = std::move(measured);

@@ -31,7 +31,7 @@ FusionInputs::FusionInputs(const FusionInputOptions& options, StageRunner& runne
   }
 }
 
-void FusionInputs::take(const std::string& source, const std_msgs::Header& header, Stamp now) {
+void FusionInputs::check(const std::string& source, const std_msgs::Header& header, Stamp now) {
   const std::vector<std::string>& sources = options_.sources;
   if (std::find(sources.begin(), sources.end(), source) == sources.end()) {
     throw InputError("unknown_source",

@@ -41,11 +41,11 @@ void GridFusionStage::reset() {
   matcher_.reset();
 }
 
-void GridFusionStage::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
-                               Stamp now) {
+void GridFusionStage::handleGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
+                                 Stamp now) {
   runner_.serve([&] {
     SensorGrid grid = fromMessage(message);
-    inputs_.take(source, message.header, now);
+    inputs_.check(source, message.header, now);
     try {
       matcher_.add(source, std::move(grid));
     } catch (const WrongWindowError& error) {
@@ -87,7 +87,7 @@ void GridFusionStage::connect(StagePorts& ports) {
   for (const std::string& source : sources()) {
     ports.in<nav_msgs::OccupancyGrid>(
         "grids/" + source,
-        [this, source](const auto& grid, Stamp now) { takeGrid(source, *grid, now); });
+        [this, source](const auto& grid, Stamp now) { handleGrid(source, *grid, now); });
   }
 }
 

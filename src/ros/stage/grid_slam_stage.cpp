@@ -102,7 +102,7 @@ GridSlamStage::~GridSlamStage() {
   }
 }
 
-std::optional<Stamp> GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
+std::optional<Stamp> GridSlamStage::handleOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
     return std::nullopt;
   }
@@ -117,14 +117,14 @@ std::optional<Stamp> GridSlamStage::takeOdometry(const nav_msgs::Odometry& messa
 }
 
 template <typename Message>
-std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
+std::optional<GridSlamOutput> GridSlamStage::handleScan(const Message& message) {
   return runner_.serve("scan", message, [&]() -> std::optional<GridSlamOutput> {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     runner_.check("scan", message.header.stamp);
     const auto motion = [this](Stamp from, Stamp to) { return motionBetween(from, to); };
-    checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
+    checkNotFrozen(frozen_.update(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     if (options_.fused_grid) {
       scans_.add(converted.scan);
@@ -135,11 +135,11 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
   });
 }
 
-template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs::LaserScan&);
-template std::optional<GridSlamOutput> GridSlamStage::takeScan(
+template std::optional<GridSlamOutput> GridSlamStage::handleScan(const sensor_msgs::LaserScan&);
+template std::optional<GridSlamOutput> GridSlamStage::handleScan(
     const sensor_msgs::MultiEchoLaserScan&);
 
-std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyGrid& message) {
+std::optional<GridSlamOutput> GridSlamStage::handleGrid(const nav_msgs::OccupancyGrid& message) {
   return runner_.serve([&]() -> std::optional<GridSlamOutput> {
     if (!options_.fused_grid) {
       throw InputError("unexpected_grid", "a fused grid: expected none while fused_grid is false");
@@ -263,7 +263,7 @@ void GridSlamStage::connect(StagePorts& ports) {
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
     const auto take_odometry = [this, transforms](const auto& odometry, Stamp now) {
-      if (const auto stamp = takeOdometry(*odometry)) {
+      if (const auto stamp = handleOdometry(*odometry)) {
         transforms.publish(heldAt(*stamp, now));
       }
     };
@@ -273,13 +273,13 @@ void GridSlamStage::connect(StagePorts& ports) {
   }
   const auto take_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,
-                       [this, publish, scan, now] { publish(takeScan(*scan), now); });
+                       [this, publish, scan, now] { publish(handleScan(*scan), now); });
     publishNext(now);
   };
   connectScan(ports, monitor_, take_scan);
   if (options_.fused_grid) {
     ports.in<nav_msgs::OccupancyGrid>("grids/fused", [this, publish](const auto& grid, Stamp now) {
-      publish(takeGrid(*grid), now);
+      publish(handleGrid(*grid), now);
     });
   }
 }

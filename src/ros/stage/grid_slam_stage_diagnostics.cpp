@@ -52,7 +52,7 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
        faultsOf(mount, converted, options_.max_tilt, "continues with the predicted pose")) {
     monitor_.warned(fault);
   }
-  if (const auto misfit = extent_.take(converted.scan)) {
+  if (const auto misfit = extent_.update(converted.scan)) {
     monitor_.warned(*misfit);
   }
 }

@@ -66,20 +66,20 @@ void HostInput::add(Twists& twists, const StampedTwist& twist) const {
   }
 }
 
-void HostInput::take(const nav_msgs::Odometry& message) {
+void HostInput::update(const nav_msgs::Odometry& message) {
   const OdometrySample sample = reader_.read(message);
   if (sample.twist_measured) {
     add(odometry_, {sample.stamp, sample.twist, motion_.noise.covariance(sample.twist)});
   }
 }
 
-void HostInput::take(const sensor_msgs::JointState& message) {
+void HostInput::update(const sensor_msgs::JointState& message) {
   const Estimate angle = steeringFrom(message, steering_format_);
   runner_.check(kSteering, message.header.stamp);
   steering_ = {toStamp(message.header.stamp), angle};
 }
 
-void HostInput::take(const geometry_msgs::AccelWithCovarianceStamped& message) {
+void HostInput::update(const geometry_msgs::AccelWithCovarianceStamped& message) {
   const std::optional<Estimate> along = accelerationFrom(message, acceleration_format_);
   runner_.check(kAcceleration, message.header.stamp);
   acceleration_.reset();
@@ -95,7 +95,7 @@ void HostInput::take(const geometry_msgs::AccelWithCovarianceStamped& message) {
   }
 }
 
-void HostInput::take(const LabeledScan& scan) {
+void HostInput::update(const LabeledScan& scan) {
   if (last_pose_ && scan.stamp <= last_pose_->stamp) {
     return;
   }

@@ -38,14 +38,14 @@ LidarGridStage::LidarGridStage(const Checked<LidarGridStageOptions>& options,
       motion_(options->motion, options->frames, runner_) {}
 
 template <typename Message>
-nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
+nav_msgs::OccupancyGridPtr LidarGridStage::handleScan(const Message& message) {
   return runner_.serve("scan", message, [&] {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     runner_.check("scan", message.header.stamp);
     const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
-    checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
+    checkNotFrozen(frozen_.update(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(model_.grid(motion_.compensated(converted.scan)), options_.frames.base));
@@ -54,8 +54,8 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
   });
 }
 
-template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const sensor_msgs::LaserScan&);
-template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(
+template nav_msgs::OccupancyGridPtr LidarGridStage::handleScan(const sensor_msgs::LaserScan&);
+template nav_msgs::OccupancyGridPtr LidarGridStage::handleScan(
     const sensor_msgs::MultiEchoLaserScan&);
 
 void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
@@ -70,7 +70,7 @@ void LidarGridStage::connect(StagePorts& ports) {
   const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/lidar");
   connectMotion(ports, options_.motion, *this);
   const auto take_scan = [this, grid](const auto& scan, Stamp /*now*/) {
-    grid.publish(takeScan(*scan));
+    grid.publish(handleScan(*scan));
   };
   connectScan(ports, monitor_, take_scan);
 }

@@ -85,8 +85,8 @@ void LoopClosingStage::queue(LoopJob::Step step) {
   }
 }
 
-tf2_msgs::TFMessageConstPtr LoopClosingStage::takeLabeledScan(const LabeledScanMessage& message,
-                                                              Stamp now) {
+tf2_msgs::TFMessageConstPtr LoopClosingStage::handleLabeledScan(const LabeledScanMessage& message,
+                                                                Stamp now) {
   return runner_.serve([&]() -> tf2_msgs::TFMessageConstPtr {
     if (message.map_frame != options_.frames.map) {
       throw InputError("wrong_frame", "labeled scan with its pose in '" + message.map_frame +
@@ -94,7 +94,7 @@ tf2_msgs::TFMessageConstPtr LoopClosingStage::takeLabeledScan(const LabeledScanM
     }
     const LabeledScan scan = fromMessage(message);
     runner_.check("labeled_scan", message.header.stamp);
-    const KeyframeSelector::Use use = selector_.take(scan.stamp, scan.base_in_map);
+    const KeyframeSelector::Use use = selector_.select(scan.stamp, scan.base_in_map);
     const bool is_first = use == KeyframeSelector::Use::kFirst;
     if (is_first) {
       beginDrive(scan.stamp);
@@ -226,7 +226,7 @@ void LoopClosingStage::connect(StagePorts& ports) {
                          [this](const std::string& file) { return saveMap(file); });
   });
   ports.in<LabeledScanMessage>("labeled_scan", [this, transforms](const auto& scan, Stamp now) {
-    transforms.publish(takeLabeledScan(*scan, now));
+    transforms.publish(handleLabeledScan(*scan, now));
   });
 }
 

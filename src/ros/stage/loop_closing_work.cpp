@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-void take(LoopCloser& closer, const LoopJob::Step& step) {
+void apply(LoopCloser& closer, const LoopJob::Step& step) {
   switch (step.use) {
     case KeyframeSelector::Use::kNothing:
       return;
@@ -46,7 +46,7 @@ LoopResult closeLoops(LoopCloser& closer, const LoopJob& job) {
   result.drive = job.drive;
   result.error = errorOf([&] {
     for (const LoopJob::Step& step : job.steps) {
-      take(closer, step);
+      apply(closer, step);
     }
   });
   if (!result.error.empty()) {

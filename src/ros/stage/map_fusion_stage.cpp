@@ -110,25 +110,25 @@ void MapFusionStage::readPriorMap(const GridWindow& window) {
   }
 }
 
-void MapFusionStage::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
-                              Stamp now) {
+void MapFusionStage::handleGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
+                                Stamp now) {
   runner_.serve([&] {
     SensorGrid grid = fromMessage(message);
-    inputs_.take(source, message.header, now);
+    inputs_.check(source, message.header, now);
     checkWindow(source, grid.window());
     const Stamp stamp = grid.stamp();
     matcher_.add(source, stamp, std::make_shared<const Sample>(std::move(grid)));
   });
 }
 
-void MapFusionStage::takeLabeledScan(const LabeledScanMessage& message, Stamp now) {
+void MapFusionStage::handleLabeledScan(const LabeledScanMessage& message, Stamp now) {
   runner_.serve([&] {
     LabeledScan scan = fromMessage(message);
     if (message.map_frame != options_.frames.map) {
       throw InputError("wrong_frame", "labeled scan in a map '" + message.map_frame +
                                           "': expected '" + options_.frames.map + "'");
     }
-    inputs_.take(kPoses, message.header, now);
+    inputs_.check(kPoses, message.header, now);
     const Stamp stamp = scan.stamp;
     matcher_.add(kPoses, stamp, std::make_shared<const Sample>(std::move(scan)));
   });
@@ -177,7 +177,7 @@ std::vector<MissingSource> MapFusionStage::ingest(const Matched& matched, const 
     const auto base = baseAt(sample.stamp, scan.stamp,
                              [this](Stamp from, Stamp to) { return inputs_.motion(from, to); });
     if (base) {
-      fuser_.take(sample.source, *grid, scan.base_in_map.pose * *base, movers);
+      fuser_.add(sample.source, *grid, scan.base_in_map.pose * *base, movers);
     } else {
       missing.push_back({sample.source, WhyMissing::kNoMotion});
     }
@@ -217,10 +217,10 @@ void MapFusionStage::connect(StagePorts& ports) {
   for (const std::string& source : sources()) {
     ports.in<nav_msgs::OccupancyGrid>(
         "grids/" + source,
-        [this, source](const auto& grid, Stamp now) { takeGrid(source, *grid, now); });
+        [this, source](const auto& grid, Stamp now) { handleGrid(source, *grid, now); });
   }
   ports.in<LabeledScanMessage>(
-      kPoses, [this](const auto& scan, Stamp now) { takeLabeledScan(*scan, now); });
+      kPoses, [this](const auto& scan, Stamp now) { handleLabeledScan(*scan, now); });
 }
 
 bool MapFusionStage::publishNext(Stamp now) {

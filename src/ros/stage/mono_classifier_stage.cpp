@@ -97,11 +97,11 @@ void MonoClassifierStage::reset() {
   ++run_;  // invalidates what the detector is still processing
 }
 
-void MonoClassifierStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { camera_.take(message); });
+void MonoClassifierStage::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { camera_.update(message); });
 }
 
-void MonoClassifierStage::takeObjects(const ObjectArray& message) {
+void MonoClassifierStage::handleObjects(const ObjectArray& message) {
   runner_.serve([&] {
     if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "objects in '" + message.header.frame_id + "': expected '" +
@@ -114,7 +114,7 @@ void MonoClassifierStage::takeObjects(const ObjectArray& message) {
   });
 }
 
-void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
+void MonoClassifierStage::handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
   runner_.serve([&] {
     camera_.check(*message);
     exposure_.check(message);
@@ -242,11 +242,11 @@ void MonoClassifierStage::connect(StagePorts& ports) {
   published_ = ports.out<ObjectArray>("objects/mono");
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<sensor_msgs::CameraInfo>(
-      "camera_info", [this](const auto& info, Stamp /*now*/) { takeCameraInfo(*info); });
+      "camera_info", [this](const auto& info, Stamp /*now*/) { handleCameraInfo(*info); });
   ports.in<ObjectArray>("objects",
-                        [this](const auto& objects, Stamp /*now*/) { takeObjects(*objects); });
+                        [this](const auto& objects, Stamp /*now*/) { handleObjects(*objects); });
   ports.in<sensor_msgs::Image>("image",
-                               [this](const auto& image, Stamp now) { takeImage(image, now); });
+                               [this](const auto& image, Stamp now) { handleImage(image, now); });
 }
 
 bool MonoClassifierStage::publishNext(Stamp now) {

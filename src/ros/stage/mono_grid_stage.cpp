@@ -53,12 +53,12 @@ void MonoGridStage::reset() {
   wait_.clear();
 }
 
-void MonoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { camera_.take(message); });
+void MonoGridStage::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { camera_.update(message); });
 }
 
 template <typename Message>
-void MonoGridStage::takeScan(const Message& message) {
+void MonoGridStage::handleScan(const Message& message) {
   runner_.serve("scan", message, [&] {
     const std::string& frame = message.header.frame_id;
     const ScannerMount mount = scannerMount(transforms_.core(), options_.frames.base, frame);
@@ -73,8 +73,8 @@ void MonoGridStage::takeScan(const Message& message) {
   });
 }
 
-template void MonoGridStage::takeScan(const sensor_msgs::LaserScan&);
-template void MonoGridStage::takeScan(const sensor_msgs::MultiEchoLaserScan&);
+template void MonoGridStage::handleScan(const sensor_msgs::LaserScan&);
+template void MonoGridStage::handleScan(const sensor_msgs::MultiEchoLaserScan&);
 
 void MonoGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
   for (const InputError& fault :
@@ -83,7 +83,7 @@ void MonoGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
   }
 }
 
-void MonoGridStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
+void MonoGridStage::handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
   runner_.serve([&] {
     camera_.check(*message);
     exposure_.check(message);
@@ -142,11 +142,11 @@ void MonoGridStage::connect(StagePorts& ports) {
   published_ = ports.out<nav_msgs::OccupancyGrid>("grids/mono");
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<sensor_msgs::CameraInfo>(
-      "camera_info", [this](const auto& info, Stamp /*now*/) { takeCameraInfo(*info); });
-  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { takeScan(*scan); };
+      "camera_info", [this](const auto& info, Stamp /*now*/) { handleCameraInfo(*info); });
+  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
   connectScan(ports, monitor_, take_scan);
   ports.in<sensor_msgs::Image>("image",
-                               [this](const auto& image, Stamp now) { takeImage(image, now); });
+                               [this](const auto& image, Stamp now) { handleImage(image, now); });
 }
 
 bool MonoGridStage::publishNext(Stamp now) {

@@ -63,7 +63,7 @@ OdometrySample OdometryReader::read(const nav_msgs::Odometry& message) {
   checkFrames(message, frames_);
   OdometrySample sample = sampleOf(message);
   runner_.check(stream_, message.header.stamp);
-  if (frozen_.take(message)) {
+  if (frozen_.update(message)) {
     throw InputError("frozen_odometry",
                      "odometry repeats its last pose and twist bit for bit although it reports "
                      "motion: its driver or the device hangs; drops it until it changes");
@@ -91,13 +91,13 @@ MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions fra
       buffer_(options->hold, kOdometryMemory),
       poses_(options->change, options->noise) {}
 
-void MotionInput::take(const nav_msgs::Odometry& message) {
+void MotionInput::update(const nav_msgs::Odometry& message) {
   if (options_.hasSpeed()) {
     buffer_.add(odometry_.read(message));
   }
 }
 
-void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) {
+void MotionInput::update(const geometry_msgs::PoseWithCovarianceStamped& message) {
   if (options_.hasSpeed()) {
     return;
   }

@@ -40,7 +40,7 @@ MotionStage::MotionStage(const MotionStageOptions& options, const TransformBuffe
   checkFrames(options.frames);
 }
 
-nav_msgs::OdometryPtr MotionStage::takeImu(const sensor_msgs::Imu& message) {
+nav_msgs::OdometryPtr MotionStage::handleImu(const sensor_msgs::Imu& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     if (message.angular_velocity_covariance[0] == kNotMeasured) {
       throw InputError("no_angular_velocity",
@@ -55,17 +55,17 @@ nav_msgs::OdometryPtr MotionStage::takeImu(const sensor_msgs::Imu& message) {
   });
 }
 
-nav_msgs::OdometryPtr MotionStage::takeTwist(const geometry_msgs::TwistStamped& message) {
-  return takeTwist(message.header, message.twist);
+nav_msgs::OdometryPtr MotionStage::handleTwist(const geometry_msgs::TwistStamped& message) {
+  return handleTwist(message.header, message.twist);
 }
 
-nav_msgs::OdometryPtr MotionStage::takeTwist(
+nav_msgs::OdometryPtr MotionStage::handleTwist(
     const geometry_msgs::TwistWithCovarianceStamped& message) {
-  return takeTwist(message.header, message.twist.twist);
+  return handleTwist(message.header, message.twist.twist);
 }
 
-nav_msgs::OdometryPtr MotionStage::takeTwist(const std_msgs::Header& header,
-                                             const geometry_msgs::Twist& message) {
+nav_msgs::OdometryPtr MotionStage::handleTwist(const std_msgs::Header& header,
+                                               const geometry_msgs::Twist& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     const bool uses_imu = options_.motion.usesImu();  // if so, the yaw rate is the IMU's
     const double yaw_rate = uses_imu ? 0.0 : inBase(header.frame_id, message.angular).z();
@@ -76,7 +76,7 @@ nav_msgs::OdometryPtr MotionStage::takeTwist(const std_msgs::Header& header,
   });
 }
 
-nav_msgs::OdometryPtr MotionStage::takeWheels(const sensor_msgs::JointState& message) {
+nav_msgs::OdometryPtr MotionStage::handleWheels(const sensor_msgs::JointState& message) {
   return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     const auto& rates = message.velocity;
     if (rates.empty()) {
@@ -155,30 +155,30 @@ void MotionStage::connect(StagePorts& ports) {
   }
   const auto odometry = ports.out<nav_msgs::Odometry>(motion.odometryTopic());
   if (motion.usesImu()) {
-    const auto take = [this, odometry](const auto& imu, Stamp /*now*/) {
-      odometry.publish(takeImu(*imu));
+    const auto callback = [this, odometry](const auto& imu, Stamp /*now*/) {
+      odometry.publish(handleImu(*imu));
     };
     ports.in<sensor_msgs::Imu>(
-        "imu", withClockCheck<sensor_msgs::Imu>(ports, "imu", runner_.monitor(), take));
+        "imu", withClockCheck<sensor_msgs::Imu>(ports, "imu", runner_.monitor(), callback));
   }
   if (motion.usesTwist()) {
     using Twist = geometry_msgs::TwistStamped;
     using Covariant = geometry_msgs::TwistWithCovarianceStamped;
-    const auto take = [this, odometry](const auto& twist, Stamp /*now*/) {
-      odometry.publish(takeTwist(*twist));
+    const auto callback = [this, odometry](const auto& twist, Stamp /*now*/) {
+      odometry.publish(handleTwist(*twist));
     };
-    ports.in<Twist>("twist", withClockCheck<Twist>(ports, "twist", runner_.monitor(), take));
+    ports.in<Twist>("twist", withClockCheck<Twist>(ports, "twist", runner_.monitor(), callback));
     ports.inInsteadOf<Covariant>(
         "twist", "twist_with_covariance",
-        withClockCheck<Covariant>(ports, "twist", runner_.monitor(), take));
+        withClockCheck<Covariant>(ports, "twist", runner_.monitor(), callback));
   }
   if (motion.usesWheels()) {
-    const auto take = [this, odometry](const auto& wheels, Stamp /*now*/) {
-      odometry.publish(takeWheels(*wheels));
+    const auto callback = [this, odometry](const auto& wheels, Stamp /*now*/) {
+      odometry.publish(handleWheels(*wheels));
     };
     ports.in<sensor_msgs::JointState>(
-        "joint_states",
-        withClockCheck<sensor_msgs::JointState>(ports, "joint_states", runner_.monitor(), take));
+        "joint_states", withClockCheck<sensor_msgs::JointState>(ports, "joint_states",
+                                                                runner_.monitor(), callback));
   }
 }
 

@@ -35,7 +35,7 @@ MovingObjectsStage::MovingObjectsStage(const Checked<MovingObjectsStageOptions>&
       runner_(monitor, options->input, "forgets the road",
               [this] { border_filter_.forgetRoad(); }) {}
 
-void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
+void MovingObjectsStage::handleRoadBorders(const RoadBorders& message) {
   if (!options_.road_borders) {
     return;
   }
@@ -45,7 +45,7 @@ void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
   });
 }
 
-std::optional<MovingObjectsOutput> MovingObjectsStage::takeLabeledScan(
+std::optional<MovingObjectsOutput> MovingObjectsStage::handleLabeledScan(
     const LabeledScanMessage& message) {
   return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
@@ -108,12 +108,13 @@ void MovingObjectsStage::connect(StagePorts& ports) {
   StagePublisher<DroppedObjects> dropped;
   if (options_.road_borders) {
     dropped = ports.out<DroppedObjects>("objects/dropped");
-    ports.in<RoadBorders>(
-        "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });
+    ports.in<RoadBorders>("road_borders", [this](const auto& borders, Stamp /*now*/) {
+      handleRoadBorders(*borders);
+    });
   }
   ports.in<LabeledScanMessage>("labeled_scan",
                                [this, objects, dropped](const auto& scan, Stamp /*now*/) {
-                                 if (const auto found = takeLabeledScan(*scan)) {
+                                 if (const auto found = handleLabeledScan(*scan)) {
                                    objects.publish(found->objects);
                                    dropped.publish(found->dropped);
                                  }

@@ -69,10 +69,10 @@ void ObjectFusionStage::reset() {
   scans_.clear();
 }
 
-void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray& message,
-                                    Stamp now) {
+void ObjectFusionStage::handleObjects(const std::string& source, const ObjectArray& message,
+                                      Stamp now) {
   runner_.serve([&] {
-    inputs_.take(source, message.header, now);
+    inputs_.check(source, message.header, now);
     const auto list = std::make_shared<ObjectList>(fromMessage(message));
     for (Object& object : list->objects) {
       if (object.sensors.empty()) {
@@ -91,7 +91,7 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
   });
 }
 
-void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
+void ObjectFusionStage::handleLabeledScan(const LabeledScanMessage& message) {
   runner_.serve([&] {
     if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "labeled scan in '" + message.header.frame_id +
@@ -207,10 +207,10 @@ void ObjectFusionStage::connect(StagePorts& ports) {
   early_ = ports.out<ObjectArray>("objects/early");
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<LabeledScanMessage>(
-      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { handleLabeledScan(*scan); });
   for (const std::string& source : sources()) {
     ports.in<ObjectArray>("objects/" + source, [this, source](const auto& objects, Stamp now) {
-      takeObjects(source, *objects, now);
+      handleObjects(source, *objects, now);
     });
   }
 }

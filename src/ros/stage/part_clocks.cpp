@@ -36,7 +36,7 @@ void PartClocksOptions::visit(OptionVisitor& visitor) {
       silent_after, {1.0, 600.0});
 }
 
-void PartClocks::take(const PartClock& answer, Stamp received) {
+void PartClocks::addAnswer(const PartClock& answer, Stamp received) {
   const auto clock = clocks_
                          .try_emplace(withoutSlash(answer.process),
                                       Clock{ClockOffsetEstimator(options_.exchanges), received})

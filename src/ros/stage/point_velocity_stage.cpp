@@ -87,31 +87,31 @@ void PointVelocityStage::reset() {
   last_.reset();
 }
 
-void PointVelocityStage::takeOdometry(const nav_msgs::Odometry& message) {
-  runner_.serve([&] { motion_.take(message); });
+void PointVelocityStage::handleOdometry(const nav_msgs::Odometry& message) {
+  runner_.serve([&] { motion_.update(message); });
 }
 
-void PointVelocityStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  runner_.serve([&] { motion_.take(message); });
+void PointVelocityStage::handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  runner_.serve([&] { motion_.update(message); });
 }
 
-sensor_msgs::PointCloud2Ptr PointVelocityStage::takeImage(StereoSide side,
-                                                          const sensor_msgs::ImageConstPtr& image) {
+sensor_msgs::PointCloud2Ptr PointVelocityStage::handleImage(
+    StereoSide side, const sensor_msgs::ImageConstPtr& image) {
   return runner_.serve([&] {
     checkImage(*image);
     runner_.check(side == StereoSide::kLeft ? "left/image" : "right/image", image->header.stamp);
-    return serve(pairs_.takeImage(side, image));
+    return serve(pairs_.handleImage(side, image));
   });
 }
 
-sensor_msgs::PointCloud2Ptr PointVelocityStage::takeInfo(
+sensor_msgs::PointCloud2Ptr PointVelocityStage::handleInfo(
     StereoSide side, const sensor_msgs::CameraInfoConstPtr& info) {
   return runner_.serve([&] {
     // Whichever message comes first detects that the clock has jumped back; it is stored only after
     // the reset, which so drops nothing of the new run.
     runner_.check(side == StereoSide::kLeft ? "left/camera_info" : "right/camera_info",
                   info->header.stamp);
-    return serve(pairs_.takeInfo(side, info));
+    return serve(pairs_.handleInfo(side, info));
   });
 }
 

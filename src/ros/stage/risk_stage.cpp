@@ -60,29 +60,29 @@ void RiskStage::reset() {
   road_.reset();
 }
 
-void RiskStage::takeLabeledScan(const LabeledScanMessage& message) {
+void RiskStage::handleLabeledScan(const LabeledScanMessage& message) {
   runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
     runner_.check("labeled_scan", message.header.stamp);
     map_frame_ = message.map_frame;
     standing_ = standingPoints(scan);
-    host_.take(scan);
+    host_.update(scan);
   });
 }
 
-void RiskStage::takeOdometry(const nav_msgs::Odometry& message) {
-  runner_.serve([&] { host_.take(message); });
+void RiskStage::handleOdometry(const nav_msgs::Odometry& message) {
+  runner_.serve([&] { host_.update(message); });
 }
 
-void RiskStage::takeSteering(const sensor_msgs::JointState& message) {
-  runner_.serve([&] { host_.take(message); });
+void RiskStage::handleSteering(const sensor_msgs::JointState& message) {
+  runner_.serve([&] { host_.update(message); });
 }
 
-void RiskStage::takeAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message) {
-  runner_.serve([&] { host_.take(message); });
+void RiskStage::handleAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message) {
+  runner_.serve([&] { host_.update(message); });
 }
 
-void RiskStage::takeRoadBorders(const RoadBorders& message) {
+void RiskStage::handleRoadBorders(const RoadBorders& message) {
   runner_.serve([&] {
     RoadModel road = fromMessage(message);
     runner_.check("road_borders", message.header.stamp);
@@ -108,7 +108,7 @@ std::optional<RoadModel> RiskStage::roadAt(Stamp stamp) {
   return road_;
 }
 
-RiskArrayPtr RiskStage::takeTracks(const TrackArray& message) {
+RiskArrayPtr RiskStage::handleTracks(const TrackArray& message) {
   return runner_.serve([&] {
     runner_.check("tracks", message.header.stamp);
     RiskInput input;
@@ -159,21 +159,22 @@ void RiskStage::connect(StagePorts& ports) {
   if (options_.motion.hasSpeed()) {
     ports.in<nav_msgs::Odometry>(
         options_.motion.odometryTopic(),
-        [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
+        [this](const auto& odometry, Stamp /*now*/) { handleOdometry(*odometry); });
   }
   ports.optionalIn<sensor_msgs::JointState>(
-      "steering", [this](const auto& steering, Stamp /*now*/) { takeSteering(*steering); });
+      "steering", [this](const auto& steering, Stamp /*now*/) { handleSteering(*steering); });
   ports.optionalIn<geometry_msgs::AccelWithCovarianceStamped>(
       "acceleration",
-      [this](const auto& acceleration, Stamp /*now*/) { takeAcceleration(*acceleration); });
+      [this](const auto& acceleration, Stamp /*now*/) { handleAcceleration(*acceleration); });
   if (options_.road_borders) {
-    ports.in<RoadBorders>(
-        "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });
+    ports.in<RoadBorders>("road_borders", [this](const auto& borders, Stamp /*now*/) {
+      handleRoadBorders(*borders);
+    });
   }
-  ports.in<LabeledScanMessage>("labeled_scan",
-                               [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
+  ports.in<LabeledScanMessage>(
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { handleLabeledScan(*scan); });
   ports.in<TrackArray>("tracks", [this, risks](const auto& tracks, Stamp /*now*/) {
-    risks.publish(takeTracks(*tracks));
+    risks.publish(handleTracks(*tracks));
   });
 }
 

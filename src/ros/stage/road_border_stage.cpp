@@ -29,7 +29,7 @@ RoadBorderStage::RoadBorderStage(const Checked<RoadBorderStageOptions>& options,
         map_frame_.clear();
       }) {}
 
-RoadBordersPtr RoadBorderStage::takeLabeledScan(const LabeledScanMessage& message) {
+RoadBordersPtr RoadBorderStage::handleLabeledScan(const LabeledScanMessage& message) {
   return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
     if (message.map_frame.empty()) {
@@ -69,7 +69,7 @@ void RoadBorderStage::change(const OptionValues& values) {
 void RoadBorderStage::connect(StagePorts& ports) {
   const auto borders = ports.out<RoadBorders>("road_borders");
   ports.in<LabeledScanMessage>("labeled_scan", [this, borders](const auto& scan, Stamp /*now*/) {
-    borders.publish(takeLabeledScan(*scan));
+    borders.publish(handleLabeledScan(*scan));
   });
 }
 

@@ -98,15 +98,15 @@ void ScanMergeStage::reset() {
   frozen_.clear();
 }
 
-void ScanMergeStage::takeScan(const std::string& source, const sensor_msgs::LaserScan& message,
-                              Stamp now) {
+void ScanMergeStage::handleScan(const std::string& source, const sensor_msgs::LaserScan& message,
+                                Stamp now) {
   runner_.serve("scans/" + source, message, [&] {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     ConvertedScan converted = toScan(message, mount, options_.scan);
     std_msgs::Header header = message.header;
     header.frame_id = options_.frames.base;
-    inputs_.take(source, header, now);
+    inputs_.check(source, header, now);
     checkFrozen(source, message);
     for (const InputError& fault :
          faultsOf(mount, converted, options_.max_tilt, source + " contributes nothing")) {
@@ -126,7 +126,7 @@ void ScanMergeStage::takeScan(const std::string& source, const sensor_msgs::Lase
 
 void ScanMergeStage::checkFrozen(const std::string& source, const sensor_msgs::LaserScan& message) {
   const auto motion = [this](Stamp from, Stamp to) { return inputs_.motion(from, to); };
-  if (frozen_[source].take(toStamp(message.header.stamp), measuredBytes(message), motion)) {
+  if (frozen_[source].update(toStamp(message.header.stamp), measuredBytes(message), motion)) {
     throw InputError("frozen_scan", "scans of " + source +
                                         " that stay the same bit for bit while the vehicle moves: "
                                         "expected new ones; continues without them");
@@ -201,7 +201,9 @@ void ScanMergeStage::connect(StagePorts& ports) {
   connectMotion(ports, options_.motion, *this);
   for (const std::string& source : options_.sourcesInUse()) {
     const std::string topic = "scans/" + source;
-    const auto take = [this, source](const auto& scan, Stamp now) { takeScan(source, *scan, now); };
+    const auto take = [this, source](const auto& scan, Stamp now) {
+      handleScan(source, *scan, now);
+    };
     ports.in<sensor_msgs::LaserScan>(
         topic, withClockCheck<sensor_msgs::LaserScan>(ports, topic, monitor_, take));
   }

@@ -66,7 +66,7 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
   return {HealthLevel::kOk, withoutSlash(result) + " are published"};
 }
 
-void ReportingStages::take(const StageState& state, double seconds) {
+void ReportingStages::update(const StageState& state, double seconds) {
   reports_[state.stage] = {state, seconds};
 }
 

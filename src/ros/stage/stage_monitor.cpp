@@ -102,7 +102,7 @@ void StageMonitor::announce(const std::string& event, const std::string& text) {
   }
 }
 
-std::vector<std::string> StageMonitor::takeAnnouncements() {
+std::vector<std::string> StageMonitor::handleAnnouncements() {
   return std::exchange(announcements_, {});
 }
 

@@ -162,7 +162,7 @@ void StageReporter::logChanges() {
     ROS_LOG(line.is_warning ? ros::console::levels::Warn : ros::console::levels::Info,
             ROSCONSOLE_DEFAULT_NAME, "%s: %s", stage, line.text.c_str());
   }
-  for (const std::string& text : monitor_.takeAnnouncements()) {
+  for (const std::string& text : monitor_.handleAnnouncements()) {
     ROS_INFO("%s: %s", stage, text.c_str());
   }
 }

@@ -76,7 +76,7 @@ StaticPointsStage::StaticPointsStage(const Checked<StaticPointsStageOptions>& op
   options_.scan_frame = options->frames.prefix + options->scan_frame;
 }
 
-std::optional<StaticPointsOutput> StaticPointsStage::takeLabeledScan(
+std::optional<StaticPointsOutput> StaticPointsStage::handleLabeledScan(
     const LabeledScanMessage& message) {
   return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
@@ -110,7 +110,7 @@ void StaticPointsStage::connect(StagePorts& ports) {
   const auto points = ports.out<sensor_msgs::PointCloud2>("static_points");
   const auto scans = ports.out<sensor_msgs::LaserScan>("static_scan");
   ports.in<LabeledScanMessage>("labeled_scan", [=](const auto& labeled_scan, Stamp /*now*/) {
-    if (const auto output = takeLabeledScan(*labeled_scan)) {
+    if (const auto output = handleLabeledScan(*labeled_scan)) {
       mounts.publish(output->mount);
       points.publish(output->points);
       scans.publish(output->scan);

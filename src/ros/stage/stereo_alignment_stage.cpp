@@ -74,16 +74,16 @@ void StereoAlignmentStage::reset() {
   filter_.forgetTime();
 }
 
-void StereoAlignmentStage::takeOdometry(const nav_msgs::Odometry& message) {
-  runner_.serve([&] { motion_.take(message); });
+void StereoAlignmentStage::handleOdometry(const nav_msgs::Odometry& message) {
+  runner_.serve([&] { motion_.update(message); });
 }
 
-void StereoAlignmentStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  runner_.serve([&] { motion_.take(message); });
+void StereoAlignmentStage::handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  runner_.serve([&] { motion_.update(message); });
 }
 
 template <typename Message>
-void StereoAlignmentStage::takeScan(const Message& message) {
+void StereoAlignmentStage::handleScan(const Message& message) {
   runner_.serve("scan", message, [&] {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
@@ -96,14 +96,15 @@ void StereoAlignmentStage::takeScan(const Message& message) {
   });
 }
 
-template void StereoAlignmentStage::takeScan(const sensor_msgs::LaserScan&);
-template void StereoAlignmentStage::takeScan(const sensor_msgs::MultiEchoLaserScan&);
+template void StereoAlignmentStage::handleScan(const sensor_msgs::LaserScan&);
+template void StereoAlignmentStage::handleScan(const sensor_msgs::MultiEchoLaserScan&);
 
-void StereoAlignmentStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { input_.take(message); });
+void StereoAlignmentStage::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { input_.update(message); });
 }
 
-StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::PointCloud2& message) {
+StereoAlignmentMessagePtr StereoAlignmentStage::handleCloud(
+    const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&]() -> StereoAlignmentMessagePtr {
     if (!input_.isAligned()) {
       runner_.processed(toStamp(message.header.stamp));
@@ -113,8 +114,8 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
     const StereoCloud cloud = input_.cloudOf(message.header, points);
     runner_.check("points2", message.header.stamp);
     const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
-    if (frozen_.take(cloud.stamp, message.data, motion)) {
-      filter_.takeFrozen(cloud.stamp);
+    if (frozen_.update(cloud.stamp, message.data, motion)) {
+      filter_.handleFrozen(cloud.stamp);
       monitor_.warned(InputError("frozen_camera",
                                  "the stereo camera repeats the cloud of its last image although "
                                  "the vehicle moves: its objects and grid are ignored"));
@@ -213,7 +214,7 @@ void StereoAlignmentStage::show() {
 
 void StereoAlignmentStage::connect(StagePorts& ports) {
   connectMotion(ports, options_.motion, *this);
-  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { takeScan(*scan); };
+  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
   connectScan(ports, monitor_, take_scan);
   connectStereo(ports, *this, ports.out<StereoAlignmentMessage>("stereo/alignment"));
 }

@@ -36,15 +36,15 @@ StereoGridStage::StereoGridStage(const Checked<StereoGridStageOptions>& options,
       input_(*options, transforms),
       model_(options->grid) {}
 
-void StereoGridStage::takeAlignment(const StereoAlignmentMessage& message) {
-  runner_.serve([&] { input_.take(message); });
+void StereoGridStage::handleAlignment(const StereoAlignmentMessage& message) {
+  runner_.serve([&] { input_.update(message); });
 }
 
-void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { input_.take(message); });
+void StereoGridStage::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { input_.update(message); });
 }
 
-nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCloud2& message) {
+nav_msgs::OccupancyGridPtr StereoGridStage::handleCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&] {
     CloudPoints points(message);
     StereoCloud cloud = input_.cloudOf(message.header, points);

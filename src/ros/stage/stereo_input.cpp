@@ -39,12 +39,12 @@ StereoInput::StereoInput(const Checked<StereoInputOptions>& options,
   }
 }
 
-void StereoInput::take(const sensor_msgs::CameraInfo& message) {
+void StereoInput::update(const sensor_msgs::CameraInfo& message) {
   const bool is_pair = options_.camera.principle == DepthPrinciple::kStereo;
   camera_ = is_pair ? stereoCamera(message) : depthCamera(message);
 }
 
-void StereoInput::take(const StereoAlignmentMessage& message) {
+void StereoInput::update(const StereoAlignmentMessage& message) {
   const StereoAlignment alignment = fromMessage(message);
   if (isAligned()) {
     alignment_ = alignment;

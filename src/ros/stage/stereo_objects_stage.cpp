@@ -43,15 +43,15 @@ void StereoObjectsStage::reset() {
   wait_.clear();
 }
 
-void StereoObjectsStage::takeAlignment(const StereoAlignmentMessage& message) {
-  runner_.serve([&] { input_.take(message); });
+void StereoObjectsStage::handleAlignment(const StereoAlignmentMessage& message) {
+  runner_.serve([&] { input_.update(message); });
 }
 
-void StereoObjectsStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  runner_.serve([&] { input_.take(message); });
+void StereoObjectsStage::handleCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { input_.update(message); });
 }
 
-void StereoObjectsStage::takeVelocities(const sensor_msgs::PointCloud2& message) {
+void StereoObjectsStage::handleVelocities(const sensor_msgs::PointCloud2& message) {
   runner_.serve([&] {
     if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "point velocities in '" + message.header.frame_id +
@@ -71,7 +71,7 @@ void StereoObjectsStage::takeVelocities(const sensor_msgs::PointCloud2& message)
   });
 }
 
-ObjectArrayPtr StereoObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
+ObjectArrayPtr StereoObjectsStage::handleCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&] {
     const Stopwatch watch;
     CloudPoints points(message);
@@ -130,7 +130,7 @@ void StereoObjectsStage::show(const StereoObjects& objects) {
 void StereoObjectsStage::connect(StagePorts& ports) {
   published_ = ports.out<ObjectArray>("objects/stereo");
   ports.optionalIn<sensor_msgs::PointCloud2>(
-      "point_velocities", [this](const auto& points, Stamp /*now*/) { takeVelocities(*points); });
+      "point_velocities", [this](const auto& points, Stamp /*now*/) { handleVelocities(*points); });
   connectAlignment(ports, *this);
   connectStereo(ports, *this, published_);
 }

@@ -15,8 +15,8 @@ constexpr std::size_t kMaxQueue = 5;
 
 }  // namespace
 
-std::optional<StereoPair> StereoPairs::takeImage(StereoSide side,
-                                                 const sensor_msgs::ImageConstPtr& image) {
+std::optional<StereoPair> StereoPairs::handleImage(StereoSide side,
+                                                   const sensor_msgs::ImageConstPtr& image) {
   CameraFrame* const frame = frameAt(side, toStamp(image->header.stamp));
   if (frame == nullptr) {
     return std::nullopt;
@@ -25,8 +25,8 @@ std::optional<StereoPair> StereoPairs::takeImage(StereoSide side,
   return pairWith(side, CameraFrame(*frame));
 }
 
-std::optional<StereoPair> StereoPairs::takeInfo(StereoSide side,
-                                                const sensor_msgs::CameraInfoConstPtr& info) {
+std::optional<StereoPair> StereoPairs::handleInfo(StereoSide side,
+                                                  const sensor_msgs::CameraInfoConstPtr& info) {
   CameraFrame* const frame = frameAt(side, toStamp(info->header.stamp));
   if (frame == nullptr) {
     return std::nullopt;

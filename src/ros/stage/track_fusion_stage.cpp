@@ -72,9 +72,10 @@ void TrackFusionStage::reset() {
   fuser_.reset();
 }
 
-void TrackFusionStage::takeTracks(const std::string& source, const TrackArray& message, Stamp now) {
+void TrackFusionStage::handleTracks(const std::string& source, const TrackArray& message,
+                                    Stamp now) {
   runner_.serve([&] {
-    inputs_.take(source, message.header, now);
+    inputs_.check(source, message.header, now);
     const auto list = std::make_shared<TrackList>(listOf(source, message));
     matcher_.add(source, list->stamp, list);
   });
@@ -137,7 +138,7 @@ void TrackFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<TrackArray>("tracks/fused");
   for (const std::string& source : sources()) {
     const auto take = [this, source](const auto& tracks, Stamp now) {
-      takeTracks(source, *tracks, now);
+      handleTracks(source, *tracks, now);
     };
     if (source == kOtherStations) {
       ports.optionalIn<TrackArray>("tracks/" + source, take);

@@ -41,7 +41,7 @@ TrackerStage::TrackerStage(const Checked<TrackerStageOptions>& options,
       runner_(monitor, options->input, "forgets all tracks", [this] { reset(); }),
       scan_views_(options->tracker.visibility) {}
 
-void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
+void TrackerStage::handleLabeledScan(const LabeledScanMessage& message) {
   runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
     runner_.check("labeled_scan", message.header.stamp);
@@ -176,14 +176,15 @@ void TrackerStage::change(const OptionValues& values) {
 void TrackerStage::connect(StagePorts& ports) {
   tracks_ = ports.out<TrackArray>("tracks");
   ports.optionalIn<LabeledScanMessage>(
-      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { handleLabeledScan(*scan); });
   ports.in<ObjectArray>("objects",
-                        [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
+                        [this](const auto& objects, Stamp now) { handleObjects(objects, now); });
   if (!options_.scan_view) {
     return;  // early lists contain a scan's objects
   }
-  ports.optionalIn<ObjectArray>(
-      "early_objects", [this](const auto& objects, Stamp now) { takeEarlyObjects(objects, now); });
+  ports.optionalIn<ObjectArray>("early_objects", [this](const auto& objects, Stamp now) {
+    handleEarlyObjects(objects, now);
+  });
 }
 
 bool TrackerStage::publishNext(Stamp now) {

@@ -56,7 +56,7 @@ void V2xStage::reset() {
   poses_.clear();
 }
 
-void V2xStage::takeFrame(const EarthFrameMessage& message) {
+void V2xStage::handleFrame(const EarthFrameMessage& message) {
   runner_.serve([&] {
     EarthFrame frame = fromMessage(message);
     // From the same position as the last one: only its covariance is newer.
@@ -67,7 +67,7 @@ void V2xStage::takeFrame(const EarthFrameMessage& message) {
   });
 }
 
-void V2xStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+void V2xStage::handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
   runner_.serve([&] {
     runner_.check("pose/local", message.header.stamp);
     poses_.push_back({toStamp(message.header.stamp), fromMessage(message.pose)});
@@ -105,7 +105,7 @@ void V2xStage::check(const StationTracksMessage& message, Stamp now) const {
   }
 }
 
-TrackArrayPtr V2xStage::takeStation(const StationTracksMessage& message, Stamp now) {
+TrackArrayPtr V2xStage::handleStation(const StationTracksMessage& message, Stamp now) {
   return runner_.serve([&]() -> TrackArrayPtr {
     check(message, now);
     const EarthFrame& frame = frameAt(toStamp(message.header.stamp));
@@ -147,7 +147,7 @@ std::optional<OwnVehicle> V2xStage::ownAt(Stamp stamp) const {
   return own;
 }
 
-StationTracksMessagePtr V2xStage::takeTracks(const TrackArray& message) {
+StationTracksMessagePtr V2xStage::handleTracks(const TrackArray& message) {
   return runner_.serve([&]() -> StationTracksMessagePtr {
     runner_.check("tracks/own", message.header.stamp);
     const TrackList tracks = fromMessage(message);
@@ -214,15 +214,15 @@ void V2xStage::connect(StagePorts& ports) {
   const auto foreign = ports.out<TrackArray>("tracks/v2x");
   const auto ours = ports.out<StationTracksMessage>("stations/own");
   ports.in<EarthFrameMessage>("earth_frame",
-                              [this](const auto& frame, Stamp /*now*/) { takeFrame(*frame); });
+                              [this](const auto& frame, Stamp /*now*/) { handleFrame(*frame); });
   ports.in<geometry_msgs::PoseWithCovarianceStamped>(
-      "pose/local", [this](const auto& pose, Stamp /*now*/) { takePose(*pose); });
+      "pose/local", [this](const auto& pose, Stamp /*now*/) { handlePose(*pose); });
   ports.optionalIn<StationTracksMessage>("stations",
                                          [this, foreign](const auto& tracks, Stamp now) {
-                                           foreign.publish(takeStation(*tracks, now));
+                                           foreign.publish(handleStation(*tracks, now));
                                          });
   ports.in<TrackArray>("tracks/own", [this, ours](const auto& tracks, Stamp /*now*/) {
-    ours.publish(takeTracks(*tracks));
+    ours.publish(handleTracks(*tracks));
   });
 }
 

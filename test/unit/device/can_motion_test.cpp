@@ -24,7 +24,7 @@ class CanMotionTest : public testing::Test {
     if (!motion_) {
       motion_.emplace(options_, [this](const DeviceError& error) { ++warnings_[error.reason()]; });
     }
-    return motion_->take(frame, Stamp::fromSeconds(now_));
+    return motion_->update(frame, Stamp::fromSeconds(now_));
   }
 
   /// Takes speed and yaw rate, with a correct counter.

@@ -13,12 +13,12 @@ namespace datmo::camera_view_test {
 namespace {
 
 TEST_F(CameraViewTest, AnUncertainTrackIsFainter) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   const auto strength = [this](double seconds, float existence) {
     mountCamera(seconds);
     const auto list = tracks(seconds, 12.0, 0.0);
     list->tracks[0].existence_probability = existence;
-    view_.takeTracks(list);
+    view_.handleTracks(list);
     const auto picture = show(image(seconds));
     int sum = 0;  // over the middle of the box's rear
     for (std::size_t i = 0; picture && i < 3 * std::size_t{kWidth}; ++i) {
@@ -33,7 +33,7 @@ TEST_F(CameraViewTest, AnUncertainTrackIsFainter) {
 }
 
 TEST_F(CameraViewTest, EachClassHasAnIcon) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   std::set<std::vector<std::uint8_t>> icons;
   double seconds = kStart;
   for (const auto one : {ObjectMessage::CLASS_PEDESTRIAN, ObjectMessage::CLASS_CYCLIST,
@@ -43,7 +43,7 @@ TEST_F(CameraViewTest, EachClassHasAnIcon) {
     const auto list = tracks(seconds, 12.0, 0.0);
     list->tracks[0].classification = one;
     list->tracks[0].existence_probability = 1.0F;
-    view_.takeTracks(list);
+    view_.handleTracks(list);
     const auto picture = show(image(seconds));
     ASSERT_TRUE(picture);
     std::vector<std::uint8_t> white;  // of the label's left end: letters and icons

@@ -54,7 +54,7 @@ class CameraViewTest : public testing::Test {
 
   sensor_msgs::ImagePtr show(const sensor_msgs::ImagePtr& message, double waited = 0.0) {
     const double seconds = message->header.stamp.toSec();
-    view_.takeImage(message, Stamp::fromSeconds(seconds));
+    view_.handleImage(message, Stamp::fromSeconds(seconds));
     return view_.next(Stamp::fromSeconds(seconds + waited));
   }
 

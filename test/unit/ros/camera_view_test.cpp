@@ -15,9 +15,9 @@ using samples::drops;
 using samples::warnings;
 
 TEST_F(CameraViewTest, ATrackIsABoxAtItsImagePosition) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   const auto picture = show(image(kStart));
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->encoding, "bgr8");
@@ -33,11 +33,11 @@ TEST_F(CameraViewTest, ATrackIsABoxAtItsImagePosition) {
 }
 
 TEST_F(CameraViewTest, ATrackIsPredictedToTheExposure) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
   mountCamera(kStart + 0.5);
   // Drives away at 10 m/s: from 8 m to 12 m in 0.4 s, with its rear at 10 m.
-  view_.takeTracks(tracks(kStart + 0.1, 8.0, 10.0));
+  view_.handleTracks(tracks(kStart + 0.1, 8.0, 10.0));
   const auto picture = show(image(kStart + 0.5), 0.4);
   ASSERT_TRUE(picture);
   EXPECT_TRUE(isDrawn(*picture, 280, 270));
@@ -46,11 +46,11 @@ TEST_F(CameraViewTest, ATrackIsPredictedToTheExposure) {
 }
 
 TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
   const auto labelRows = [this](double seconds, const TrackArrayPtr& list) {
     mountCamera(seconds);
-    view_.takeTracks(list);
+    view_.handleTracks(list);
     const auto picture = show(image(seconds));
     int rows = 0;  // above the box, where there are only labels
     for (int row = 0; picture && row < 238; ++row) {
@@ -66,18 +66,18 @@ TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
 }
 
 TEST_F(CameraViewTest, ATrackBehindTheCameraIsNotDrawn) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart, -12.0, 0.0));
+  view_.handleTracks(tracks(kStart, -12.0, 0.0));
   const auto picture = show(image(kStart));
   ASSERT_TRUE(picture);
   EXPECT_FALSE(anyDrawn(*picture));
 }
 
 TEST_F(CameraViewTest, AFarTrackIsNotDrawn) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart, 81.0, 0.0));
+  view_.handleTracks(tracks(kStart, 81.0, 0.0));
   const auto picture = show(image(kStart));
   ASSERT_TRUE(picture);
   EXPECT_FALSE(anyDrawn(*picture));
@@ -86,51 +86,51 @@ TEST_F(CameraViewTest, AFarTrackIsNotDrawn) {
 TEST_F(CameraViewTest, ARightCameraSeesItFartherToTheLeft) {
   auto info = cameraInfo();
   info.P[3] = -kFocalLength * 0.5;  // 0.5 m to the right of its frame's origin
-  view_.takeCameraInfo(info);
+  view_.handleCameraInfo(info);
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   const auto picture = show(image(kStart));
   ASSERT_TRUE(picture);
   EXPECT_TRUE(isDrawn(*picture, 260, 270)) << "280 px - 400 px * 0.5 m / 10 m";
 }
 
 TEST_F(CameraViewTest, AnImageWaitsForTracksThatAreNotOlderThanItself) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart - 0.1, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart - 0.1, 12.0, 0.0));
   EXPECT_FALSE(show(image(kStart)));
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   EXPECT_TRUE(view_.next(Stamp::fromSeconds(kStart + 0.05)));
 }
 
 TEST_F(CameraViewTest, AnImageWaitsForItsTransformAndIsDroppedWithoutOne) {
-  view_.takeCameraInfo(cameraInfo());
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleCameraInfo(cameraInfo());
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   EXPECT_FALSE(show(image(kStart)));
   EXPECT_EQ(monitor_.droppedCount(), 0U);
   mountCamera(kStart);
   EXPECT_TRUE(view_.next(Stamp::fromSeconds(kStart + 0.1)));
-  view_.takeTracks(tracks(kStart + 0.2, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart + 0.2, 12.0, 0.0));
   EXPECT_FALSE(show(image(kStart + 0.2), 0.4));
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
 }
 
 TEST_F(CameraViewTest, AnImageThatWaitsWhileTheCameraChangesIsDropped) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
   EXPECT_FALSE(show(image(kStart)));
   auto wider = cameraInfo();
   ++wider.width;
-  view_.takeCameraInfo(wider);
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleCameraInfo(wider);
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   EXPECT_FALSE(view_.next(Stamp::fromSeconds(kStart)));
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
 }
 
 TEST_F(CameraViewTest, OldTracksAreNotDrawn) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart - 0.6, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart - 0.6, 12.0, 0.0));
   const auto picture = show(image(kStart), 0.4);
   ASSERT_TRUE(picture) << "the image is shown all the same";
   EXPECT_FALSE(anyDrawn(*picture));
@@ -140,7 +140,7 @@ TEST_F(CameraViewTest, OldTracksAreNotDrawn) {
 TEST_F(CameraViewTest, ImagesThatDoNotFitTheirCameraInfoAreRefused) {
   show(image(kStart));
   EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   const auto small = image(kStart + 0.1);
   small->width = kWidth / 2;
   small->step = kWidth / 2;
@@ -155,17 +155,17 @@ TEST_F(CameraViewTest, ImagesThatDoNotFitTheirCameraInfoAreRefused) {
 TEST_F(CameraViewTest, ACameraInfoWithoutCalibrationIsRefused) {
   auto info = cameraInfo();
   info.P[0] = 0.0;
-  view_.takeCameraInfo(info);
+  view_.handleCameraInfo(info);
   info.P[0] = std::nan("");
-  view_.takeCameraInfo(info);
+  view_.handleCameraInfo(info);
   EXPECT_EQ(drops(monitor_, "bad_camera_info"), 2U);
 }
 
 TEST_F(CameraViewTest, ImagesThatCannotBeReadAreRefused) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
   mountCamera(kStart + 1.0);
-  view_.takeTracks(tracks(kStart + 1.0, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart + 1.0, 12.0, 0.0));
   const auto disparity = image(kStart);
   disparity->encoding = "32FC1";
   EXPECT_FALSE(show(disparity));
@@ -180,12 +180,12 @@ TEST_F(CameraViewTest, ImagesThatCannotBeReadAreRefused) {
 }
 
 TEST_F(CameraViewTest, AClockJumpBackStartsOver) {
-  view_.takeCameraInfo(cameraInfo());
+  view_.handleCameraInfo(cameraInfo());
   mountCamera(kStart);
-  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  view_.handleTracks(tracks(kStart, 12.0, 0.0));
   EXPECT_TRUE(show(image(kStart)));
   mountCamera(10.0);
-  view_.takeTracks(tracks(10.0, 12.0, 0.0));
+  view_.handleTracks(tracks(10.0, 12.0, 0.0));
   const auto picture = show(image(10.0));
   ASSERT_TRUE(picture);
   EXPECT_TRUE(anyDrawn(*picture));

@@ -93,10 +93,10 @@ class CheckpointTest : public ::testing::Test {
     for (int i = 0; i < scans; ++i, go(0.1)) {
       nav_msgs::Odometry odometry = samples::odometry(now_, twist_.forward_speed);
       odometry.twist.twist.angular.z = twist_.yaw_rate;
-      stage_->takeOdometry(odometry);
+      stage_->handleOdometry(odometry);
       const sensor_msgs::LaserScan seen = scan();
       last_scan_ = seen.header.stamp;
-      const auto output = stage_->takeScan(seen);
+      const auto output = stage_->handleScan(seen);
       EXPECT_TRUE(output);
       stage_->keepCheckpoint();
       last = output.value_or(last);
@@ -143,7 +143,7 @@ class CheckpointTest : public ::testing::Test {
     load();
     EXPECT_TRUE(startsAnew());
     std::string announced;
-    for (const std::string& text : monitor_->takeAnnouncements()) {
+    for (const std::string& text : monitor_->handleAnnouncements()) {
       announced += text + "\n";
     }
     EXPECT_NE(announced.find(why), std::string::npos) << announced;

@@ -29,7 +29,7 @@ class CloudToScanStageTest : public samples::CloudStageTest<CloudToScanStage> {
 
 TEST_F(CloudToScanStageTest, ACloudMakesAScanBelowTheLidar) {
   mountLidar();
-  const auto output = stage_.takeCloud(cloudAt(kStart));
+  const auto output = stage_.handleCloud(cloudAt(kStart));
   ASSERT_TRUE(output);
   EXPECT_EQ(output->scan->header.frame_id, "cloud_scan");
   EXPECT_EQ(output->scan->header.stamp, ros::Time(kStart));
@@ -45,7 +45,7 @@ TEST_F(CloudToScanStageTest, ACloudMakesAScanBelowTheLidar) {
 
 TEST_F(CloudToScanStageTest, TheScanIsAcceptedByTheNextStages) {
   mountLidar();
-  const auto output = stage_.takeCloud(cloudAt(kStart));
+  const auto output = stage_.handleCloud(cloudAt(kStart));
   ASSERT_TRUE(output);
   ScannerMount mount;
   mount.scanner_in_base = {0.5, 0.0, 0.0};
@@ -61,15 +61,15 @@ TEST_F(CloudToScanStageTest, TheScanIsAcceptedByTheNextStages) {
 
 TEST_F(CloudToScanStageTest, TheMountIsPublishedOnce) {
   mountLidar();
-  EXPECT_TRUE(stage_.takeCloud(cloudAt(kStart))->mount);
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart + 0.1))->mount);
+  EXPECT_TRUE(stage_.handleCloud(cloudAt(kStart))->mount);
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(kStart + 0.1))->mount);
 }
 
 TEST_F(CloudToScanStageTest, TimesOfPointsBecomeTimesOfBeams) {
   mountLidar();
   auto message = cloudAt(kStart);
   samples::addTimes(message, "time", sensor_msgs::PointField::FLOAT32, turn());
-  const auto output = stage_.takeCloud(message);
+  const auto output = stage_.handleCloud(message);
   ASSERT_TRUE(output);
   const sensor_msgs::LaserScan& scan = *output->scan;
   EXPECT_NEAR(scan.time_increment, 0.1 / 720.0, 2e-6);
@@ -86,7 +86,7 @@ TEST_F(CloudToScanStageTest, ThereIsAWarningOfTimesThatAreNoTurn) {
   auto message = cloudAt(kStart);
   samples::addTimes(message, "time", sensor_msgs::PointField::FLOAT32,
                     std::vector<float>(maker_.cloud.points->size(), 0.0F));
-  ASSERT_TRUE(stage_.takeCloud(message));
+  ASSERT_TRUE(stage_.handleCloud(message));
   EXPECT_EQ(samples::warnings(monitor_, "uneven_point_times"), 1U);
 }
 
@@ -94,22 +94,22 @@ TEST_F(CloudToScanStageTest, WithoutGroundItContinuesAndReportsIt) {
   mountLidar();
   maker_ = samples::LidarCloudMaker();
   maker_.addWall(10.5);
-  ASSERT_TRUE(stage_.takeCloud(cloudAt(kStart)));
+  ASSERT_TRUE(stage_.handleCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::warnings(monitor_, "no_ground"), 1U);
 }
 
 TEST_F(CloudToScanStageTest, BadCloudsAreDropped) {
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart)));
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::drops(monitor_, "missing_transform"), 1U);
   mountLidar();
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(0.0)));
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(0.0)));
   EXPECT_EQ(samples::drops(monitor_, "zero_stamp"), 1U);
   auto empty = cloudAt(kStart);
   empty.width = 0;
-  EXPECT_FALSE(stage_.takeCloud(empty));
+  EXPECT_FALSE(stage_.handleCloud(empty));
   EXPECT_EQ(samples::drops(monitor_, "empty_cloud"), 1U);
-  EXPECT_TRUE(stage_.takeCloud(cloudAt(kStart)));
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart)));
+  EXPECT_TRUE(stage_.handleCloud(cloudAt(kStart)));
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::drops(monitor_, "repeated_stamp"), 1U);
 }
 

@@ -12,7 +12,7 @@ using namespace grid_fusion_samples;
 
 TEST_F(GridFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
   const auto take = [this](const std::string& source, double stamp, double now) {
-    stage_.takeGrid(source, message(stamp, kFree), Stamp::fromSeconds(now));
+    stage_.handleGrid(source, message(stamp, kFree), Stamp::fromSeconds(now));
   };
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
@@ -67,11 +67,11 @@ TEST_F(GridFusionStageTest, BadGridsAreDroppedAndCounted) {
 TEST_F(GridFusionStageTest, BadMotionIsDroppedAndCounted) {
   nav_msgs::Odometry bad = odometry(100.0);
   bad.twist.twist.linear.x = std::numeric_limits<double>::quiet_NaN();
-  stage_.takeOdometry(bad);
+  stage_.handleOdometry(bad);
   EXPECT_EQ(drops("bad_odometry"), 1U);
   bad = odometry(100.0);
   bad.child_frame_id = "trailer";
-  stage_.takeOdometry(bad);
+  stage_.handleOdometry(bad);
   EXPECT_EQ(drops("wrong_frame"), 1U);
 }
 

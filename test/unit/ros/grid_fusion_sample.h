@@ -35,7 +35,7 @@ class GridFusionStageTest : public testing::Test {
   }
 
   void take(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
-    stage_.takeGrid(source, grid, toStamp(grid.header.stamp));
+    stage_.handleGrid(source, grid, toStamp(grid.header.stamp));
   }
 
   std::optional<GridFusionOutput> nextAt(double seconds) {

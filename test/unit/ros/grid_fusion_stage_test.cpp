@@ -46,7 +46,7 @@ TEST_F(GridFusionStageTest, AfterTheLongestWaitItContinuesWithoutTheOther) {
 
 TEST_F(GridFusionStageTest, TheCallersClockNeedNotBeTheStamps) {
   const auto now = [](double seconds) { return Stamp::fromSeconds(5e8 + seconds); };
-  stage_.takeGrid("lidar", message(100.0, kFree), now(0.0));
+  stage_.handleGrid("lidar", message(100.0, kFree), now(0.0));
   EXPECT_FALSE(stage_.next(now(0.05)));
   EXPECT_TRUE(stage_.next(now(0.11)));
 }
@@ -130,8 +130,8 @@ int obstacleIn(const nav_msgs::OccupancyGrid& message) {
 
 TEST_F(GridFusionStageTest, GridsAreMovedByTheOdometryBetweenTheirStamps) {
   stage_.change({{"rule", std::string("priority")}});
-  stage_.takeOdometry(odometry(99.9));
-  stage_.takeOdometry(odometry(100.0));
+  stage_.handleOdometry(odometry(99.9));
+  stage_.handleOdometry(odometry(100.0));
   take("stereo", obstacleAt(99.95, 8));
   take("lidar", 100.0, kFree);
   const auto output = nextAt(100.2);
@@ -143,15 +143,15 @@ TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   options_.motion.source = MotionSource::kNone;
   GridFusionStage stage(options_, monitor_);
   stage.change({{"rule", std::string("priority")}});
-  stage.takeOdometry(odometry(0.0));
+  stage.handleOdometry(odometry(0.0));
   for (const double t : {99.7, 99.8, 99.9}) {
     geometry_msgs::PoseWithCovarianceStamped pose;
     pose.header.stamp = ros::Time(t);
     pose.pose.pose = toMessage(Pose2(20.0 * t, 5.0, 0.0));
-    stage.takePose(pose);
+    stage.handlePose(pose);
   }
-  stage.takeGrid("stereo", obstacleAt(99.95, 8), Stamp::fromSeconds(100.0));
-  stage.takeGrid("lidar", message(100.0, kFree), Stamp::fromSeconds(100.0));
+  stage.handleGrid("stereo", obstacleAt(99.95, 8), Stamp::fromSeconds(100.0));
+  stage.handleGrid("lidar", message(100.0, kFree), Stamp::fromSeconds(100.0));
   const auto output = stage.next(Stamp::fromSeconds(100.2));
   ASSERT_TRUE(output);
   EXPECT_EQ(obstacleIn(*output->fused), 7);
@@ -181,8 +181,8 @@ TEST_F(GridFusionStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(bothAt(200.0, kFree, kFree));
   EXPECT_TRUE(bothAt(100.0, kFree, kFree));
   EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
-  stage_.takeOdometry(odometry(200.0));
-  stage_.takeOdometry(odometry(100.1));
+  stage_.handleOdometry(odometry(200.0));
+  stage_.handleOdometry(odometry(100.1));
   EXPECT_EQ(warnings("clock_restart"), 2U);
   EXPECT_TRUE(bothAt(99.9, kFree, kFree));
   EXPECT_EQ(monitor_.droppedCount(), 0U);
@@ -194,9 +194,9 @@ TEST_F(GridFusionStageTest, AThirdSourceAddsAnEntry) {
   GridFusionStage stage(options_, monitor_);
   EXPECT_EQ(stage.sources(), (std::vector<std::string>{"lidar", "radar", "stereo"}));
   const Stamp now = Stamp::fromSeconds(100.0);
-  stage.takeGrid("lidar", message(100.0, kFree), now);
-  stage.takeGrid("stereo", message(100.0, kFree), now);
-  stage.takeGrid("radar", message(100.0, kOccupied), now);
+  stage.handleGrid("lidar", message(100.0, kFree), now);
+  stage.handleGrid("stereo", message(100.0, kFree), now);
+  stage.handleGrid("radar", message(100.0, kOccupied), now);
   EXPECT_EQ(stage.next(now)->fused->data[0], kOccupied);
 }
 

@@ -28,8 +28,8 @@ class GridSlamLocalizationTest : public testing::Test {
       scan.angle_min = static_cast<float>(-M_PI / 2.0);
       scan.angle_increment = static_cast<float>(M_PI / (kBeams - 1));
       scan.header.stamp = ros::Time(now_);
-      stage_.takeOdometry(samples::odometry(now_, 0.0));
-      const auto output = stage_.takeScan(scan);
+      stage_.handleOdometry(samples::odometry(now_, 0.0));
+      const auto output = stage_.handleScan(scan);
       EXPECT_TRUE(output);
       last = output.value_or(last);
     }

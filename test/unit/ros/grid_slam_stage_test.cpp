@@ -31,7 +31,7 @@ class GridSlamStageTest : public testing::Test {
   std::optional<GridSlamOutput> scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);
-    return stage_.takeScan(scan);
+    return stage_.handleScan(scan);
   }
 
   nav_msgs::OccupancyGridPtr mapAfterScanAt(double seconds) {
@@ -40,7 +40,7 @@ class GridSlamStageTest : public testing::Test {
   }
 
   /// The vehicle drives ahead at 8 m/s; it is at x = 0 at the start.
-  void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
+  void odometryAt(double seconds) { stage_.handleOdometry(odometry(seconds)); }
 
   std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
 
@@ -88,7 +88,7 @@ TEST_F(GridSlamStageTest, AScanThatComesLateIsGivenTheOdometryOfItsTime) {
   odometryAt(100.0);
   nav_msgs::Odometry stopped = odometry(100.4);
   stopped.twist.twist.linear.x = 0.0;
-  stage_.takeOdometry(stopped);
+  stage_.handleOdometry(stopped);
   const auto output = scanAt(100.1);
   ASSERT_TRUE(output);
   ASSERT_EQ(output->transforms.size(), 1U);
@@ -128,7 +128,7 @@ TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
   options.motion.source = MotionSource::kNone;
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
-  const auto output = stage.takeScan(samples::laserScan());
+  const auto output = stage.handleScan(samples::laserScan());
   ASSERT_TRUE(output);
   ASSERT_EQ(output->transforms.size(), 2U);
   EXPECT_EQ(output->transforms[0].child_frame_id, "odom");
@@ -142,12 +142,12 @@ TEST_F(GridSlamStageTest, UnavailableOdometryIsNotRead) {
   options.motion.source = MotionSource::kNone;
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
-  stage.takeOdometry(odometry(100.0));
+  stage.handleOdometry(odometry(100.0));
   sensor_msgs::LaserScan scan = samples::laserScan();
   scan.header.stamp = ros::Time(100.0);
-  ASSERT_TRUE(stage.takeScan(scan));
+  ASSERT_TRUE(stage.handleScan(scan));
   scan.header.stamp = ros::Time(100.1);
-  const auto output = stage.takeScan(scan);
+  const auto output = stage.handleScan(scan);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->pose->pose.pose.position.x, 0.0) << "the odometry would say 0.8 m";
 }
@@ -178,7 +178,7 @@ TEST_F(GridSlamStageTest, AScanWithoutAValidBeamMovesByOdometry) {
   odometryAt(100.1);
   auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::quiet_NaN()));
   blind.header.stamp = ros::Time(100.1);
-  const auto output = stage_.takeScan(blind);
+  const auto output = stage_.handleScan(blind);
   ASSERT_TRUE(output);
   EXPECT_NEAR(output->pose->pose.pose.position.x, 0.8, 0.1);
   EXPECT_EQ(warnings("no_valid_beam"), 1U);
@@ -189,7 +189,7 @@ TEST_F(GridSlamStageTest, BeamsAreCompensatedToTheStampOfTheScan) {
   odometryAt(100.0);
   auto scan = samples::laserScan();
   scan.time_increment = 0.01F;
-  const auto output = stage_.takeScan(scan);
+  const auto output = stage_.handleScan(scan);
   ASSERT_TRUE(output);
   // At 8 m/s the beam ahead starts 0.08 m further on, and the last one 0.16 m.
   const auto& points = output->labeled_scan->points;
@@ -206,15 +206,15 @@ TEST_F(GridSlamStageTest, OdometryPosesGiveTheMotionOnRequest) {
   mountScanner();
   nav_msgs::Odometry counted = odometry(100.0);
   counted.twist.twist.linear.x = 0.0;
-  stage.takeOdometry(counted);
+  stage.handleOdometry(counted);
   auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::infinity()));
   blind.header.stamp = ros::Time(100.0);
-  stage.takeScan(blind);
+  stage.handleScan(blind);
   counted.header.stamp = ros::Time(100.1);
   counted.pose.pose.position.x += 0.5;
-  stage.takeOdometry(counted);
+  stage.handleOdometry(counted);
   blind.header.stamp = ros::Time(100.1);
-  const auto output = stage.takeScan(blind);
+  const auto output = stage.handleScan(blind);
   ASSERT_TRUE(output);
   EXPECT_NEAR(output->pose->pose.pose.position.x, 0.5, 0.05);
 }
@@ -223,16 +223,16 @@ TEST_F(GridSlamStageTest, AnAbsurdTwistAfterAGapLeavesThePoseOfTheOdometry) {
   options_.motion.odometry_pose = true;
   GridSlamStage stage(options_, buffer_, monitor_);
   mountScanner();
-  stage.takeOdometry(odometry(100.0));
+  stage.handleOdometry(odometry(100.0));
   auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::infinity()));
   blind.header.stamp = ros::Time(100.0);
-  stage.takeScan(blind);
+  stage.handleScan(blind);
   nav_msgs::Odometry late = odometry(103.0);
   late.pose.pose.position.x = odometry(100.0).pose.pose.position.x + 1.5;
   late.twist.twist.angular.z = 26.0;
-  stage.takeOdometry(late);
+  stage.handleOdometry(late);
   blind.header.stamp = ros::Time(103.0);
-  const auto output = stage.takeScan(blind);
+  const auto output = stage.handleScan(blind);
   ASSERT_TRUE(output);
   EXPECT_NEAR(output->pose->pose.pose.position.x, 1.5, 0.1);
   EXPECT_EQ(output->transforms.size(), 1U);
@@ -245,7 +245,7 @@ TEST_F(GridSlamStageTest, ThereIsAWarningOfBadBeamTimes) {
   odometryAt(100.0);
   auto scan = samples::laserScan();
   scan.time_increment = -1.0F;
-  EXPECT_TRUE(stage_.takeScan(scan));
+  EXPECT_TRUE(stage_.handleScan(scan));
   EXPECT_EQ(warnings("bad_beam_times"), 1U);
 }
 
@@ -255,7 +255,7 @@ TEST_F(GridSlamStageTest, AScanThatIsRepeatedWhileTheVehicleMovesIsDropped) {
   const auto goOn = [&](double seconds) {
     odometryAt(seconds);
     scan.header.stamp = ros::Time(seconds);
-    return stage_.takeScan(scan).has_value();
+    return stage_.handleScan(scan).has_value();
   };
   EXPECT_TRUE(goOn(100.0));
   for (const double seconds : {100.1, 100.2, 100.3}) {
@@ -272,9 +272,9 @@ TEST_F(GridSlamStageTest, AtRestScansMayBeTheSame) {
   mountScanner();
   auto scan = scanOfAWall();
   for (const double seconds : {100.0, 100.1, 100.2}) {
-    stage_.takeOdometry(samples::odometry(seconds, 0.0));
+    stage_.handleOdometry(samples::odometry(seconds, 0.0));
     scan.header.stamp = ros::Time(seconds);
-    EXPECT_TRUE(stage_.takeScan(scan));
+    EXPECT_TRUE(stage_.handleScan(scan));
   }
 }
 
@@ -282,7 +282,7 @@ TEST_F(GridSlamStageTest, OdometryOfOtherFramesIsDropped) {
   nav_msgs::Odometry message;
   message.header.frame_id = "world";
   message.child_frame_id = "base_link";
-  stage_.takeOdometry(message);
+  stage_.handleOdometry(message);
   EXPECT_EQ(drops("wrong_frame"), 1U);
 }
 

@@ -74,7 +74,7 @@ TEST(GridViews, ACellAheadAndLeftIsUpAndLeft) {
   SensorGrid grid = freeGrid();
   grid.at(grid.window().cellAt({6.2, 3.2})) = 100;  // x 6 to 6.5, y 3 to 3.5
   GridViews views(smallViews());
-  views.takeGrid("lidar", message(grid));
+  views.handleGrid("lidar", message(grid));
   const auto image = views.draw();
   EXPECT_EQ(image->header.stamp, ros::Time(samples::kStart));
   EXPECT_EQ(image->header.frame_id, "base_link");
@@ -94,8 +94,8 @@ TEST(GridViews, ShadesShowProbability) {
   grid.at(grid.window().cellAt({6.2, 3.2})) = 40;
   grid.at(grid.window().cellAt({6.2, -3.2})) = kUnknownPercent;
   GridViews views(smallViews());
-  views.takeGrid("stereo", message(grid));
-  views.takeGrid("conflict", message(grid));
+  views.handleGrid("stereo", message(grid));
+  views.handleGrid("conflict", message(grid));
   const auto image = views.draw();
   EXPECT_EQ(pixelAt(*image, 1, 6.25, 3.25), (Pixel{155, 155, 155}));  // 0.6 * 245 + 0.4 * 20
   EXPECT_EQ(pixelAt(*image, 1, 6.25, -3.25), kUnknown);
@@ -106,7 +106,7 @@ TEST(GridViews, ContradictionIsRed) {
   SensorGrid grid = freeGrid();
   grid.at(grid.window().cellAt({6.2, 3.2})) = 100;
   GridViews views(smallViews());
-  views.takeGrid("conflict", message(grid));
+  views.handleGrid("conflict", message(grid));
   EXPECT_EQ(pixelAt(*views.draw(), 3, 6.25, 3.25), kContradiction);
 }
 
@@ -114,7 +114,7 @@ TEST(GridViews, CellsBeyondAGridAreUnknown) {
   SensorGrid grid(Stamp::fromSeconds(samples::kStart), {0.5, 2, 2, {4, 0}});
   grid.cells().assign(4, 0);
   GridViews views(smallViews());
-  views.takeGrid("fused", message(grid));
+  views.handleGrid("fused", message(grid));
   const auto image = views.draw();
   EXPECT_EQ(pixelAt(*image, 2, 2.05, 0.05), kFree);
   EXPECT_EQ(pixelAt(*image, 2, 3.05, 0.05), kUnknown);
@@ -123,7 +123,7 @@ TEST(GridViews, CellsBeyondAGridAreUnknown) {
 
 TEST(GridViews, MissingGridsLeaveATitledPanel) {
   GridViews views(smallViews());
-  views.takeGrid("lidar", message(freeGrid()));
+  views.handleGrid("lidar", message(freeGrid()));
   const auto image = views.draw();
   EXPECT_EQ(pixelAt(*image, 0, 5.0, 0.0), kFree);
   for (int panel = 1; panel < 5; ++panel) {
@@ -146,9 +146,9 @@ TEST(GridViews, TheMapIsRotatedByThePose) {
   map.cells().assign(map.cells().size(), 0);
   map.at(map.window().cellAt({96.8, 56.2})) = 100;  // x 96.5 to 97, y 56 to 56.5
   GridViews views(smallViews());
-  views.takeGrid("map", message(map, "map"));
+  views.handleGrid("map", message(map, "map"));
   EXPECT_EQ(pixelAt(*views.draw(), 4, 6.25, 3.25), kNoGrid) << "nobody knows where the vehicle is";
-  views.takePose(pose({100.0, 50.0, M_PI_2}));
+  views.handlePose(pose({100.0, 50.0, M_PI_2}));
   const auto image = views.draw();
   for (const double x : {6.05, 6.45}) {
     for (const double y : {3.05, 3.45}) {
@@ -161,20 +161,20 @@ TEST(GridViews, TheMapIsRotatedByThePose) {
 
 TEST(GridViews, OldGridsOfASilentSourceAreNotShown) {
   GridViews views(smallViews());
-  views.takeGrid("map", message(freeGrid(samples::kStart - 100.0), "map"));
-  views.takePose(pose({}));
-  views.takeGrid("stereo", message(freeGrid()));
-  views.takeGrid("lidar", message(freeGrid(samples::kStart + 0.9)));
+  views.handleGrid("map", message(freeGrid(samples::kStart - 100.0), "map"));
+  views.handlePose(pose({}));
+  views.handleGrid("stereo", message(freeGrid()));
+  views.handleGrid("lidar", message(freeGrid(samples::kStart + 0.9)));
   EXPECT_EQ(pixelAt(*views.draw(), 1, 5.0, 0.0), kFree);
-  views.takeGrid("lidar", message(freeGrid(samples::kStart + 1.1)));
+  views.handleGrid("lidar", message(freeGrid(samples::kStart + 1.1)));
   EXPECT_EQ(pixelAt(*views.draw(), 1, 5.0, 0.0), kNoGrid);
   EXPECT_EQ(pixelAt(*views.draw(), 4, 5.0, 0.0), kFree) << "a map may be old";
 }
 
 TEST(GridViews, ANewRunOfTheClockForgets) {
   GridViews views(smallViews());
-  views.takeGrid("stereo", message(freeGrid()));
-  views.takeGrid("lidar", message(freeGrid(samples::kStart - 50.0)));
+  views.handleGrid("stereo", message(freeGrid()));
+  views.handleGrid("lidar", message(freeGrid(samples::kStart - 50.0)));
   const auto image = views.draw();
   EXPECT_EQ(pixelAt(*image, 0, 5.0, 0.0), kFree);
   EXPECT_EQ(pixelAt(*image, 1, 5.0, 0.0), kNoGrid);
@@ -185,10 +185,10 @@ TEST(GridViews, BadInputLeavesAnEmptyPanel) {
   bad->data.pop_back();
   auto nowhere = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   GridViews views(smallViews());
-  views.takeGrid("lidar", bad);
-  views.takeGrid("fused", message(freeGrid()));
-  views.takeGrid("map", message(freeGrid(), "map"));
-  views.takePose(nowhere);
+  views.handleGrid("lidar", bad);
+  views.handleGrid("fused", message(freeGrid()));
+  views.handleGrid("map", message(freeGrid(), "map"));
+  views.handlePose(nowhere);
   const auto image = views.draw();
   EXPECT_EQ(pixelAt(*image, 0, 5.0, 0.0), kNoGrid);
   EXPECT_EQ(pixelAt(*image, 2, 5.0, 0.0), kFree);

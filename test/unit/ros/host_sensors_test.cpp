@@ -22,7 +22,7 @@ class HostSensorsTest : public testing::Test {
     sensor_msgs::JointState message;
     message.header.stamp = ros::Time(samples::kStart + seconds);
     message.position = {angle};
-    stage_.takeSteering(message);
+    stage_.handleSteering(message);
   }
 
   void accelerationAt(double seconds, double along, double variance = 0.01) {
@@ -31,16 +31,16 @@ class HostSensorsTest : public testing::Test {
     message.header.frame_id = "base_link";
     message.accel.accel.linear.x = along;
     message.accel.covariance[0] = variance;
-    stage_.takeAcceleration(message);
+    stage_.handleAcceleration(message);
   }
 
   /// The host's expected path: from the center of its outline now to that 4 s later.
   std::vector<geometry_msgs::Pose2D> pathAt(double seconds) {
-    stage_.takeOdometry(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
-    stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
+    stage_.handleOdometry(samples::odometry(samples::kStart + seconds, samples::kHostSpeed));
+    stage_.handleLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
     TrackArray none = samples::standingCar(seconds, 50.0);
     none.tracks.clear();
-    const RiskArrayPtr risks = stage_.takeTracks(none);
+    const RiskArrayPtr risks = stage_.handleTracks(none);
     EXPECT_NE(risks, nullptr);
     return risks->host_path;
   }
@@ -76,12 +76,12 @@ TEST_F(HostSensorsTest, SteeringIsWeighedAgainstTheNoiseOfThePoses) {
       LabeledScan scan = samples::scanBetweenWalls(seconds);
       scan.base_in_map.covariance = 1e-4 * Eigen::Matrix3d::Identity();
       scan.base_in_map.covariance(2, 2) = sigma * sigma;
-      stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+      stage_.handleLabeledScan(toMessage(scan, "base_link", "map"));
     }
     steeringAt(start + 0.1, 0.2);
     TrackArray none = samples::standingCar(start + 0.1, 50.0);
     none.tracks.clear();
-    const auto path = stage_.takeTracks(none)->host_path;
+    const auto path = stage_.handleTracks(none)->host_path;
     return path[5].theta - path[0].theta;
   };
   // Differences of headings over 0.1 s: 14 and 0.014 rad/s; the angle itself 0.01 rad.
@@ -102,11 +102,11 @@ TEST_F(HostSensorsTest, ASteeringAngleTurnsThePathAtOnce) {
 
 TEST_F(HostSensorsTest, ASlowHostHasTheSteeringThatIsMeasured) {
   steeringAt(0.0, 0.2);
-  stage_.takeOdometry(samples::odometry(samples::kStart, 0.6));
-  stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(0.0), "base_link", "map"));
+  stage_.handleOdometry(samples::odometry(samples::kStart, 0.6));
+  stage_.handleLabeledScan(toMessage(samples::scanBetweenWalls(0.0), "base_link", "map"));
   TrackArray none = samples::standingCar(0.0, 50.0);
   none.tracks.clear();
-  const auto path = stage_.takeTracks(none)->host_path;
+  const auto path = stage_.handleTracks(none)->host_path;
   // At 0.6 m/s the yaw rate tells 0.09 rad: hardly anything.
   EXPECT_NEAR(path.back().theta, 4.0 * 0.6 * std::tan(0.2) / 2.7, 0.01);
 }

@@ -25,7 +25,7 @@ class LidarGridStageTest : public testing::Test {
   nav_msgs::OccupancyGridPtr scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);
-    return stage_.takeScan(scan);
+    return stage_.handleScan(scan);
   }
 
   /// The vehicle drives ahead at 8 m/s.
@@ -35,7 +35,7 @@ class LidarGridStageTest : public testing::Test {
     message.header.frame_id = "odom";
     message.child_frame_id = "base_link";
     message.twist.twist.linear.x = 8.0;
-    stage_.takeOdometry(message);
+    stage_.handleOdometry(message);
   }
 
   /// Returns whether a point in the vehicle's frame, m, is reported occupied.
@@ -75,7 +75,7 @@ TEST_F(LidarGridStageTest, MultiEchoScansAreAcceptedToo) {
   echoes.range_max = scan.range_max;
   echoes.ranges.resize(3);
   echoes.ranges[1].echoes = {3.0F, 5.0F};
-  const auto grid = stage_.takeScan(echoes);
+  const auto grid = stage_.handleScan(echoes);
   ASSERT_TRUE(grid);
   EXPECT_TRUE(isOccupiedAt(*grid, 6.6, 0.0));
 }
@@ -85,7 +85,7 @@ TEST_F(LidarGridStageTest, BeamsAreCompensatedToTheStampOfTheScanByOdometry) {
   odometryAt(kStart);
   auto scan = samples::laserScan();
   scan.time_increment = 0.1F;  // the beam ahead is measured 0.8 m further on
-  const auto grid = stage_.takeScan(scan);
+  const auto grid = stage_.handleScan(scan);
   ASSERT_TRUE(grid);
   EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0));
 }
@@ -97,21 +97,21 @@ TEST_F(LidarGridStageTest, WithoutOdometryBeamsAreCompensatedByThePosesOfTheSlam
   mountScanner();
   nav_msgs::Odometry odometry;
   odometry.header.frame_id = "of nobody";
-  stage.takeOdometry(odometry);
+  stage.handleOdometry(odometry);
   EXPECT_EQ(monitor_.droppedCount(), 0U) << "it is not read";
   auto scan = samples::laserScan();
   scan.time_increment = 0.1F;
-  const auto before = stage.takeScan(scan);
+  const auto before = stage.handleScan(scan);
   ASSERT_TRUE(before);
   EXPECT_TRUE(isOccupiedAt(*before, 3.6 + 3.0, 0.0)) << "as measured at once";
   for (const double t : {kStart - 0.1, kStart}) {
     geometry_msgs::PoseWithCovarianceStamped pose;
     pose.header.stamp = ros::Time(t);
     pose.pose.pose = toMessage(Pose2(8.0 * t, 5.0, 0.0));
-    stage.takePose(pose);
+    stage.handlePose(pose);
   }
   scan.header.stamp = ros::Time(kStart + 0.1);
-  const auto grid = stage.takeScan(scan);
+  const auto grid = stage.handleScan(scan);
   ASSERT_TRUE(grid);
   EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0)) << "measured 0.8 m further on";
   EXPECT_EQ(monitor_.droppedCount(), 0U);
@@ -132,7 +132,7 @@ TEST_F(LidarGridStageTest, AJumpBackStartsOverWhicheverInputSeesItFirst) {
 
 TEST_F(LidarGridStageTest, AScanWithoutAValidBeamIsUninformative) {
   mountScanner();
-  const auto grid = stage_.takeScan(
+  const auto grid = stage_.handleScan(
       samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::quiet_NaN())));
   ASSERT_TRUE(grid);
   EXPECT_EQ(std::count(grid->data.begin(), grid->data.end(), kUnknownPercent),

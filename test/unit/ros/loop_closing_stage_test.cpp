@@ -33,7 +33,7 @@ class LoopClosingStageTest : public testing::Test {
   }
 
   tf2_msgs::TFMessageConstPtr take(LoopClosingStage& stage, const LabeledScanMessage& scan) const {
-    return stage.takeLabeledScan(scan, toStamp(scan.header.stamp));
+    return stage.handleLabeledScan(scan, toStamp(scan.header.stamp));
   }
 
   /// Returns the last map -> global_map.

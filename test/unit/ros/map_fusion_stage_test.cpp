@@ -60,10 +60,10 @@ class MapFusionStageTest : public testing::Test {
   void start() { stage_ = std::make_unique<MapFusionStage>(options_, monitor_); }
 
   void take(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
-    stage_->takeGrid(source, grid, toStamp(grid.header.stamp));
+    stage_->handleGrid(source, grid, toStamp(grid.header.stamp));
   }
   void take(const LabeledScanMessage& scan) {
-    stage_->takeLabeledScan(scan, toStamp(scan.header.stamp));
+    stage_->handleLabeledScan(scan, toStamp(scan.header.stamp));
   }
 
   std::optional<MapFusionOutput> nextAt(double seconds) {
@@ -141,7 +141,7 @@ TEST_F(MapFusionStageTest, AllGridsAreUsedAndMapsPublishedOncePerPeriod) {
 
 TEST_F(MapFusionStageTest, AGridIsPlacedAtTheVehiclesPoseOfItsStamp) {
   for (int i = 0; i <= 10; ++i) {
-    stage_->takeOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
+    stage_->handleOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
   }
   take("stereo", gridMessage(100.15, kOccupied));
   take("lidar", gridMessage(100.2, kFree));
@@ -227,7 +227,7 @@ TEST_F(MapFusionStageTest, AClockJumpBackStartsOver) {
 
 TEST_F(MapFusionStageTest, APoseJumpAgainstTheMotionStartsOver) {
   for (int i = 0; i <= 20; ++i) {
-    stage_->takeOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
+    stage_->handleOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
   }
   allAt(100.0, kOccupied, kOccupied);
   allAt(100.1, kOccupied, kOccupied, Pose2(2.0, 0.0, 0.0));

@@ -72,14 +72,14 @@ class MonoClassifierStageTest : public testing::Test {
 
   ObjectArrayPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
     const Stamp stamp = toStamp(image->header.stamp);
-    stage_->takeImage(image, stamp);
+    stage_->handleImage(image, stamp);
     return stage_->next(stamp + waited);
   }
 
   /// Expects that an image like this is dropped for this reason, and the next good one is not.
   void expectDropped(const sensor_msgs::ImagePtr& image, const std::string& reason) {
     mountCamera();
-    stage_->takeCameraInfo(cameraInfo());
+    stage_->handleCameraInfo(cameraInfo());
     EXPECT_EQ(look(image, 1.0), nullptr) << reason;
     EXPECT_EQ(samples::drops(monitor_, reason), 1U) << reason;
     EXPECT_NE(look(imageAt(kStart + 0.1), 1.0), nullptr);

@@ -25,8 +25,8 @@ using samples::warnings;
 
 TEST_F(MonoClassifierStageTest, ClassifiesObjectsAtTheExposuresStamp) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  stage_->takeObjects(objectsAt(kStart));
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleObjects(objectsAt(kStart));
   const auto named = look(imageAt(kStart));
   ASSERT_NE(named, nullptr);
   EXPECT_EQ(named->header.stamp, ros::Time(kStart));
@@ -39,20 +39,20 @@ TEST_F(MonoClassifierStageTest, ClassifiesObjectsAtTheExposuresStamp) {
 
 TEST_F(MonoClassifierStageTest, ThereIsAWarningOfADetectorWithoutWeight) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   EXPECT_NE(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 0U);
   MonoClassifierStage by_default(MonoClassifierStageOptions(), transforms_, monitor_);
-  by_default.takeCameraInfo(cameraInfo());
-  by_default.takeImage(imageAt(kStart), Stamp::fromSeconds(kStart));
+  by_default.handleCameraInfo(cameraInfo());
+  by_default.handleImage(imageAt(kStart), Stamp::fromSeconds(kStart));
   EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 1U);
 }
 
 TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
-  stage_->takeObjects(objectsAt(kStart));
+  stage_->handleObjects(objectsAt(kStart));
   const auto named = stage_->next(Stamp::fromSeconds(kStart + 0.01));
   ASSERT_NE(named, nullptr);
   EXPECT_NEAR(named->objects.at(0).pose.position.x, 10.2, 1e-9);
@@ -60,7 +60,7 @@ TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
 
 TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsUsedAlone) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   const auto alone = look(imageAt(kStart), 1.0);
   ASSERT_NE(alone, nullptr);
   ASSERT_EQ(alone->objects.size(), 1U);
@@ -69,8 +69,8 @@ TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsUsedAlone) {
 
 TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  stage_->takeObjects(objectsAt(kStart - 0.05));
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleObjects(objectsAt(kStart - 0.05));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(warnings(monitor_, "no_motion"), 1U);
 }
@@ -78,9 +78,9 @@ TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
 TEST_F(MonoClassifierStageTest, InASeparateThreadTheResultIsTheSame) {
   stage_ = makeStage([] { return 0.0; });
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  stage_->takeObjects(objectsAt(kStart));
-  stage_->takeImage(imageAt(kStart), Stamp::fromSeconds(kStart));
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleObjects(objectsAt(kStart));
+  stage_->handleImage(imageAt(kStart), Stamp::fromSeconds(kStart));
   const auto early = stage_->next(Stamp::fromSeconds(kStart));
   stage_->waitUntilIdle();
   const auto late = early ? early : stage_->next(Stamp::fromSeconds(kStart + 0.3));
@@ -102,7 +102,7 @@ TEST_F(MonoClassifierStageTest, APartialImageIsDroppedAndASaturatedSkyIsNot) {
 
 TEST_F(MonoClassifierStageTest, OfWaitingImagesTheNewestIsKept) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
   EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
@@ -112,7 +112,7 @@ TEST_F(MonoClassifierStageTest, OfWaitingImagesTheNewestIsKept) {
 TEST_F(MonoClassifierStageTest, WithoutInfoOrMountImagesAreDropped) {
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
 }
@@ -120,7 +120,7 @@ TEST_F(MonoClassifierStageTest, WithoutInfoOrMountImagesAreDropped) {
 TEST_F(MonoClassifierStageTest, AnInfoOfZerosIsRefused) {
   sensor_msgs::CameraInfo zeros = cameraInfo();
   zeros.P.fill(0.0);
-  stage_->takeCameraInfo(zeros);
+  stage_->handleCameraInfo(zeros);
   EXPECT_EQ(drops(monitor_, "bad_camera_info"), 1U);
 }
 
@@ -154,7 +154,7 @@ TEST_F(MonoClassifierStageTest, PartialImagesAndOtherEncodingsAreRefused) {
 
 TEST_F(MonoClassifierStageTest, AFrozenImageIsRefused) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   const auto first = imageAt(kStart);
   EXPECT_NE(look(first, 1.0), nullptr);
   const auto again = boost::make_shared<sensor_msgs::Image>(*first);
@@ -165,16 +165,16 @@ TEST_F(MonoClassifierStageTest, AFrozenImageIsRefused) {
 
 TEST_F(MonoClassifierStageTest, AnOldImageIsRefused) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  stage_->takeObjects(objectsAt(kStart + 0.7));
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleObjects(objectsAt(kStart + 0.7));
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "old_image"), 1U);
 }
 
 TEST_F(MonoClassifierStageTest, AClockJumpBackStartsOver) {
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
-  stage_->takeObjects(objectsAt(kStart));
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleObjects(objectsAt(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
   EXPECT_NE(look(imageAt(kStart - 50.0), 1.0), nullptr);
   EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
@@ -183,7 +183,7 @@ TEST_F(MonoClassifierStageTest, AClockJumpBackStartsOver) {
 TEST_F(MonoClassifierStageTest, ObjectsOfAnotherFrameAreRefused) {
   ObjectArray objects = objectsAt(kStart);
   objects.header.frame_id = "map";
-  stage_->takeObjects(objects);
+  stage_->handleObjects(objects);
   EXPECT_EQ(drops(monitor_, "wrong_frame"), 1U);
 }
 

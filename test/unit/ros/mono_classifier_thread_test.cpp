@@ -55,7 +55,7 @@ TEST_F(MonoClassifierThread, TheDetectorYieldsToAllOtherThreads) {
                        nice = getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)));
                      }));
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   look(imageAt(kStart), 1.0);
   stage_->waitUntilIdle();
   EXPECT_GE(nice, MonoClassifierStageOptions().detector_nice);
@@ -71,9 +71,9 @@ TEST_F(MonoClassifierThread, ADetectorThatIsTooSlowIsNamed) {
   stage_ = makeStage([] { return 0.0; },
                      std::make_unique<ToldDetector>([released] { released.wait(); }));
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   for (int i = 0; i < 3; ++i) {
-    stage_->takeObjects(objectsAt(kStart + 0.1 * i));
+    stage_->handleObjects(objectsAt(kStart + 0.1 * i));
     look(imageAt(kStart + 0.1 * i));
   }
   EXPECT_GE(drops(monitor_, "slow_detector"), 1U) << "one is looked at, one waits";
@@ -90,7 +90,7 @@ TEST_F(MonoClassifierThread, ADetectorThatFailsOnceIsCountedAndTheNextImageWorks
                   }
                 }));
   mountCamera();
-  stage_->takeCameraInfo(cameraInfo());
+  stage_->handleCameraInfo(cameraInfo());
   EXPECT_EQ(lookAndWait(imageAt(kStart)), nullptr);
   EXPECT_EQ(drops(monitor_, "detector_failed"), 1U);
   EXPECT_EQ(monitor_.processedCount(), 0U);

@@ -55,12 +55,12 @@ class MonoGridStageTest : public testing::Test {
     scanner.transform.translation.z = 0.4;
     transforms_.addStatic(
         samples::transforms({samples::cameraMount("base_link", kHeight), scanner}));
-    stage_.takeCameraInfo(kCamera.info());
+    stage_.handleCameraInfo(kCamera.info());
   }
 
   nav_msgs::OccupancyGridPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
     const Stamp stamp = toStamp(image->header.stamp);
-    stage_.takeImage(image, stamp);
+    stage_.handleImage(image, stamp);
     return stage_.next(stamp + waited);
   }
 
@@ -71,7 +71,7 @@ class MonoGridStageTest : public testing::Test {
 
 TEST_F(MonoGridStageTest, AnImageAndItsScanMakeAGridAtTheExposure) {
   mount();
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   const auto grid = look(imageAt(kStart));
   ASSERT_NE(grid, nullptr);
   EXPECT_EQ(grid->header.stamp, ros::Time(kStart));
@@ -83,7 +83,7 @@ TEST_F(MonoGridStageTest, AnImageAndItsScanMakeAGridAtTheExposure) {
 TEST_F(MonoGridStageTest, AnImageWaitsForItsScan) {
   mount();
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   EXPECT_NE(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
   EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.03)), nullptr) << "one image, one grid";
 }
@@ -92,7 +92,7 @@ TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
   mount();
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_scan"), 1U);
-  stage_.takeScan(scanAt(kStart + 1.0));
+  stage_.handleScan(scanAt(kStart + 1.0));
   EXPECT_EQ(look(imageAt(kStart + 0.5)), nullptr) << "older than the scans";
   EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
 }
@@ -102,15 +102,15 @@ TEST_F(MonoGridStageTest, AnImageThatWaitsWhileTheCameraChangesIsDropped) {
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   auto wider = kCamera.info();
   ++wider.width;
-  stage_.takeCameraInfo(wider);
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleCameraInfo(wider);
+  stage_.handleScan(scanAt(kStart));
   EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
 }
 
 TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsNotUsed) {
   mount();
-  stage_.takeScan(scanAt(kStart - 0.05));
+  stage_.handleScan(scanAt(kStart - 0.05));
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_motion"), 1U);
 }
@@ -144,21 +144,21 @@ TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneIsUsed) {
   EXPECT_EQ(drops(monitor_, "half_image"), 1U);
   EXPECT_EQ(drops(monitor_, "bad_encoding"), 2U);
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
-  stage_.takeScan(scanAt(kStart + 0.1));
+  stage_.handleScan(scanAt(kStart + 0.1));
   EXPECT_NE(look(imageAt(kStart + 0.1)), nullptr);
 }
 
 TEST_F(MonoGridStageTest, AFrozenImageIsDroppedAndTheNextOneIsUsed) {
   mount();
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   const auto first = imageAt(kStart);
   EXPECT_NE(look(first), nullptr);
   const auto again = boost::make_shared<sensor_msgs::Image>(*first);
   again->header.stamp = ros::Time(kStart + 0.1);
-  stage_.takeScan(scanAt(kStart + 0.1));
+  stage_.handleScan(scanAt(kStart + 0.1));
   EXPECT_EQ(look(again), nullptr);
   EXPECT_EQ(drops(monitor_, "frozen_image"), 1U);
-  stage_.takeScan(scanAt(kStart + 0.2));
+  stage_.handleScan(scanAt(kStart + 0.2));
   EXPECT_NE(look(imageAt(kStart + 0.2)), nullptr);
 }
 
@@ -166,25 +166,25 @@ TEST_F(MonoGridStageTest, AnInfoOfZerosIsDroppedAndTheLastOneIsKept) {
   mount();
   sensor_msgs::CameraInfo zeros = kCamera.info();
   zeros.P.fill(0.0);
-  stage_.takeCameraInfo(zeros);
+  stage_.handleCameraInfo(zeros);
   EXPECT_EQ(drops(monitor_, "bad_camera_info"), 1U);
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
 }
 
 TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U) << "of the scanner";
 }
 
 TEST_F(MonoGridStageTest, AClockJumpBackStartsOver) {
   mount();
-  stage_.takeScan(scanAt(kStart));
+  stage_.handleScan(scanAt(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
-  stage_.takeScan(scanAt(kStart - 50.0));
-  stage_.takeScan(scanAt(kStart - 49.9));
+  stage_.handleScan(scanAt(kStart - 50.0));
+  stage_.handleScan(scanAt(kStart - 49.9));
   EXPECT_NE(look(imageAt(kStart - 49.9)), nullptr);
   EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
 }

@@ -65,9 +65,9 @@ TEST(MotionInput, OdometryGivesTheMotionBySpeedOrByPose) {
   MotionInput& by_speed = speed_stage.input;
   MotionInput& by_pose = pose_stage.input;
   for (const double t : {100.0, 100.1, 100.2}) {
-    by_speed.take(odometry(t));
-    by_pose.take(odometry(t));
-    by_speed.take(pose(t));  // not read
+    by_speed.update(odometry(t));
+    by_pose.update(odometry(t));
+    by_speed.update(pose(t));  // not read
   }
   EXPECT_NEAR(by_speed.between(at(100.05), at(100.15))->x(), 1.0, 1e-9);
   EXPECT_NEAR(by_pose.between(at(100.05), at(100.15))->x(), 1.1, 1e-9);
@@ -77,15 +77,15 @@ TEST(MotionInput, OdometryGivesTheMotionBySpeedOrByPose) {
 TEST(MotionInput, RepeatedOdometryIsUsedAsLongAsItsLastMeasurement) {
   for (const bool use_poses : {false, true}) {
     MovingStage stage(true, use_poses);
-    stage.input.take(odometry(100.0));
+    stage.input.update(odometry(100.0));
     nav_msgs::Odometry frozen = odometry(100.1);
     for (const double t : {100.1, 100.3, 100.6}) {
       frozen.header.stamp = ros::Time(t);
-      stage.input.take(frozen);
+      stage.input.update(frozen);
     }
     frozen.header.stamp = ros::Time(100.7);
-    EXPECT_EQ(reasonOf([&] { stage.input.take(frozen); }), "frozen_odometry");
-    stage.input.take(odometry(100.8));
+    EXPECT_EQ(reasonOf([&] { stage.input.update(frozen); }), "frozen_odometry");
+    stage.input.update(odometry(100.8));
     EXPECT_TRUE(stage.input.between(at(100.8), at(100.9)));
   }
 }
@@ -96,10 +96,10 @@ TEST(MotionInput, OdometryAtRestOrWithoutAPoseMayRepeatItself) {
   for (const double t : {100.0, 101.0, 102.0, 103.0}) {
     nav_msgs::Odometry message = odometry(t);
     message.pose.pose = toMessage(Pose2(1.0, 2.0, 0.3));
-    without_pose.input.take(message);
+    without_pose.input.update(message);
     message.twist.twist.linear.x = t > 100.0 ? 0.0 : 10.0;
     message.pose.pose = toMessage(Pose2(t > 100.0 ? 1.0 : 0.0, 2.0, 0.3));
-    standing.input.take(message);
+    standing.input.update(message);
   }
   EXPECT_EQ(standing.warningCount() + without_pose.warningCount(), 0U);
 }
@@ -107,11 +107,11 @@ TEST(MotionInput, OdometryAtRestOrWithoutAPoseMayRepeatItself) {
 TEST(MotionInput, WithoutOdometryThePosesOfTheSlamAreUsed) {
   MovingStage stage(false);
   MotionInput& input = stage.input;
-  input.take(odometry(100.0));  // not read
-  input.take(pose(100.0));
+  input.update(odometry(100.0));  // not read
+  input.update(pose(100.0));
   EXPECT_FALSE(input.between(at(100.0), at(100.1))) << "one pose tells no motion";
-  input.take(pose(100.1));
-  input.take(pose(100.2));
+  input.update(pose(100.1));
+  input.update(pose(100.2));
   const auto motion = input.between(at(100.2), at(100.3));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->x(), 1.2, 1e-9) << "as it was before";
@@ -123,26 +123,26 @@ TEST(MotionInput, BadOdometryIsRefused) {
   MotionInput& input = stage.input;
   nav_msgs::Odometry bad = odometry(100.0);
   bad.twist.twist.linear.x = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "bad_odometry");
+  EXPECT_EQ(reasonOf([&] { input.update(bad); }), "bad_odometry");
   bad = odometry(100.0);
   bad.child_frame_id = "trailer";
-  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "wrong_frame");
-  input.take(odometry(100.0));
-  EXPECT_EQ(reasonOf([&] { input.take(odometry(100.0)); }), "repeated_stamp");
+  EXPECT_EQ(reasonOf([&] { input.update(bad); }), "wrong_frame");
+  input.update(odometry(100.0));
+  EXPECT_EQ(reasonOf([&] { input.update(odometry(100.0)); }), "repeated_stamp");
 }
 
 TEST(MotionInput, APoseIsUsedWithoutItsAbsurdTwist) {
   MovingStage stage(true, true);
-  stage.input.take(odometry(100.0));
+  stage.input.update(odometry(100.0));
   nav_msgs::Odometry spinning = odometry(103.0);
   spinning.twist.twist.angular.z = 26.0;
-  stage.input.take(spinning);
+  stage.input.update(spinning);
   EXPECT_EQ(stage.warningCount(), 1U);
   EXPECT_NEAR(stage.input.between(at(100.0), at(103.0))->x(), 33.0, 1e-9);
   EXPECT_FALSE(stage.input.between(at(103.0), at(103.1)));
   spinning.header.stamp = ros::Time(103.1);
   spinning.pose.pose.orientation.w = 2.0;
-  EXPECT_EQ(reasonOf([&] { stage.input.take(spinning); }), "bad_pose");
+  EXPECT_EQ(reasonOf([&] { stage.input.update(spinning); }), "bad_pose");
 }
 
 TEST(MotionInput, PoseJumpsAreRefusedAndTheNextPosesUsed) {
@@ -150,23 +150,23 @@ TEST(MotionInput, PoseJumpsAreRefusedAndTheNextPosesUsed) {
   MotionInput& input = stage.input;
   geometry_msgs::PoseWithCovarianceStamped bad = pose(100.0);
   bad.pose.pose.orientation.w = 2.0;
-  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "bad_pose");
-  input.take(pose(100.0));
+  EXPECT_EQ(reasonOf([&] { input.update(bad); }), "bad_pose");
+  input.update(pose(100.0));
   bad = pose(100.1);
   bad.pose.pose.position.x = 1000.0;
-  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "pose_jump");
-  EXPECT_EQ(reasonOf([&] { input.take(pose(100.2)); }), "pose_jump") << "back again";
-  input.take(pose(100.3));
+  EXPECT_EQ(reasonOf([&] { input.update(bad); }), "pose_jump");
+  EXPECT_EQ(reasonOf([&] { input.update(pose(100.2)); }), "pose_jump") << "back again";
+  input.update(pose(100.3));
   EXPECT_NEAR(input.between(at(100.3), at(100.4))->x(), 1.2, 1e-9);
 }
 
 TEST(MotionInput, AJumpBackStartsOver) {
   MovingStage stage(true);
   MotionInput& input = stage.input;
-  input.take(odometry(200.0));
-  input.take(odometry(100.0));
+  input.update(odometry(200.0));
+  input.update(odometry(100.0));
   EXPECT_EQ(stage.warningCount(), 1U);
-  input.take(odometry(100.1));
+  input.update(odometry(100.1));
   EXPECT_NEAR(input.between(at(100.0), at(100.1))->x(), 1.0, 1e-9);
   input.reset();
   EXPECT_FALSE(input.between(at(100.0), at(100.1)));

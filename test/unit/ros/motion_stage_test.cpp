@@ -61,8 +61,8 @@ class MotionStageTest : public testing::Test {
 
 TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheDistance) {
   MotionStage stage = stageOf(MotionSource::kTwist);
-  ASSERT_TRUE(stage.takeTwist(twist(100.0, 2.0)));
-  const auto odometry = stage.takeTwist(twist(100.5, 4.0, 0.1));
+  ASSERT_TRUE(stage.handleTwist(twist(100.0, 2.0)));
+  const auto odometry = stage.handleTwist(twist(100.5, 4.0, 0.1));
   ASSERT_TRUE(odometry);
   EXPECT_EQ(odometry->header.stamp, ros::Time(100.5));
   EXPECT_EQ(odometry->header.frame_id, "odom");
@@ -73,34 +73,34 @@ TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheDistance) {
   geometry_msgs::TwistWithCovarianceStamped with_covariance;
   with_covariance.header.stamp = ros::Time(100.6);
   with_covariance.twist.twist.linear.x = 3.0;
-  EXPECT_EQ(stage.takeTwist(with_covariance)->twist.twist.linear.x, 3.0) << "without frame_id";
+  EXPECT_EQ(stage.handleTwist(with_covariance)->twist.twist.linear.x, 3.0) << "without frame_id";
 }
 
 TEST_F(MotionStageTest, YawRateOfTheImuAndSpeedOfTheTwist) {
   MotionStage stage = stageOf(MotionSource::kImuAndTwist);
-  EXPECT_FALSE(stage.takeImu(imu(100.0, 0.2)));
+  EXPECT_FALSE(stage.handleImu(imu(100.0, 0.2)));
   EXPECT_EQ(drops(monitor_, "no_speed"), 1U);
-  EXPECT_FALSE(stage.takeTwist(twist(100.01, 5.0, 9.0))) << "the Imu sets the pace";
-  const auto odometry = stage.takeImu(imu(100.02, 0.2));
+  EXPECT_FALSE(stage.handleTwist(twist(100.01, 5.0, 9.0))) << "the Imu sets the pace";
+  const auto odometry = stage.handleImu(imu(100.02, 0.2));
   ASSERT_TRUE(odometry);
   EXPECT_EQ(odometry->twist.twist.linear.x, 5.0);
   EXPECT_EQ(odometry->twist.twist.angular.z, 0.2);
   EXPECT_EQ(odometry->twist.covariance[0], 0.0);
-  EXPECT_FALSE(stage.takeImu(imu(101.0, 0.2))) << "the speed is older than hold";
+  EXPECT_FALSE(stage.handleImu(imu(101.0, 0.2))) << "the speed is older than hold";
   EXPECT_EQ(drops(monitor_, "no_speed"), 2U);
 }
 
 TEST_F(MotionStageTest, WheelsGiveTheSpeedByTheirRadius) {
   MotionStage stage = stageOf(MotionSource::kImuAndWheels);
-  EXPECT_FALSE(stage.takeWheels(wheels(100.0, {10.0, 12.0})));
-  EXPECT_NEAR(stage.takeImu(imu(100.01, 0.0))->twist.twist.linear.x, 0.25 * 11.0, 1e-12);
-  EXPECT_FALSE(stage.takeWheels(wheels(100.1, {})));
+  EXPECT_FALSE(stage.handleWheels(wheels(100.0, {10.0, 12.0})));
+  EXPECT_NEAR(stage.handleImu(imu(100.01, 0.0))->twist.twist.linear.x, 0.25 * 11.0, 1e-12);
+  EXPECT_FALSE(stage.handleWheels(wheels(100.1, {})));
   EXPECT_EQ(drops(monitor_, "no_wheel_speed"), 1U);
 }
 
 TEST_F(MotionStageTest, WithAnImuAloneTheSpeedIsUnknown) {
   MotionStage stage = stageOf(MotionSource::kImu);
-  const auto odometry = stage.takeImu(imu(100.0, 0.3));
+  const auto odometry = stage.handleImu(imu(100.0, 0.3));
   ASSERT_TRUE(odometry);
   EXPECT_EQ(odometry->twist.twist.angular.z, 0.3);
   EXPECT_EQ(odometry->twist.twist.linear.x, 0.0);
@@ -109,35 +109,35 @@ TEST_F(MotionStageTest, WithAnImuAloneTheSpeedIsUnknown) {
 
 TEST_F(MotionStageTest, TheImuIsRotatedByItsMount) {
   MotionStage stage = stageOf(MotionSource::kImu);
-  EXPECT_NEAR(stage.takeImu(imu(100.0, 0.3, "imu_link"))->twist.twist.angular.z, -0.3, 1e-9)
+  EXPECT_NEAR(stage.handleImu(imu(100.0, 0.3, "imu_link"))->twist.twist.angular.z, -0.3, 1e-9)
       << "it hangs upside down";
-  EXPECT_FALSE(stage.takeImu(imu(100.1, 0.3, "somewhere")));
+  EXPECT_FALSE(stage.handleImu(imu(100.1, 0.3, "somewhere")));
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
-  EXPECT_FALSE(stage.takeImu(imu(100.2, 0.3, "odom")));
+  EXPECT_FALSE(stage.handleImu(imu(100.2, 0.3, "odom")));
   EXPECT_EQ(drops(monitor_, "wrong_frame"), 1U);
 }
 
 TEST_F(MotionStageTest, BadMotionIsRefused) {
   MotionStage stage = stageOf(MotionSource::kImu);
-  EXPECT_FALSE(stage.takeImu(imu(100.0, std::numeric_limits<double>::quiet_NaN())));
-  EXPECT_FALSE(stage.takeImu(imu(100.1, 1000.0)));
+  EXPECT_FALSE(stage.handleImu(imu(100.0, std::numeric_limits<double>::quiet_NaN())));
+  EXPECT_FALSE(stage.handleImu(imu(100.1, 1000.0)));
   EXPECT_EQ(drops(monitor_, "bad_motion"), 2U);
   sensor_msgs::Imu without = imu(100.2, 0.1);
   without.angular_velocity_covariance[0] = -1.0;
-  EXPECT_FALSE(stage.takeImu(without));
+  EXPECT_FALSE(stage.handleImu(without));
   EXPECT_EQ(drops(monitor_, "no_angular_velocity"), 1U);
-  EXPECT_TRUE(stage.takeImu(imu(100.0, 0.1))) << "what was refused has not moved the time";
-  EXPECT_FALSE(stage.takeImu(imu(100.0, 0.1)));
+  EXPECT_TRUE(stage.handleImu(imu(100.0, 0.1))) << "what was refused has not moved the time";
+  EXPECT_FALSE(stage.handleImu(imu(100.0, 0.1)));
   EXPECT_EQ(drops(monitor_, "repeated_stamp"), 1U);
 }
 
 TEST_F(MotionStageTest, AJumpBackStartsOver) {
   MotionStage stage = stageOf(MotionSource::kTwist);
-  stage.takeTwist(twist(200.0, 10.0));
-  stage.takeTwist(twist(200.5, 10.0));
-  EXPECT_EQ(stage.takeTwist(twist(100.0, 10.0))->pose.pose.position.x, 0.0);
+  stage.handleTwist(twist(200.0, 10.0));
+  stage.handleTwist(twist(200.5, 10.0));
+  EXPECT_EQ(stage.handleTwist(twist(100.0, 10.0))->pose.pose.position.x, 0.0);
   EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
-  EXPECT_NEAR(stage.takeTwist(twist(100.1, 10.0))->pose.pose.position.x, 1.0, 1e-9);
+  EXPECT_NEAR(stage.handleTwist(twist(100.1, 10.0))->pose.pose.position.x, 1.0, 1e-9);
 }
 
 }  // namespace

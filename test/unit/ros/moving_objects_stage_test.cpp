@@ -25,13 +25,13 @@ class MovingObjectsStageTest : public testing::Test {
   }
 
   std::optional<MovingObjectsOutput> take(const LabeledScan& scan) {
-    return stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+    return stage_.handleLabeledScan(toMessage(scan, "base_link", "map"));
   }
 
-  void takeRoad(double seconds, const std::string& frame = "map") {
+  void handleRoad(double seconds, const std::string& frame = "map") {
     RoadModel road = samples::straightRoad();
     road.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-    stage_.takeRoadBorders(toMessage(road, frame));
+    stage_.handleRoadBorders(toMessage(road, frame));
   }
 
   /// Returns the log odds of motion of the only object seen then.
@@ -52,21 +52,21 @@ TEST(MovingObjectsStageWithoutBordersTest, ProcessesALabeledScanOnceAndDropsBadO
   LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(samples::kStart);
   const LabeledScanMessage message = toMessage(scan, "base_link", "map");
-  const auto output = stage.takeLabeledScan(message);
+  const auto output = stage.handleLabeledScan(message);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->objects->header.frame_id, "base_link");
   EXPECT_EQ(output->objects->header.stamp, message.header.stamp);
   EXPECT_FALSE(output->dropped);
-  EXPECT_FALSE(stage.takeLabeledScan(message));
+  EXPECT_FALSE(stage.handleLabeledScan(message));
   EXPECT_EQ(monitor.drops().at("repeated_stamp"), 1U);
   LabeledScanMessage bad = message;
   bad.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(stage.takeLabeledScan(bad));
+  EXPECT_FALSE(stage.handleLabeledScan(bad));
   EXPECT_EQ(monitor.drops().at("bad_pose"), 1U);
 }
 
 TEST_F(MovingObjectsStageTest, ObjectsOnABorderAreLessLikelyToMove) {
-  takeRoad(0.0);
+  handleRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_TRUE(monitor_.warnings().empty());
 }
@@ -77,9 +77,9 @@ TEST_F(MovingObjectsStageTest, ByTheThesisItIsDropped) {
   MovingObjectsStage stage(options, monitor_);
   RoadModel road = samples::straightRoad();
   road.stamp = Stamp::fromSeconds(samples::kStart);
-  stage.takeRoadBorders(toMessage(road, "map"));
+  stage.handleRoadBorders(toMessage(road, "map"));
   const auto output =
-      stage.takeLabeledScan(toMessage(scanWithMover(on_border_, 0.0), "base_link", "map"));
+      stage.handleLabeledScan(toMessage(scanWithMover(on_border_, 0.0), "base_link", "map"));
   ASSERT_TRUE(output);
   EXPECT_TRUE(output->objects->objects.empty());
   ASSERT_TRUE(output->dropped);
@@ -96,29 +96,29 @@ TEST_F(MovingObjectsStageTest, WithoutBordersTheRoadIsUnknownAndItIsReported) {
 }
 
 TEST_F(MovingObjectsStageTest, OldBordersAreNotUsed) {
-  takeRoad(0.0);
+  handleRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.4), 0.0);
   EXPECT_EQ(motionLogOdds(on_border_, 0.6), 0.0);
   EXPECT_EQ(monitor_.warnings().at("old_borders"), 1U);
 }
 
 TEST_F(MovingObjectsStageTest, BordersOfAnotherFrameAreNotUsed) {
-  takeRoad(0.0, "odom");
+  handleRoad(0.0, "odom");
   EXPECT_EQ(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_EQ(monitor_.warnings().at("wrong_frame"), 1U);
 }
 
 TEST_F(MovingObjectsStageTest, BadBordersAreDroppedAndTheLastOnesAreUsed) {
-  takeRoad(0.0);
+  handleRoad(0.0);
   RoadBorders bad = toMessage(samples::straightRoad(), "map");
   bad.borders[0].points[0].x = std::numeric_limits<float>::quiet_NaN();
-  stage_.takeRoadBorders(bad);
+  stage_.handleRoadBorders(bad);
   EXPECT_EQ(monitor_.drops().at("bad_border"), 1U);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
 }
 
 TEST_F(MovingObjectsStageTest, LiveOptionsApplyFromTheNextScanAndTheRoadIsKept) {
-  takeRoad(0.0);
+  handleRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
   stage_.change({{"min_points", 1000}});
   EXPECT_TRUE(take(scanWithMover(on_border_, 0.1))->objects->objects.empty());
@@ -130,9 +130,9 @@ TEST_F(MovingObjectsStageTest, LiveOptionsApplyFromTheNextScanAndTheRoadIsKept) 
 }
 
 TEST_F(MovingObjectsStageTest, AJumpBackRestarts) {
-  takeRoad(10.0);
+  handleRoad(10.0);
   EXPECT_LT(motionLogOdds(on_border_, 10.0), 0.0);
-  takeRoad(0.0);
+  handleRoad(0.0);
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }

@@ -80,8 +80,8 @@ TEST_F(ObjectFusionStageTest, AJumpBackStartsOver) {
   EXPECT_TRUE(bothAt(200.0));
   EXPECT_TRUE(bothAt(100.0));
   EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
-  stage_.takeOdometry(odometry(200.0));
-  stage_.takeOdometry(odometry(100.1));
+  stage_.handleOdometry(odometry(200.0));
+  stage_.handleOdometry(odometry(100.1));
   EXPECT_EQ(warnings("clock_restart"), 2U);
   EXPECT_TRUE(bothAt(99.9));
   EXPECT_EQ(monitor_.droppedCount(), 0U);
@@ -119,7 +119,7 @@ class ObjectFusionScanSupportTest : public ObjectFusionStageTest {
 
 TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN) << "no scan";
-  stage_.takeLabeledScan(wallAt(18.0, 100.1));
+  stage_.handleLabeledScan(wallAt(18.0, 100.1));
   EXPECT_EQ(stateAt(100.1), ObjectMessage::STATE_STATIC);
   EXPECT_EQ(stateAt(100.2), ObjectMessage::STATE_UNKNOWN) << "the scan is of another time";
   EXPECT_EQ(figure("fused without a labeled scan"), 2.0);
@@ -127,7 +127,7 @@ TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
 
 TEST_F(ObjectFusionScanSupportTest, AScanMayArriveBeforeOthers) {
   for (int i = 0; i < 40; ++i) {
-    stage_.takeLabeledScan(wallAt(18.0, 100.0 + 0.02 * i));
+    stage_.handleLabeledScan(wallAt(18.0, 100.0 + 0.02 * i));
   }
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
 }
@@ -135,26 +135,26 @@ TEST_F(ObjectFusionScanSupportTest, AScanMayArriveBeforeOthers) {
 TEST_F(ObjectFusionScanSupportTest, BadScansAreDroppedAndCounted) {
   LabeledScanMessage scan = wallAt(18.0, 100.0);
   scan.points[0].x = std::numeric_limits<float>::infinity();
-  stage_.takeLabeledScan(scan);
+  stage_.handleLabeledScan(scan);
   EXPECT_EQ(drops("bad_point"), 1U);
   scan = wallAt(18.0, 100.0);
   scan.header.frame_id = "scanner";
-  stage_.takeLabeledScan(scan);
+  stage_.handleLabeledScan(scan);
   EXPECT_EQ(drops("wrong_frame"), 1U);
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN);
 }
 
 TEST_F(ObjectFusionScanSupportTest, AJumpBackForgetsTheScans) {
   EXPECT_TRUE(bothAt(199.0));
-  stage_.takeLabeledScan(wallAt(18.0, 200.0));
+  stage_.handleLabeledScan(wallAt(18.0, 200.0));
   EXPECT_TRUE(bothAt(100.0));
   EXPECT_EQ(warnings("clock_restart"), 1U);
   EXPECT_EQ(stateAt(200.0), ObjectMessage::STATE_UNKNOWN);
 }
 
 TEST_F(ObjectFusionScanSupportTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOne) {
-  stage_.takeLabeledScan(wallAt(18.0, 200.0));
-  stage_.takeLabeledScan(wallAt(18.0, 100.0));
+  stage_.handleLabeledScan(wallAt(18.0, 200.0));
+  stage_.handleLabeledScan(wallAt(18.0, 100.0));
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
 }
 

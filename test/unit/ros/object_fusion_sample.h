@@ -42,7 +42,7 @@ class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {
     take(source, objects, toStamp(objects.header.stamp));
   }
   void take(const std::string& source, const ObjectArray& objects, Stamp now) {
-    stage_.takeObjects(source, objects, now);
+    stage_.handleObjects(source, objects, now);
   }
 
   /// Both sources see the same car at this time.

@@ -65,12 +65,12 @@ TEST_F(RetroactiveFusionTest, EarlyListsDoNotChangeTheFusedOnes) {
     LabeledScan scan;
     scan.stamp = Stamp::fromSeconds(t);
     for (ObjectFusionStage* stage : {&stage_, &other}) {
-      stage->takeLabeledScan(toMessage(scan, "base_link", "map"));
-      stage->takeObjects("lidar", lidar, Stamp::fromSeconds(t));
+      stage->handleLabeledScan(toMessage(scan, "base_link", "map"));
+      stage->handleObjects("lidar", lidar, Stamp::fromSeconds(t));
     }
     EXPECT_TRUE(stage_.nextEarly(Stamp::fromSeconds(t)));
     take("stereo", stereo);
-    other.takeObjects("stereo", stereo, Stamp::fromSeconds(t));
+    other.handleObjects("stereo", stereo, Stamp::fromSeconds(t));
     const auto fused = nextAt(t);
     const auto expected = other.next(Stamp::fromSeconds(t));
     ASSERT_TRUE(fused && expected);
@@ -103,7 +103,7 @@ TEST_F(ObjectFusionStageTest, AnEmptyListIsOneToo) {
 }
 
 TEST_F(ObjectFusionStageTest, AListIsFusedOnce) {
-  stage_.takeOdometry(odometry(100.0));
+  stage_.handleOdometry(odometry(100.0));
   take("lidar", 100.0);
   take("stereo", 100.02);
   ASSERT_EQ(nextAt(100.02)->objects.size(), 1U);
@@ -126,8 +126,8 @@ TEST_F(ObjectFusionStageTest, ListsThatAreNotFusedAreCounted) {
 }
 
 TEST_F(ObjectFusionStageTest, ObjectsAreMovedByTheOdometryBetweenTheirStamps) {
-  stage_.takeOdometry(odometry(99.9));
-  stage_.takeOdometry(odometry(100.0));
+  stage_.handleOdometry(odometry(99.9));
+  stage_.handleOdometry(odometry(100.0));
   take("stereo", 99.95, 20.0, 15.0);
   take("lidar", list(100.0, {}));
   const auto fused = nextAt(100.2);
@@ -140,16 +140,16 @@ TEST_F(ObjectFusionStageTest, ObjectsAreMovedByTheOdometryBetweenTheirStamps) {
 TEST_F(ObjectFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   options_.motion.source = MotionSource::kNone;
   ObjectFusionStage stage(options_, monitor_);
-  stage.takeOdometry(odometry(0.0));
+  stage.handleOdometry(odometry(0.0));
   for (const double t : {99.7, 99.8, 99.9}) {
     geometry_msgs::PoseWithCovarianceStamped pose;
     pose.header.stamp = ros::Time(t);
     pose.pose.pose = toMessage(Pose2(20.0 * t, 5.0, 0.0));
-    stage.takePose(pose);
+    stage.handlePose(pose);
   }
   const Stamp now = Stamp::fromSeconds(100.0);
-  stage.takeObjects("stereo", list(99.95, {car("stereo", 20.0, 15.0)}), now);
-  stage.takeObjects("lidar", list(100.0, {}), now);
+  stage.handleObjects("stereo", list(99.95, {car("stereo", 20.0, 15.0)}), now);
+  stage.handleObjects("lidar", list(100.0, {}), now);
   const auto fused = stage.next(Stamp::fromSeconds(100.2));
   ASSERT_TRUE(fused);
   ASSERT_EQ(fused->objects.size(), 1U);

@@ -132,15 +132,15 @@ class SimulatedPorts : public StagePorts {
   template <typename Message>
   void send(const std::string& topic, const Message& message, Stamp now) {
     monitor_.received(topic, now);
-    takes_.at(topic)(boost::make_shared<Message>(message), now);
+    callbacks_.at(topic)(boost::make_shared<Message>(message), now);
   }
 
  private:
-  void addInput(StageInput input) override { takes_[input.topic] = input.take; }
+  void addInput(StageInput input) override { callbacks_[input.topic] = input.callback; }
   StageOutput::Publish addOutput(StageOutput /*output*/) override { return {}; }
 
   StageMonitor& monitor_;
-  std::map<std::string, StageInput::Take> takes_;  ///< by topic
+  std::map<std::string, StageInput::Callback> callbacks_;  ///< by topic
 };
 
 TEST(GridSlamWaitTest, AScanThatWaitsWhenTheClockJumpsBackIsNotServed) {

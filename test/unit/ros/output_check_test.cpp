@@ -111,9 +111,9 @@ TEST(OutputCheck, InvalidOutputIsCountedAndTheStageStartsOver) {
   StageMonitor monitor("tracker");
   OutputCheck check("tracks", monitor);
   EXPECT_TRUE(check.passes(at(10.0)));
-  EXPECT_FALSE(monitor.takeResetRequest());
+  EXPECT_FALSE(monitor.handleResetRequest());
   EXPECT_FALSE(check.passes(at(10.1, "a number that is nan")));
-  EXPECT_TRUE(monitor.takeResetRequest());
+  EXPECT_TRUE(monitor.handleResetRequest());
   EXPECT_EQ(samples::drops(monitor, "bad_output"), 1U);
   EXPECT_EQ(monitor.lastError(),
             "would publish on tracks a number that is nan: drops it and starts over");
@@ -125,7 +125,7 @@ TEST(OutputCheck, TimeGoesBackOnlyAfterAReset) {
   EXPECT_TRUE(check.passes(at(10.0)));
   EXPECT_TRUE(check.passes(at(10.0)));
   EXPECT_FALSE(check.passes(at(9.9)));
-  EXPECT_TRUE(monitor.takeResetRequest());
+  EXPECT_TRUE(monitor.handleResetRequest());
   EXPECT_TRUE(check.passes({std::nullopt, ""})) << "no stamp, no order";
   monitor.noteReset();
   EXPECT_TRUE(check.passes(at(5.0)));
@@ -138,7 +138,7 @@ TEST(OutputCheck, NoResultIsOfAFutureTime) {
   monitor.noteInput(Stamp::fromSeconds(10.0));
   EXPECT_TRUE(check.passes(at(10.2)));
   EXPECT_FALSE(check.passes(at(110.0)));
-  EXPECT_TRUE(monitor.takeResetRequest());
+  EXPECT_TRUE(monitor.handleResetRequest());
   EXPECT_TRUE(check.passes(at(10.3))) << "the next one is not late";
   monitor.forgetInputs();
   monitor.noteReset();

@@ -21,7 +21,7 @@ PartClock answerOf(const std::string& process, double ahead) {
 
 PartClocks with(const std::string& process, double ahead) {
   PartClocks clocks((PartClocksOptions()));
-  clocks.take(answerOf(process, ahead), Stamp::fromSeconds(kNow + 0.002));
+  clocks.addAnswer(answerOf(process, ahead), Stamp::fromSeconds(kNow + 0.002));
   return clocks;
 }
 
@@ -31,7 +31,7 @@ StackHealth judgedNow(const PartClocks& clocks, const StackHealth& health) {
 
 TEST(PartClocks, EachIsDescribed) {
   PartClocks clocks = with("/perception_stereo", 0.004);
-  clocks.take(answerOf("/perception_sensors", -0.003), Stamp::fromSeconds(kNow + 0.002));
+  clocks.addAnswer(answerOf("/perception_sensors", -0.003), Stamp::fromSeconds(kNow + 0.002));
   const std::map<std::string, std::string> expected{{"perception_sensors", "3.0 +- 1.0 ms behind"},
                                                     {"perception_stereo", "4.0 +- 1.0 ms ahead"}};
   EXPECT_EQ(clocks.descriptions(Stamp::fromSeconds(kNow + 0.002)), expected);

@@ -93,8 +93,8 @@ class PointVelocityStageTest : public testing::Test {
     const double seconds = kStart + i * kPeriod;
     for (const StereoSide side : {StereoSide::kLeft, StereoSide::kRight}) {
       const bool right = side == StereoSide::kRight;
-      EXPECT_FALSE(stage_.takeInfo(side, info(seconds, right, frame)));
-      const auto points = stage_.takeImage(side, image(seconds, i * kBoardShift, right, frame));
+      EXPECT_FALSE(stage_.handleInfo(side, info(seconds, right, frame)));
+      const auto points = stage_.handleImage(side, image(seconds, i * kBoardShift, right, frame));
       if (right) {
         return points;
       }
@@ -148,7 +148,7 @@ TEST_F(PointVelocityStageTest, AnInvalidImageDoesNotBlockTheStampOfAGoodOne) {
   takePair(0);
   auto broken = image(kStart + kPeriod, 0, false, "camera");
   broken->data.pop_back();
-  EXPECT_FALSE(stage_.takeImage(StereoSide::kLeft, broken));
+  EXPECT_FALSE(stage_.handleImage(StereoSide::kLeft, broken));
   EXPECT_EQ(samples::drops(monitor_, "wrong_size"), 1U);
   EXPECT_TRUE(takePair(1));
   EXPECT_EQ(samples::drops(monitor_, "repeated_stamp"), 0U);

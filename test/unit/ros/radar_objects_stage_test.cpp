@@ -27,7 +27,7 @@ class RadarObjectsStageTest : public testing::Test {
 
   void drive(double from, double to) {
     for (double seconds = from; seconds <= to; seconds += 0.02) {
-      stage_.takeOdometry(samples::odometry(seconds, kSpeed));
+      stage_.handleOdometry(samples::odometry(seconds, kSpeed));
     }
   }
 

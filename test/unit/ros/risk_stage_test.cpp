@@ -17,11 +17,11 @@ namespace {
 class RiskStageTest : public testing::Test {
  protected:
   void scanAt(double seconds) {
-    stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
+    stage_.handleLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
   }
 
   void odometryAt(double seconds, double speed = samples::kHostSpeed) {
-    stage_.takeOdometry(samples::odometry(samples::kStart + seconds, speed));
+    stage_.handleOdometry(samples::odometry(samples::kStart + seconds, speed));
   }
 
   /// A stationary car this far ahead of base_link, between the walls.
@@ -33,7 +33,7 @@ class RiskStageTest : public testing::Test {
   RiskArrayPtr step(double seconds, double ahead) {
     odometryAt(seconds);
     scanAt(seconds);
-    return stage_.takeTracks(carAhead(seconds, ahead));
+    return stage_.handleTracks(carAhead(seconds, ahead));
   }
 
   static RiskMessage riskOf(const RiskArray& risks, std::uint32_t id) {
@@ -83,10 +83,10 @@ TEST_F(RiskStageTest, UnmappedPointsCauseNoWarning) {
         scan.points.push_back({{10.0, y}, 10.0, 0.0, 0, state});
       }
       odometryAt(seconds);
-      stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+      stage_.handleLabeledScan(toMessage(scan, "base_link", "map"));
       TrackArray none = carAhead(seconds, 17.0);
       none.tracks.clear();
-      risks = stage_.takeTracks(none);
+      risks = stage_.handleTracks(none);
     }
     return risks->level;
   };
@@ -97,17 +97,17 @@ TEST_F(RiskStageTest, UnmappedPointsCauseNoWarning) {
 TEST_F(RiskStageTest, WithoutOdometryTheMotionIsThatOfThePoses) {
   scanAt(0.0);
   scanAt(0.1);
-  const auto risks = stage_.takeTracks(carAhead(0.1, 17.0));
+  const auto risks = stage_.handleTracks(carAhead(0.1, 17.0));
   ASSERT_NE(risks, nullptr);
   EXPECT_NEAR(riskOf(*risks, 7).median_ttc, 2.26F, 0.25F);
   EXPECT_EQ(samples::warnings(monitor_, "no_odometry"), 1U);
 }
 
 TEST_F(RiskStageTest, WithoutPoseOrMotionThereIsNoRisk) {
-  EXPECT_EQ(stage_.takeTracks(carAhead(0.0, 17.0)), nullptr);
+  EXPECT_EQ(stage_.handleTracks(carAhead(0.0, 17.0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_pose"), 1U);
   scanAt(0.1);
-  EXPECT_EQ(stage_.takeTracks(carAhead(0.1, 17.0)), nullptr);
+  EXPECT_EQ(stage_.handleTracks(carAhead(0.1, 17.0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
 }
 
@@ -116,7 +116,7 @@ TEST_F(RiskStageTest, InvalidTracksAreReported) {
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
   tracks.tracks[0].covariance[0] = std::numeric_limits<double>::quiet_NaN();
-  const auto risks = stage_.takeTracks(tracks);
+  const auto risks = stage_.handleTracks(tracks);
   ASSERT_NE(risks, nullptr);
   EXPECT_EQ(risks->risks.size(), 1U) << "what stands alone";
   EXPECT_EQ(samples::warnings(monitor_, "bad_track"), 1U);
@@ -127,7 +127,7 @@ TEST_F(RiskStageTest, TracksNotSeenForLongAreCounted) {
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
   tracks.tracks[0].since_update = ros::Duration(1.5);
-  ASSERT_NE(stage_.takeTracks(tracks), nullptr);
+  ASSERT_NE(stage_.handleTracks(tracks), nullptr);
   EXPECT_EQ(monitor_.figures().at("objects not seen for max_silence"), 1.0);
 }
 
@@ -139,7 +139,7 @@ TEST_F(RiskStageTest, ManyTracksAreLimitedAndReported) {
     tracks.tracks.push_back(tracks.tracks.front());
     tracks.tracks.back().id = id;
   }
-  const auto risks = stage_.takeTracks(tracks);
+  const auto risks = stage_.handleTracks(tracks);
   ASSERT_NE(risks, nullptr);
   EXPECT_EQ(risks->risks.size(), 65U);
   EXPECT_EQ(samples::warnings(monitor_, "many_tracks"), 1U);
@@ -150,7 +150,7 @@ TEST_F(RiskStageTest, AnotherFrameIsRefused) {
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
   tracks.header.frame_id = "world";
-  EXPECT_EQ(stage_.takeTracks(tracks), nullptr);
+  EXPECT_EQ(stage_.handleTracks(tracks), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "wrong_frame"), 1U);
 }
 

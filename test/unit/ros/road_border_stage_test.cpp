@@ -20,7 +20,7 @@ class RoadBorderStageTest : public testing::Test {
  protected:
   /// Some time after samples::kStart.
   RoadBordersPtr scanAt(double seconds) {
-    return stage_.takeLabeledScan(
+    return stage_.handleLabeledScan(
         toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
   }
 
@@ -40,7 +40,7 @@ class RoadBorderStageTest : public testing::Test {
 TEST_F(RoadBorderStageTest, EachScanMakesARoadInTheFrameOfTheMap) {
   LabeledScanMessage scan = scanAtStart();
   scan.map_frame = "world";
-  const auto road = stage_.takeLabeledScan(scan);
+  const auto road = stage_.handleLabeledScan(scan);
   ASSERT_NE(road, nullptr);
   EXPECT_EQ(road->header.stamp, scan.header.stamp);
   EXPECT_EQ(road->header.frame_id, "world");
@@ -63,11 +63,11 @@ TEST_F(RoadBorderStageTest, WallsBesideTheRoadAreItsBorders) {
 TEST_F(RoadBorderStageTest, BadScansAreDroppedAndCounted) {
   LabeledScanMessage lost = scanAtStart();
   lost.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(stage_.takeLabeledScan(lost), nullptr);
+  EXPECT_EQ(stage_.handleLabeledScan(lost), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "bad_pose"), 1U);
   LabeledScanMessage nowhere = scanAtStart();
   nowhere.map_frame.clear();
-  EXPECT_EQ(stage_.takeLabeledScan(nowhere), nullptr);
+  EXPECT_EQ(stage_.handleLabeledScan(nowhere), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "wrong_frame"), 1U);
   EXPECT_NE(scanAt(0.0), nullptr);
 }
@@ -96,7 +96,7 @@ TEST_F(RoadBorderStageTest, AnotherMapIsAnotherRoad) {
   scan.header.stamp += ros::Duration(5.0);
   scan.points.clear();
   scan.map_frame = "world";
-  const auto road = stage_.takeLabeledScan(scan);
+  const auto road = stage_.handleLabeledScan(scan);
   ASSERT_NE(road, nullptr);
   EXPECT_TRUE(road->borders.empty());
   EXPECT_EQ(samples::warnings(monitor_, "other_map"), 1U);

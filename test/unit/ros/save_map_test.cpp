@@ -35,7 +35,7 @@ class SaveMapTest : public ::testing::Test {
     for (int i = 0; i < 5; ++i) {
       auto scan = samples::laserScan();
       scan.header.stamp = ros::Time(100.0 + 0.1 * i);
-      stage.takeScan(scan);
+      stage.handleScan(scan);
     }
     datmo_fusion::SaveMap::Request request;
     request.file = name;
@@ -65,10 +65,10 @@ TEST_F(SaveMapTest, ThereIsAWarningOfForgottenTiles) {
     options.slam.map.tile_file.folder = folder;
     GridSlamStage stage(options, buffer_, monitor_);
     for (double seconds = 100.0; seconds < 105.0; seconds += 0.1) {
-      stage.takeOdometry(samples::odometry(seconds, 8.0));
+      stage.handleOdometry(samples::odometry(seconds, 8.0));
       auto scan = samples::laserScan();
       scan.header.stamp = ros::Time(seconds);
-      stage.takeScan(scan);
+      stage.handleScan(scan);
       stage.mapIfDue(Stamp::fromSeconds(seconds));
     }
     datmo_fusion::SaveMap::Request request;

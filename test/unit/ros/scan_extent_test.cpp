@@ -22,7 +22,7 @@ std::vector<InputError> warningsOf(const Scan& scan, double length, double width
   ScanExtent extent(window);
   std::vector<InputError> warnings;
   for (int i = 0; i < 100; ++i) {
-    if (const auto error = extent.take(scan)) {
+    if (const auto error = extent.update(scan)) {
       warnings.push_back(*error);
     }
   }

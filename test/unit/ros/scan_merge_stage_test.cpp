@@ -44,10 +44,10 @@ class ScanMergeStageTest : public testing::Test {
   }
 
   void take(const std::string& source, double seconds, float ahead) {
-    stage_.takeScan(source, scanOf(source, seconds, ahead), Stamp::fromSeconds(kStart + seconds));
+    stage_.handleScan(source, scanOf(source, seconds, ahead), Stamp::fromSeconds(kStart + seconds));
   }
 
-  void drive(double seconds) { stage_.takeOdometry(samples::odometry(kStart + seconds, kSpeed)); }
+  void drive(double seconds) { stage_.handleOdometry(samples::odometry(kStart + seconds, kSpeed)); }
 
   sensor_msgs::LaserScanPtr next(double seconds) {
     return stage_.next(Stamp::fromSeconds(kStart + seconds));
@@ -81,7 +81,7 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   drive(0.1);
   auto scan = scanOf("front", 0.1, 7.0F);
   scan.time_increment = 0.05F;  // the middle beam is measured 0.5 m further on
-  stage_.takeScan("front", scan, Stamp::fromSeconds(kStart + 0.1));
+  stage_.handleScan("front", scan, Stamp::fromSeconds(kStart + 0.1));
   take("rear", 0.1, 5.0F);
   const auto merged = next(0.2);
   ASSERT_TRUE(merged);
@@ -127,7 +127,7 @@ TEST_F(ScanMergeStageTest, AFrozenScannerIsLeftOut) {
     auto frozen = scanOf("rear", 0.1 * i, 5.0F);
     frozen.ranges.assign(31, 5.0F);  // this many are not equal by chance
     frozen.angle_increment = static_cast<float>(M_PI / 30.0);
-    stage_.takeScan("rear", frozen, Stamp::fromSeconds(kStart + 0.1 * i));
+    stage_.handleScan("rear", frozen, Stamp::fromSeconds(kStart + 0.1 * i));
     take("front", 0.1 * i, 7.0F + 0.01F * static_cast<float>(i));
     next(0.1 * i + 0.06);
   }
@@ -138,9 +138,9 @@ TEST_F(ScanMergeStageTest, ABlindSectorIsNotMeasured) {
   auto blind = options();
   blind.sources["rear"].blind_sectors = {-0.1, 0.1};
   ScanMergeStage stage(blind, buffer_, monitor_);
-  stage.takeOdometry(samples::odometry(kStart, kSpeed));
-  stage.takeScan("rear", scanOf("rear", 0.0, 5.0F), Stamp::fromSeconds(kStart));
-  stage.takeScan("front", scanOf("front", 0.0, 7.0F), Stamp::fromSeconds(kStart));
+  stage.handleOdometry(samples::odometry(kStart, kSpeed));
+  stage.handleScan("rear", scanOf("rear", 0.0, 5.0F), Stamp::fromSeconds(kStart));
+  stage.handleScan("front", scanOf("front", 0.0, 7.0F), Stamp::fromSeconds(kStart));
   const auto scan = stage.next(Stamp::fromSeconds(kStart));
   ASSERT_TRUE(scan);
   EXPECT_TRUE(std::isnan(scan->ranges[kBehind]));
@@ -163,7 +163,7 @@ TEST_F(ScanMergeStageTest, TheMountIsAtTheFrontScannersHeight) {
 TEST_F(ScanMergeStageTest, AScanOfAScannerWithoutAMountIsDropped) {
   auto scan = scanOf("front", 0.0, 7.0F);
   scan.header.frame_id = "roof_laser";
-  stage_.takeScan("front", scan, Stamp::fromSeconds(kStart));
+  stage_.handleScan("front", scan, Stamp::fromSeconds(kStart));
   EXPECT_EQ(samples::drops(monitor_, "missing_transform"), 1U);
 }
 

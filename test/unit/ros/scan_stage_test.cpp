@@ -21,7 +21,7 @@ class ScanStageTest : public testing::Test {
   bool scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);
-    return static_cast<bool>(stage_.takeScan(scan));
+    return static_cast<bool>(stage_.handleScan(scan));
   }
 
   std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }

@@ -38,7 +38,7 @@ DiagnosticArray slamReport() {
 
 TEST(SourceTable, EachInputIsARowAndTheFirstHasTheStagesCells) {
   SourceTable table;
-  table.take(slamReport(), 10.0);
+  table.update(slamReport(), 10.0);
   const auto rows = table.rows(10.0);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].stage, "grid_slam");
@@ -61,7 +61,7 @@ TEST(SourceTable, AThirdPartyNodeIsARowToo) {
   message.status[0].name = "/drivers: lidar";
   message.status[0].message = "rotor too slow";
   SourceTable table;
-  table.take(message, 0.0);
+  table.update(message, 0.0);
   const auto rows = table.rows(1.0);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].stage, "drivers: lidar");
@@ -71,17 +71,17 @@ TEST(SourceTable, AThirdPartyNodeIsARowToo) {
 
 TEST(SourceTable, ASilentSourceIsStaleUntilItReturns) {
   SourceTable table;
-  table.take(slamReport(), 10.0);
+  table.update(slamReport(), 10.0);
   EXPECT_EQ(table.rows(16.0)[1].level, DiagnosticStatus::STALE);
   EXPECT_EQ(table.rows(16.0)[0].state, "silent for 6 s");
-  table.take(slamReport(), 16.5);
+  table.update(slamReport(), 16.5);
   EXPECT_EQ(table.rows(17.0).size(), 2U);
   EXPECT_EQ(table.rows(17.0)[0].level, DiagnosticStatus::WARN);
 }
 
 TEST(SourceTable, AnEmptyReportIsNoRow) {
   SourceTable table;
-  table.take(DiagnosticArray(), 1.0);
+  table.update(DiagnosticArray(), 1.0);
   EXPECT_TRUE(table.rows(1.0).empty());
 }
 

@@ -21,10 +21,10 @@ TEST(StackHealth, TheMostUpstreamStageIsNamed) {
 
 TEST(ReportingStages, AStageThatStopsReportingIsForgotten) {
   ReportingStages stages;
-  stages.take(stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
-  stages.take(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 10.0);
+  stages.update(stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
+  stages.update(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 10.0);
   EXPECT_EQ(stages.at(14.0).size(), 2U);
-  stages.take(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 14.0);
+  stages.update(stage("tracker", HealthLevel::kOk, {{"/pose"}, {"/tracks"}}, ""), 14.0);
   ASSERT_EQ(stages.at(21.0).size(), 1U);
   EXPECT_EQ(stackHealth(stages.at(21.0), "/tracks").level, HealthLevel::kOk);
 }

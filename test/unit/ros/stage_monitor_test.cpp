@@ -56,9 +56,9 @@ TEST(StageMonitor, AnEventIsAnnouncedOnce) {
   StageMonitor monitor("stage");
   monitor.announce("track", "first track: id 1");
   monitor.announce("track", "first track: id 2");
-  EXPECT_EQ(monitor.takeAnnouncements(), std::vector<std::string>{"first track: id 1"});
+  EXPECT_EQ(monitor.handleAnnouncements(), std::vector<std::string>{"first track: id 1"});
   monitor.announce("track", "first track: id 3");
-  EXPECT_TRUE(monitor.takeAnnouncements().empty());
+  EXPECT_TRUE(monitor.handleAnnouncements().empty());
 }
 
 TEST(StageMonitor, AnInputIsDescribedByItsFirstMessage) {

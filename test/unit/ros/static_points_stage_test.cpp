@@ -18,7 +18,7 @@ namespace {
 class StaticPointsStageTest : public testing::Test {
  protected:
   std::optional<StaticPointsOutput> take(const LabeledScan& scan) {
-    return stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
+    return stage_.handleLabeledScan(toMessage(scan, "base_link", "map"));
   }
 
   StageMonitor monitor_{"static_points"};
@@ -82,7 +82,7 @@ TEST_F(StaticPointsStageTest, WithoutAFieldThereIsACloudAndNoScan) {
 TEST_F(StaticPointsStageTest, BadScansAreDroppedAndCounted) {
   LabeledScanMessage message = toMessage(samples::scanBetweenWalls(0.0), "base_link", "map");
   message.points.front().x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(stage_.takeLabeledScan(message));
+  EXPECT_FALSE(stage_.handleLabeledScan(message));
   EXPECT_EQ(monitor_.drops().at("bad_point"), 1U);
   EXPECT_TRUE(take(samples::scanBetweenWalls(1.0)));
   EXPECT_FALSE(take(samples::scanBetweenWalls(0.9))) << "its stamp is old";

@@ -28,7 +28,7 @@ class StereoAlignmentStageTest : public testing::Test {
     tf2_msgs::TFMessage mounts;
     mounts.transforms = {samples::cameraMount(), samples::transform("base_link", "scanner", 0.0)};
     buffer_.addStatic(mounts);
-    stage_.takeCameraInfo(samples::rightCameraInfo());
+    stage_.handleCameraInfo(samples::rightCameraInfo());
   }
 
   /// The wall as the scanner sees it.
@@ -67,7 +67,7 @@ class StereoAlignmentStageTest : public testing::Test {
     odometry.child_frame_id = "base_link";
     odometry.pose.pose.orientation.w = 1.0;
     odometry.twist.twist.linear.x = speed;
-    stage.takeOdometry(odometry);
+    stage.handleOdometry(odometry);
   }
 
   /// The last answer.
@@ -76,8 +76,8 @@ class StereoAlignmentStageTest : public testing::Test {
     for (int i = 0; i < clouds; ++i) {
       const double seconds = kStart + i * kPeriod;
       drive(stage_, seconds, speed);
-      stage_.takeScan(scanAt(seconds));
-      last = stage_.takeCloud(cloudAt(seconds, bias));
+      stage_.handleScan(scanAt(seconds));
+      last = stage_.handleCloud(cloudAt(seconds, bias));
     }
     return last;
   }
@@ -107,21 +107,21 @@ TEST_F(StereoAlignmentStageTest, TheBiasOfACameraIsEstimatedAgainstTheScanner) {
 TEST_F(StereoAlignmentStageTest, ThereIsOneWarningOfAnUnusualBias) {
   options_.alignment.disparity.sigma = 1.0;
   StereoAlignmentStage stage(options_, buffer_, monitor_);
-  stage.takeCameraInfo(samples::rightCameraInfo());
+  stage.handleCameraInfo(samples::rightCameraInfo());
   for (int i = 0; i < 400; ++i) {
     const double seconds = kStart + i * kPeriod;
     drive(stage, seconds, 0.0);
-    stage.takeScan(scanAt(seconds));
-    stage.takeCloud(cloudAt(seconds, 3.0));
+    stage.handleScan(scanAt(seconds));
+    stage.handleCloud(cloudAt(seconds, 3.0));
   }
   EXPECT_EQ(samples::warnings(monitor_, "misaligned_camera"), 1U);
 }
 
 TEST_F(StereoAlignmentStageTest, WithoutAScanNearInTimeNothingIsCompared) {
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart, 0.0)));
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(kStart, 0.0)));
   drive(stage_, kStart, 0.0);
-  stage_.takeScan(scanAt(kStart));
-  EXPECT_FALSE(stage_.takeCloud(cloudAt(kStart + 0.5, 0.0)));
+  stage_.handleScan(scanAt(kStart));
+  EXPECT_FALSE(stage_.handleCloud(cloudAt(kStart + 0.5, 0.0)));
   EXPECT_EQ(monitor_.processedCount(), 0U);
 }
 
@@ -147,7 +147,7 @@ TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerSeesThem) {
   StereoObjectsStageOptions options;
   StageMonitor monitor("stereo_objects");
   StereoObjectsStage objects(options, buffer_, monitor);
-  objects.takeCameraInfo(samples::rightCameraInfo());
+  objects.handleCameraInfo(samples::rightCameraInfo());
   const auto alignment = run(200, 0.6);
   const auto depthOf = [&](double seconds) {
     std::vector<Eigen::Vector3f> points = samples::wallOnARoad(-0.09, 0.09, 1.5);
@@ -156,11 +156,11 @@ TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerSeesThem) {
     }
     sensor_msgs::PointCloud2 cloud = samples::cloud(points);
     cloud.header.stamp = ros::Time(seconds);
-    const auto array = objects.takeCloud(cloud);
+    const auto array = objects.handleCloud(cloud);
     return array && !array->objects.empty() ? array->objects.front().pose.position.x : 0.0;
   };
   const double before = depthOf(kStart);
-  objects.takeAlignment(*alignment);
+  objects.handleAlignment(*alignment);
   const double after = depthOf(kStart + kPeriod);
   EXPECT_NEAR(after - before, alignment->disparity_offset, 0.15) << "1 px is 1 m at 10 m";
 }
@@ -169,13 +169,13 @@ TEST_F(StereoAlignmentStageTest, UnusableCloudsMakeNoObjects) {
   StereoObjectsStageOptions options;
   StageMonitor monitor("stereo_objects");
   StereoObjectsStage objects(options, buffer_, monitor);
-  objects.takeCameraInfo(samples::rightCameraInfo());
+  objects.handleCameraInfo(samples::rightCameraInfo());
   StereoAlignmentMessage alignment = *run(1, 0.0);
   alignment.usable = 0U;
-  objects.takeAlignment(alignment);
-  EXPECT_FALSE(objects.takeCloud(cloudAt(kStart, 0.0)));
+  objects.handleAlignment(alignment);
+  EXPECT_FALSE(objects.handleCloud(cloudAt(kStart, 0.0)));
   EXPECT_EQ(samples::drops(monitor, "camera_disagrees"), 1U);
-  EXPECT_TRUE(objects.takeCloud(cloudAt(kStart + 5.1, 0.0))) << "the scanner is silent by now";
+  EXPECT_TRUE(objects.handleCloud(cloudAt(kStart + 5.1, 0.0))) << "the scanner is silent by now";
 }
 
 TEST(StereoAlignmentMessage, WithInvalidNumbersIsRefused) {

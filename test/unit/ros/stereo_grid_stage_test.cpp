@@ -21,7 +21,7 @@ using samples::wallOnARoad;
 
 class StereoGridStageTest : public testing::Test {
  protected:
-  StereoGridStageTest() { stage_.takeCameraInfo(samples::rightCameraInfo()); }
+  StereoGridStageTest() { stage_.handleCameraInfo(samples::rightCameraInfo()); }
 
   /// A forward-looking camera 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
   void mountSensors() {
@@ -37,7 +37,7 @@ class StereoGridStageTest : public testing::Test {
     return message;
   }
 
-  nav_msgs::OccupancyGridPtr takeAt(double seconds) { return stage_.takeCloud(cloudAt(seconds)); }
+  nav_msgs::OccupancyGridPtr takeAt(double seconds) { return stage_.handleCloud(cloudAt(seconds)); }
 
   static Percent percentAt(const nav_msgs::OccupancyGrid& message, double x, double y) {
     const SensorGrid grid = fromMessage(message);
@@ -86,14 +86,14 @@ TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreTransformedToTheCamera) {
   mountSensors();
   options_.frames.camera = "camera";
   StereoGridStage stage(options_, buffer_, monitor_);
-  stage.takeCameraInfo(samples::rightCameraInfo());
+  stage.handleCameraInfo(samples::rightCameraInfo());
   std::vector<Eigen::Vector3f> points = wallOnARoad();
   for (Eigen::Vector3f& p : points) {
     p = Eigen::Vector3f(p.z() + 2.0F, -p.x(), static_cast<float>(kCameraHeight) - p.y());
   }
   sensor_msgs::PointCloud2 message = samples::cloud(points);
   message.header.frame_id = "base_link";
-  expectWall(stage.takeCloud(message));
+  expectWall(stage.handleCloud(message));
 }
 
 TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsAreUsed) {
@@ -101,18 +101,18 @@ TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsAreUsed) {
   options_.camera.focal_length = 500.0;
   options_.camera.baseline = 0.2;
   StereoGridStage stage(options_, buffer_, monitor_);
-  expectWall(stage.takeCloud(cloudAt(kStart)));
+  expectWall(stage.handleCloud(cloudAt(kStart)));
 }
 
 TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoArrives) {
   mountSensors();
   StereoGridStage stage(options_, buffer_, monitor_);
-  EXPECT_FALSE(stage.takeCloud(cloudAt(kStart)));
+  EXPECT_FALSE(stage.handleCloud(cloudAt(kStart)));
   EXPECT_EQ(drops("missing_camera_info"), 1U);
-  stage.takeCameraInfo(sensor_msgs::CameraInfo());
+  stage.handleCameraInfo(sensor_msgs::CameraInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
-  stage.takeCameraInfo(samples::rightCameraInfo());
-  expectWall(stage.takeCloud(cloudAt(kStart)));
+  stage.handleCameraInfo(samples::rightCameraInfo());
+  expectWall(stage.handleCloud(cloudAt(kStart)));
 }
 
 TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItArrives) {
@@ -126,14 +126,14 @@ TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   mountSensors();
   options_.frames.scanner = "roof_scanner";
   StereoGridStage stage(options_, buffer_, monitor_);
-  stage.takeCameraInfo(samples::rightCameraInfo());
-  expectWall(stage.takeCloud(cloudAt(kStart)));
+  stage.handleCameraInfo(samples::rightCameraInfo());
+  expectWall(stage.handleCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
   options_.frames.scanner = "";
   options_.scanner_height = 2.5;  // above the visible part of the wall
   StereoGridStage high(options_, buffer_, monitor_);
-  high.takeCameraInfo(samples::rightCameraInfo());
-  const auto grid = high.takeCloud(cloudAt(kStart));
+  high.handleCameraInfo(samples::rightCameraInfo());
+  const auto grid = high.handleCloud(cloudAt(kStart));
   ASSERT_TRUE(grid);
   EXPECT_LT(monitor_.figures().at("points in the layer of obstacles"), 3000.0);
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
@@ -158,7 +158,7 @@ TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneProcessed)
     sensor_msgs::PointCloud2 message = cloudAt(kStart);
     spoil(message);
     const std::uint64_t before = drops(reason);
-    EXPECT_FALSE(stage_.takeCloud(message)) << reason;
+    EXPECT_FALSE(stage_.handleCloud(message)) << reason;
     EXPECT_EQ(drops(reason), before + 1) << reason;
   };
   dropped([](auto& message) { message = samples::cloud({}); }, "empty_cloud");
@@ -218,16 +218,16 @@ TEST_F(StereoGridStageTest, OrganizedCloudsOfDepthCamerasMakeGrids) {
     options_.camera.principle = principle;
     StereoGridStage stage(options_, buffer_, monitor_);
     SCOPED_TRACE(static_cast<int>(principle));
-    EXPECT_FALSE(stage.takeCloud(organizedCloud())) << "no camera info yet";
-    stage.takeCameraInfo(depthImageInfo());
-    expectWall(stage.takeCloud(organizedCloud()));
+    EXPECT_FALSE(stage.handleCloud(organizedCloud())) << "no camera info yet";
+    stage.handleCameraInfo(depthImageInfo());
+    expectWall(stage.handleCloud(organizedCloud()));
   }
   EXPECT_EQ(drops("missing_camera_info"), 3U);
   EXPECT_EQ(drops("bad_camera_info"), 0U);
 }
 
 TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNotThatOfAPair) {
-  stage_.takeCameraInfo(depthImageInfo());
+  stage_.handleCameraInfo(depthImageInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
 }
 

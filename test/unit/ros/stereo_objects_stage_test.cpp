@@ -21,7 +21,7 @@ using samples::kStart;
 class StereoObjectsStageTest : public testing::Test {
  protected:
   StereoObjectsStageTest() {
-    stage_.takeCameraInfo(samples::rightCameraInfo());
+    stage_.handleCameraInfo(samples::rightCameraInfo());
     tf2_msgs::TFMessage mounts;
     mounts.transforms = {samples::cameraMount()};
     buffer_.addStatic(mounts);
@@ -74,7 +74,7 @@ class StereoObjectsStageTest : public testing::Test {
 };
 
 TEST_F(StereoObjectsStageTest, ACloudMakesObjectsOfItsStampInTheVehiclesFrame) {
-  const auto objects = stage_.takeCloud(carAt(kStart));
+  const auto objects = stage_.handleCloud(carAt(kStart));
   expectCar(objects);
   EXPECT_EQ(objects->header.frame_id, "base_link");
   EXPECT_EQ(objects->header.stamp, ros::Time(kStart));
@@ -86,7 +86,7 @@ TEST_F(StereoObjectsStageTest, ACloudMakesObjectsOfItsStampInTheVehiclesFrame) {
 
 TEST_F(StereoObjectsStageTest, DiagnosticsReportTheCloudsContent) {
   const sensor_msgs::PointCloud2 cloud = carAt(kStart);
-  stage_.takeCloud(cloud);
+  stage_.handleCloud(cloud);
   const auto& figures = monitor_.figures();
   EXPECT_EQ(figures.at("objects"), 1.0);
   EXPECT_EQ(figures.at("points of the cloud"), static_cast<double>(cloud.width));
@@ -96,19 +96,19 @@ TEST_F(StereoObjectsStageTest, DiagnosticsReportTheCloudsContent) {
 
 TEST_F(StereoObjectsStageTest, WithoutCameraInfoTheOptionsAreUsed) {
   StereoObjectsStage ignorant(options_, buffer_, monitor_);
-  EXPECT_FALSE(ignorant.takeCloud(carAt(kStart)));
+  EXPECT_FALSE(ignorant.handleCloud(carAt(kStart)));
   EXPECT_EQ(drops("missing_camera_info"), 1U);
   options_.camera.focal_length = 500.0;
   options_.camera.baseline = 0.2;
   StereoObjectsStage stage(options_, buffer_, monitor_);
-  expectCar(stage.takeCloud(carAt(kStart)));
+  expectCar(stage.handleCloud(carAt(kStart)));
 }
 
 TEST_F(StereoObjectsStageTest, ACameraWithoutAMountIsRefused) {
   const TransformBuffer nothing(1.0);
   StereoObjectsStage stage(options_, nothing, monitor_);
-  stage.takeCameraInfo(samples::rightCameraInfo());
-  EXPECT_FALSE(stage.takeCloud(carAt(kStart)));
+  stage.handleCameraInfo(samples::rightCameraInfo());
+  EXPECT_FALSE(stage.handleCloud(carAt(kStart)));
   EXPECT_EQ(drops("missing_transform"), 1U);
 }
 
@@ -120,7 +120,7 @@ TEST_F(StereoObjectsStageTest, ACameraFacingStraightDownIsRefused) {
   message.transforms[0].transform.rotation.z = 0.0;
   message.transforms[0].transform.rotation.w = 0.0;
   buffer_.addStatic(message);
-  EXPECT_FALSE(stage_.takeCloud(carAt(kStart)));
+  EXPECT_FALSE(stage_.handleCloud(carAt(kStart)));
   EXPECT_EQ(drops("bad_camera"), 1U);
 }
 
@@ -140,7 +140,7 @@ TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
     }
     sensor_msgs::PointCloud2 cloud = samples::cloud(points);
     cloud.header.stamp = ros::Time(kStart + i);
-    const ObjectArrayPtr array = stage_.takeCloud(cloud);
+    const ObjectArrayPtr array = stage_.handleCloud(cloud);
     ASSERT_TRUE(array);
     for (const Object& object : fromMessage(*array).objects) {
       EXPECT_TRUE(isValid(object)) << i << ": " << object.box.center.x();
@@ -151,32 +151,32 @@ TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
 }
 
 TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextProcessed) {
-  stage_.takeCameraInfo(sensor_msgs::CameraInfo());
+  stage_.handleCameraInfo(sensor_msgs::CameraInfo());
   EXPECT_EQ(drops("bad_camera_info"), 1U);
-  EXPECT_FALSE(stage_.takeCloud(samples::cloud({})));
+  EXPECT_FALSE(stage_.handleCloud(samples::cloud({})));
   EXPECT_EQ(drops("empty_cloud"), 1U);
-  expectCar(stage_.takeCloud(carAt(kStart)));
-  EXPECT_FALSE(stage_.takeCloud(carAt(kStart)));
+  expectCar(stage_.handleCloud(carAt(kStart)));
+  EXPECT_FALSE(stage_.handleCloud(carAt(kStart)));
   EXPECT_EQ(drops("repeated_stamp"), 1U);
-  EXPECT_FALSE(stage_.takeCloud(carAt(kStart - 0.5)));
+  EXPECT_FALSE(stage_.handleCloud(carAt(kStart - 0.5)));
   EXPECT_EQ(drops("old_stamp"), 1U);
-  expectCar(stage_.takeCloud(carAt(kStart + 0.1)));
+  expectCar(stage_.handleCloud(carAt(kStart + 0.1)));
 }
 
 TEST_F(StereoObjectsStageTest, AJumpBackStartsOver) {
-  EXPECT_TRUE(stage_.takeCloud(carAt(200.0)));
-  expectCar(stage_.takeCloud(carAt(100.0)));
+  EXPECT_TRUE(stage_.handleCloud(carAt(200.0)));
+  expectCar(stage_.handleCloud(carAt(100.0)));
   EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
 TEST_F(StereoObjectsStageTest, PointsWithVelocityGiveObjectsTheirsInEitherOrder) {
   const Stamp now = Stamp::fromSeconds(1000.0);
-  stage_.takeVelocities(velocitiesAt(kStart));
-  expectCarWithVelocity(stage_.takeCloud(carAt(kStart)), kStart);
-  EXPECT_FALSE(stage_.takeCloud(carAt(kStart + 0.1))) << "waits";
+  stage_.handleVelocities(velocitiesAt(kStart));
+  expectCarWithVelocity(stage_.handleCloud(carAt(kStart)), kStart);
+  EXPECT_FALSE(stage_.handleCloud(carAt(kStart + 0.1))) << "waits";
   EXPECT_FALSE(stage_.next(now));
-  stage_.takeVelocities(velocitiesAt(kStart + 0.1));
+  stage_.handleVelocities(velocitiesAt(kStart + 0.1));
   expectCarWithVelocity(stage_.next(now), kStart + 0.1);
   EXPECT_FALSE(stage_.next(now));
   EXPECT_EQ(monitor_.processedCount(), 2U);
@@ -184,15 +184,15 @@ TEST_F(StereoObjectsStageTest, PointsWithVelocityGiveObjectsTheirsInEitherOrder)
 }
 
 TEST_F(StereoObjectsStageTest, ACloudWithoutVelocitiesIsProcessedWithoutThem) {
-  stage_.takeVelocities(velocitiesAt(kStart));
-  expectCar(stage_.takeCloud(carAt(kStart)));
-  EXPECT_FALSE(stage_.takeCloud(carAt(kStart + 0.1)));
+  stage_.handleVelocities(velocitiesAt(kStart));
+  expectCar(stage_.handleCloud(carAt(kStart)));
+  EXPECT_FALSE(stage_.handleCloud(carAt(kStart + 0.1)));
   EXPECT_FALSE(stage_.next(Stamp::fromSeconds(1000.0)));
   const auto objects = stage_.next(Stamp::fromSeconds(1000.0 + stage_.maxWait()));
   expectCar(objects);
   EXPECT_EQ(objects->objects.front().velocity_covariance[0], 0.0);
   EXPECT_EQ(samples::warnings(monitor_, "no_velocities"), 1U);
-  stage_.takeVelocities(velocitiesAt(kStart + 0.1));
+  stage_.handleVelocities(velocitiesAt(kStart + 0.1));
   EXPECT_EQ(drops("late_velocities"), 1U);
 }
 
@@ -201,26 +201,26 @@ TEST_F(StereoObjectsStageTest, PointsWithBadVelocityAreLeftOutAndCounted) {
   points[0].velocity.x() = std::numeric_limits<double>::quiet_NaN();
   points[1].covariance(0, 1) = points[1].covariance(1, 0) = 1.0;
   points[2].common_covariance(0, 0) = -1.0;
-  stage_.takeVelocities(*toMessage(points, Stamp::fromSeconds(kStart), "base_link"));
+  stage_.handleVelocities(*toMessage(points, Stamp::fromSeconds(kStart), "base_link"));
   EXPECT_EQ(samples::warnings(monitor_, "bad_velocity"), 1U);
   EXPECT_EQ(monitor_.figures().at("bad points with velocity"), 3.0);
-  expectCarWithVelocity(stage_.takeCloud(carAt(kStart)), kStart);
+  expectCarWithVelocity(stage_.handleCloud(carAt(kStart)), kStart);
 }
 
 TEST_F(StereoObjectsStageTest, BadListsOfPointsWithVelocityAreDropped) {
   sensor_msgs::PointCloud2 message = velocitiesAt(kStart);
   message.header.frame_id = "camera";
-  stage_.takeVelocities(message);
+  stage_.handleVelocities(message);
   EXPECT_EQ(drops("wrong_frame"), 1U);
   message = velocitiesAt(kStart);
   message.fields.pop_back();
-  stage_.takeVelocities(message);
+  stage_.handleVelocities(message);
   EXPECT_EQ(drops("missing_field"), 1U);
   message = velocitiesAt(kStart);
   message.data.pop_back();
-  stage_.takeVelocities(message);
+  stage_.handleVelocities(message);
   EXPECT_EQ(drops("wrong_size"), 1U);
-  EXPECT_EQ(stage_.takeCloud(carAt(kStart))->objects.front().velocity_covariance[0], 0.0);
+  EXPECT_EQ(stage_.handleCloud(carAt(kStart))->objects.front().velocity_covariance[0], 0.0);
 }
 
 TEST_F(StereoObjectsStageTest, BadOptionsAreRefused) {

@@ -136,9 +136,9 @@ TEST_F(TrackFusionStageTest, TheSilenceOfOtherStationsIsNoFault) {
   for (int i = 0; i < 50; ++i) {
     const double t = 100.0 + 0.1 * i;
     const Stamp now = Stamp::fromSeconds(t);
-    stage.takeTracks("lidar", carOf("lidar", t), now);
+    stage.handleTracks("lidar", carOf("lidar", t), now);
     if (i < 25) {
-      stage.takeTracks("stereo", carOf("stereo", t), now);
+      stage.handleTracks("stereo", carOf("stereo", t), now);
     }
     while (stage.next(now)) {
     }

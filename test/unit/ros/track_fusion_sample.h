@@ -89,7 +89,7 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
     take(source, tracks, toStamp(tracks.header.stamp));
   }
   void take(const std::string& source, const TrackArray& tracks, Stamp now) {
-    stage_.takeTracks(source, tracks, now);
+    stage_.handleTracks(source, tracks, now);
   }
 
   TrackArrayPtr bothAt(double seconds) {
@@ -104,7 +104,7 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
     std::vector<TrackArrayPtr> fused;
     for (const auto& [at, sent] : lists) {
       collect(at, fused);
-      stage_.takeTracks(sent.source, carOf(sent.source, sent.stamp), Stamp::fromSeconds(at));
+      stage_.handleTracks(sent.source, carOf(sent.source, sent.stamp), Stamp::fromSeconds(at));
       collect(at, fused);
     }
     return fused;

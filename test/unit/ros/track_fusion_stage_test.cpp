@@ -27,8 +27,8 @@ TEST_F(TrackFusionStageTest, AListOfTheReferenceWaitsForNoOtherIfConfigured) {
   options_.matcher.max_wait = 0.0;
   TrackFusionStage impatient(options_, monitor_);
   const Stamp stamp = Stamp::fromSeconds(100.0);
-  impatient.takeTracks("stereo", carOf("stereo", 99.95), stamp);
-  impatient.takeTracks("lidar", carOf("lidar", 100.0), stamp);
+  impatient.handleTracks("stereo", carOf("stereo", 99.95), stamp);
+  impatient.handleTracks("lidar", carOf("lidar", 100.0), stamp);
   const auto fused = impatient.next(stamp);
   ASSERT_TRUE(fused);
   EXPECT_EQ(fused->header.stamp, ros::Time(100.0));
@@ -123,7 +123,7 @@ TEST_F(TrackFusionStageTest, ADelayedSourceIsWaitedForNoLongerThanItMay) {
   lists.merge(listsOf("stereo", 100.0, 102.0, 0.05, 0.5));
   double newest = 0.0;
   for (const auto& [at, sent] : lists) {
-    stage_.takeTracks(sent.source, carOf(sent.source, sent.stamp), Stamp::fromSeconds(at));
+    stage_.handleTracks(sent.source, carOf(sent.source, sent.stamp), Stamp::fromSeconds(at));
     while (const auto fused = nextAt(at)) {
       newest = fused->header.stamp.toSec();
     }

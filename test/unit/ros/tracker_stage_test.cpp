@@ -23,11 +23,11 @@ class TrackerStageTest : public testing::Test {
   }
 
   void objectsAt(double seconds) {
-    stage_.takeObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
+    stage_.handleObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
   }
 
   void earlyObjectsAt(double seconds) {
-    stage_.takeEarlyObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
+    stage_.handleEarlyObjects(emptyList(seconds), Stamp::fromSeconds(seconds));
   }
 
   void poseAt(double seconds) {
@@ -37,7 +37,7 @@ class TrackerStageTest : public testing::Test {
   void scanPoseAt(double seconds, const std::string& map_frame = "map") {
     LabeledScan scan;
     scan.stamp = Stamp::fromSeconds(seconds);
-    stage_.takeLabeledScan(toMessage(scan, "base_link", map_frame));
+    stage_.handleLabeledScan(toMessage(scan, "base_link", map_frame));
   }
 
   TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
@@ -116,7 +116,7 @@ TEST_F(TrackerStageTest, LiveOptionsAreListedAndChanged) {
 TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
   LabeledScanMessage scan = toMessage(LabeledScan(), "base_link", "map");
   scan.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  stage_.takeLabeledScan(scan);
+  stage_.handleLabeledScan(scan);
   EXPECT_EQ(monitor_.drops().at("bad_pose"), 1U);
 }
 

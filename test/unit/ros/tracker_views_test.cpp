@@ -42,8 +42,8 @@ class TrackerViewsTest : public testing::Test {
     if (camera == Camera::kBlocked) {
       list.objects.push_back(van());
     }
-    stage_.takeLabeledScan(toMessage(scan(scanner), "base_link", "map"));
-    stage_.takeObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
+    stage_.handleLabeledScan(toMessage(scan(scanner), "base_link", "map"));
+    stage_.handleObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
     const TrackArrayPtr tracks = stage_.next(list.stamp);
     views_ = tracks ? tracks->views.size() : 0;
     return tracks ? tracks->tracks.size() : 0;

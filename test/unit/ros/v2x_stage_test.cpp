@@ -50,15 +50,15 @@ class V2xStageTest : public testing::Test {
       fix.position_covariance = {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01};
       fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
       if (has_fix) {
-        earth_.takeFix(fix);
+        earth_.handleFix(fix);
       }
       geometry_msgs::PoseWithCovarianceStamped pose;
       pose.header.stamp = fix.header.stamp;
       pose.header.frame_id = "map";
       pose.pose = toMessage(PoseWithCovariance{base, 1e-4 * Eigen::Matrix3d::Identity()});
-      stage_.takePose(pose);
-      if (const EarthFrameMessagePtr frame = earth_.takePose(pose)) {
-        stage_.takeFrame(*frame);
+      stage_.handlePose(pose);
+      if (const EarthFrameMessagePtr frame = earth_.handlePose(pose)) {
+        stage_.handleFrame(*frame);
       }
     }
   }
@@ -87,7 +87,7 @@ class V2xStageTest : public testing::Test {
 };
 
 TEST_F(V2xStageTest, WithoutReceiverNothingIsPublishedAndThatIsReported) {
-  EXPECT_EQ(stage_.takeStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
+  EXPECT_EQ(stage_.handleStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
   EXPECT_EQ(monitor_.health(), HealthLevel::kDegraded);
 }
@@ -95,7 +95,7 @@ TEST_F(V2xStageTest, WithoutReceiverNothingIsPublishedAndThatIsReported) {
 TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {
   drive(0, kSteps);
   const Point2 there(kSpeed * kPeriod * kSteps + 20.0, 5.0);
-  const TrackArrayPtr tracks = stage_.takeStation(listAt(kSteps, there), stampAt(kSteps));
+  const TrackArrayPtr tracks = stage_.handleStation(listAt(kSteps, there), stampAt(kSteps));
   ASSERT_TRUE(tracks);
   ASSERT_EQ(tracks->tracks.size(), 1U);
   EXPECT_EQ(tracks->header.frame_id, "map");
@@ -108,7 +108,7 @@ TEST_F(V2xStageTest, TheMapsDriftWithoutReceiverIsInTheCovariance) {
   const int end = kSteps + 40;  // 4 s
   const auto variance = [&](int step) {
     const TrackArrayPtr tracks =
-        stage_.takeStation(listAt(step, {kSpeed * kPeriod * step + 20.0, 5.0}), stampAt(step));
+        stage_.handleStation(listAt(step, {kSpeed * kPeriod * step + 20.0, 5.0}), stampAt(step));
     return tracks ? tracks->tracks.at(0).covariance[0] : 0.0;
   };
   const double before = variance(kSteps);
@@ -124,16 +124,16 @@ TEST_F(V2xStageTest, TheMapsDriftWithoutReceiverIsInTheCovariance) {
 TEST_F(V2xStageTest, UnusableListsAreDroppedByReason) {
   drive(0, kSteps);
   const StationTracksMessage list = listAt(kSteps, {120.0, 5.0});
-  ASSERT_TRUE(stage_.takeStation(list, stampAt(kSteps)));
-  EXPECT_EQ(stage_.takeStation(list, stampAt(kSteps)), nullptr);
+  ASSERT_TRUE(stage_.handleStation(list, stampAt(kSteps)));
+  EXPECT_EQ(stage_.handleStation(list, stampAt(kSteps)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "repeated_list"), 1U);
-  EXPECT_EQ(stage_.takeStation(list, stampAt(kSteps + 50)), nullptr);
+  EXPECT_EQ(stage_.handleStation(list, stampAt(kSteps + 50)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "old_list"), 1U);
-  EXPECT_EQ(stage_.takeStation(listAt(kSteps + 10, {120.0, 5.0}), stampAt(kSteps)), nullptr);
+  EXPECT_EQ(stage_.handleStation(listAt(kSteps + 10, {120.0, 5.0}), stampAt(kSteps)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "future_list"), 1U);
   StationTracksMessage ours = listAt(kSteps + 1, {120.0, 5.0});
   ours.station = 1;
-  EXPECT_EQ(stage_.takeStation(ours, stampAt(kSteps + 1)), nullptr);
+  EXPECT_EQ(stage_.handleStation(ours, stampAt(kSteps + 1)), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "own_number"), 1U);
 }
 
@@ -143,7 +143,7 @@ TEST_F(V2xStageTest, ATrackFasterThanAnyVehicleIsLeftOutAndReported) {
   list.tracks.push_back(list.tracks[0]);
   list.tracks[1].id = 6;
   list.tracks[1].velocity_east = 200.0 / 3.6;
-  const TrackArrayPtr tracks = stage_.takeStation(list, stampAt(kSteps));
+  const TrackArrayPtr tracks = stage_.handleStation(list, stampAt(kSteps));
   ASSERT_TRUE(tracks);
   ASSERT_EQ(tracks->tracks.size(), 1U);
   EXPECT_NEAR(tracks->tracks[0].velocity.x, 0.0, 1e-6) << "the pedestrian at the same place";
@@ -156,7 +156,7 @@ TEST_F(V2xStageTest, ATrackFasterThanAnyVehicleIsLeftOutAndReported) {
 TEST_F(V2xStageTest, ATrackThatJumpsIsLeftOutUntilItHasProvenItself) {
   drive(0, kSteps);
   const auto tracksAt = [this](int step, const Point2& in_map) {
-    const TrackArrayPtr tracks = stage_.takeStation(listAt(step, in_map), stampAt(step));
+    const TrackArrayPtr tracks = stage_.handleStation(listAt(step, in_map), stampAt(step));
     return tracks ? static_cast<int>(tracks->tracks.size()) : -1;
   };
   ASSERT_EQ(tracksAt(kSteps, {120.0, 5.0}), 1);
@@ -182,7 +182,7 @@ TEST_F(V2xStageTest, AJumpOfTheReceiverIsRejectedUntilItLasts) {
   EXPECT_EQ(samples::warnings(earth_monitor_, "far_position"), std::uint64_t{kShort});
   EXPECT_EQ(earth_monitor_.health(), HealthLevel::kOk);
   const int last = kSteps + kShort - 1;
-  const TrackArrayPtr tracks = stage_.takeStation(listAt(last, {140.0, 5.0}), stampAt(last));
+  const TrackArrayPtr tracks = stage_.handleStation(listAt(last, {140.0, 5.0}), stampAt(last));
   ASSERT_TRUE(tracks);
   ASSERT_EQ(tracks->tracks.size(), 1U);
   EXPECT_NEAR(tracks->tracks[0].pose.position.x, 140.0, 0.2) << "the map is where it was";
@@ -196,13 +196,13 @@ TEST_F(V2xStageTest, AJumpOfTheReceiverIsRejectedUntilItLasts) {
 
 TEST_F(V2xStageTest, AlternatingStationsMakeOneListWithIncreasingStamps) {
   drive(0, kSteps);
-  ASSERT_TRUE(stage_.takeStation(listAt(kSteps, {120.0, 5.0}), stampAt(kSteps)));
+  ASSERT_TRUE(stage_.handleStation(listAt(kSteps, {120.0, 5.0}), stampAt(kSteps)));
   StationTracksMessage late = listAt(kSteps - 1, {140.0, -5.0});
   late.station = kPole + 1;
-  EXPECT_EQ(stage_.takeStation(late, stampAt(kSteps)), nullptr) << "older than what is out";
+  EXPECT_EQ(stage_.handleStation(late, stampAt(kSteps)), nullptr) << "older than what is out";
   EXPECT_TRUE(monitor_.drops().empty());
   const TrackArrayPtr both =
-      stage_.takeStation(listAt(kSteps + 1, {120.0, 5.0}), stampAt(kSteps + 1));
+      stage_.handleStation(listAt(kSteps + 1, {120.0, 5.0}), stampAt(kSteps + 1));
   ASSERT_TRUE(both);
   EXPECT_EQ(both->tracks.size(), 2U);
 }
@@ -212,7 +212,7 @@ TEST_F(V2xStageTest, OursAreSentWithTheVehicleItself) {
   TrackArray tracks;
   tracks.header.frame_id = "map";
   tracks.header.stamp = toTime(stampAt(kSteps - 1));
-  const StationTracksMessagePtr ours = stage_.takeTracks(tracks);
+  const StationTracksMessagePtr ours = stage_.handleTracks(tracks);
   ASSERT_TRUE(ours);
   ASSERT_EQ(ours->tracks.size(), 1U);
   EXPECT_EQ(ours->tracks[0].id, 0U);
@@ -233,7 +233,7 @@ TEST_F(V2xStageTest, InvalidTracksOfOursAreNotSent) {
   list.tracks.assign(3, track);
   list.tracks[1].height = std::numeric_limits<double>::max();  // none that a float could hold
   list.tracks[2].state[2] = std::nan("");
-  const StationTracksMessagePtr ours = stage_.takeTracks(toMessage(list, "map"));
+  const StationTracksMessagePtr ours = stage_.handleTracks(toMessage(list, "map"));
   ASSERT_TRUE(ours);
   EXPECT_EQ(ours->tracks.size(), 2U) << "the vehicle, and the first track";
   EXPECT_EQ(contentFault(*ours), "");
@@ -245,15 +245,15 @@ TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
   fix.header.stamp = toTime(stampAt(0));
   fix.header.frame_id = "antenna";
   fix.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
-  earth_.takeFix(fix);
+  earth_.handleFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "no_fix"), 1U);
   fix.status.status = sensor_msgs::NavSatStatus::STATUS_FIX;
   fix.latitude = std::nan("");
-  earth_.takeFix(fix);
+  earth_.handleFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "bad_position"), 1U);
   fix.latitude = 45.0;
   fix.header.frame_id = "elsewhere";
-  earth_.takeFix(fix);
+  earth_.handleFix(fix);
   EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
 }
 

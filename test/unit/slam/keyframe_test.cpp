@@ -48,7 +48,7 @@ class KeyframeSelectorTest : public testing::Test {
   Use take(double seconds, double x, double sigma) {
     const Eigen::Matrix3d covariance =
         Eigen::Vector3d(sigma * sigma, sigma * sigma, 1e-4).asDiagonal();
-    return selector_.take(Stamp::fromSeconds(1000.0 + seconds), {Pose2(x, 0.0, 0.0), covariance});
+    return selector_.select(Stamp::fromSeconds(1000.0 + seconds), {Pose2(x, 0.0, 0.0), covariance});
   }
 
   KeyframeSelector selector_{KeyframeOptions()};

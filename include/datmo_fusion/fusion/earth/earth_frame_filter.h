@@ -87,7 +87,7 @@ class EarthFrameFilter {
   using State = Eigen::Matrix<double, kState, 1>;
   using Covariance = Eigen::Matrix<double, kState, kState>;
 
-  void take(const EarthFix& fix);
+  void incorporate(const EarthFix& fix);
   /// Result of least squares over the first fixes.
   struct Start {
     double count = 0.0;    ///< number of fixes

@@ -54,7 +54,7 @@ class AgingMap {
 
   class Decay;
 
-  void take(CellIndex cell, double log_odds_step, float now, Decay& decay);
+  void update(CellIndex cell, double log_odds_step, float now, Decay& decay);
   float timeOf(Stamp stamp) const {
     return first_stamp_ ? static_cast<float>(secondsBetween(*first_stamp_, stamp)) : 0.0F;
   }

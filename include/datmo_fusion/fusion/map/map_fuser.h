@@ -82,8 +82,8 @@ class MapFuser {
   /// grids must have the same window, that of the maps about the vehicle. Occupied cells within
   /// `mover_margin` of a mover (m, map frame) are ignored: the map represents the static world.
   /// Throws std::out_of_range for a source that is not in use.
-  void take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
-            const std::vector<Point2>& movers);
+  void add(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
+           const std::vector<Point2>& movers);
 
   /// Returns none before the first grid.
   std::optional<FusedMaps> fuse(Stamp now);

@@ -36,12 +36,12 @@ class CameraView {
              StageMonitor& monitor);
 
   /// Of the rectified images (matrix P); the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
 
-  void takeTracks(const TrackArrayConstPtr& message);
+  void handleTracks(const TrackArrayConstPtr& message);
 
   /// Adds an image to the queue. `now`: ROS time.
-  void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
+  void handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
   /// Returns the next image of the queue whose tracks and transform are available, as bgr8 with its
   /// boxes and its own header; null if there is none. Call it until null, after each new input.

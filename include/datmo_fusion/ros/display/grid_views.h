@@ -43,10 +43,10 @@ class GridViews {
 
   /// Sets the newest grid of a panel. One much older than the newest of all indicates a new run of
   /// the clock: everything before is forgotten. The exception is the map, which may be of any age.
-  void takeGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid);
+  void handleGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid);
 
   /// Sets the newest pose of the vehicle in the map.
-  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& pose) { pose_ = pose; }
+  void handlePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& pose) { pose_ = pose; }
 
   /// Returns the panels as rgb8, with the header of the last grid. A panel without a grid is empty,
   /// and its title says why: none received, silent, or the reason why it is bad.

@@ -18,7 +18,7 @@ class ScanExtent {
 
   /// Processes the next scan. `small_window` if many end points lie outside the window for any
   /// heading of the vehicle; `large_window` if the scanner's range is a small part of it.
-  std::optional<InputError> take(const Scan& scan);
+  std::optional<InputError> update(const Scan& scan);
 
  private:
   std::optional<InputError> judge(double reach) const;

@@ -29,7 +29,7 @@ struct SourceRow {
 class SourceTable {
  public:
   /// `now`: s, of any monotonic clock.
-  void take(const diagnostic_msgs::DiagnosticArray& message, double now);
+  void update(const diagnostic_msgs::DiagnosticArray& message, double now);
 
   /// Rows by stage and input. Only the first row of a stage has latency, time and drops. A node
   /// that has not reported for longer than `silence` (s) is stale.

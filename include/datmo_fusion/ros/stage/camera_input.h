@@ -17,7 +17,7 @@ class CameraInput {
  public:
   /// Sets the camera info (its matrix P); the newest is used. Throws InputError (`bad_camera_info`)
   /// and keeps the last good one.
-  void take(const sensor_msgs::CameraInfo& message);
+  void update(const sensor_msgs::CameraInfo& message);
 
   /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
   void check(const sensor_msgs::Image& image) const;

@@ -41,25 +41,25 @@ class ClockCheck {
   SensorClock clock_;
 };
 
-/// Returns `take` behind a check of the clock of the input's sensor: it gets the message itself, or
-/// a copy with a corrected stamp. Nothing is checked in simulated time, as the host says
+/// Returns `callback` behind a check of the clock of the input's sensor: it gets the message
+/// itself, or a copy with a corrected stamp. Nothing is checked in simulated time, as the host says
 /// when the input is declared. `monitor` must outlive it.
-template <typename Message, typename Take>
-StagePorts::Take<Message> withClockCheck(const StagePorts& ports, const std::string& input,
-                                         StageMonitor& monitor, Take take) {
+template <typename Message, typename Callback>
+StagePorts::Callback<Message> withClockCheck(const StagePorts& ports, const std::string& input,
+                                             StageMonitor& monitor, Callback callback) {
   if (ports.hasSimulatedTime()) {
-    return take;
+    return callback;
   }
   const auto check = std::make_shared<ClockCheck>(input, monitor);
-  return [check, take](const boost::shared_ptr<const Message>& message, Stamp now) {
+  return [check, callback](const boost::shared_ptr<const Message>& message, Stamp now) {
     const ros::Time stamp = check->corrected(message->header.stamp, now);
     if (stamp == message->header.stamp) {
-      take(message, now);
+      callback(message, now);
       return;
     }
     const auto copy = boost::make_shared<Message>(*message);
     copy->header.stamp = stamp;
-    take(boost::shared_ptr<const Message>(copy), now);
+    callback(boost::shared_ptr<const Message>(copy), now);
   };
 }
 

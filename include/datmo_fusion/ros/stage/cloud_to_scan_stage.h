@@ -48,7 +48,7 @@ class CloudToScanStage : public Stage {
                    const TransformBuffer& transforms, StageMonitor& monitor);
 
   /// Converts a cloud of a 3D lidar whose frame is in tf. None if the cloud was dropped.
-  std::optional<CloudToScanOutput> takeCloud(const sensor_msgs::PointCloud2& message);
+  std::optional<CloudToScanOutput> handleCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
 

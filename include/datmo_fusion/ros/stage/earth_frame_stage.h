@@ -39,11 +39,11 @@ class EarthFrameStage : public Stage {
   EarthFrameStage(const Checked<EarthFrameStageOptions>& options, const TransformBuffer& transforms,
                   StageMonitor& monitor);
 
-  void takeFix(const sensor_msgs::NavSatFix& message);
+  void handleFix(const sensor_msgs::NavSatFix& message);
 
   /// Returns the frame from the last position before the pose, with the pose's stamp and the
   /// covariance increased by the drive to the pose; null if unknown.
-  EarthFrameMessagePtr takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  EarthFrameMessagePtr handlePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   void connect(StagePorts& ports) override;
 

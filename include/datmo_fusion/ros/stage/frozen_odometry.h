@@ -23,7 +23,7 @@ class FrozenOdometry {
 
   /// Stamps must rise. Returns whether the message repeats an earlier measurement, and so tells
   /// nothing about the motion at its stamp.
-  bool take(const nav_msgs::Odometry& message);
+  bool update(const nav_msgs::Odometry& message);
 
   void reset() { *this = FrozenOdometry(max_hold_); }
 

@@ -24,7 +24,7 @@ using MotionBetween = std::function<std::optional<Pose2>(Stamp from, Stamp to)>;
 class FrozenSensor {
  public:
   /// Stamps must rise. `measured`: empty if it may repeat for other reasons (nothing in view).
-  bool take(Stamp stamp, std::vector<std::uint8_t> measured, const MotionBetween& motion);
+  bool update(Stamp stamp, std::vector<std::uint8_t> measured, const MotionBetween& motion);
 
   void reset() { *this = FrozenSensor(); }
 

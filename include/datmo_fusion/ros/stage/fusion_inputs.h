@@ -65,14 +65,14 @@ class FusionInputs {
 
   /// Checks a message of a source. `now`: ROS time. Throws InputError: `unknown_source`,
   /// `wrong_frame`, `stamp_ahead` and those of StageRunner::check.
-  void take(const std::string& source, const std_msgs::Header& header, Stamp now);
+  void check(const std::string& source, const std_msgs::Header& header, Stamp now);
 
   /// Sets the newest motion, like MotionInput; a bad one is dropped and reported to the monitor.
   /// Requires that the options have motion (else std::bad_optional_access). `Message`:
   /// nav_msgs::Odometry or geometry_msgs::PoseWithCovarianceStamped.
   template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.value().take(message); });
+  void handleMotion(const Message& message) {
+    runner_.serve([&] { motion_.value().update(message); });
   }
 
   /// Forgets everything.

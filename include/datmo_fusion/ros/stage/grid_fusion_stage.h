@@ -48,14 +48,14 @@ class GridFusionStage : public Stage {
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
   /// Adds a grid of a source (else it is dropped: `unknown_source`). `now`: ROS time.
-  void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
+  void handleGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
 
   /// Sets the newest odometry; ignored if the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+  void handleOdometry(const nav_msgs::Odometry& message) { inputs_.handleMotion(message); }
 
   /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-    inputs_.takeMotion(message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.handleMotion(message);
   }
 
   /// Fuses the next set of grids that is ready; none if there is none. Call it until it returns

@@ -99,17 +99,17 @@ class GridSlamStage : public Stage {
   /// Sets the newest odometry, the vehicle's own or that of MotionStage (without speed if from an
   /// IMU alone); ignored if the options name no source of motion. Returns its stamp; none if it was
   /// dropped.
-  std::optional<Stamp> takeOdometry(const nav_msgs::Odometry& message);
+  std::optional<Stamp> handleOdometry(const nav_msgs::Odometry& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped or waits for
   /// the fused grid of its stamp.
   template <typename Message>
-  std::optional<GridSlamOutput> takeScan(const Message& message);
+  std::optional<GridSlamOutput> handleScan(const Message& message);
 
   /// Processes the fused grid at the stamp of an earlier scan. A grid of another stamp (the scanner
   /// is silent) is used alone. None if it was dropped, also if the options have no low-level
   /// fusion.
-  std::optional<GridSlamOutput> takeGrid(const nav_msgs::OccupancyGrid& message);
+  std::optional<GridSlamOutput> handleGrid(const nav_msgs::OccupancyGrid& message);
 
   /// Returns the map after the last scan, with this stamp; null if it is not due. Request it after
   /// publishing the scan's results, which other stages wait for; nothing waits for the map, and

@@ -46,14 +46,14 @@ class HostInput {
             const FrameOptions& frames, const HostVehicleOptions& vehicle, StageRunner& runner);
 
   /// Throws like OdometryReader.
-  void take(const nav_msgs::Odometry& message);
+  void update(const nav_msgs::Odometry& message);
 
   /// Throw InputError like steeringFrom, accelerationFrom and StageRunner::check.
-  void take(const sensor_msgs::JointState& message);
-  void take(const geometry_msgs::AccelWithCovarianceStamped& message);
+  void update(const sensor_msgs::JointState& message);
+  void update(const geometry_msgs::AccelWithCovarianceStamped& message);
 
   /// Sets the pose of a scan whose stamp was checked.
-  void take(const LabeledScan& scan);
+  void update(const LabeledScan& scan);
 
   /// Throws InputError: `no_pose` without a scan near the stamp, `no_motion` with neither odometry
   /// nor a second pose. Warns (`old_steering`, `old_acceleration`) if steering or acceleration were

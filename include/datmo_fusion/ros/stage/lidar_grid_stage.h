@@ -45,21 +45,23 @@ class LidarGridStage : public Stage {
                  StageMonitor& monitor);
 
   /// Sets the newest odometry; ignored if the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
+  void handleOdometry(const nav_msgs::Odometry& message) { handleMotion(message); }
 
   /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    handleMotion(message);
+  }
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
   template <typename Message>
-  nav_msgs::OccupancyGridPtr takeScan(const Message& message);
+  nav_msgs::OccupancyGridPtr handleScan(const Message& message);
 
   void connect(StagePorts& ports) override;
 
  private:
   template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.take(message); });
+  void handleMotion(const Message& message) {
+    runner_.serve([&] { motion_.update(message); });
   }
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
 

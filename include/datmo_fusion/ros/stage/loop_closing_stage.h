@@ -69,7 +69,7 @@ class LoopClosingStage : public Stage {
                    const StepClock& clock = {});
 
   /// Returns map -> global_map at the scan's stamp; null if the scan was dropped.
-  tf2_msgs::TFMessageConstPtr takeLabeledScan(const LabeledScanMessage& message, Stamp now);
+  tf2_msgs::TFMessageConstPtr handleLabeledScan(const LabeledScanMessage& message, Stamp now);
 
   /// Returns the optimized drive if it has changed and is due; none otherwise. Call it
   /// periodically. `now`: ROS time.

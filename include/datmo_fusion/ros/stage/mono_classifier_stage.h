@@ -74,13 +74,15 @@ class MonoClassifierStage : public Stage {
                       const StepClock& clock, std::unique_ptr<MonoClassifier> classifier);
 
   /// Of the rectified images; the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
-  void takeObjects(const ObjectArray& message);
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleOdometry(const nav_msgs::Odometry& message) { handleMotion(message); }
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    handleMotion(message);
+  }
+  void handleObjects(const ObjectArray& message);
 
   /// `now`: ROS time.
-  void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
+  void handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
   /// Returns the next list that is ready, at its exposure's stamp; null if there is none. Call it
   /// until null, after each input and periodically. `now`: ROS time.
@@ -109,8 +111,8 @@ class MonoClassifierStage : public Stage {
   };
 
   template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.take(message); });
+  void handleMotion(const Message& message) {
+    runner_.serve([&] { motion_.update(message); });
   }
 
   void checkAge(const sensor_msgs::Image& image) const;

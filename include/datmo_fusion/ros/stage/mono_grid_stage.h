@@ -56,16 +56,18 @@ class MonoGridStage : public Stage {
                 StageMonitor& monitor);
 
   /// Of the rectified images; the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleOdometry(const nav_msgs::Odometry& message) { handleMotion(message); }
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    handleMotion(message);
+  }
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
   template <typename Message>
-  void takeScan(const Message& message);
+  void handleScan(const Message& message);
 
   /// `now`: ROS time.
-  void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
+  void handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
   /// Returns the grid of the waiting image, at its exposure's stamp; null if there is none. Call it
   /// after each input and periodically. `now`: ROS time.
@@ -82,8 +84,8 @@ class MonoGridStage : public Stage {
   };
 
   template <typename Message>
-  void takeMotion(const Message& message) {
-    runner_.serve([&] { motion_.take(message); });
+  void handleMotion(const Message& message) {
+    runner_.serve([&] { motion_.update(message); });
   }
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   MountedScan scanOf(Stamp exposure) const;

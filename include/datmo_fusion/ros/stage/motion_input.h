@@ -59,11 +59,11 @@ class MotionInput {
   MotionInput(const Checked<MotionOptions>& options, FrameOptions frames, StageRunner& runner);
 
   /// Ignored if the speed is not measured. Throws like OdometryReader.
-  void take(const nav_msgs::Odometry& message);
+  void update(const nav_msgs::Odometry& message);
 
   /// The same for the vehicle's pose in a fixed frame; used only if its speed is not measured.
   /// Throws InputError (`bad_pose`, `pose_jump`, and those of StageRunner::check).
-  void take(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void update(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// Returns the motion from one stamp to a later one; none if unknown (OdometryBuffer::motion).
   std::optional<Pose2> between(Stamp from, Stamp to) const { return buffer_.motion(from, to); }

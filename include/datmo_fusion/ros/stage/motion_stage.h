@@ -54,11 +54,11 @@ class MotionStage : public Stage {
 
   /// Each returns the odometry that the message yields; null if it was dropped, or is only stored
   /// for use with the IMU. Not to be called for inputs that the source does not use.
-  nav_msgs::OdometryPtr takeImu(const sensor_msgs::Imu& message);
-  nav_msgs::OdometryPtr takeTwist(const geometry_msgs::TwistStamped& message);
-  nav_msgs::OdometryPtr takeTwist(const geometry_msgs::TwistWithCovarianceStamped& message);
+  nav_msgs::OdometryPtr handleImu(const sensor_msgs::Imu& message);
+  nav_msgs::OdometryPtr handleTwist(const geometry_msgs::TwistStamped& message);
+  nav_msgs::OdometryPtr handleTwist(const geometry_msgs::TwistWithCovarianceStamped& message);
   /// `velocity` in rad/s of each wheel, forward positive.
-  nav_msgs::OdometryPtr takeWheels(const sensor_msgs::JointState& message);
+  nav_msgs::OdometryPtr handleWheels(const sensor_msgs::JointState& message);
 
   void connect(StagePorts& ports) override;
 
@@ -68,8 +68,8 @@ class MotionStage : public Stage {
     double speed = 0.0;  ///< m/s, forward
   };
 
-  nav_msgs::OdometryPtr takeTwist(const std_msgs::Header& header,
-                                  const geometry_msgs::Twist& message);
+  nav_msgs::OdometryPtr handleTwist(const std_msgs::Header& header,
+                                    const geometry_msgs::Twist& message);
   nav_msgs::OdometryPtr keepSpeed(Stamp stamp, double speed);
 
   /// Speed at the stamp of an IMU; 0 without a source of speed. Throws InputError (`no_speed`).

@@ -42,10 +42,10 @@ class MovingObjectsStage : public Stage {
   MovingObjectsStage(const Checked<MovingObjectsStageOptions>& options, StageMonitor& monitor);
 
   /// Sets the road for the following scans, in their map frame; used with `road_borders`.
-  void takeRoadBorders(const RoadBorders& message);
+  void handleRoadBorders(const RoadBorders& message);
 
   /// None if the scan was dropped.
-  std::optional<MovingObjectsOutput> takeLabeledScan(const LabeledScanMessage& message);
+  std::optional<MovingObjectsOutput> handleLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
   std::vector<LiveOption> live() const override { return liveOptions(options_); }

@@ -53,18 +53,18 @@ class ObjectFusionStage : public Stage {
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
   /// Adds the objects of a source (else dropped: `unknown_source`). `now`: ROS time.
-  void takeObjects(const std::string& source, const ObjectArray& message, Stamp now);
+  void handleObjects(const std::string& source, const ObjectArray& message, Stamp now);
 
   /// Sets the newest odometry; ignored if the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+  void handleOdometry(const nav_msgs::Odometry& message) { inputs_.handleMotion(message); }
 
   /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-    inputs_.takeMotion(message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.handleMotion(message);
   }
 
   /// Sets the scanner's scan, which is used for objects at exactly its stamp.
-  void takeLabeledScan(const LabeledScanMessage& message);
+  void handleLabeledScan(const LabeledScanMessage& message);
 
   /// Fuses the next set of lists that is ready, at the reference's stamp; null if there is none.
   /// Call it until null, after each list and periodically, because a set may become ready by

@@ -28,12 +28,14 @@ namespace datmo {
 template <typename Message>
 class ObjectSource : public Stage {
  public:
-  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
+  void handleOdometry(const nav_msgs::Odometry& message) { handleMotion(message); }
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    handleMotion(message);
+  }
 
   /// Returns objects in the vehicle's frame at the message's stamp; null if the message was
   /// dropped.
-  ObjectArrayPtr take(const Message& message) {
+  ObjectArrayPtr handle(const Message& message) {
     return runner_.serve(sensor_, message, [&] {
       const ObjectList objects = detect(message);
       auto array = boost::make_shared<ObjectArray>(toMessage(objects, frames_.base));
@@ -46,7 +48,7 @@ class ObjectSource : public Stage {
     const auto objects = ports.out<ObjectArray>("objects/" + sensor_);
     connectMotion(ports, motion_options_, *this);
     ports.in<Message>(sensor_, [this, objects](const auto& message, Stamp /*now*/) {
-      objects.publish(take(*message));
+      objects.publish(handle(*message));
     });
   }
 
@@ -78,8 +80,8 @@ class ObjectSource : public Stage {
 
  private:
   template <typename MotionMessage>
-  void takeMotion(const MotionMessage& message) {
-    runner_.serve([&] { motion_.take(message); });
+  void handleMotion(const MotionMessage& message) {
+    runner_.serve([&] { motion_.update(message); });
   }
 
   std::string sensor_;

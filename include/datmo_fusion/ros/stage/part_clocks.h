@@ -27,7 +27,7 @@ class PartClocks {
   explicit PartClocks(const Checked<PartClocksOptions>& options) : options_(*options) {}
 
   /// `received`: time of arrival on our machine's clock.
-  void take(const PartClock& answer, Stamp received);
+  void addAnswer(const PartClock& answer, Stamp received);
 
   /// Descriptions for people, by process: "1.2 +- 0.3 ms ahead", "no answer for 12 s".
   std::map<std::string, std::string> descriptions(Stamp now) const;

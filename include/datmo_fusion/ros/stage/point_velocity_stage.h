@@ -57,15 +57,15 @@ class PointVelocityStage : public Stage {
   PointVelocityStage(const Checked<PointVelocityStageOptions>& options,
                      const TransformBuffer& transforms, StageMonitor& monitor);
 
-  void takeOdometry(const nav_msgs::Odometry& message);
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void handleOdometry(const nav_msgs::Odometry& message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// Returns points in the vehicle's frame at the left image's stamp (velocity_conversion.h), for
   /// the pair that the message completes; null if it completes none, or the pair was dropped. The
   /// first pair yields no points.
-  sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
-  sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
-                                       const sensor_msgs::CameraInfoConstPtr& info);
+  sensor_msgs::PointCloud2Ptr handleImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  sensor_msgs::PointCloud2Ptr handleInfo(StereoSide side,
+                                         const sensor_msgs::CameraInfoConstPtr& info);
 
   void connect(StagePorts& ports) override;
 

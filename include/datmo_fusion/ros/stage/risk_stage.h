@@ -48,14 +48,14 @@ class RiskStage : public Stage {
   /// `monitor` must outlive the stage. Throws OptionError.
   RiskStage(const Checked<RiskStageOptions>& options, StageMonitor& monitor);
 
-  void takeLabeledScan(const LabeledScanMessage& message);
-  void takeOdometry(const nav_msgs::Odometry& message);
-  void takeSteering(const sensor_msgs::JointState& message);
-  void takeAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message);
-  void takeRoadBorders(const RoadBorders& message);
+  void handleLabeledScan(const LabeledScanMessage& message);
+  void handleOdometry(const nav_msgs::Odometry& message);
+  void handleSteering(const sensor_msgs::JointState& message);
+  void handleAcceleration(const geometry_msgs::AccelWithCovarianceStamped& message);
+  void handleRoadBorders(const RoadBorders& message);
 
   /// Null if the message was dropped.
-  RiskArrayPtr takeTracks(const TrackArray& message);
+  RiskArrayPtr handleTracks(const TrackArray& message);
 
   void connect(StagePorts& ports) override;
 

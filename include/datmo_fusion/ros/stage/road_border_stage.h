@@ -31,7 +31,7 @@ class RoadBorderStage : public Stage {
   RoadBorderStage(const Checked<RoadBorderStageOptions>& options, StageMonitor& monitor);
 
   /// Returns the road in the labeled scan's map frame; null if the scan was dropped.
-  RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);
+  RoadBordersPtr handleLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
   std::vector<LiveOption> live() const override { return liveOptions(options_); }

@@ -64,15 +64,15 @@ class ScanMergeStage : public Stage {
                  StageMonitor& monitor);
 
   /// Sets the newest odometry; ignored if the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+  void handleOdometry(const nav_msgs::Odometry& message) { inputs_.handleMotion(message); }
 
   /// Sets the newest SLAM pose; used only if the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-    inputs_.takeMotion(message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.handleMotion(message);
   }
 
   /// Adds a scan of one scanner. `now`: ROS time.
-  void takeScan(const std::string& source, const sensor_msgs::LaserScan& message, Stamp now);
+  void handleScan(const std::string& source, const sensor_msgs::LaserScan& message, Stamp now);
 
   /// Returns the next set of scans that is ready, merged; null if there is none. `now`: ROS time.
   sensor_msgs::LaserScanPtr next(Stamp now);

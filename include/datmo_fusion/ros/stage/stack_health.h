@@ -28,7 +28,7 @@ StackHealth stackHealth(const std::vector<StageState>& stages, const std::string
 class ReportingStages {
  public:
   /// `seconds`: on a clock independent of messages.
-  void take(const StageState& state, double seconds);
+  void update(const StageState& state, double seconds);
 
   /// By name. Forgets terminated stages.
   std::vector<StageState> at(double seconds);

@@ -32,15 +32,15 @@ using AnyMessage = boost::shared_ptr<const void>;
 
 /// One input of a stage, without the type of its messages.
 struct StageInput {
-  using Take = std::function<void(const AnyMessage& message, Stamp now)>;
-  using Subscribe =
-      std::function<Subscription(ros::NodeHandle& node, StageMonitor& monitor, const Take& take)>;
+  using Callback = std::function<void(const AnyMessage& message, Stamp now)>;
+  using Subscribe = std::function<Subscription(ros::NodeHandle& node, StageMonitor& monitor,
+                                               const Callback& callback)>;
 
   std::string topic;      ///< the stage's own name for it, before remapping
   std::string data_type;  ///< "sensor_msgs/LaserScan"
   std::string booked_as;  ///< input under which the monitor counts it
   bool required = true;   ///< its silence is a fault
-  Take take;
+  Callback callback;
   Subscribe subscribe;  ///< guarded; frame ids without slashes; the arrival is recorded
 };
 
@@ -103,24 +103,24 @@ class StagePorts {
   virtual bool hasSimulatedTime() const { return false; }
 
   template <typename Message>
-  using Take = std::function<void(const boost::shared_ptr<const Message>& message, Stamp now)>;
+  using Callback = std::function<void(const boost::shared_ptr<const Message>& message, Stamp now)>;
 
   /// An input whose silence is a fault. `now`: ROS time.
   template <typename Message>
-  void in(const std::string& topic, Take<Message> take) {
-    addInput(inputOf<Message>(topic, topic, true, std::move(take)));
+  void in(const std::string& topic, Callback<Message> callback) {
+    addInput(inputOf<Message>(topic, topic, true, std::move(callback)));
   }
 
   /// An input that may be silent.
   template <typename Message>
-  void optionalIn(const std::string& topic, Take<Message> take) {
-    addInput(inputOf<Message>(topic, topic, false, std::move(take)));
+  void optionalIn(const std::string& topic, Callback<Message> callback) {
+    addInput(inputOf<Message>(topic, topic, false, std::move(callback)));
   }
 
   /// An input whose messages may come instead of those of another input.
   template <typename Message>
-  void inInsteadOf(const std::string& other, const std::string& topic, Take<Message> take) {
-    addInput(inputOf<Message>(topic, other, false, std::move(take)));
+  void inInsteadOf(const std::string& other, const std::string& topic, Callback<Message> callback) {
+    addInput(inputOf<Message>(topic, other, false, std::move(callback)));
   }
 
   /// `latched`: late subscribers get the last message.
@@ -182,28 +182,30 @@ class StagePorts {
 
   template <typename Message>
   static StageInput inputOf(const std::string& topic, const std::string& booked_as, bool required,
-                            Take<Message> take) {
+                            Callback<Message> callback) {
     const auto subscribe = [topic, booked_as](ros::NodeHandle& node, StageMonitor& monitor,
-                                              const StageInput::Take& take_any) {
+                                              const StageInput::Callback& callback_any) {
       const auto check = std::make_shared<ArrivalCheck>(topic, maxWaitInQueue<Message>(), monitor);
-      const auto take_event = [booked_as, &monitor, take_any,
-                               check](const ros::MessageEvent<const Message>& event) {
+      const auto event_callback = [booked_as, &monitor, callback_any,
+                                   check](const ros::MessageEvent<const Message>& event) {
         const auto message = receive(booked_as, event.getConstMessage(), monitor);
         if (check->passes(arrivedOf(event), ros::Time::now())) {
-          take_any(message, toStamp(ros::Time::now()));
+          callback_any(message, toStamp(ros::Time::now()));
         }
       };
       const auto note = [check](const DecodeError& error) {
         check->noteUndecodable(error.publisher, error.sequence);
       };
       return Subscription::toEvents<Message>(node, topic, queueLength<Message>(), monitor,
-                                             take_event, note);
+                                             event_callback, note);
     };
     return {topic,
             ros::message_traits::datatype<Message>(),
             booked_as,
             required,
-            [take](const AnyMessage& message, Stamp now) { take(typed<Message>(message), now); },
+            [callback](const AnyMessage& message, Stamp now) {
+              callback(typed<Message>(message), now);
+            },
             subscribe};
   }
 };

@@ -83,7 +83,7 @@ class StageMonitor {
   void requestReset() { reset_requested_ = true; }
 
   /// Returns whether a reset was requested since the last call.
-  bool takeResetRequest() { return std::exchange(reset_requested_, false); }
+  bool handleResetRequest() { return std::exchange(reset_requested_, false); }
 
   /// Reports that the clock of the inputs has jumped: they start over.
   void forgetInputs() { newest_input_.reset(); }
@@ -112,7 +112,7 @@ class StageMonitor {
   std::string description(const std::string& input) const;
 
   /// Returns the announcements since the last call.
-  std::vector<std::string> takeAnnouncements();
+  std::vector<std::string> handleAnnouncements();
 
   InputStatus input(const std::string& name, Stamp now) const;
   TimingStatus timing() const;

@@ -31,7 +31,7 @@ class StageRunner {
   template <typename Handle>
   auto serve(const Handle& handle) -> decltype(handle()) {
     watch_ = Stopwatch();
-    if (monitor_.takeResetRequest()) {
+    if (monitor_.handleResetRequest()) {
       reset("bad_output", "its output could not be used");
     }
     try {

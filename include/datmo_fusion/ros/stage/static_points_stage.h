@@ -45,7 +45,7 @@ class StaticPointsStage : public Stage {
   StaticPointsStage(const Checked<StaticPointsStageOptions>& options, StageMonitor& monitor);
 
   /// None if the scan was dropped.
-  std::optional<StaticPointsOutput> takeLabeledScan(const LabeledScanMessage& message);
+  std::optional<StaticPointsOutput> handleLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
 

@@ -48,18 +48,18 @@ class StereoAlignmentStage : public Stage {
   StereoAlignmentStage(const Checked<StereoAlignmentStageOptions>& options,
                        const TransformBuffer& transforms, StageMonitor& monitor);
 
-  void takeOdometry(const nav_msgs::Odometry& message);
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void handleOdometry(const nav_msgs::Odometry& message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
   template <typename Message>
-  void takeScan(const Message& message);
+  void handleScan(const Message& message);
 
   /// Of the right camera; the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
 
   /// Null if the cloud was dropped, or no scan is close enough in time.
-  StereoAlignmentMessagePtr takeCloud(const sensor_msgs::PointCloud2& message);
+  StereoAlignmentMessagePtr handleCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
 

@@ -36,13 +36,13 @@ class StereoGridStage : public Stage {
                   StageMonitor& monitor);
 
   /// Of the right camera; the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
 
   /// Sets the alignment; the newest one is used.
-  void takeAlignment(const StereoAlignmentMessage& message);
+  void handleAlignment(const StereoAlignmentMessage& message);
 
   /// Null if the cloud was dropped.
-  nav_msgs::OccupancyGridPtr takeCloud(const sensor_msgs::PointCloud2& message);
+  nav_msgs::OccupancyGridPtr handleCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
 

@@ -46,13 +46,13 @@ class StereoInput {
 
   /// Sets the info of the right camera, or of the depth image; the newest one is used. Throws
   /// InputError (`bad_camera_info`).
-  void take(const sensor_msgs::CameraInfo& message);
+  void update(const sensor_msgs::CameraInfo& message);
 
   /// Sets the alignment of the clouds with the scanner's points from now on: the disparity bias,
   /// which is the camera's, is corrected, and clouds are rejected while they are not usable, until
   /// `StereoCameraOptions::alignment_hold` after its stamp. No effect if `camera/align` is off, or
   /// for a camera that does not measure disparities. Throws InputError (`bad_alignment`).
-  void take(const StereoAlignmentMessage& message);
+  void update(const StereoAlignmentMessage& message);
 
   /// Whether the camera is compared with the scanner: this is enabled, and it measures disparities.
   bool isAligned() const {

@@ -44,18 +44,18 @@ class StereoObjectsStage : public Stage {
                      const TransformBuffer& transforms, StageMonitor& monitor);
 
   /// Of the right camera; the newest one is used.
-  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+  void handleCameraInfo(const sensor_msgs::CameraInfo& message);
 
   /// Sets the alignment; the newest one is used.
-  void takeAlignment(const StereoAlignmentMessage& message);
+  void handleAlignment(const StereoAlignmentMessage& message);
 
   /// Points with velocity, in the vehicle's frame.
-  void takeVelocities(const sensor_msgs::PointCloud2& message);
+  void handleVelocities(const sensor_msgs::PointCloud2& message);
 
   /// Returns objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped, or
   /// its objects wait. Objects of an earlier cloud that need not wait any longer are returned
   /// first.
-  ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
+  ObjectArrayPtr handleCloud(const sensor_msgs::PointCloud2& message);
 
   /// Returns the next objects that have finished waiting; null if there are none. Call it until
   /// null, after each input and periodically. `now`: ROS time.

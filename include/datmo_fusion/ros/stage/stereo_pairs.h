@@ -38,8 +38,9 @@ class StereoPairs {
   explicit StereoPairs(double tolerance) : tolerance_(tolerance) {}
 
   /// Returns the pair that the message completes, if any. Older frames are then dropped.
-  std::optional<StereoPair> takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
-  std::optional<StereoPair> takeInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info);
+  std::optional<StereoPair> handleImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  std::optional<StereoPair> handleInfo(StereoSide side,
+                                       const sensor_msgs::CameraInfoConstPtr& info);
 
   /// Forgets all frames; call it when the clock was set back.
   void clear();

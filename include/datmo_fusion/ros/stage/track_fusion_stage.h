@@ -45,7 +45,7 @@ class TrackFusionStage : public Stage {
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
   /// Adds the tracks of a source (else dropped: `unknown_source`). `now`: ROS time.
-  void takeTracks(const std::string& source, const TrackArray& message, Stamp now);
+  void handleTracks(const std::string& source, const TrackArray& message, Stamp now);
 
   /// Fuses the next set of lists that is ready, at the reference's stamp; null if there is none.
   /// Call it until null, after each list and periodically, because a set may become ready by

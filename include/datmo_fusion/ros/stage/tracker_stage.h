@@ -45,15 +45,15 @@ class TrackerStage : public Stage {
 
   /// Sets the vehicle's pose at this scan and, with `scan_view`, what the scanner saw. It may be
   /// received before or after the scan's objects.
-  void takeLabeledScan(const LabeledScanMessage& message);
+  void handleLabeledScan(const LabeledScanMessage& message);
 
   /// Adds objects to the queue. `now`: ROS time.
-  void takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
+  void handleObjects(const ObjectArrayConstPtr& message, Stamp now) {
     enqueue({message, now, false});
   }
 
   /// The same for incomplete objects: the complete ones of that stamp follow.
-  void takeEarlyObjects(const ObjectArrayConstPtr& message, Stamp now) {
+  void handleEarlyObjects(const ObjectArrayConstPtr& message, Stamp now) {
     enqueue({message, now, true});
   }
 

@@ -48,14 +48,14 @@ class V2xStage : public Stage {
   /// `monitor` must outlive the stage. Throws OptionError.
   V2xStage(const Checked<V2xStageOptions>& options, StageMonitor& monitor);
 
-  void takeFrame(const EarthFrameMessage& message);
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void handleFrame(const EarthFrameMessage& message);
+  void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// Null if the list was dropped. `now`: ROS time.
-  TrackArrayPtr takeStation(const StationTracksMessage& message, Stamp now);
+  TrackArrayPtr handleStation(const StationTracksMessage& message, Stamp now);
 
   /// Returns our sensors' tracks, in the form that other stations use.
-  StationTracksMessagePtr takeTracks(const TrackArray& message);
+  StationTracksMessagePtr handleTracks(const TrackArray& message);
 
   void connect(StagePorts& ports) override;
 
