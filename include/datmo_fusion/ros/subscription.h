@@ -124,17 +124,23 @@ class Subscription {
     };
     Subscription made;
     made.state_ = std::make_unique<State>(*node.getCallbackQueue(), resolved, count);
-    // Called only while the subscriber of this state exists, unlike the decoder's own code.
-    const auto call = [topic, &monitor, callback, &errors = made.state_->errors](
-                          const ros::MessageEvent<const Message>& event) {
-      guarded(monitor, topic, [&] {
-        errors.deliver();
-        callback(event);
-      });
+    const auto call = std::make_shared<const EventCallback<Message>>(
+        [topic, &monitor, callback,
+         &errors = made.state_->errors](const ros::MessageEvent<const Message>& event) {
+          guarded(monitor, topic, [&] {
+            errors.deliver();
+            callback(event);
+          });
+        });
+    made.state_->callback = call;
+    // Called only while the subscriber of this state exists. The decoder, which may exist longer,
+    // must not own what the callback captures: a publisher must end before the queue of its node.
+    const auto forward = [&owned = *call](const ros::MessageEvent<const Message>& event) {
+      owned(event);
     };
     ros::SubscribeOptions options(topic, queue, ros::message_traits::md5sum<Message>(),
                                   resolved.data_type);
-    options.helper = boost::make_shared<BoundedDecoder<Message>>(resolved.topic, call);
+    options.helper = boost::make_shared<BoundedDecoder<Message>>(resolved.topic, forward);
     // The first subscriber to a topic determines the transport for its whole process.
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     made.state_->subscriber = node.subscribe(options);
@@ -154,7 +160,8 @@ class Subscription {
         : errors(queue, topic, count) {}
 
     DecodeErrors errors;
-    ros::Subscriber subscriber;  ///< last: ends before what its callback uses
+    std::shared_ptr<const void> callback;  ///< what the decoder calls
+    ros::Subscriber subscriber;            ///< last: ends before what its callback uses
   };
 
   std::unique_ptr<State> state_;
