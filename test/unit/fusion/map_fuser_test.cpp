@@ -27,7 +27,7 @@ class MapFuserTest : public testing::Test {
   }
 
   void take(const std::string& source, Percent percent, double seconds = 0.0) {
-    fuser_.take(source, gridWith(kCell, percent, seconds), Pose2(), {});
+    fuser_.add(source, gridWith(kCell, percent, seconds), Pose2(), {});
   }
 
   void setPrior(CellIndex cell, double log_odds) {
@@ -100,9 +100,9 @@ TEST_F(MapFuserTest, WithoutReliabilityItIsNoSource) {
 
 TEST_F(MapFuserTest, MovingObjectsAreNotInTheMaps) {
   const Point2 mover = kWindow.centerOf(kCell) + Point2(0.6, 0.0);
-  fuser_.take("lidar", gridWith(kCell, kOccupied, 0.0), Pose2(), {mover});
+  fuser_.add("lidar", gridWith(kCell, kOccupied, 0.0), Pose2(), {mover});
   EXPECT_EQ(fuser_.fuse(stampAt(0.0))->fused.at(kCell), kUnknownPercent);
-  fuser_.take("lidar", gridWith(kCell, kFree, 0.1), Pose2(), {mover});
+  fuser_.add("lidar", gridWith(kCell, kFree, 0.1), Pose2(), {mover});
   EXPECT_EQ(fuser_.fuse(stampAt(0.1))->fused.at(kCell), kFree);
 }
 
@@ -112,9 +112,9 @@ TEST_F(MapFuserTest, TheMapsMoveWithTheVehicle) {
   const auto maps = fuser_.fuse(stampAt(0.0));
   EXPECT_EQ(maps->fused.window().corner, (CellIndex{-2, -5}));
   EXPECT_EQ(maps->fused.at(kCell), kOccupied);
-  fuser_.take("stereo", gridWith(kCell, kOccupied, 0.1), Pose2(8.0, 0.0, 0.0), {});
+  fuser_.add("stereo", gridWith(kCell, kOccupied, 0.1), Pose2(8.0, 0.0, 0.0), {});
   EXPECT_EQ(fuser_.fuse(stampAt(0.1))->fused.at({11, 1}), kOccupied) << "seen from there";
-  fuser_.take("stereo", gridWith({-5, 1}, kOccupied, 0.2), Pose2(8.0, 0.0, 0.0), {});
+  fuser_.add("stereo", gridWith({-5, 1}, kOccupied, 0.2), Pose2(8.0, 0.0, 0.0), {});
   EXPECT_EQ(fuser_.fuse(stampAt(0.2))->fused.at(kCell), 94);
 }
 

@@ -14,7 +14,7 @@ using CloudObjectsStageTest = samples::CloudStageTest<CloudObjectsStage>;
 
 TEST_F(CloudObjectsStageTest, ACloudMakesObjectsOfTheVehiclesFrame) {
   mountLidar();
-  const auto objects = stage_.take(cloudAt(kStart));
+  const auto objects = stage_.handle(cloudAt(kStart));
   ASSERT_NE(objects, nullptr);
   EXPECT_EQ(objects->header.frame_id, "base_link");
   EXPECT_EQ(objects->header.stamp, ros::Time(kStart));
@@ -25,7 +25,7 @@ TEST_F(CloudObjectsStageTest, ACloudMakesObjectsOfTheVehiclesFrame) {
 }
 
 TEST_F(CloudObjectsStageTest, WithoutAMountACloudIsDropped) {
-  EXPECT_EQ(stage_.take(cloudAt(kStart)), nullptr);
+  EXPECT_EQ(stage_.handle(cloudAt(kStart)), nullptr);
   EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
 }
 
@@ -33,17 +33,17 @@ TEST_F(CloudObjectsStageTest, BadCloudsAreDroppedAndCounted) {
   mountLidar();
   auto without_height = cloudAt(kStart);
   without_height.fields[2].name = "height";
-  EXPECT_EQ(stage_.take(without_height), nullptr);
-  EXPECT_EQ(stage_.take(sensor_msgs::PointCloud2()), nullptr);
+  EXPECT_EQ(stage_.handle(without_height), nullptr);
+  EXPECT_EQ(stage_.handle(sensor_msgs::PointCloud2()), nullptr);
   EXPECT_EQ(monitor_.droppedCount(), 2U);
-  EXPECT_NE(stage_.take(cloudAt(kStart)), nullptr);
-  EXPECT_EQ(stage_.take(cloudAt(kStart)), nullptr) << "it was there already";
+  EXPECT_NE(stage_.handle(cloudAt(kStart)), nullptr);
+  EXPECT_EQ(stage_.handle(cloudAt(kStart)), nullptr) << "it was there already";
 }
 
 TEST_F(CloudObjectsStageTest, AClockJumpBackStartsOver) {
   mountLidar();
-  EXPECT_NE(stage_.take(cloudAt(kStart + 10.0)), nullptr);
-  EXPECT_NE(stage_.take(cloudAt(kStart)), nullptr);
+  EXPECT_NE(stage_.handle(cloudAt(kStart + 10.0)), nullptr);
+  EXPECT_NE(stage_.handle(cloudAt(kStart)), nullptr);
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }
 

@@ -55,7 +55,7 @@ class RadarObjectsStageTest : public testing::Test {
 TEST_F(RadarObjectsStageTest, ACycleMakesObjectsOfTheVehiclesFrame) {
   mountRadar();
   drive(kStart, kStart + 1.0);
-  const ObjectArrayPtr objects = stage_.take(scanAt(kStart + 1.0));
+  const ObjectArrayPtr objects = stage_.handle(scanAt(kStart + 1.0));
   ASSERT_TRUE(objects);
   EXPECT_EQ(objects->header.frame_id, "base_link");
   EXPECT_EQ(objects->header.stamp, ros::Time(kStart + 1.0));
@@ -70,13 +70,13 @@ TEST_F(RadarObjectsStageTest, ACycleMakesObjectsOfTheVehiclesFrame) {
 }
 
 TEST_F(RadarObjectsStageTest, WithoutMountOrMotionACycleIsDropped) {
-  EXPECT_FALSE(stage_.take(scanAt(kStart)));
+  EXPECT_FALSE(stage_.handle(scanAt(kStart)));
   EXPECT_EQ(samples::drops(monitor_, "missing_transform"), 1U);
   mountRadar();
-  EXPECT_FALSE(stage_.take(scanAt(kStart)));
+  EXPECT_FALSE(stage_.handle(scanAt(kStart)));
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
   drive(kStart, kStart + 1.0);
-  EXPECT_FALSE(stage_.take(scanAt(kStart + 3.0)));  // the odometry ended long before
+  EXPECT_FALSE(stage_.handle(scanAt(kStart + 3.0)));  // the odometry ended long before
   EXPECT_EQ(samples::drops(monitor_, "no_motion"), 2U);
 }
 
@@ -91,7 +91,7 @@ TEST_F(RadarObjectsStageTest, InvalidReturnsAreLeftOutAndCounted) {
   scan.returns[5].azimuth = 4.0F;
   scan.returns[6].elevation = 1.5F;
   scan.returns[7].range = 1e5F;
-  const ObjectArrayPtr objects = stage_.take(scan);
+  const ObjectArrayPtr objects = stage_.handle(scan);
   ASSERT_TRUE(objects);
   EXPECT_EQ(objects->objects.size(), 1U);
   EXPECT_EQ(samples::warnings(monitor_, "bad_returns"), 1U);
@@ -103,7 +103,7 @@ TEST_F(RadarObjectsStageTest, OfTooManyReturnsTheFirstAreUsed) {
   drive(kStart, kStart + 1.0);
   RadarScanMessage scan = scanAt(kStart + 1.0);
   scan.returns.resize(1200, scan.returns[1]);
-  ASSERT_TRUE(stage_.take(scan));
+  ASSERT_TRUE(stage_.handle(scan));
   EXPECT_EQ(monitor_.figures().at("bad returns"), 200.0);
 }
 
@@ -114,10 +114,10 @@ TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreProjectedToThePlane) {
   scan.returns = {returnAt(40.0F, 2.5F)};
   scan.returns[0].elevation = static_cast<float>(kPi / 3.0);  // of which the cosine is a half
   EXPECT_EQ(samples::warnings(monitor_, "bad_returns"), 0U);
-  EXPECT_TRUE(stage_.take(scan)->objects.empty());  // steeper than accepted
+  EXPECT_TRUE(stage_.handle(scan)->objects.empty());  // steeper than accepted
   scan.header.stamp += ros::Duration(0.01);
   scan.returns[0].elevation = 0.5F;
-  const ObjectArrayPtr objects = stage_.take(scan);
+  const ObjectArrayPtr objects = stage_.handle(scan);
   ASSERT_EQ(objects->objects.size(), 1U);
   EXPECT_NEAR(objects->objects[0].pose.position.x, 3.0 + 40.0 * std::cos(0.5), 1e-4);
   EXPECT_NEAR(objects->objects[0].velocity.x, 10.0 + 2.5 / std::cos(0.5), 1e-3);
@@ -126,8 +126,8 @@ TEST_F(RadarObjectsStageTest, RangesAndSpeedsAreProjectedToThePlane) {
 TEST_F(RadarObjectsStageTest, ARepeatedCycleIsDropped) {
   mountRadar();
   drive(kStart, kStart + 1.0);
-  EXPECT_TRUE(stage_.take(scanAt(kStart + 1.0)));
-  EXPECT_FALSE(stage_.take(scanAt(kStart + 1.0)));
+  EXPECT_TRUE(stage_.handle(scanAt(kStart + 1.0)));
+  EXPECT_FALSE(stage_.handle(scanAt(kStart + 1.0)));
   EXPECT_EQ(monitor_.droppedCount(), 1U);
 }
 
