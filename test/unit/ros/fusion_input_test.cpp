@@ -20,9 +20,9 @@ using StageTests = testing::Types<ObjectFusionStageTest, TrackFusionStageTest>;
 TYPED_TEST_SUITE(FusionInputTest, StageTests);
 
 TYPED_TEST(FusionInputTest, AStampFarAheadOfTheReferenceIsDropped) {
-  this->take("lidar", 100.0);
+  this->handle("lidar", 100.0);
   const double ahead = 100.1 + this->options_.matcher.silent_after;
-  this->take("stereo", this->list(ahead, {}), Stamp::fromSeconds(100.0));
+  this->handle("stereo", this->list(ahead, {}), Stamp::fromSeconds(100.0));
   EXPECT_EQ(this->drops("stamp_ahead"), 1U);
   const auto fused = this->nextAt(100.11);
   ASSERT_TRUE(fused);
@@ -32,21 +32,21 @@ TYPED_TEST(FusionInputTest, AStampFarAheadOfTheReferenceIsDropped) {
 TYPED_TEST(FusionInputTest, BadListsAreDroppedAndCounted) {
   auto lists = this->list(100.0, {});
   lists.header.frame_id = "scanner";
-  this->take("lidar", lists);
+  this->handle("lidar", lists);
   EXPECT_EQ(this->drops("wrong_frame"), 1U);
   const std::string said = std::string(TestFixture::kLists) + " of lidar in 'scanner'";
   EXPECT_NE(this->monitor_.lastError().find(said), std::string::npos);
   EXPECT_NE(this->monitor_.lastError().find(TestFixture::kFrame), std::string::npos);
-  this->take("radar", 100.0);
+  this->handle("radar", 100.0);
   EXPECT_EQ(this->drops("unknown_source"), 1U);
-  this->take("lidar", this->list(0.0, {}));
+  this->handle("lidar", this->list(0.0, {}));
   EXPECT_EQ(this->drops("zero_stamp"), 1U);
-  this->take("lidar", 100.0);
-  this->take("lidar", 100.0);
+  this->handle("lidar", 100.0);
+  this->handle("lidar", 100.0);
   EXPECT_EQ(this->drops("repeated_stamp"), 1U);
-  this->take("lidar", 99.9);
+  this->handle("lidar", 99.9);
   EXPECT_EQ(this->drops("old_stamp"), 1U);
-  this->take("stereo", 100.0);
+  this->handle("stereo", 100.0);
   EXPECT_TRUE(this->nextAt(100.0));
   EXPECT_EQ(this->monitor_.droppedCount(), 5U);
 }

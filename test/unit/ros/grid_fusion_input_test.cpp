@@ -16,26 +16,26 @@ TEST_F(GridFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
   };
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("lidar", t, t);
-    take("stereo", t + 0.7, t);
+    handle("lidar", t, t);
+    handle("stereo", t + 0.7, t);
     const auto output = nextAt(t + 0.11);
     ASSERT_TRUE(output) << t;
     EXPECT_EQ(output->fused->header.stamp, ros::Time(t)) << "the lidar's";
   }
   EXPECT_EQ(drops("stamp_ahead"), 20U);
-  take("lidar", 102.0, 102.0);
-  take("stereo", 103.0, 102.0);
+  handle("lidar", 102.0, 102.0);
+  handle("stereo", 103.0, 102.0);
   EXPECT_EQ(drops("stamp_ahead"), 21U);
   EXPECT_NE(monitor_.lastError().find("102.0"), std::string::npos) << "the lidar's stamp";
   EXPECT_NE(monitor_.lastError().find("103.0"), std::string::npos) << "stereo's";
-  take("stereo", 102.8, 102.8);
-  take("stereo", 110.0, 103.5);
+  handle("stereo", 102.8, 102.8);
+  handle("stereo", 110.0, 103.5);
   EXPECT_EQ(drops("stamp_ahead"), 21U) << "the lidar has fallen silent";
 }
 
 TEST_F(GridFusionStageTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
-  take("lidar", 100.0, kFree);
-  take("stereo", message(100.0, kFree, {0.5, 20, 4, {0, -2}}));
+  handle("lidar", 100.0, kFree);
+  handle("stereo", message(100.0, kFree, {0.5, 20, 4, {0, -2}}));
   EXPECT_EQ(drops("wrong_window"), 1U);
   EXPECT_NE(monitor_.lastError().find("20 x 4 cells of 0.5 m"), std::string::npos);
   EXPECT_NE(monitor_.lastError().find("10 x 2 cells of 1 m"), std::string::npos);
@@ -46,20 +46,20 @@ TEST_F(GridFusionStageTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
 TEST_F(GridFusionStageTest, BadGridsAreDroppedAndCounted) {
   nav_msgs::OccupancyGrid grid = message(100.0, kFree);
   grid.header.frame_id = "map";
-  take("lidar", grid);
+  handle("lidar", grid);
   EXPECT_EQ(drops("wrong_frame"), 1U);
   grid = message(100.0, kFree);
   grid.data.pop_back();
-  take("lidar", grid);
+  handle("lidar", grid);
   EXPECT_EQ(drops("bad_grid"), 1U);
-  take("radar", 100.0, kFree);
+  handle("radar", 100.0, kFree);
   EXPECT_EQ(drops("unknown_source"), 1U);
-  take("lidar", 0.0, kFree);
+  handle("lidar", 0.0, kFree);
   EXPECT_EQ(drops("zero_stamp"), 1U);
-  take("lidar", 100.0, kFree);
-  take("lidar", 100.0, kFree);
+  handle("lidar", 100.0, kFree);
+  handle("lidar", 100.0, kFree);
   EXPECT_EQ(drops("repeated_stamp"), 1U);
-  take("lidar", 99.9, kFree);
+  handle("lidar", 99.9, kFree);
   EXPECT_EQ(drops("old_stamp"), 1U);
   EXPECT_TRUE(nextAt(100.2));
 }

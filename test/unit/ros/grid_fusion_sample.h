@@ -30,11 +30,11 @@ class GridFusionStageTest : public testing::Test {
     return toMessage(grid, "base_link");
   }
 
-  void take(const std::string& source, double seconds, Percent percent) {
-    take(source, message(seconds, percent));
+  void handle(const std::string& source, double seconds, Percent percent) {
+    handle(source, message(seconds, percent));
   }
 
-  void take(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
+  void handle(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
     stage_.handleGrid(source, grid, toStamp(grid.header.stamp));
   }
 
@@ -44,8 +44,8 @@ class GridFusionStageTest : public testing::Test {
 
   /// Adds both sources at this time, and fuses them.
   std::optional<GridFusionOutput> bothAt(double seconds, Percent lidar, Percent stereo) {
-    take("lidar", seconds, lidar);
-    take("stereo", seconds, stereo);
+    handle("lidar", seconds, lidar);
+    handle("stereo", seconds, stereo);
     return nextAt(seconds);
   }
 

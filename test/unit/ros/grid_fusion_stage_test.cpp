@@ -10,9 +10,9 @@ namespace {
 using namespace grid_fusion_samples;
 
 TEST_F(GridFusionStageTest, GridsOfTheSameStampAreFusedAtOnce) {
-  take("lidar", 100.0, kFree);
+  handle("lidar", 100.0, kFree);
   EXPECT_FALSE(nextAt(100.0)) << "the other one may still come";
-  take("stereo", 100.0, kFree);
+  handle("stereo", 100.0, kFree);
   const auto output = nextAt(100.0);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->fused->header.frame_id, "base_link");
@@ -36,7 +36,7 @@ TEST_F(GridFusionStageTest, TheRuleChangesWhileItRuns) {
 
 TEST_F(GridFusionStageTest, AfterTheLongestWaitItContinuesWithoutTheOther) {
   bothAt(99.9, kFree, kFree);
-  take("lidar", 100.0, kOccupied);
+  handle("lidar", 100.0, kOccupied);
   EXPECT_FALSE(nextAt(100.05));
   stage_.change({{"rule", std::string("maximum")}});
   const auto output = nextAt(100.11);
@@ -57,7 +57,7 @@ TEST_F(GridFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
   int fused = 0;
   for (int i = 1; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("lidar", t, kOccupied);
+    handle("lidar", t, kOccupied);
     while (const auto output = nextAt(t)) {
       ++fused;
       if (t > 101.0) {
@@ -80,10 +80,10 @@ TEST_F(GridFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnceUntilItIsFus
     const std::uint64_t before = warnings("late_source");
     for (int i = 1; i <= 10; ++i) {
       const double t = start + 0.1 * i;
-      take("lidar", t, kFree);
+      handle("lidar", t, kFree);
       EXPECT_TRUE(nextAt(t + 0.11));
       if (i > 2) {
-        take("stereo", t - 0.15, kFree);
+        handle("stereo", t - 0.15, kFree);
       }
       if (i == 4) {
         EXPECT_EQ(warnings("late_source"), before) << "it may be chance yet";
@@ -98,11 +98,11 @@ TEST_F(GridFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnceUntilItIsFus
 TEST_F(GridFusionStageTest, WithoutTheReferenceTheOtherOneSetsTheStamps) {
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("stereo", t, kFree);
+    handle("stereo", t, kFree);
     while (nextAt(t)) {
     }
   }
-  take("stereo", 102.0, kFree);
+  handle("stereo", 102.0, kFree);
   const auto output = nextAt(102.0);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->fused->header.stamp, ros::Time(102.0));
@@ -132,8 +132,8 @@ TEST_F(GridFusionStageTest, GridsAreMovedByTheOdometryBetweenTheirStamps) {
   stage_.change({{"rule", std::string("priority")}});
   stage_.handleOdometry(odometry(99.9));
   stage_.handleOdometry(odometry(100.0));
-  take("stereo", obstacleAt(99.95, 8));
-  take("lidar", 100.0, kFree);
+  handle("stereo", obstacleAt(99.95, 8));
+  handle("lidar", 100.0, kFree);
   const auto output = nextAt(100.2);
   ASSERT_TRUE(output);
   EXPECT_EQ(obstacleIn(*output->fused), 7) << "1 m nearer after 0.05 s at 20 m/s";
@@ -160,8 +160,8 @@ TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
 
 TEST_F(GridFusionStageTest, ASourceOfUnknownMotionIsLeftOut) {
   stage_.change({{"rule", std::string("priority")}});
-  take("stereo", obstacleAt(99.95, 8));
-  take("lidar", 100.0, kFree);
+  handle("stereo", obstacleAt(99.95, 8));
+  handle("lidar", 100.0, kFree);
   const auto output = nextAt(100.2);
   ASSERT_TRUE(output);
   EXPECT_EQ(obstacleIn(*output->fused), -1);
@@ -169,8 +169,8 @@ TEST_F(GridFusionStageTest, ASourceOfUnknownMotionIsLeftOut) {
   EXPECT_EQ(monitor_.warningCount(), 0U) << "it may yet become known";
   for (int i = 1; i <= 10; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("stereo", obstacleAt(t - 0.05, 8));
-    take("lidar", t, kFree);
+    handle("stereo", obstacleAt(t - 0.05, 8));
+    handle("lidar", t, kFree);
     EXPECT_TRUE(nextAt(t + 0.1));
   }
   EXPECT_EQ(warnings("no_motion"), 1U);

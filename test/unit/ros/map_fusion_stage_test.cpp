@@ -59,10 +59,10 @@ class MapFusionStageTest : public testing::Test {
 
   void start() { stage_ = std::make_unique<MapFusionStage>(options_, monitor_); }
 
-  void take(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
+  void handle(const std::string& source, const nav_msgs::OccupancyGrid& grid) {
     stage_->handleGrid(source, grid, toStamp(grid.header.stamp));
   }
-  void take(const LabeledScanMessage& scan) {
+  void handle(const LabeledScanMessage& scan) {
     stage_->handleLabeledScan(scan, toStamp(scan.header.stamp));
   }
 
@@ -73,9 +73,9 @@ class MapFusionStageTest : public testing::Test {
   /// Adds both sources and the pose at this time.
   std::optional<MapFusionOutput> allAt(double seconds, Percent lidar, Percent stereo,
                                        const Pose2& pose = Pose2(), double variance = 1e-4) {
-    take("lidar", gridMessage(seconds, lidar));
-    take("stereo", gridMessage(seconds, stereo));
-    take(scanMessage(seconds, pose, "map", variance));
+    handle("lidar", gridMessage(seconds, lidar));
+    handle("stereo", gridMessage(seconds, stereo));
+    handle(scanMessage(seconds, pose, "map", variance));
     return nextAt(seconds);
   }
 
@@ -109,10 +109,10 @@ class MapFusionStageTest : public testing::Test {
 };
 
 TEST_F(MapFusionStageTest, GridsWaitForThePoseOfTheirStamp) {
-  take("lidar", gridMessage(100.0, kOccupied));
-  take("stereo", gridMessage(100.0, kFree));
+  handle("lidar", gridMessage(100.0, kOccupied));
+  handle("stereo", gridMessage(100.0, kFree));
   EXPECT_FALSE(nextAt(100.0));
-  take(scanMessage(100.0, Pose2(5.0, 0.0, 0.0)));
+  handle(scanMessage(100.0, Pose2(5.0, 0.0, 0.0)));
   const auto output = nextAt(100.0);
   ASSERT_TRUE(output && output->fused);
   EXPECT_EQ(output->fused->header.frame_id, "map");
@@ -143,9 +143,9 @@ TEST_F(MapFusionStageTest, AGridIsPlacedAtTheVehiclesPoseOfItsStamp) {
   for (int i = 0; i <= 10; ++i) {
     stage_->handleOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
   }
-  take("stereo", gridMessage(100.15, kOccupied));
-  take("lidar", gridMessage(100.2, kFree));
-  take(scanMessage(100.2, Pose2(4.0, 0.0, 0.0)));
+  handle("stereo", gridMessage(100.15, kOccupied));
+  handle("lidar", gridMessage(100.2, kFree));
+  handle(scanMessage(100.2, Pose2(4.0, 0.0, 0.0)));
   EXPECT_FALSE(nextAt(100.25)) << "the camera may have a nearer one";
   const auto output = nextAt(100.31);
   ASSERT_TRUE(output && output->fused);
@@ -159,8 +159,8 @@ TEST_F(MapFusionStageTest, ASilentSourceStaysInTheMap) {
   std::optional<MapFusionOutput> output;
   for (int i = 1; i <= 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("lidar", gridMessage(t, kOccupied));
-    take(scanMessage(t));
+    handle("lidar", gridMessage(t, kOccupied));
+    handle(scanMessage(t));
     for (auto next = nextAt(t); next; next = nextAt(t)) {
       output = next->fused ? next : output;
     }
@@ -174,8 +174,8 @@ TEST_F(MapFusionStageTest, ASilentSourceStaysInTheMap) {
 TEST_F(MapFusionStageTest, WithoutPosesNothingIsPublishedAndItIsReported) {
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("lidar", gridMessage(t, kOccupied));
-    take("stereo", gridMessage(t, kOccupied));
+    handle("lidar", gridMessage(t, kOccupied));
+    handle("stereo", gridMessage(t, kOccupied));
     while (const auto output = nextAt(t)) {
       EXPECT_FALSE(output->fused);
     }
@@ -187,31 +187,31 @@ TEST_F(MapFusionStageTest, WithoutPosesNothingIsPublishedAndItIsReported) {
 
 TEST_F(MapFusionStageTest, InvalidGridsAreRefusedAndCounted) {
   allAt(100.0, kFree, kFree);
-  take("stereo", gridMessage(100.1, kFree, {0.5, 20, 10, {-10, -5}}));
+  handle("stereo", gridMessage(100.1, kFree, {0.5, 20, 10, {-10, -5}}));
   EXPECT_EQ(drops("wrong_window"), 1U);
   EXPECT_EQ(
       monitor_.lastError(),
       "grid of stereo of 20 x 10 cells of 0.5 m from cell (-10, -5): expected 20 x 10 cells of "
       "1 m from cell (-10, -5), as in the first grid");
-  take("stereo", gridMessage(100.15, kFree, {1.0, 30, 10, {-15, -5}}));
+  handle("stereo", gridMessage(100.15, kFree, {1.0, 30, 10, {-15, -5}}));
   EXPECT_EQ(drops("wrong_window"), 2U) << "of another size";
   auto elsewhere = gridMessage(100.2, kFree);
   elsewhere.header.frame_id = "camera";
-  take("stereo", elsewhere);
+  handle("stereo", elsewhere);
   EXPECT_EQ(drops("wrong_frame"), 1U);
   auto no_number = gridMessage(100.2, kFree);
   no_number.info.resolution = std::numeric_limits<float>::quiet_NaN();
-  take("stereo", no_number);
+  handle("stereo", no_number);
   EXPECT_EQ(drops("bad_grid"), 1U);
-  take("stereo", gridMessage(99.9, kFree));
+  handle("stereo", gridMessage(99.9, kFree));
   EXPECT_EQ(drops("old_stamp"), 1U);
-  take("radar", gridMessage(100.2, kFree));
+  handle("radar", gridMessage(100.2, kFree));
   EXPECT_EQ(drops("unknown_source"), 1U);
-  take(scanMessage(100.2, Pose2(), "other_map"));
+  handle(scanMessage(100.2, Pose2(), "other_map"));
   EXPECT_EQ(drops("wrong_frame"), 2U);
   LabeledScanMessage unsure = scanMessage(100.2);
   unsure.pose.covariance[0] = std::numeric_limits<double>::quiet_NaN();
-  take(unsure);
+  handle(unsure);
   EXPECT_EQ(drops("bad_pose"), 1U);
   EXPECT_EQ(monitor_.droppedCount(), 8U);
   EXPECT_TRUE(allAt(101.0, kFree, kFree)->fused) << "it goes on";
@@ -254,10 +254,10 @@ TEST_F(MapFusionStageTest, ABrieflyUncertainPoseLeavesTheMapsUnchanged) {
 
 TEST_F(MapFusionStageTest, GridsWithoutAPoseAreCounted) {
   for (int i = 0; i < 3; ++i) {  // a camera that is three times as fast
-    take("stereo", gridMessage(100.0 + 0.03 * i, kFree));
+    handle("stereo", gridMessage(100.0 + 0.03 * i, kFree));
   }
-  take("lidar", gridMessage(100.06, kFree));
-  take(scanMessage(100.06));
+  handle("lidar", gridMessage(100.06, kFree));
+  handle(scanMessage(100.06));
   ASSERT_TRUE(nextAt(100.06));
   EXPECT_EQ(monitor_.figures().at("lists of stereo not fused"), 2.0);
 }

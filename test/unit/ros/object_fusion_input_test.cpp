@@ -23,8 +23,8 @@ TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
   bad[4].side_variance[0] = -1.0;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     const double t = 100.0 + 0.1 * static_cast<double>(i);
-    take("lidar", t);
-    take("stereo", list(t, {bad[i], car("stereo", 20.0, 0.0)}));
+    handle("lidar", t);
+    handle("stereo", list(t, {bad[i], car("stereo", 20.0, 0.0)}));
     const auto fused = nextAt(t);
     ASSERT_TRUE(fused);
     EXPECT_EQ(sensorsOf(*fused), (std::vector<Sensors>{{"lidar", "stereo"}})) << i;
@@ -41,8 +41,8 @@ TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndReported) {
   objects.views[0].max_bearing = 30.0F;
   objects.views[1].min_bearing = -0.5F;
   objects.views[1].max_bearing = 0.5F;
-  take("lidar", 100.0);
-  take("stereo", objects);
+  handle("lidar", 100.0);
+  handle("stereo", objects);
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_EQ(warnings("bad_view"), 1U);
@@ -56,8 +56,8 @@ TEST_F(ObjectFusionStageTest, OfAThousandObjectsTheFarthestAreLeftOut) {
   for (int i = 0; i < 1000; ++i) {
     many.push_back(car("stereo", 20.0 + 5.0 * (i % 100), 15.0 + 5.0 * (i / 100)));
   }
-  take("lidar", 100.0);
-  take("stereo", list(100.0, many));
+  handle("lidar", 100.0);
+  handle("stereo", list(100.0, many));
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   const auto max = static_cast<std::size_t>(options_.fuser.max_objects);
@@ -71,8 +71,8 @@ TEST_F(ObjectFusionStageTest, OfAThousandObjectsTheFarthestAreLeftOut) {
 TEST_F(ObjectFusionStageTest, ObjectsWithoutSensorAreTheSources) {
   Object object = car("stereo", 20.0, 0.0);
   object.sensors.clear();
-  take("stereo", list(100.0, {object}));
-  take("lidar", 100.0);
+  handle("stereo", list(100.0, {object}));
+  handle("lidar", 100.0);
   EXPECT_EQ(sensorsOf(*nextAt(100.0)), (std::vector<Sensors>{{"lidar", "stereo"}}));
 }
 
@@ -110,8 +110,8 @@ class ObjectFusionScanSupportTest : public ObjectFusionStageTest {
  protected:
   /// State of the object that stereo sees and the scanner does not list.
   std::uint8_t stateAt(double seconds) {
-    take("lidar", list(seconds, {}));
-    take("stereo", seconds, 20.0);
+    handle("lidar", list(seconds, {}));
+    handle("stereo", seconds, 20.0);
     const auto fused = nextAt(seconds);
     return fused && fused->objects.size() == 1 ? fused->objects[0].dynamic_state : 255;
   }

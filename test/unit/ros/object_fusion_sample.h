@@ -34,21 +34,21 @@ class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {
   }
 
   /// A list of one car, which this source sees.
-  void take(const std::string& source, double seconds, double ahead = 20.0, double left = 0.0) {
-    take(source, list(seconds, {car(source, ahead, left)}));
+  void handle(const std::string& source, double seconds, double ahead = 20.0, double left = 0.0) {
+    handle(source, list(seconds, {car(source, ahead, left)}));
   }
 
-  void take(const std::string& source, const ObjectArray& objects) {
-    take(source, objects, toStamp(objects.header.stamp));
+  void handle(const std::string& source, const ObjectArray& objects) {
+    handle(source, objects, toStamp(objects.header.stamp));
   }
-  void take(const std::string& source, const ObjectArray& objects, Stamp now) {
+  void handle(const std::string& source, const ObjectArray& objects, Stamp now) {
     stage_.handleObjects(source, objects, now);
   }
 
   /// Both sources see the same car at this time.
   ObjectArrayPtr bothAt(double seconds) {
-    take("lidar", seconds);
-    take("stereo", seconds);
+    handle("lidar", seconds);
+    handle("stereo", seconds);
     return nextAt(seconds);
   }
 };

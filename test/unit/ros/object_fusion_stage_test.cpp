@@ -11,9 +11,9 @@ namespace datmo::object_fusion_stage_test {
 namespace {
 
 TEST_F(ObjectFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
-  take("lidar", 100.0, 20.0);
+  handle("lidar", 100.0, 20.0);
   EXPECT_FALSE(nextAt(100.0)) << "the other one may still come";
-  take("stereo", 100.0, 20.2);
+  handle("stereo", 100.0, 20.2);
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_EQ(fused->header.frame_id, "base_link");
@@ -39,7 +39,7 @@ class RetroactiveFusionTest : public ObjectFusionStageTest {
 };
 
 TEST_F(RetroactiveFusionTest, WaitingListsArePublishedEarlyOnce) {
-  take("lidar", 100.0, 20.0);
+  handle("lidar", 100.0, 20.0);
   const auto early = stage_.nextEarly(Stamp::fromSeconds(100.0));
   ASSERT_TRUE(early);
   EXPECT_EQ(early->header.stamp, ros::Time(100.0));
@@ -47,10 +47,10 @@ TEST_F(RetroactiveFusionTest, WaitingListsArePublishedEarlyOnce) {
   EXPECT_EQ(sensorsOf(*early), std::vector<Sensors>{{"lidar"}});
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.0)));
   EXPECT_EQ(monitor_.processedCount(), 0U) << "it is yet to be fused";
-  take("stereo", 100.0, 20.2);
+  handle("stereo", 100.0, 20.2);
   ASSERT_TRUE(nextAt(100.0));
-  take("lidar", 100.1);
-  take("stereo", 100.1);
+  handle("lidar", 100.1);
+  handle("stereo", 100.1);
   ASSERT_TRUE(nextAt(100.1));
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.1))) << "it did not have to wait";
 }
@@ -69,7 +69,7 @@ TEST_F(RetroactiveFusionTest, EarlyListsDoNotChangeTheFusedOnes) {
       stage->handleObjects("lidar", lidar, Stamp::fromSeconds(t));
     }
     EXPECT_TRUE(stage_.nextEarly(Stamp::fromSeconds(t)));
-    take("stereo", stereo);
+    handle("stereo", stereo);
     other.handleObjects("stereo", stereo, Stamp::fromSeconds(t));
     const auto fused = nextAt(t);
     const auto expected = other.next(Stamp::fromSeconds(t));
@@ -80,14 +80,14 @@ TEST_F(RetroactiveFusionTest, EarlyListsDoNotChangeTheFusedOnes) {
 }
 
 TEST_F(ObjectFusionStageTest, IfAllWaitNoneIsEarly) {
-  take("lidar", 100.0, 20.0);
+  handle("lidar", 100.0, 20.0);
   EXPECT_FALSE(stage_.nextEarly(Stamp::fromSeconds(100.0)));
   EXPECT_TRUE(nextAt(100.2));
 }
 
 TEST_F(ObjectFusionStageTest, ObjectsOfOneSourceAreKept) {
-  take("lidar", 100.0, 20.0, 0.0);
-  take("stereo", 100.0, 20.0, 15.0);
+  handle("lidar", 100.0, 20.0, 0.0);
+  handle("stereo", 100.0, 20.0, 15.0);
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_EQ(sensorsOf(*fused), (std::vector<Sensors>{{"lidar"}, {"stereo"}}));
@@ -95,8 +95,8 @@ TEST_F(ObjectFusionStageTest, ObjectsOfOneSourceAreKept) {
 }
 
 TEST_F(ObjectFusionStageTest, AnEmptyListIsOneToo) {
-  take("lidar", list(100.0, {}));
-  take("stereo", list(100.0, {}));
+  handle("lidar", list(100.0, {}));
+  handle("stereo", list(100.0, {}));
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused) << "the tracker is to hear that nothing was seen";
   EXPECT_TRUE(fused->objects.empty());
@@ -104,10 +104,10 @@ TEST_F(ObjectFusionStageTest, AnEmptyListIsOneToo) {
 
 TEST_F(ObjectFusionStageTest, AListIsFusedOnce) {
   stage_.handleOdometry(odometry(100.0));
-  take("lidar", 100.0);
-  take("stereo", 100.02);
+  handle("lidar", 100.0);
+  handle("stereo", 100.02);
   ASSERT_EQ(nextAt(100.02)->objects.size(), 1U);
-  take("lidar", 100.06);
+  handle("lidar", 100.06);
   const auto fused = nextAt(100.2);
   ASSERT_TRUE(fused);
   EXPECT_EQ(sensorsOf(*fused), std::vector<Sensors>{{"lidar"}});
@@ -117,9 +117,9 @@ TEST_F(ObjectFusionStageTest, AListIsFusedOnce) {
 
 TEST_F(ObjectFusionStageTest, ListsThatAreNotFusedAreCounted) {
   for (const double seconds : {100.0, 100.02, 100.04, 100.06, 100.08, 100.1}) {
-    take("stereo", seconds);
+    handle("stereo", seconds);
   }
-  take("lidar", 100.1);
+  handle("lidar", 100.1);
   ASSERT_TRUE(nextAt(100.1));
   EXPECT_EQ(figure("lists of stereo not fused"), 5.0);
   EXPECT_EQ(figure("lists of lidar not fused"), 0.0);
@@ -128,8 +128,8 @@ TEST_F(ObjectFusionStageTest, ListsThatAreNotFusedAreCounted) {
 TEST_F(ObjectFusionStageTest, ObjectsAreMovedByTheOdometryBetweenTheirStamps) {
   stage_.handleOdometry(odometry(99.9));
   stage_.handleOdometry(odometry(100.0));
-  take("stereo", 99.95, 20.0, 15.0);
-  take("lidar", list(100.0, {}));
+  handle("stereo", 99.95, 20.0, 15.0);
+  handle("lidar", list(100.0, {}));
   const auto fused = nextAt(100.2);
   ASSERT_TRUE(fused);
   ASSERT_EQ(fused->objects.size(), 1U);
@@ -160,8 +160,8 @@ TEST_F(ObjectFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
 TEST_F(ObjectFusionStageTest, AListOfUnknownMotionIsLeftOut) {
   for (int i = 0; i <= 10; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("stereo", t - 0.05);
-    take("lidar", t);
+    handle("stereo", t - 0.05);
+    handle("lidar", t);
     const auto fused = nextAt(t + 0.1);
     ASSERT_TRUE(fused);
     EXPECT_EQ(sensorsOf(*fused), std::vector<Sensors>{{"lidar"}});
@@ -182,7 +182,7 @@ TEST_F(ObjectFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
     int fused = 0;
     for (int i = 1; i < 20; ++i) {
       const double t = start + 0.1 * i;
-      take(source, t);
+      handle(source, t);
       while (const auto output = nextAt(t)) {
         ++fused;
         EXPECT_EQ(sensorsOf(*output), std::vector<Sensors>{{source}});
@@ -200,9 +200,9 @@ TEST_F(ObjectFusionStageTest, ASilentSourceIsReportedOnceAndTheOthersContinue) {
 TEST_F(ObjectFusionStageTest, ASourceThatIsAlwaysTooLateIsReportedOnce) {
   for (int i = 0; i < 10; ++i) {
     const double t = 100.0 + 0.1 * i;
-    take("lidar", t);
+    handle("lidar", t);
     EXPECT_TRUE(nextAt(t + 0.11));
-    take("stereo", t - 0.15);
+    handle("stereo", t - 0.15);
   }
   EXPECT_EQ(warnings("late_source"), 1U);
   EXPECT_EQ(monitor_.warningCount(), 1U);

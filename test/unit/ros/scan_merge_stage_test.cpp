@@ -43,7 +43,7 @@ class ScanMergeStageTest : public testing::Test {
     return scan;
   }
 
-  void take(const std::string& source, double seconds, float ahead) {
+  void handle(const std::string& source, double seconds, float ahead) {
     stage_.handleScan(source, scanOf(source, seconds, ahead), Stamp::fromSeconds(kStart + seconds));
   }
 
@@ -61,9 +61,9 @@ class ScanMergeStageTest : public testing::Test {
 TEST_F(ScanMergeStageTest, TheRearScanIsCompensatedToTheFrontsStamp) {
   drive(0.0);
   drive(0.1);
-  take("rear", 0.10, 5.0F);  // the wall is at x = -6 m
+  handle("rear", 0.10, 5.0F);  // the wall is at x = -6 m
   EXPECT_FALSE(next(0.10));
-  take("front", 0.15, 7.0F);
+  handle("front", 0.15, 7.0F);
   const auto scan = next(0.21);  // no newer scan of the rear scanner arrives in time
   ASSERT_TRUE(scan);
   EXPECT_EQ(scan->header.stamp, ros::Time(kStart + 0.15));
@@ -82,7 +82,7 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   auto scan = scanOf("front", 0.1, 7.0F);
   scan.time_increment = 0.05F;  // the middle beam is measured 0.5 m further on
   stage_.handleScan("front", scan, Stamp::fromSeconds(kStart + 0.1));
-  take("rear", 0.1, 5.0F);
+  handle("rear", 0.1, 5.0F);
   const auto merged = next(0.2);
   ASSERT_TRUE(merged);
   EXPECT_NEAR(merged->ranges[kAhead], 10.5, 1e-5);
@@ -91,13 +91,13 @@ TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
 
 TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherContinues) {
   drive(0.0);
-  take("rear", 0.0, 5.0F);
-  take("front", 0.0, 7.0F);
+  handle("rear", 0.0, 5.0F);
+  handle("front", 0.0, 7.0F);
   EXPECT_TRUE(next(0.0));
   for (int i = 1; i <= 10; ++i) {
     const double now = 0.1 * i;
     drive(now);
-    take("front", now, 7.0F + 0.01F * static_cast<float>(i));
+    handle("front", now, 7.0F + 0.01F * static_cast<float>(i));
     const auto scan = next(now + 0.06);
     ASSERT_TRUE(scan) << now;
     EXPECT_NEAR(scan->ranges[kAhead], 10.0 + 0.01 * i, 1e-5);
@@ -108,11 +108,11 @@ TEST_F(ScanMergeStageTest, ASilentScannerIsReportedAndTheOtherContinues) {
 
 TEST_F(ScanMergeStageTest, TheRearScannerLeadsWhileTheFrontOneIsSilent) {
   drive(0.0);
-  take("front", 0.0, 7.0F);
+  handle("front", 0.0, 7.0F);
   int merged = 0;
   for (int i = 0; i <= 10; ++i) {
     drive(0.1 * i);
-    take("rear", 0.1 * i, 5.0F + 0.01F * static_cast<float>(i));
+    handle("rear", 0.1 * i, 5.0F + 0.01F * static_cast<float>(i));
     while (const auto scan = next(0.1 * i)) {
       ++merged;
       EXPECT_FALSE(std::isnan(scan->ranges[kBehind]));
@@ -128,7 +128,7 @@ TEST_F(ScanMergeStageTest, AFrozenScannerIsLeftOut) {
     frozen.ranges.assign(31, 5.0F);  // this many are not equal by chance
     frozen.angle_increment = static_cast<float>(M_PI / 30.0);
     stage_.handleScan("rear", frozen, Stamp::fromSeconds(kStart + 0.1 * i));
-    take("front", 0.1 * i, 7.0F + 0.01F * static_cast<float>(i));
+    handle("front", 0.1 * i, 7.0F + 0.01F * static_cast<float>(i));
     next(0.1 * i + 0.06);
   }
   EXPECT_GE(samples::drops(monitor_, "frozen_scan"), 1U);
@@ -149,8 +149,8 @@ TEST_F(ScanMergeStageTest, ABlindSectorIsNotMeasured) {
 
 TEST_F(ScanMergeStageTest, TheMountIsAtTheFrontScannersHeight) {
   drive(0.0);
-  take("rear", 0.0, 5.0F);
-  take("front", 0.0, 7.0F);
+  handle("rear", 0.0, 5.0F);
+  handle("front", 0.0, 7.0F);
   ASSERT_TRUE(next(0.0));
   const auto mount = stage_.takeMount();
   ASSERT_TRUE(mount);

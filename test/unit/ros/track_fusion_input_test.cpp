@@ -35,8 +35,8 @@ TEST_F(TrackFusionStageTest, BadTracksAreLeftOutAndTheirSourceIsNamed) {
     TrackArray tracks =
         list(t, {carTrack("stereo", kStereosId, t), carTrack("stereo", 23, t, 9.0)});
     spoils[i](tracks.tracks[1]);
-    take("lidar", list(t, {}));
-    take("stereo", tracks);
+    handle("lidar", list(t, {}));
+    handle("stereo", tracks);
     ASSERT_TRUE(nextAt(t)) << i;
     EXPECT_EQ(warnings("bad_track"), i + 1U) << i;
     EXPECT_NE(monitor_.lastError().find("1 bad tracks of stereo"), std::string::npos);
@@ -51,8 +51,8 @@ TEST_F(TrackFusionStageTest, TheRestOfAListWithABadTrackIsFused) {
     const double t = 100.0 + 0.1 * i;
     Track bad = carTrack("stereo", 5, t);
     bad.covariance.setZero();
-    take("lidar", t);
-    take("stereo", list(t, {bad, carTrack("stereo", kStereosId, t)}));
+    handle("lidar", t);
+    handle("stereo", list(t, {bad, carTrack("stereo", kStereosId, t)}));
     ASSERT_TRUE(nextAt(t));
   }
   EXPECT_EQ(figure("tracks of two or more sources"), 1.0);
@@ -65,7 +65,7 @@ TEST_F(TrackFusionStageTest, TracksWithoutHistoryAreFusedToo) {
     for (const std::string source : {"lidar", "stereo"}) {
       TrackArray tracks = carOf(source, t);
       tracks.tracks[0].history.clear();
-      take(source, tracks);
+      handle(source, tracks);
     }
     fused = nextAt(t);
     ASSERT_TRUE(fused);
@@ -84,8 +84,9 @@ TEST_F(TrackFusionStageTest, BadViewsAreLeftOutAndReported) {
   still.beam_spacing = 0.0;
   ViewFan behind = good;
   behind.reach = {30.0, -1.0};
-  take("lidar", 100.0);
-  take("stereo", toMessage(TrackList{Stamp::fromSeconds(100.0), {}, {still, good, behind}}, "map"));
+  handle("lidar", 100.0);
+  handle("stereo",
+         toMessage(TrackList{Stamp::fromSeconds(100.0), {}, {still, good, behind}}, "map"));
   EXPECT_EQ(warnings("bad_view"), 1U);
   EXPECT_NE(monitor_.lastError().find("2 bad views of stereo"), std::string::npos);
   EXPECT_EQ(figure("bad views of stereo"), 2.0);
@@ -101,8 +102,8 @@ TEST_F(TrackFusionStageTest, OfAThousandTracksTheMostCertainAreUsed) {
     many.push_back(carTrack("stereo", i + 1, 100.0, 10.0 * i));
     many.back().existence_probability = 0.6 + 0.0004 * i;
   }
-  take("lidar", list(100.0, {}));
-  take("stereo", list(100.0, many));
+  handle("lidar", list(100.0, {}));
+  handle("stereo", list(100.0, many));
   EXPECT_EQ(warnings("many_tracks"), 1U);
   EXPECT_EQ(figure("tracks too many of stereo"), 800.0);
   const auto fused = nextAt(100.0);

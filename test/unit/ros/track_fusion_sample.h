@@ -84,17 +84,17 @@ class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
     return list(seconds, {carTrack(source, idOf(source), seconds)});
   }
 
-  void take(const std::string& source, double seconds) { take(source, carOf(source, seconds)); }
-  void take(const std::string& source, const TrackArray& tracks) {
-    take(source, tracks, toStamp(tracks.header.stamp));
+  void handle(const std::string& source, double seconds) { handle(source, carOf(source, seconds)); }
+  void handle(const std::string& source, const TrackArray& tracks) {
+    handle(source, tracks, toStamp(tracks.header.stamp));
   }
-  void take(const std::string& source, const TrackArray& tracks, Stamp now) {
+  void handle(const std::string& source, const TrackArray& tracks, Stamp now) {
     stage_.handleTracks(source, tracks, now);
   }
 
   TrackArrayPtr bothAt(double seconds) {
-    take("lidar", seconds);
-    take("stereo", seconds);
+    handle("lidar", seconds);
+    handle("stereo", seconds);
     return nextAt(seconds);
   }
 

@@ -35,9 +35,9 @@ TEST_F(TrackFusionStageTest, AListOfTheReferenceWaitsForNoOtherIfConfigured) {
 }
 
 TEST_F(TrackFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
-  take("lidar", 100.0);
+  handle("lidar", 100.0);
   EXPECT_FALSE(nextAt(100.0)) << "the other one may still come";
-  take("stereo", 100.0);
+  handle("stereo", 100.0);
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_EQ(fused->header.frame_id, "map");
@@ -61,8 +61,8 @@ TEST_F(TrackFusionStageTest, AnObjectTrackedByBothIsOneTrack) {
 TEST_F(TrackFusionStageTest, TracksWithoutSensorAreTheSources) {
   Track car = carTrack("", 11, 100.0);
   car.sensors.clear();
-  take("lidar", list(100.0, {car}));
-  take("stereo", list(100.0, {}));
+  handle("lidar", list(100.0, {car}));
+  handle("stereo", list(100.0, {}));
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   ASSERT_EQ(fused->tracks.size(), 1U);
@@ -70,8 +70,8 @@ TEST_F(TrackFusionStageTest, TracksWithoutSensorAreTheSources) {
 }
 
 TEST_F(TrackFusionStageTest, AnEmptyListIsOneToo) {
-  take("lidar", list(100.0, {}));
-  take("stereo", list(100.0, {}));
+  handle("lidar", list(100.0, {}));
+  handle("stereo", list(100.0, {}));
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_TRUE(fused->tracks.empty());
@@ -204,14 +204,14 @@ TEST_F(TrackFusionStageTest, AClockThatJumpsAheadIsFollowed) {
 }
 
 TEST_F(TrackFusionStageTest, TheSchemeChangesFromTheNextSetOn) {
-  take("lidar", list(100.0, {carTrack("lidar", 1, 100.0)}));
-  take("stereo", list(100.0, {carTrack("stereo", 2, 100.0, 30.0)}));
+  handle("lidar", list(100.0, {carTrack("lidar", 1, 100.0)}));
+  handle("stereo", list(100.0, {carTrack("stereo", 2, 100.0, 30.0)}));
   stage_.change({{"scheme", std::string("union")}});
   EXPECT_EQ(nextAt(100.0)->tracks.size(), 2U);
   EXPECT_THROW(stage_.change({{"scheme", std::string("by luck")}}), OptionError);
   stage_.change({{"scheme", std::string("fused_plus_fallback")}});
-  take("lidar", list(100.1, {carTrack("lidar", 1, 100.1)}));
-  take("stereo", list(100.1, {carTrack("stereo", 2, 100.1, 30.0)}));
+  handle("lidar", list(100.1, {carTrack("lidar", 1, 100.1)}));
+  handle("stereo", list(100.1, {carTrack("stereo", 2, 100.1, 30.0)}));
   const auto fused = nextAt(100.1);
   ASSERT_TRUE(fused);
   ASSERT_EQ(fused->tracks.size(), 1U) << "of what stereo has alone, nothing";
