@@ -12,12 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "manager_requests.h"
 #include "paced_drive.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <nodelet/NodeletList.h>
-#include <nodelet/NodeletUnload.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
@@ -42,23 +40,6 @@ const std::vector<std::string> kNodelets{
 
 class OutageTest : public testing::Test {
  protected:
-  static bool areLoaded(const std::vector<std::string>& nodelets) {
-    nodelet::NodeletList list;
-    if (!ros::service::call("/perception/list", list)) {
-      return false;
-    }
-    const auto& known = list.response.nodelets;
-    return std::all_of(nodelets.begin(), nodelets.end(), [&](const std::string& nodelet) {
-      return std::count(known.begin(), known.end(), "/" + nodelet) > 0;
-    });
-  }
-
-  static bool unload(const std::string& nodelet) {
-    nodelet::NodeletUnload call;
-    call.request.name = "/" + nodelet;
-    return ros::service::call("/perception/unload_nodelet", call) && call.response.success;
-  }
-
   /// Returns whether there are tracks of a scan that was measured after a time (s).
   bool hasTracksOf(double time) const {
     const auto& lists = drive_.received();
@@ -162,7 +143,7 @@ TEST_F(OutageTest, UnloadedOrKilledNodeletsRecover) {
   for (const std::string& nodelet : kNodelets) {
     const std::uint32_t id = carId();
     const double time = drive_.now();
-    EXPECT_TRUE(unload(nodelet)) << nodelet;
+    EXPECT_TRUE(unloadNodelet(nodelet)) << nodelet;
     outages.push_back(measured(nodelet + " unloaded", {nodelet}, time, id));
   }
   outages.push_back(killed());
