@@ -26,8 +26,10 @@ from datmo_tools.programs import StepFailed
 START = 100.0  # s
 BOUNDS = """\
 drive.bag:
-  default: {largest_error_m: 0.5, largest_error_sigmas: 2.0, recovered_s: 0.5, mota_loss: null}
+  default: {largest_error_m: 0.5, largest_error_sigmas: 2.0, recovered_s: 0.5, mota_loss: null,
+            added_false_positives: null, added_id_switches: null}
   scan frozen for 3 s: refused
+silent scanner: {share_of_distance: 0.1, lost_ids: 1}
 """
 # Its runs: without a fault; without poses; poses end with the fault; refused; ended.
 RUN_BAG = """\

@@ -93,15 +93,25 @@ class LineFaults(unittest.TestCase):
                 off = offsets(with_fault(name), topic)
                 np.testing.assert_allclose(off, np.where(np.arange(200) < 100, 0.0, jump), atol=1e-6)
 
-    def test_mounts_that_are_missing(self):
-        fault = next(each for each in faults() if each.name.startswith("mounts missing"))
-        mounts = Message("/tf_static", TFMessage(), 90.0)
-        self.assertEqual(faulty([mounts, *drive()], fault, BEGIN), drive())
+    def test_clocks_that_are_off_from_the_start(self):
+        np.testing.assert_allclose(offsets(with_fault("scan clock always 0.1 s ahead"), "/scan"), 0.1, atol=1e-6)
+        messages = with_fault("odometry clock always 1 s behind")
+        np.testing.assert_allclose(offsets(messages, "/odometry"), -1.0, atol=1e-6)
+        np.testing.assert_allclose(offsets(messages, "/scan"), 0.0, atol=1e-6)
 
-    def test_the_cameras_faults_are_those_of_its_clouds(self):
+    def test_mounts_that_are_missing_late_or_sent_again(self):
+        mounts = Message("/tf_static", TFMessage(), 90.0)
+        for name, times in (("mounts missing in all of the drive", []), ("mounts late by 1 s", [91.0]), ("mounts twice", [90.0, BEGIN])):
+            fault = next(each for each in faults() if each.name == name)
+            messages = faulty([mounts, *drive()], fault, BEGIN)
+            self.assertEqual([each.recorded for each in of(messages, "/tf_static")], times, name)
+            self.assertEqual([each for each in messages if each.topic != "/tf_static"], drive(), name)
+
+    def test_the_drive_with_a_camera_has_also_the_faults_of_its_clouds(self):
         names = [fault.name for fault in faults(STEREO_INPUTS)]
-        self.assertIn("stereo frozen for 3 s", names)
-        self.assertFalse([name for name in names if name.startswith(("odometry", "all"))])
+        for name in ("stereo frozen for 3 s", "odometry silent for 3 s", "tf late by 1 s for 5 s", "tf twice each for 5 s"):
+            self.assertIn(name, names)
+        self.assertFalse([name for name in names if name.startswith("all")])
         fault = next(each for each in faults(STEREO_INPUTS) if each.name == "stereo silent for 3 s")
         clouds = [message._replace(topic="/stereo/points2") for message in of(drive(), "/scan")]
         self.assertIn(len(faulty(clouds, fault, BEGIN)), (169, 170))

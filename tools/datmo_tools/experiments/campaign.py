@@ -15,7 +15,7 @@ from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.campaign_page import RECOVERED, TRACK_FIGURES, page
-from datmo_tools.experiments.fault_bounds import beyond, read_bounds
+from datmo_tools.experiments.fault_bounds import beyond, beyond_silent, read_bounds
 from datmo_tools.experiments.kept_ids import gap_effect, kept_ids
 from datmo_tools.experiments.line_faults import INPUTS, KEPT, STEREO_INPUTS, Fault, Message, faults, faulty
 from datmo_tools.pose_path import read_messages, read_path
@@ -125,8 +125,7 @@ def _campaign(values):
 def _beyond(report, bounds):
     """Returns what of a report (dict) is beyond the bounds, or failed: list of str."""
     of_drives = [line for drive in report["drives"] for line in beyond(drive, bounds)]
-    return of_drives + [f"{run['level']}, scan silent from {run['from_s']:g} s: {run['error']}"
-                        for run in report["silent"] if run["error"] is not None]  # fmt: skip
+    return of_drives + beyond_silent(report["silent"], bounds)
 
 
 def _all_faults(values, played, inputs):

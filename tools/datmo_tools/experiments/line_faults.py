@@ -12,7 +12,7 @@ ODOMETRY = ("/odometry",)
 TRANSFORMS = ("/tf",)
 STEREO = ("/stereo/points2", "/stereo/point_velocities")
 INPUTS = {"scan": SCANS, "odometry": ODOMETRY, "tf": TRANSFORMS}
-STEREO_INPUTS = {"scan": SCANS, "stereo": STEREO}
+STEREO_INPUTS = {**INPUTS, "stereo": STEREO}
 MOUNTS = "/tf_static"
 KEPT = (MOUNTS, "/ground_truth/pose", "/ground_truth/objects", "/stereo/left/camera_info", "/stereo/right/camera_info")
 JUMP = 100.0  # s, longer than the drive
@@ -42,7 +42,7 @@ def faults(inputs=None):
     listed = [Fault("none", 0.0, lambda message, _: [message])]
     for name, topics in (inputs or INPUTS).items():
         listed += [
-            Fault(f"{name} {fault.name}", fault.seconds, functools.partial(_on, topics, fault.apply))
+            fault._replace(name=f"{name} {fault.name}", apply=functools.partial(_on, topics, fault.apply))
             for fault in _of_one_input()
         ]
     if inputs is not None:
@@ -54,6 +54,8 @@ def faults(inputs=None):
         Fault("odometry 3 rad/s once", 0.0, wrong),
         Fault("odometry 100 m/s once", 0.0, fast),
         Fault("mounts missing in all of the drive", 0.0, _without(MOUNTS), whole=True),
+        Fault("mounts late by 1 s", 0.0, functools.partial(_on, (MOUNTS,), _late(1.0)), whole=True),
+        Fault("mounts twice", 0.0, functools.partial(_on, (MOUNTS,), _again_at_begin), whole=True),
         Fault(f"all clocks back by {JUMP:g} s (a looped bag)", 0.0, _jumped(-JUMP), -JUMP, True),
         Fault(f"all clocks ahead by {JUMP:g} s", 0.0, _jumped(JUMP), JUMP, True),
     ]
@@ -100,7 +102,9 @@ def _of_one_input():
         Fault("stamp 1 s ahead once", 0.0, once(lambda message, since: [shift(message, 1.0)])),
         Fault("stamp 1.5 s behind once", 0.0, once(lambda message, since: [shift(message, -1.5)])),
         Fault("stamp 1e6 s ahead once", 0.0, once(lambda message, since: [shift(message, 1e6)])),
-    ]
+        *(Fault(f"clock always {abs(offset):g} s {'ahead' if offset > 0.0 else 'behind'}", 0.0, _off(offset), whole=True)
+          for offset in (0.1, -0.1, 1.0, -1.0)),
+    ]  # fmt: skip
 
 
 def _on(topics, apply, message, since):
@@ -117,6 +121,15 @@ def _restamped(message, offset):
     for part in _stamped(content):
         part.header.stamp += genpy.Duration.from_sec(offset)
     return message._replace(content=content)
+
+
+def _off(offset):
+    return lambda message, since: [_restamped(message, offset)]
+
+
+def _again_at_begin(message, since):
+    """Returns a latched message, and the same again at the fault's begin: its publisher was restarted."""
+    return [message, message._replace(recorded=message.recorded - since)]
 
 
 def _without(topic):
