@@ -56,11 +56,13 @@ void OutputBag::copy(const rosbag::MessageInstance& message) {
   });
 }
 
+void OutputBag::close() {
+  guarded([this] { bag_->close(); });
+}
+
 void OutputBag::finish() {
-  guarded([this] {
-    bag_->close();
-    std::filesystem::rename(part_, file_);
-  });
+  close();
+  guarded([this] { std::filesystem::rename(part_, file_); });
 }
 
 void OutputBag::guarded(const std::function<void()>& write) const {

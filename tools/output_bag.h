@@ -49,6 +49,9 @@ class OutputBag {
   /// as checkRecord().
   void copy(const rosbag::MessageInstance& message);
 
+  /// Writes the rest of the bag, which then needs no more space. Nothing may be written after it.
+  void close();
+
   /// Closes the bag and gives it its name.
   void finish();
 

@@ -64,9 +64,7 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
     checkWritable(file);
     const MapServerFiles files =
         toMapServerFiles(map, evidence, std::filesystem::path(image).filename().string());
-    writeWholeFile(image, files.image);
-    writeWholeFile(yaml, files.yaml);
-    writeWholeFile(file, mapText(evidence));
+    writeWholeFiles({{image, files.image}, {yaml, files.yaml}, {file, mapText(evidence)}});
     return {evidence.cells.size(), files.cells_of_pixel, map.forgottenTiles(), map.tileFileError()};
   } catch (const std::runtime_error& error) {
     throw MapFileError(error.what());

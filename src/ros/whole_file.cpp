@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 
@@ -29,6 +30,27 @@ void createAnew(const std::string& file) {
   close(descriptor);
 }
 
+std::string partOf(const std::string& file) { return file + ".part"; }
+
+void writePart(const NamedText& file) {
+  const std::string part = partOf(file.file);
+  createAnew(part);
+  std::ofstream stream;
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  stream.open(part, std::ios::binary);
+  stream << file.text;
+  stream.close();
+}
+
+/// Adds the file's name to what `write` throws.
+void naming(const std::string& file, const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": cannot be written (" + error.what() + ")");
+  }
+}
+
 }  // namespace
 
 void checkWritable(const std::string& file) {
@@ -51,22 +73,28 @@ void checkWritable(const std::string& file) {
   }
 }
 
-void writeWholeFile(const std::string& file, const std::string& text) {
-  checkWritable(file);
-  const std::string part = file + ".part";
-  try {
-    createAnew(part);
-    std::ofstream stream;
-    stream.exceptions(std::ios::failbit | std::ios::badbit);
-    stream.open(part, std::ios::binary);
-    stream << text;
-    stream.close();
-    std::filesystem::rename(part, file);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error(file + ": cannot be written (" + error.what() + ")");
+void writeWholeFiles(const std::vector<NamedText>& files) {
+  for (const NamedText& each : files) {
+    checkWritable(each.file);
   }
+  try {
+    for (const NamedText& each : files) {
+      naming(each.file, [&each] { writePart(each); });
+    }
+    for (const NamedText& each : files) {
+      naming(each.file, [&each] { std::filesystem::rename(partOf(each.file), each.file); });
+    }
+  } catch (const std::exception&) {
+    for (const NamedText& each : files) {
+      std::error_code ignored;
+      std::filesystem::remove(partOf(each.file), ignored);
+    }
+    throw;
+  }
+}
+
+void writeWholeFile(const std::string& file, const std::string& text) {
+  writeWholeFiles({{file, text}});
 }
 
 }  // namespace datmo

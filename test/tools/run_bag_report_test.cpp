@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The output of run_bag --report on a drive whose scanner was silent for a while, and repeated a
 // scan.
+#include <csignal>
+
 #include "run_bag_drive.h"
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace datmo {
 namespace {
@@ -40,6 +43,46 @@ class RunBagReport : public RunBag {
     }
   }
 };
+
+/// While it lives, writing a file beyond this size (bytes) fails as on a full disk.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t size) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{size, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(RunBagReport, NoneIsLeftOfARunWhoseBagDoesNotFitOnTheDisk) {
+  arguments_.report = path("report.json");
+  arguments_.text.tum = path("poses.txt");
+  {
+    const SmallFiles limit(16 * 1024);  // room for both of these
+    EXPECT_EQ(failure().rfind(arguments_.output + ": cannot be written", 0), 0U);
+  }
+  EXPECT_FALSE(std::filesystem::exists(arguments_.report));
+  EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum));
+}
+
+TEST_F(RunBagReport, OutputsAreWrittenAllTogetherOrNotAtAll) {
+  arguments_.report = path("report.json");
+  arguments_.text.tum = path("poses.txt");
+  std::filesystem::create_directories(arguments_.report + ".part/in_the_way");
+  EXPECT_EQ(failure().rfind(arguments_.report + ": cannot be written", 0), 0U);
+  EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum));
+  EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum + ".part"));
+}
 
 TEST_F(RunBagReport, GoodDriveHasAnEmptyReport) {
   const json said = report();

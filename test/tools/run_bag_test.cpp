@@ -254,7 +254,8 @@ TEST(RunBagArguments, TheStagesAreListedWhereTheyAreRefused) {
   EXPECT_EQ(untilError({"--radar", "--until", "moving_objects"}),
             "--radar: expected no --until before object_fusion");
   EXPECT_EQ(untilError({"--map-fusion", "--until", "grid_slam"}),
-            "--map-fusion: expected no --until before road_border");
+            "--map-fusion: expected no --until before loop_closing");
+  EXPECT_EQ(untilError({"--map-fusion", "--loop-closing", "--until", "loop_closing"}), "");
   for (const char* always : {"grid_slam", "moving_objects", "tracker"}) {
     EXPECT_EQ(untilError({"--until", always}), "");
   }

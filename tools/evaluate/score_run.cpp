@@ -5,6 +5,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "evaluate/bag_loading.h"
 #include "evaluate/matches_json.h"
@@ -42,15 +43,18 @@ void writeScore(const ScoreRunArguments& arguments, std::ostream& out, std::ostr
   const ScoredFiles files{arguments.run, arguments.truth};
   try {
     const RunScore score = scoreRun(run, truth, arguments.options, scans);
+    std::vector<NamedText> texts;
     if (!arguments.matches.empty()) {
       const MatchOptions& matching = arguments.options.metrics.matching;
-      writeWholeFile(arguments.matches, textOf(matchesJson(score, matching)));
+      texts.push_back({arguments.matches, textOf(matchesJson(score, matching))});
     }
     const std::string report = textOf(toJson(score, arguments.options, files));
+    if (!arguments.output.empty()) {
+      texts.push_back({arguments.output, report});
+    }
+    writeWholeFiles(texts);
     if (arguments.output.empty()) {
       out << report;
-    } else {
-      writeWholeFile(arguments.output, report);
     }
     remarkOn("the tracks' position", score.tracks.consistency.position, remarks);
     remarkOn("the tracks' velocity", score.tracks.consistency.velocity, remarks);

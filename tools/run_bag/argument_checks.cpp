@@ -67,7 +67,7 @@ void checkStages(const Arguments& arguments) {
 
 void checkMaps(const Arguments& arguments) {
   if (arguments.last_stage <= LastStage::kGridSlam && arguments.map_fusion) {
-    throw tooEarlyEnd(optionOf(&StackSwitches::map_fusion), LastStage::kRoadBorder);
+    throw tooEarlyEnd(optionOf(&StackSwitches::map_fusion), LastStage::kLoopClosing);
   }
   if (arguments.last_stage < LastStage::kGridSlam &&
       !(arguments.map.empty() && arguments.save_map.empty())) {

@@ -179,18 +179,21 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   const double took = watch.seconds();
   run.refusals().check();
   checkResults(arguments, drive, graph);
-  if (!arguments.times.empty()) {
-    writeWholeFile(arguments.times, toJson(graph.times()));
-  }
   const RunTime time{lengthOf(view), took};
-  if (!arguments.report.empty()) {
-    writeWholeFile(arguments.report,
-                   run.report().json(drive, time, toStamp(view.getEndTime()), graph));
+  std::vector<NamedText> texts = run.text().files();
+  if (!arguments.times.empty()) {
+    texts.push_back({arguments.times, toJson(graph.times())});
   }
+  if (!arguments.report.empty()) {
+    texts.push_back(
+        {arguments.report, run.report().json(drive, time, toStamp(view.getEndTime()), graph)});
+  }
+  // The largest files first: if the disk is full, no report stays behind of a run that has failed.
+  output.close();
   if (!arguments.save_map.empty()) {
     saveMap(graph, arguments.save_map);
   }
-  run.text().write();
+  writeWholeFiles(texts);
   output.finish();
   if (!arguments.quiet) {
     printTable(out, drive, graph, run.refusals(), time);

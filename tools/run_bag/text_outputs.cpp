@@ -63,12 +63,6 @@ std::string motLine(std::size_t frame, const TrackMessage& track) {
   return line.str();
 }
 
-void writeIfWanted(const std::string& file, const std::string& text) {
-  if (!file.empty()) {
-    writeWholeFile(file, text);
-  }
-}
-
 }  // namespace
 
 TextOutputs::TextOutputs(TextFiles files) : files_(std::move(files)) {
@@ -111,10 +105,15 @@ void TextOutputs::addTracks(const TrackArray& tracks) {
   }
 }
 
-void TextOutputs::write() const {
-  writeIfWanted(files_.tum, tum_);
-  writeIfWanted(files_.kitti, kitti_);
-  writeIfWanted(files_.mot, mot_);
+std::vector<NamedText> TextOutputs::files() const {
+  std::vector<NamedText> wanted;
+  for (const NamedText& each :
+       {NamedText{files_.tum, tum_}, {files_.kitti, kitti_}, {files_.mot, mot_}}) {
+    if (!each.file.empty()) {
+      wanted.push_back(each);
+    }
+  }
+  return wanted;
 }
 
 }  // namespace datmo

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "graph_runner.h"
 #include "text_files.h"
@@ -12,6 +13,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo {
 
@@ -44,8 +46,8 @@ class TextOutputs {
   const std::string& kitti() const { return kitti_; }
   const std::string& mot() const { return mot_; }
 
-  /// Each file appears when it is complete. Throws std::runtime_error that names the file.
-  void write() const;
+  /// Returns the results that have a file.
+  std::vector<NamedText> files() const;
 
  private:
   struct Frame {

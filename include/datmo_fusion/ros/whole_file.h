@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace datmo {
 
@@ -10,10 +11,19 @@ namespace datmo {
 /// whose result goes there.
 void checkWritable(const std::string& file);
 
-/// Writes a text file atomically: it is written as `<file>.part` first, and appears under its name
-/// only when complete. An existing file is kept until then, and links are replaced, not followed.
-/// Throws std::runtime_error with the file's name if it cannot be written: a directory, missing
-/// permission, a full disk.
+/// A text, and the name of its file.
+struct NamedText {
+  std::string file;
+  std::string text;
+};
+
+/// Writes text files all together or not at all: each is written as `<file>.part` first, and they
+/// appear under their names only when all are complete. Existing files are kept until then, and
+/// links are replaced, not followed. Throws std::runtime_error with the name of a file that cannot
+/// be written: a directory, missing permission, a full disk.
+void writeWholeFiles(const std::vector<NamedText>& files);
+
+/// The same for one file.
 void writeWholeFile(const std::string& file, const std::string& text);
 
 }  // namespace datmo
