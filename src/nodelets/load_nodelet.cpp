@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "restart_argument.h"
+
 #include <nodelet/NodeletList.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
@@ -29,10 +31,9 @@ class ManagedNodelet {
  public:
   ManagedNodelet(const std::string& manager, const std::string& type,
                  std::vector<std::string> arguments)
-      : manager_(ros::names::resolve(manager)) {
+      : manager_(ros::names::resolve(manager)), arguments_(std::move(arguments)) {
     load_.request.name = ros::this_node::getName();
     load_.request.type = type;
-    load_.request.my_argv = std::move(arguments);
     for (const auto& [from, to] : ros::names::getRemappings()) {
       load_.request.remap_source_args.push_back(from);
       load_.request.remap_target_args.push_back(to);
@@ -46,11 +47,28 @@ class ManagedNodelet {
 
   /// Whether the manager responds that it has the nodelet.
   bool isLoaded() {
-    return ask() && std::count(known_.begin(), known_.end(), load_.request.name) > 0;
+    const bool is_loaded =
+        ask() && std::count(known_.begin(), known_.end(), load_.request.name) > 0;
+    was_loaded_ = was_loaded_ || is_loaded;
+    is_cut_off_ = is_cut_off_ && !is_loaded;
+    return is_loaded;
   }
 
+  bool wasLoaded() const { return was_loaded_; }
+
   /// False if the manager refuses to load it: its output says why.
-  bool load() { return ros::service::call(manager_ + "/load_nodelet", load_); }
+  bool load() {
+    load_.request.my_argv = arguments_;
+    if (was_loaded_ && is_cut_off_) {
+      ++restarts_;
+      is_cut_off_ = false;
+    }
+    if (restarts_ > 0) {
+      load_.request.my_argv.insert(load_.request.my_argv.end(),
+                                   {datmo::kRestartsArgument, std::to_string(restarts_)});
+    }
+    return ros::service::call(manager_ + "/load_nodelet", load_);
+  }
 
   void unload() {
     nodelet::NodeletUnload unload;
@@ -67,6 +85,7 @@ class ManagedNodelet {
     nodelet::NodeletList list;
     if (!list_.isValid() || !list_.call(list)) {
       list_.shutdown();
+      is_cut_off_ = true;
       return false;
     }
     known_ = list.response.nodelets;
@@ -77,6 +96,10 @@ class ManagedNodelet {
   ros::ServiceClient list_;
   nodelet::NodeletLoad load_;
   std::vector<std::string> known_;
+  std::vector<std::string> arguments_;
+  bool was_loaded_ = false;
+  bool is_cut_off_ = false;  ///< the manager has not responded since it last had the nodelet
+  int restarts_ = 0;         ///< of the manager
 };
 
 /// Waits until the manager responds; returns false on shutdown.
@@ -92,10 +115,9 @@ bool waitForManager(ManagedNodelet& nodelet) {
 
 /// Returns if loading is refused (1), or on shutdown (0).
 int keepLoaded(ManagedNodelet& nodelet) {
-  bool was_loaded = false;
   while (waitForManager(nodelet)) {
     if (!nodelet.isLoaded()) {
-      if (was_loaded) {
+      if (nodelet.wasLoaded()) {
         ROS_WARN("%s: no longer loaded in its manager %s: loads it again",
                  ros::this_node::getName().c_str(), nodelet.manager().c_str());
       }
@@ -104,7 +126,7 @@ int keepLoaded(ManagedNodelet& nodelet) {
                   ros::this_node::getName().c_str(), nodelet.manager().c_str());
         return 1;
       }
-      was_loaded = nodelet.isLoaded();
+      nodelet.isLoaded();
     }
     ros::WallDuration(kPeriod).sleep();
   }

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "restart_argument.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -31,6 +36,7 @@ class StackNodelet : public nodelet::Nodelet {
   void onInit() override {
     monitor_ = std::make_unique<StageMonitor>(getName());
     result_ = getNodeHandle().resolveName("tracks");
+    restarts_ = restartsIn(getMyArgv());
     clocks_ = std::make_unique<PartClocks>(loadOptions<PartClocksOptions>(getPrivateNodeHandle()));
     updater_ = std::make_unique<diagnostic_updater::Updater>(
         getNodeHandle(), getPrivateNodeHandle(), getPrivateNodeHandle().getNamespace());
@@ -49,6 +55,11 @@ class StackNodelet : public nodelet::Nodelet {
                                                    askClocks();
                                                  });
                                                });
+  }
+
+  static int restartsIn(const std::vector<std::string>& arguments) {
+    const auto found = std::find(arguments.begin(), arguments.end(), kRestartsArgument);
+    return arguments.end() - found < 2 ? 0 : std::atoi((found + 1)->c_str());
   }
 
   /// The machine's wall clock: message time may be that of a bag.
@@ -77,9 +88,11 @@ class StackNodelet : public nodelet::Nodelet {
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     const Stamp now = toStamp(machineTime());
-    const StackHealth health =
-        clocks_->judged(stackHealth(stages_.at(since_start_.seconds()), result_), now);
+    const double running = since_start_.seconds();
+    const StackHealth health = withRestart(
+        clocks_->judged(stackHealth(stages_.at(running), result_), now), restarts_, running);
     status.summary(diagnosticLevel(health.level), health.sentence);
+    status.add("restarts of its process", restarts_);
     for (const auto& [process, description] : clocks_->descriptions(now)) {
       status.add("clock of " + process, description);
     }
@@ -102,6 +115,7 @@ class StackNodelet : public nodelet::Nodelet {
   ReportingStages stages_;
   std::unique_ptr<PartClocks> clocks_;
   Stopwatch since_start_;
+  int restarts_ = 0;
   std::optional<HealthLevel> reported_;
   int beats_ = 0;
   std::unique_ptr<diagnostic_updater::Updater> updater_;

@@ -36,6 +36,9 @@ TEST(ManagerTest, AfterAKillItRestartsWithAllNodelets) {
     chain.sendScan(world.scan(now));
     return chain.tracks.size() > tracks;
   }));
+  EXPECT_TRUE(chain.waitFor([&] {
+    return chain.diagnostic("stack", "restarts of its process") == 1.0;
+  })) << "whoever reads the diagnostics learns of it";
   std::cout << "tracks came again " << (ros::SteadyTime::now() - start).toSec() << " s after\n";
 }
 

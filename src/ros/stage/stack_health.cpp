@@ -66,6 +66,16 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
   return {HealthLevel::kOk, withoutSlash(result) + " are published"};
 }
 
+StackHealth withRestart(const StackHealth& health, int restarts, double seconds_since_start) {
+  if (restarts == 0 || seconds_since_start > kRestartReported) {
+    return health;
+  }
+  return {std::max(health.level, HealthLevel::kDegraded),
+          health.sentence +
+              " (restarted, because its process had ended: ids of tracks start over, and, without "
+              "a checkpoint, the map)"};
+}
+
 void ReportingStages::update(const StageState& state, double seconds) {
   reports_[state.stage] = {state, seconds};
 }

@@ -19,6 +19,16 @@ TEST(StackHealth, TheMostUpstreamStageIsNamed) {
   EXPECT_EQ(health.sentence, "no tracks: slam: no scan yet");
 }
 
+TEST(StackHealth, ARestartIsReportedForAWhile) {
+  const StackHealth good{HealthLevel::kOk, "tracks are published"};
+  const StackHealth bad{HealthLevel::kNoOutput, "no tracks: slam: no scan yet"};
+  EXPECT_EQ(withRestart(good, 1, 1.0).level, HealthLevel::kDegraded);
+  EXPECT_EQ(withRestart(good, 1, 1.0).sentence.rfind("tracks are published (restarted", 0), 0U);
+  EXPECT_EQ(withRestart(bad, 2, 1.0).level, HealthLevel::kNoOutput);
+  EXPECT_EQ(withRestart(good, 1, kRestartReported + 1.0).sentence, good.sentence);
+  EXPECT_EQ(withRestart(good, 0, 1.0).sentence, good.sentence);
+}
+
 TEST(ReportingStages, AStageThatStopsReportingIsForgotten) {
   ReportingStages stages;
   stages.update(stage("slam", HealthLevel::kNoOutput, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);

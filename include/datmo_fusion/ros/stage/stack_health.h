@@ -23,6 +23,11 @@ struct StackHealth {
 /// Two stages are connected if an output of one has the topic of an input of the other.
 StackHealth stackHealth(const std::vector<StageState>& stages, const std::string& result);
 
+/// Adds to the health, for the first `kRestartReported` seconds, that the stack runs in a new
+/// process because the previous one has ended: WARN at least.
+StackHealth withRestart(const StackHealth& health, int restarts, double seconds_since_start);
+inline constexpr double kRestartReported = 30.0;  ///< s; long enough for whoever reads diagnostics
+
 /// The latest state of each reporting stage, until it has been silent long enough to be considered
 /// terminated.
 class ReportingStages {
