@@ -16,6 +16,7 @@ FAULTS = {
     "frozen": "scan frozen for 3 s",
     "late": "scan late by 1 s for 5 s",
     "clock": "scan clock 0.1 s ahead for 5 s",
+    "always": "scan clock always 0.1 s ahead",
     "stray": "scan stamp 1e6 s ahead once",
     "looped": "all clocks back by 100 s (a looped bag)",
     "fast": "odometry 100 m/s once",

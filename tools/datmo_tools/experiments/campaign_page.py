@@ -36,7 +36,7 @@ def _fault_lines(report, drive):
     lines = [
         f"## Faults of the inputs: {drive['drive']}",
         "",
-        f"The drive through `{options}` with one fault from {report['begin_s']:g} s on. Error: of the",
+        f"The drive through `{options}` with one fault from {report['begin_s']:g} s on (`always`, `mounts`: in all of the drive; run_bag reads the mounts first). Error: of the",
         "position since the first pose; sigma: the pose's own, after the fault began. Recovered: seconds after the fault's end until the position is as accurate as",
         f"without it, within {RECOVERED:g} m; `never`: not before the drive's end. A clock that jumps starts a new map:",
         "errors are since its first pose, and tracks whose time went back have no score. "
