@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "display_status.h"
 
-#include <ros/master.h>
-#include <ros/this_node.h>
+#include <chrono>
+
+#include "datmo_fusion/ros/stage/published_topics.h"
 
 namespace datmo {
 
 using rviz::StatusProperty;
 
+namespace {
+
+/// The window does not wait for the master: it shows the answer the next time that it asks.
+constexpr std::chrono::milliseconds kNoPatience(0);
+
+constexpr char kAnyType[] = "*";  // of a publisher that has not said its type
+
+/// Of all displays and panels, which run in the window's thread.
+PublishedTopics& publishedTopics() {
+  static PublishedTopics topics;
+  return topics;
+}
+
+}  // namespace
+
 std::string otherType(const std::string& topic, const std::string& expected) {
-  XmlRpc::XmlRpcValue request;
-  request[0] = ros::this_node::getName();
-  request[1] = "";
-  XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcValue topics;
-  constexpr bool kWaitForMaster = false;  // no retries: the window waits for the response
-  if (!ros::master::execute("getPublishedTopics", request, response, topics, kWaitForMaster)) {
-    return "";
-  }
-  for (int i = 0; i < topics.size(); ++i) {
-    const std::string name = topics[i][0];
-    const std::string type = topics[i][1];
-    if (name == topic && type != expected && type != "*") {
-      return type;
-    }
-  }
-  return "";
+  publishedTopics().update(kNoPatience);
+  const std::string type = publishedTopics().typeOf(topic).value_or("");
+  return type == expected || type == kAnyType ? "" : type;
 }
 
 StatusLine TopicStatus::line() const {

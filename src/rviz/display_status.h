@@ -15,8 +15,9 @@ struct StatusLine {
   std::string text;
 };
 
-/// Returns the type that the master reports for a topic, if it is not `expected`; otherwise, and
-/// without a master, empty. Waits for one response of the master and does not retry.
+/// Returns the type that the master last reported for a topic, if it is not `expected`; otherwise,
+/// and if the master has not answered yet, empty. Queries the master again, without waiting for it:
+/// call it from time to time, in the window's thread.
 std::string otherType(const std::string& topic, const std::string& expected);
 
 /// Whether what a display draws is published, and how many messages were received.

@@ -2,18 +2,13 @@
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 
 #include <chrono>
-#include <exception>
 #include <iterator>
 #include <sstream>
 #include <utility>
 
 #include <boost/make_shared.hpp>
-#include <xmlrpcpp/XmlRpcException.h>
-#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <ros/console.h>
-#include <ros/master.h>
-#include <ros/this_node.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/stage/guard.h"
@@ -30,34 +25,7 @@ constexpr double kDiagnosticsPeriod = 1.0;  // s, usual for /diagnostics
 constexpr std::uint32_t kTimingQueue = 50;  // several stages for about a second
 
 /// How long the stage waits for an answer of the master: it usually comes within some milliseconds.
-constexpr std::chrono::milliseconds kPatience(50);
-
-/// The same at the end, where a query that goes on while the process exits uses what is gone.
-constexpr std::chrono::milliseconds kPatienceAtEnd(1000);
-
-/// Returns the published topics with their types; none if the master does not answer. May block for
-/// minutes.
-std::optional<std::map<std::string, std::string>> publishedTopics() {
-  try {
-    XmlRpc::XmlRpcValue request;
-    XmlRpc::XmlRpcValue response;
-    XmlRpc::XmlRpcValue topics;
-    request[0] = ros::this_node::getName();
-    request[1] = "";
-    if (!ros::master::execute("getPublishedTopics", request, response, topics, false)) {
-      return std::nullopt;
-    }
-    std::map<std::string, std::string> types;
-    for (int i = 0; i < topics.size(); ++i) {
-      types.emplace(std::string(topics[i][0]), std::string(topics[i][1]));
-    }
-    return types;
-  } catch (const XmlRpc::XmlRpcException&) {  // an answer of another form
-    return std::nullopt;
-  } catch (const std::exception&) {  // out of memory
-    return std::nullopt;
-  }
-}
+constexpr std::chrono::milliseconds kMasterPatience(50);
 
 std::string joinNames(const std::vector<std::string>& topics) {
   std::string text;
@@ -121,7 +89,6 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
       topics_(std::move(topics)),
       health_(inputs_, silence_after),
       progress_(inputs_),
-      master_(publishedTopics),
       timing_(node.advertise<StageTiming>("timing", kTimingQueue)),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
@@ -134,24 +101,12 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
                                   });
 }
 
-StageReporter::~StageReporter() { master_.waitFor(kPatienceAtEnd); }
-
 PublishedType StageReporter::askMaster() {
   return [this, asked = false](const std::string& topic) mutable -> std::optional<std::string> {
     if (!std::exchange(asked, true)) {
-      if (master_.start()) {
-        master_.waitFor(kPatience);
-      }
-      const auto answer = master_.take();
-      if (answer && *answer) {
-        published_ = *answer;
-      }
+      published_.update(kMasterPatience);
     }
-    if (!published_) {
-      return std::nullopt;
-    }
-    const auto found = published_->find(topic);
-    return found == published_->end() ? "" : found->second;
+    return published_.typeOf(topic);
   };
 }
 

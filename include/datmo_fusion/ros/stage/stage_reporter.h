@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +9,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
-#include "datmo_fusion/common/background_call.h"
 #include "datmo_fusion/ros/stage/input_progress.h"
+#include "datmo_fusion/ros/stage/published_topics.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
@@ -41,16 +40,11 @@ class StageReporter {
   /// To be called after each result.
   void publishTiming();
 
-  /// Waits for a query of the master, if that is quick.
-  ~StageReporter();
   StageReporter(const StageReporter&) = delete;
   StageReporter& operator=(const StageReporter&) = delete;
 
  private:
-  using TopicTypes = std::map<std::string, std::string>;  ///< by topic
-
-  /// Queries the master when the first type is needed, in a thread of its own: if its computer
-  /// cannot be reached, that takes minutes, and the stage continues with its last answer.
+  /// Queries the master when the first type is needed.
   PublishedType askMaster();
   void logChanges();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -64,8 +58,7 @@ class StageReporter {
   InputProgress progress_;
   Stopwatch since_start_;
   std::optional<double> last_latency_;  ///< s; none before the first result
-  BackgroundCall<std::optional<TopicTypes>> master_;
-  std::optional<TopicTypes> published_;  ///< the master's last answer
+  PublishedTopics published_;
   ros::Publisher timing_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
