@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate risk: scores of drives that are worked out by hand, and its reading of bags."""
 
+import re
 import unittest
 
 import rosbag
 from datmo_tools.evaluate.risk_scores import (
+    HORIZONS,
     RiskDrive,
     RiskFrame,
     any_contact,
@@ -128,6 +130,14 @@ class Tool(EvaluateCase):
         self.assertRegex(text, r"near misses warned of +1")
         self.assertRegex(text, r"lead, median \[s\] +2.00")
         self.assertEqual(result["ours"]["drives"], 2)
+
+    def test_the_page_has_a_reliability_diagram_with_each_method(self):
+        folder = self.write("hit", contact=3.0)
+        self.evaluate("risk", f"ours={folder}", f"others={folder}")
+        page = (self.folder / "risk.html").read_text(encoding="utf-8")
+        diagram = re.search(r"<svg.*?</svg>", page, re.DOTALL).group()
+        for text in ("calibrated", "ours", "others", *(f"contact within {time:.0f} s" for time in HORIZONS)):
+            self.assertIn(f">{text}</text>", diagram)
 
     def test_a_folder_without_bags_is_reported(self):
         _, errors, _ = self.evaluate("risk", f"ours={self.folder}", code=1)

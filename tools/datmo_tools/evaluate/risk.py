@@ -19,7 +19,12 @@ the bags of one method (run_bag --risk --with-truth, risk/method in the sensor s
                     view and at most 1.7 s
   false             warnings in drives without contact, or ended before it, and how many an hour
   Brier, error      of the probability of contact within 1, 2, 3, 4 s: mean squared difference, and
-                    mean distance of predicted and observed frequency in ten bins (reliability)"""
+                    mean distance of predicted and observed frequency in ten bins; on the page also as
+                    a reliability diagram"""
+
+
+_DIAGRAM_HINT = ("Observed frequency of contact over predicted probability. On the dashed line a method is "
+                 "calibrated; below it, it predicts too much. The larger a marker, the more frames are in its bin.")
 
 
 def add_arguments(parser):
@@ -30,6 +35,10 @@ def add_arguments(parser):
 
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
+    try:
+        from datmo_tools.evaluate.reliability_plot import reliability_drawing
+    except ImportError as error:
+        raise InputError(f"{error}: expected the package python3-matplotlib") from error
     result = {}
     for name, folder in values.methods:
         bags = sorted(folder.glob("*.bag"))
@@ -38,7 +47,10 @@ def evaluate(values):
         if name in result:
             raise InputError(f"{name}: given twice, expected another name for each folder")
         result[name] = score_of(bags)
-    return result, sections(result)
+    diagram = Section("Reliability", hint=_DIAGRAM_HINT, picture=reliability_drawing(result),
+                      for_page=True)  # fmt: skip
+    scores, by_horizon, *bins = sections(result)
+    return result, [scores, by_horizon, diagram, *bins]
 
 
 def score_of(bags):
