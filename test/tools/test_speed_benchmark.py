@@ -90,6 +90,11 @@ class Micro(unittest.TestCase):
             speed_micro.summarize(report), {"step": {"cpu_us": 3000.0, "per_pose_us": 2.0}}
         )
 
+    def test_quantiles_that_a_benchmark_counts_are_kept(self):
+        report = {"benchmarks": [micro_run("risk", 3.0, median=2e-6, percentile_99=9e-6)]}
+        self.assertEqual(speed_micro.summarize(report),
+                         {"risk": {"cpu_us": 3.0, "median_us": 2.0, "percentile_99_us": 9.0}})  # fmt: skip
+
     def test_of_several_the_median_counts(self):
         several = {"repetitions": 3}
         aggregate = {**several, "run_type": "aggregate"}

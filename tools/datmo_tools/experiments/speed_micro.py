@@ -6,6 +6,7 @@ import subprocess
 
 from datmo_tools.errors import InputError
 
+COUNTERS = ("per_pose", "median", "percentile_99")  # s, of a benchmark that counts them
 MICROSECONDS = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
 REPETITIONS = 5  # the median is used
 
@@ -51,6 +52,5 @@ def _fit(run):
 
 def _figures(run):
     figures = {"cpu_us": run["cpu_time"] * MICROSECONDS[run["time_unit"]]}
-    if "per_pose" in run:
-        figures["per_pose_us"] = run["per_pose"] * MICROSECONDS["s"]
+    figures.update({f"{name}_us": run[name] * MICROSECONDS["s"] for name in COUNTERS if name in run})
     return figures

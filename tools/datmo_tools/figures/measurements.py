@@ -15,7 +15,7 @@ ROBUSTNESS_SEEDS = 5
 HOT_PATHS = (
     "slamStep", "gridUpdate", "detection", "trackerStep", "immPredictAndUpdate", "rankedAssignments",
     "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "objectFusion", "trackFusion",
-    "fusion",
+    "fusion", "assessRisks",
 )  # fmt: skip
 
 
