@@ -20,6 +20,7 @@ struct RuleOptions {
   /// m, 0.1 to 10: radius of a pedestrian's circle (thesis 5.3.5: predefined; our assumption)
   double pedestrian_radius = 0.5;
   double growth = 0.1;  ///< 1
+  double curve = 1.0;   ///< 1
   /// s, 0 to 5: rss: response time (Shalev-Shwartz et al. 2017), a usual value
   double response_time = 0.75;
   /// m/s^2, 0 to 10: rss: acceleration of all road users within the response time
@@ -43,8 +44,8 @@ struct RuleOptions {
 /// radius by class; an object's circle grows with the distance traveled. A vehicle keeps its speed
 /// and direction, a pedestrian's circle stays in place and grows at the pedestrian's speed. The
 /// first time at which they meet is the time to collision; the risk is 1 up to driver_time +
-/// vehicle_time, and falls linearly to 0 at the horizon (the curve of figure 5.11 has no numbers:
-/// our assumption, as are radii and growth). `host`: predicted path.
+/// vehicle_time, and falls to 0 at the horizon by the exponent `curve` (figure 5.11 has no numbers:
+/// a straight line is our assumption, as are radii and growth). `host`: predicted path.
 ObjectRisk thesisRisk(const Track& track, const BodyPath& host, const RuleOptions& options);
 
 /// Assesses the risk of boxes at constant velocity: contact is certain from the first time at which

@@ -50,6 +50,10 @@ TEST(ThesisRisk, FallsAfterTheReactionTime) {
   // Circles of 1.5 m: 30 m at 10 m/s, half of the interval from 2 s to the horizon of 4 s.
   EXPECT_NEAR(risk.median_ttc, 3.0, 0.01);
   EXPECT_NEAR(risk.probability(), 0.5, 0.01);
+  RuleOptions curved = kRules;
+  curved.curve = 2.0;
+  EXPECT_NEAR(thesisRisk(far, hostAt(10.0), curved).probability(), 0.25, 0.01);
+  EXPECT_EQ(thesisRisk(near, hostAt(10.0), curved).probability(), 1.0);
 }
 
 TEST(ThesisRisk, APedestriansAreaGrowsAroundHim) {
