@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lower bound for a step of grid SLAM: one look-up of each beam's end point from each pose, and one
-// addition to each cell that a beam passes.
+// addition to each cell that a beam passes; for the map's update alone, only the latter.
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +107,22 @@ BENCHMARK_CAPTURE(slamLimit, demonstrator, demonstratorSettings)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(slamLimit, heavy, heavySettings)
     ->Name("limit/slamStep/heavy")
+    ->Unit(benchmark::kMicrosecond);
+
+void mapLimit(benchmark::State& state, Settings (*settings_of)()) {
+  const Settings settings = settings_of();
+  BareMap map(settings.slam.map.window.window());
+  const Ends ends = endsOf(StreetDrive({settings.beams}).next());
+  for (auto _ : state) {
+    passAll(map, ends);
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK_CAPTURE(mapLimit, demonstrator, demonstratorSettings)
+    ->Name("limit/gridUpdate/demonstrator")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(mapLimit, heavy, heavySettings)
+    ->Name("limit/gridUpdate/heavy")
     ->Unit(benchmark::kMicrosecond);
 
 void slamLimitByBeams(benchmark::State& state) {
