@@ -32,6 +32,10 @@ RISKS = {
     "calibration_error": dict.fromkeys(HORIZONS, 0.09), "reliability": [[0.1, 0.05, 30]],
 }  # fmt: skip
 
+KITTI = {kind: {overlap: dict.fromkeys(("samota", "amota", "amotp", "mota", "motp", "id_switches",
+                                        "fragmentations"), 0.5) for overlap in ("0.25", "0.5", "0.7")}
+         for kind in ("Car", "Pedestrian", "Cyclist")}  # fmt: skip
+
 
 def results(**figures):
     """Returns a file of figures with these steps."""
@@ -117,6 +121,16 @@ class Pages(InFolder):
         row = ("| `rss` | 0.04, 0.20 | 41 of 43 | 19 of 29 | 5 of 14 | 1.71, 0.64 | 0.75 | 4 of 86 | "
                "0.050, 0.050, 0.050, 0.050 | 0.090, 0.090, 0.090, 0.090 |")
         self.assertIn(row, page)
+
+    def test_frames_per_second_only_where_measured(self):
+        latency = dict.fromkeys(("median", "percentile_99", "worst"), 3.0)
+        live = {"demonstrator": {"scans": 1, "unanswered": 0, "latency_ms": latency}}
+        speed = {"live": live, "limits": {}, "cpu_us": {}}
+        without = self.pages(speed=speed, kitti_tracking=KITTI)["doc/results.md"]
+        self.assertNotIn("frames/s", without)
+        rates = {"trackers": 1990, "with_ego_motion": 1500}
+        page = self.pages(speed=speed, kitti_tracking={**KITTI, "frames_per_second": rates})
+        self.assertIn("1990 frames/s, 1500 with the vehicle's motion", page["doc/results.md"])
 
     def test_rendered_twice_is_the_same(self):
         write_pages(self.folder, results(people=PEOPLE))

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import cameras, data_sets, maps, mono, results_file, risk
+from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, results_file, risk
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
@@ -34,6 +34,18 @@ class Spread(unittest.TestCase):
     def test_four_digits_are_kept(self):
         tree = {"a": [0.123456, 12345.678, 7], "b": float("nan"), "c": None}
         self.assertEqual(rounded(tree), {"a": [0.1235, 12350.0, 7], "b": None, "c": None})
+
+
+class KittiSpeed(unittest.TestCase):
+    def test_rates_that_the_program_prints(self):
+        said = ("4100 frames; 1990 frames/s by the trackers of all three classes, "
+                "1500 with the vehicle's motion; one core\n")  # fmt: skip
+        self.assertEqual(recordings.frames_per_second(said),
+                         {"trackers": 1990, "with_ego_motion": 1500})  # fmt: skip
+
+    def test_other_output_is_refused(self):
+        with self.assertRaisesRegex(InputError, "expected frames/s"):
+            recordings.frames_per_second("4100 frames\n")
 
 
 class Pooled(unittest.TestCase):

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Steps on recordings that are not in the repository, except those with a camera."""
 
+import re
 import zipfile
 from functools import partial
 
+from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.fusion_drives import LABELED, ODOMETRY_ERRORS
 from datmo_tools.figures.step import Job, read_json
@@ -79,8 +81,8 @@ def kitti_tracking_jobs(bench):
 
 def _kitti_tracking(bench, folder):
     data, results = bench.data / KITTI_TRACKING, folder / "results"
-    bench.call("kitti_tracking_run", data / "pointrcnn", data / "calib", results,
-               "--config", bench.config("kitti_tracking").with_suffix(""))  # fmt: skip
+    said = bench.output_of("kitti_tracking_run", data / "pointrcnn", data / "calib", results,
+                           "--config", bench.config("kitti_tracking").with_suffix(""))  # fmt: skip
     classes = {}
     for overlap in OVERLAPS:
         report = folder / "report.json"
@@ -88,7 +90,16 @@ def _kitti_tracking(bench, folder):
                    "--class", "all", "--iou", overlap, "--out", report)  # fmt: skip
         for score in read_json(report):
             classes.setdefault(score["class"], {})[f"{overlap:g}"] = _tracking_figures(score)
-    return classes
+    return {**classes, "frames_per_second": frames_per_second(said)}
+
+
+def frames_per_second(said):
+    """Returns the speed that kitti_tracking_run prints: of the trackers of all classes, and with the
+    estimation of the vehicle's motion."""
+    rates = re.search(r"(\d+) frames/s by the trackers.*, (\d+) with the vehicle's motion", said)
+    if rates is None:
+        raise InputError(f"kitti_tracking_run: expected frames/s in its output, found {said!r}")
+    return dict(zip(("trackers", "with_ego_motion"), map(int, rates.groups())))
 
 
 def _tracking_figures(score):

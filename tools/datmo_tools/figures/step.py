@@ -30,6 +30,10 @@ class Bench(NamedTuple):
         """Runs a built program to its end. Raises programs.StepFailed."""
         programs.call(self.programs / program, *words)
 
+    def output_of(self, program, *words):
+        """Like call(), but returns the program's output as text."""
+        return programs.output_of(self.programs / program, *words)
+
     def experiment(self, name, *words):
         """The same for a tool of datmo_tools.experiments."""
         programs.call(Path(sys.executable), "-m", "datmo_tools", f"experiments.{name}", *words)
