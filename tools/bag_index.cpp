@@ -2,13 +2,15 @@
 #include "bag_index.h"
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "bag_header.h"
 
 namespace datmo {
 
@@ -25,30 +27,13 @@ constexpr Length kMaxChunk = 1U << 31U;   ///< bytes; rosbag allocates 4 GiB for
 
 /// Header and place of a record of the file.
 struct Record {
-  std::string header;
+  BagHeader header;
   std::uint64_t data = 0;  ///< byte at which its data begins
   Length data_size = 0;
 
-  /// A number in the header; nothing if it is missing.
-  template <typename Number>
-  std::optional<Number> field(const std::string& name) const {
-    // Fields are a length, a name, `=` and a value.
-    for (std::size_t at = 0; at + sizeof(Length) <= header.size();) {
-      Length length = 0;
-      std::memcpy(&length, header.data() + at, sizeof(length));
-      at += sizeof(length);
-      if (length > header.size() - at) {
-        return {};
-      }
-      if (header.compare(at, name.size() + 1, name + "=") == 0 &&
-          length == name.size() + 1 + sizeof(Number)) {
-        Number number = 0;
-        std::memcpy(&number, header.data() + at + name.size() + 1, sizeof(number));
-        return number;
-      }
-      at += length;
-    }
-    return {};
+  /// A number in the header; 0 if it is missing.
+  std::uint32_t count(const std::string& name) const {
+    return header.number<std::uint32_t>(name).value_or(0);
   }
 };
 
@@ -62,17 +47,28 @@ class File {
     return read(0, version.data(), version.size()) && version == kVersion;
   }
 
-  /// The record that begins at a byte; nothing if its header does not end within the file.
-  std::optional<Record> record(std::uint64_t at) {
+  /// The header whose length is at a byte; nothing if it is not whole, or ends after the file.
+  std::optional<BagHeader> header(std::uint64_t at) {
     Length length = 0;
-    Record found;
     if (!read(at, &length, sizeof(length)) || length > kMaxHeader) {
       return {};
     }
-    found.header.resize(length);
-    found.data = at + sizeof(length) + length + sizeof(length);
-    if (!read(at + sizeof(length), found.header.data(), length) ||
-        !read(found.data - sizeof(length), &found.data_size, sizeof(length))) {
+    std::string bytes(length, '\0');
+    if (!read(at + sizeof(length), bytes.data(), length)) {
+      return {};
+    }
+    BagHeader found(std::move(bytes));
+    return found.hasWholeFields() ? std::make_optional(std::move(found)) : std::nullopt;
+  }
+
+  /// The record that begins at a byte; nothing as for its header.
+  std::optional<Record> record(std::uint64_t at) {
+    const std::optional<BagHeader> fields = header(at);
+    if (!fields) {
+      return {};
+    }
+    Record found{*fields, at + 2 * sizeof(Length) + fields->size()};
+    if (!read(found.data - sizeof(Length), &found.data_size, sizeof(Length))) {
       return {};
     }
     return found;
@@ -102,7 +98,7 @@ struct ChunkPlace {
 
 /// The chunk that a record describes; nothing if it does not.
 std::optional<ChunkPlace> placeOf(const Record& info, std::uint32_t connections, File& file) {
-  const auto at = info.field<std::uint64_t>("chunk_pos");
+  const auto at = info.header.number<std::uint64_t>("chunk_pos");
   if (!at || !file.holds(info.data, connections * kCountSize)) {
     return {};
   }
@@ -118,8 +114,7 @@ std::optional<ChunkPlace> placeOf(const Record& info, std::uint32_t connections,
 /// Whether the records of a chunk and its indexes are possible.
 bool isPossible(const ChunkPlace& place, File& file) {
   const std::optional<Record> chunk = file.record(place.at);
-  if (!chunk || !file.holds(chunk->data, chunk->data_size) ||
-      chunk->field<std::uint32_t>("size").value_or(0) > kMaxChunk) {
+  if (!chunk || !file.holds(chunk->data, chunk->data_size) || chunk->count("size") > kMaxChunk) {
     return false;
   }
   std::uint64_t at = chunk->data + chunk->data_size;
@@ -128,7 +123,7 @@ bool isPossible(const ChunkPlace& place, File& file) {
     if (!index) {
       return false;
     }
-    at = index->data + index->field<std::uint32_t>("count").value_or(0) * kIndexSize;
+    at = index->data + index->count("count") * kIndexSize;
   }
   return true;
 }
@@ -144,24 +139,24 @@ bool hasPossibleIndex(const std::string& file_name) {
   if (!head) {
     return false;
   }
-  std::uint64_t at = head->field<std::uint64_t>("index_pos").value_or(0);
+  std::uint64_t at = head->header.number<std::uint64_t>("index_pos").value_or(0);
   if (at == 0) {
     return true;  // still being written
   }
-  const auto connections = head->field<std::uint32_t>("conn_count").value_or(0);
+  const auto connections = head->count("conn_count");
   for (std::uint32_t i = 0; i < connections; ++i) {
     const std::optional<Record> connection = file.record(at);
-    if (!connection || connection->data_size > kMaxHeader ||
-        !file.holds(connection->data, connection->data_size)) {
+    // Its data is a header, too.
+    if (!connection || !file.header(connection->data - sizeof(Length))) {
       return false;
     }
     at = connection->data + connection->data_size;
   }
-  const auto chunks = head->field<std::uint32_t>("chunk_count").value_or(0);
+  const auto chunks = head->count("chunk_count");
   std::vector<ChunkPlace> places;
   for (std::uint32_t i = 0; i < chunks; ++i) {
     const std::optional<Record> info = file.record(at);
-    const auto count = info ? info->field<std::uint32_t>("count").value_or(0) : 0;
+    const auto count = info ? info->count("count") : 0;
     const std::optional<ChunkPlace> place = info ? placeOf(*info, count, file) : std::nullopt;
     if (!place) {
       return false;

@@ -6,6 +6,8 @@
 #include <exception>
 #include <string>
 
+#include "bag_header.h"
+
 #include <rosbag/bag.h>
 #include <rosbag/buffer.h>
 #include <rosbag/structures.h>
@@ -45,7 +47,7 @@ template struct Exposed<Decompression, &rosbag::Bag::decompressChunk>;
 template struct Exposed<Chunk, &rosbag::Bag::current_buffer_>;
 
 constexpr std::uint32_t kMajorVersion = 2;  ///< of the format; version 1 has no chunks
-const std::string kMessageOp = "op=\x02";   ///< in the header of a message's record
+constexpr std::uint8_t kMessageOp = 2;      ///< in the header of a message's record
 
 using Length = std::uint32_t;
 
@@ -67,8 +69,8 @@ bool isMessage(const std::uint8_t* bytes, std::uint64_t size, std::uint64_t at) 
   if (data > size || data + lengthAt(bytes, header_end) > size) {
     return false;
   }
-  const std::string fields(bytes + header, bytes + header_end);
-  return fields.find(kMessageOp) != std::string::npos;
+  const BagHeader fields(std::string(bytes + header, bytes + header_end));
+  return fields.hasWholeFields() && fields.number<std::uint8_t>("op") == kMessageOp;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ import math
 import struct
 from typing import NamedTuple
 
-CHUNK, INDEX = 5, 4  # the op of these records of the bag format 2.0
+CHUNK, INDEX, CONNECTION = 5, 4, 7  # the op of these records of the bag format 2.0
 NUMBER, ENTRY = 4, 12  # bytes, of a length, and of a message in an index
 MAX_LENGTH = 4096  # bytes, of a damaged range; lengths are log-uniform
 KINDS = ("ones", "zeros", "random bytes", "cut", "repeated", "removed", "chunk repeated", "chunk removed")
@@ -77,15 +77,28 @@ def _numbers(content):
     for at, op, data, end in _records(content, content.index(b"\n") + 1, len(content)):
         found += [(at, f"length of a header (op {op})"), (data - NUMBER, f"length of data (op {op})")]
         header = content[at:data]
+        found += _field_lengths(content, at + NUMBER, data - NUMBER, op)
+        if op == CONNECTION:  # its data is a header, too
+            found += _field_lengths(content, data, end, op)
         for name in (b"size=", b"count=", b"conn_count=", b"chunk_count=", b"index_pos=", b"chunk_pos="):
             if name in header:
                 found.append((at + header.index(name) + len(name), name.decode() + f" (op {op})"))
         if op == INDEX:
             found += [(entry + 8, "offset of a message") for entry in range(data, end, ENTRY)]
         elif op == CHUNK and b"compression=none" in header:
-            for inner, _, inner_data, _ in _records(content, data, end):
+            for inner, inner_op, inner_data, _ in _records(content, data, end):
+                found += _field_lengths(content, inner + NUMBER, inner_data - NUMBER, inner_op)
                 found.append((inner, "length of a message's header"))
                 found.append((inner_data - NUMBER, "length of a message"))
+    return found
+
+
+def _field_lengths(content, at, end, op):
+    """Returns [(byte, what)] of the lengths of the fields of a header."""
+    found = []
+    while at < end:
+        found.append((at, f"length of a field (op {op})"))
+        at += NUMBER + struct.unpack_from("<I", content, at)[0]
     return found
 
 
