@@ -40,6 +40,7 @@ datmo_fusion_add_core_test(tracking
   tracking/measured_velocity_test.cpp
   tracking/motion_by_beams_test.cpp
   tracking/early_tracker_test.cpp
+  tracking/late_class_test.cpp
   tracking/existence_score_test.cpp
   tracking/motion_by_class_test.cpp
   tracking/motion_likelihood_test.cpp
