@@ -121,6 +121,13 @@ class Pages(InFolder):
         row = ("| `rss` | 0.04, 0.20 | 41 of 43 | 19 of 29 | 5 of 14 | 1.71, 0.64 | 0.75 | 4 of 86 | "
                "0.050, 0.050, 0.050, 0.050 | 0.090, 0.090, 0.090, 0.090 |")
         self.assertIn(row, page)
+        self.assertNotIn("drive 0005 (", page)
+
+    def test_warnings_on_kittis_drive_are_shown_if_measured(self):
+        methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
+        drives = dict.fromkeys(("traffic", "drive_0005"), {"warnings": 3, "seconds": 16.0})
+        page = self.pages(risk={"true": methods, "own": methods, "random": methods, **drives})["doc/results.md"]
+        self.assertIn("On KITTI's drive 0005 (16 s without contact, a beam every 2 degrees) there are 3.", page)
 
     def test_frames_per_second_only_where_measured(self):
         latency = dict.fromkeys(("median", "percentile_99", "worst"), 3.0)

@@ -5,6 +5,7 @@
 import contextlib
 import io
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -105,9 +106,20 @@ class FusionFigures(unittest.TestCase):
 class RiskFigures(unittest.TestCase):
     def test_warnings_of_all_data_sets_are_added_up(self):
         drives = [("traffic", {"warnings": 3, "seconds": 100.0}), ("traffic", {"warnings": 1, "seconds": 50.0})]
-        found = risk.figures([("own", {"futures": {}}), *drives, ("true", {})])
+        kitti = (risk.DRIVE, {"warnings": 2, "seconds": 16.0})
+        found = risk.figures([("own", {"futures": {}}), *drives, kitti, ("true", {})])
         self.assertEqual(found["traffic"], {"warnings": 4, "seconds": 150.0})
-        self.assertEqual(sorted(found), ["own", "traffic", "true"])
+        self.assertEqual(found[risk.DRIVE], {"warnings": 2, "seconds": 16.0})
+        self.assertEqual(sorted(found), ["drive_0005", "own", "traffic", "true"])
+
+    def test_the_drive_is_left_out_without_its_data(self):
+        for folder in (None, risk.DRIVE_0005):
+            with tempfile.TemporaryDirectory() as data:
+                if folder:
+                    (Path(data) / folder).mkdir(parents=True)
+                bench = Bench(Path(), Path(), Path(), Path(data), (1,))
+                names = [job.name for job in risk.jobs(bench)]
+                self.assertEqual(risk.DRIVE in names, folder is not None)
 
 
 class MapFigures(unittest.TestCase):
