@@ -32,9 +32,9 @@ CHUNK_SIZE = 16 * 1024  # bytes: several chunks, as in a long recording
 COMPRESSIONS = ("none", "lz4")
 
 SEED = int(os.environ.get("DATMO_FUSION_SEED", "1"))
-BIT_FLIPS = int(os.environ.get("DATMO_FUSION_BIT_FLIPS", "16"))
-DAMAGED_RANGES = int(os.environ.get("DATMO_FUSION_DAMAGED_RANGES", "20"))
-FLIPPED_NUMBERS = int(os.environ.get("DATMO_FUSION_FLIPPED_NUMBERS", "16"))
+BIT_FLIPS = int(os.environ.get("DATMO_FUSION_BIT_FLIPS", "4"))
+DAMAGED_RANGES = int(os.environ.get("DATMO_FUSION_DAMAGED_RANGES", "10"))
+FLIPPED_NUMBERS = int(os.environ.get("DATMO_FUSION_FLIPPED_NUMBERS", "10"))
 
 MAX_MEMORY = 4 * 2**30  # bytes of address space; an intact recording needs a fourth
 MAX_SECONDS = 60.0  # an intact recording takes less than one
