@@ -73,7 +73,7 @@ class MapFuser {
   /// Whether the pose is much less certain than the last one.
   bool isLessCertain(const PoseWithCovariance& base_in_map) const;
 
-  /// Sets the vehicle's current pose, for the window and for take() and fuse(). `motion`: the
+  /// Sets the vehicle's current pose, for the window and for add() and fuse(). `motion`: the
   /// vehicle's motion since the last pose, from a source other than the map; none: unknown.
   void moveTo(const PoseWithCovariance& base_in_map,
               const std::optional<Pose2>& motion = std::nullopt);
