@@ -88,7 +88,7 @@ void SignalWireOptions::visit(OptionVisitor& visitor) {
 SignalWire::SignalWire(const Checked<SignalWireOptions>& options, StageMonitor& monitor)
     : options_(*options), monitor_(monitor) {}
 
-bool SignalWire::takes(std::string_view bytes) {
+bool SignalWire::accepts(std::string_view bytes) {
   return bytes.size() > 1 && (bytes[1] == ItsHeader::kSpatem || bytes[1] == ItsHeader::kMapem);
 }
 

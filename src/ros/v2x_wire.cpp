@@ -35,7 +35,7 @@ void V2xWire::failed(const DeviceError& error, Stamp now) {
 StationTracksMessagePtr V2xWire::received(std::string_view datagram, Stamp now) {
   const Stopwatch watch;
   checkHasBegun(now);
-  if (SignalWire::takes(datagram)) {
+  if (SignalWire::accepts(datagram)) {
     signals_.received(datagram, now);
     return nullptr;
   }

@@ -36,7 +36,7 @@ class SignalWire {
   SignalWire(const Checked<SignalWireOptions>& options, StageMonitor& monitor);
 
   /// Whether a datagram is a SPATEM or a MAPEM according to its header.
-  static bool takes(std::string_view bytes);
+  static bool accepts(std::string_view bytes);
 
   /// Processes one of these. `now`: ROS time of arrival; if it is more than a second before that of
   /// the last one, the state is reset.

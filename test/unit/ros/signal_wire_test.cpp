@@ -59,10 +59,10 @@ class SignalWireTest : public testing::Test {
 };
 
 TEST_F(SignalWireTest, LightsAndAMapGiveAdvice) {
-  EXPECT_TRUE(SignalWire::takes(mapem()));
-  EXPECT_TRUE(SignalWire::takes(spatem(100.0, 130.0)));
-  EXPECT_FALSE(SignalWire::takes(""));
-  EXPECT_FALSE(SignalWire::takes("\x02\x02"));
+  EXPECT_TRUE(SignalWire::accepts(mapem()));
+  EXPECT_TRUE(SignalWire::accepts(spatem(100.0, 130.0)));
+  EXPECT_FALSE(SignalWire::accepts(""));
+  EXPECT_FALSE(SignalWire::accepts("\x02\x02"));
   EXPECT_FALSE(wire_.advise(ownAt(100.0)));
   wire_.received(mapem(), kNewYear + 99.0);
   SignalAdviceMessagePtr advice = wire_.advise(ownAt(100.0));

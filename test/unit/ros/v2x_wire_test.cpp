@@ -34,7 +34,7 @@ TEST_F(V2xWireTest, DatagramsGoToTheWireOfTheirKind) {
   // Of a traffic light message all but the header is missing.
   std::string lights = samples::wireCpm().bytes().substr(0, 8);
   lights[1] = 4;
-  ASSERT_TRUE(SignalWire::takes(lights));
+  ASSERT_TRUE(SignalWire::accepts(lights));
   EXPECT_FALSE(wire_.received(lights, kNoon));
   EXPECT_EQ(samples::drops(monitor_, "truncated_message"), 1U);
 }
