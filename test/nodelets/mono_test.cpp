@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images, camera info, mount and objects pass through the nodelet with OpenCV's people detector, in
 // its own thread, to lists at the exposures' stamps; an image that was not exposed is counted.
+// Images and scans pass through another nodelet to grids.
+#include <algorithm>
+#include <cstdint>
+
 #include "chain.h"
 #include "ros/camera_samples.h"
 #include <gtest/gtest.h>
@@ -86,6 +90,37 @@ TEST(MonoClassifierNodeletTest, ListsHaveTheStampsOfExposures) {
     return camera.waitFor(
         [&] { return camera.diagnostic("mono_classifier", "dropped: blank_image") > 0.0; }, 0.2);
   }));
+}
+
+TEST(MonoGridNodeletTest, AnImageAndItsScanMakeAGrid) {
+  constexpr samples::CameraSample kRoadCamera{1000, 400, 500.0};
+  constexpr Percent kFree = 20;
+  Listener listener;
+  ros::NodeHandle node;
+  const auto mounts = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1);
+  const auto infos = node.advertise<sensor_msgs::CameraInfo>("road_camera_info", 1);
+  const auto images = node.advertise<sensor_msgs::Image>("road_image", 1);
+  const auto scans = node.advertise<sensor_msgs::LaserScan>("scan", 1);
+  nav_msgs::OccupancyGridConstPtr grid;
+  const auto grids = node.subscribe<nav_msgs::OccupancyGrid>(
+      "grids/mono", 1, [&grid](const nav_msgs::OccupancyGridConstPtr& message) { grid = message; });
+  auto scanner = samples::transform("base_link", "scanner", 0.0);
+  scanner.transform.translation.z = 0.4;
+  const auto mount = samples::transforms({samples::cameraMount("base_link", 1.5), scanner});
+  double seconds = 1.0;
+  std::uint8_t number = 0;
+  ASSERT_TRUE(listener.waitFor([&] {
+    seconds += 0.1;
+    mounts.publish(mount);
+    infos.publish(kRoadCamera.info(seconds));
+    scans.publish(samples::scanWithoutReturns(seconds));
+    images.publish(kRoadCamera.road(seconds, ++number));
+    return listener.waitFor([&] { return grid != nullptr; }, 0.2);
+  }));
+  EXPECT_EQ(grid->header.frame_id, "base_link");
+  EXPECT_GT(grid->header.stamp, ros::Time(1.0));
+  EXPECT_LE(grid->header.stamp, ros::Time(seconds + 0.01));
+  EXPECT_GT(std::count(grid->data.begin(), grid->data.end(), kFree), 500) << "the road is free";
 }
 
 }  // namespace

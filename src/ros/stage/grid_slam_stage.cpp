@@ -262,21 +262,21 @@ void GridSlamStage::connect(StagePorts& ports) {
     keepCheckpoint();
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
-    const auto take_odometry = [this, transforms](const auto& odometry, Stamp now) {
+    const auto handle_odometry = [this, transforms](const auto& odometry, Stamp now) {
       if (const auto stamp = handleOdometry(*odometry)) {
         transforms.publish(heldAt(*stamp, now));
       }
     };
     ports.in<nav_msgs::Odometry>(
         options_.motion.odometryTopic(),
-        withClockCheck<nav_msgs::Odometry>(ports, "odometry", monitor_, take_odometry));
+        withClockCheck<nav_msgs::Odometry>(ports, "odometry", monitor_, handle_odometry));
   }
-  const auto take_scan = [this, publish](const auto& scan, Stamp now) {
+  const auto handle_scan = [this, publish](const auto& scan, Stamp now) {
     odometry_wait_.add(toStamp(scan->header.stamp), now,
                        [this, publish, scan, now] { publish(handleScan(*scan), now); });
     publishNext(now);
   };
-  connectScan(ports, monitor_, take_scan);
+  connectScan(ports, monitor_, handle_scan);
   if (options_.fused_grid) {
     ports.in<nav_msgs::OccupancyGrid>("grids/fused", [this, publish](const auto& grid, Stamp now) {
       publish(handleGrid(*grid), now);

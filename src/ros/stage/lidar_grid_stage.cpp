@@ -69,10 +69,10 @@ void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& conv
 void LidarGridStage::connect(StagePorts& ports) {
   const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/lidar");
   connectMotion(ports, options_.motion, *this);
-  const auto take_scan = [this, grid](const auto& scan, Stamp /*now*/) {
+  const auto handle_scan = [this, grid](const auto& scan, Stamp /*now*/) {
     grid.publish(handleScan(*scan));
   };
-  connectScan(ports, monitor_, take_scan);
+  connectScan(ports, monitor_, handle_scan);
 }
 
 }  // namespace datmo

@@ -143,8 +143,8 @@ void MonoGridStage::connect(StagePorts& ports) {
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<sensor_msgs::CameraInfo>(
       "camera_info", [this](const auto& info, Stamp /*now*/) { handleCameraInfo(*info); });
-  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
-  connectScan(ports, monitor_, take_scan);
+  const auto handle_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
+  connectScan(ports, monitor_, handle_scan);
   ports.in<sensor_msgs::Image>("image",
                                [this](const auto& image, Stamp now) { handleImage(image, now); });
 }

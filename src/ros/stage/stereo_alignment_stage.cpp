@@ -214,8 +214,8 @@ void StereoAlignmentStage::show() {
 
 void StereoAlignmentStage::connect(StagePorts& ports) {
   connectMotion(ports, options_.motion, *this);
-  const auto take_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
-  connectScan(ports, monitor_, take_scan);
+  const auto handle_scan = [this](const auto& scan, Stamp /*now*/) { handleScan(*scan); };
+  connectScan(ports, monitor_, handle_scan);
   connectStereo(ports, *this, ports.out<StereoAlignmentMessage>("stereo/alignment"));
 }
 

@@ -43,6 +43,20 @@ struct CameraSample {
     message.data.assign(std::size_t{width} * height, gray);
     return message;
   }
+
+  /// A bright sky above a dark road, with a sensor's noise; `number`, the first pixel, makes images
+  /// differ.
+  sensor_msgs::Image road(double seconds, std::uint8_t number) const {
+    constexpr std::uint8_t kRoad = 110;
+    constexpr std::uint8_t kSky = 220;
+    sensor_msgs::Image message = image(seconds, kRoad);
+    const std::size_t horizon = message.data.size() / 2;
+    for (std::size_t i = 0; i < message.data.size(); ++i) {
+      message.data[i] = static_cast<std::uint8_t>((i < horizon ? kSky : kRoad) + i % 3);
+    }
+    message.data.front() = number;
+    return message;
+  }
 };
 
 /// From `parent` to the camera, at this height (m) above its origin.

@@ -11,25 +11,25 @@ namespace {
 using namespace grid_fusion_samples;
 
 TEST_F(GridFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
-  const auto take = [this](const std::string& source, double stamp, double now) {
+  const auto handle_at = [this](const std::string& source, double stamp, double now) {
     stage_.handleGrid(source, message(stamp, kFree), Stamp::fromSeconds(now));
   };
   for (int i = 0; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
-    handle("lidar", t, t);
-    handle("stereo", t + 0.7, t);
+    handle_at("lidar", t, t);
+    handle_at("stereo", t + 0.7, t);
     const auto output = nextAt(t + 0.11);
     ASSERT_TRUE(output) << t;
     EXPECT_EQ(output->fused->header.stamp, ros::Time(t)) << "the lidar's";
   }
   EXPECT_EQ(drops("stamp_ahead"), 20U);
-  handle("lidar", 102.0, 102.0);
-  handle("stereo", 103.0, 102.0);
+  handle_at("lidar", 102.0, 102.0);
+  handle_at("stereo", 103.0, 102.0);
   EXPECT_EQ(drops("stamp_ahead"), 21U);
   EXPECT_NE(monitor_.lastError().find("102.0"), std::string::npos) << "the lidar's stamp";
   EXPECT_NE(monitor_.lastError().find("103.0"), std::string::npos) << "stereo's";
-  handle("stereo", 102.8, 102.8);
-  handle("stereo", 110.0, 103.5);
+  handle_at("stereo", 102.8, 102.8);
+  handle_at("stereo", 110.0, 103.5);
   EXPECT_EQ(drops("stamp_ahead"), 21U) << "the lidar has fallen silent";
 }
 

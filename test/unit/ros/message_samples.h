@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
 /// Small valid messages, which tests modify.
@@ -32,6 +35,19 @@ inline sensor_msgs::LaserScan laserScan(const std::vector<float>& ranges = {2.0F
   scan.range_min = 1.0F;
   scan.range_max = 20.0F;
   scan.ranges = ranges;
+  return scan;
+}
+
+/// 81 beams without returns, in 160 degrees ahead.
+inline sensor_msgs::LaserScan scanWithoutReturns(double seconds) {
+  constexpr std::size_t kBeams = 81;
+  sensor_msgs::LaserScan scan =
+      laserScan(std::vector<float>(kBeams, std::numeric_limits<float>::infinity()));
+  scan.header.stamp = ros::Time(seconds);
+  scan.angle_min = -static_cast<float>(degrees(80.0));
+  scan.angle_max = static_cast<float>(degrees(80.0));
+  scan.angle_increment = static_cast<float>(degrees(2.0));
+  scan.range_max = 50.0F;
   return scan;
 }
 

@@ -21,31 +21,11 @@ using samples::warnings;
 constexpr double kStart = 100.0;  // s
 constexpr double kHeight = 1.5;   // m
 constexpr samples::CameraSample kCamera{1000, 400, 500.0};
-constexpr std::size_t kBeams = 81;
 
-/// A road below the horizon, with a sensor's noise; its first pixel is different in each image.
+/// Each differs from the one before.
 sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t number = 0;
-  auto image = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, 110));
-  std::fill(image->data.begin(), image->data.begin() + 200 * 1000, std::uint8_t{220});
-  for (std::size_t i = 0; i < image->data.size(); ++i) {
-    image->data[i] = static_cast<std::uint8_t>(image->data[i] + i % 3);
-  }
-  image->data.front() = ++number;
-  return image;
-}
-
-/// A scan without returns in 160 degrees ahead.
-sensor_msgs::LaserScan scanAt(double seconds) {
-  sensor_msgs::LaserScan scan =
-      samples::laserScan(std::vector<float>(kBeams, std::numeric_limits<float>::infinity()));
-  scan.header.stamp = ros::Time(seconds);
-  scan.angle_min = -static_cast<float>(degrees(80.0));
-  scan.angle_max = static_cast<float>(degrees(80.0));
-  scan.angle_increment = static_cast<float>(degrees(2.0));
-  scan.time_increment = 0.0F;
-  scan.range_max = 50.0F;
-  return scan;
+  return boost::make_shared<sensor_msgs::Image>(kCamera.road(seconds, ++number));
 }
 
 class MonoGridStageTest : public testing::Test {
@@ -71,7 +51,7 @@ class MonoGridStageTest : public testing::Test {
 
 TEST_F(MonoGridStageTest, AnImageAndItsScanMakeAGridAtTheExposure) {
   mount();
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   const auto grid = look(imageAt(kStart));
   ASSERT_NE(grid, nullptr);
   EXPECT_EQ(grid->header.stamp, ros::Time(kStart));
@@ -83,7 +63,7 @@ TEST_F(MonoGridStageTest, AnImageAndItsScanMakeAGridAtTheExposure) {
 TEST_F(MonoGridStageTest, AnImageWaitsForItsScan) {
   mount();
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   EXPECT_NE(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
   EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.03)), nullptr) << "one image, one grid";
 }
@@ -92,7 +72,7 @@ TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
   mount();
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_scan"), 1U);
-  stage_.handleScan(scanAt(kStart + 1.0));
+  stage_.handleScan(samples::scanWithoutReturns(kStart + 1.0));
   EXPECT_EQ(look(imageAt(kStart + 0.5)), nullptr) << "older than the scans";
   EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
 }
@@ -103,14 +83,14 @@ TEST_F(MonoGridStageTest, AnImageThatWaitsWhileTheCameraChangesIsDropped) {
   auto wider = kCamera.info();
   ++wider.width;
   stage_.handleCameraInfo(wider);
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
 }
 
 TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsNotUsed) {
   mount();
-  stage_.handleScan(scanAt(kStart - 0.05));
+  stage_.handleScan(samples::scanWithoutReturns(kStart - 0.05));
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "no_motion"), 1U);
 }
@@ -144,21 +124,21 @@ TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneIsUsed) {
   EXPECT_EQ(drops(monitor_, "half_image"), 1U);
   EXPECT_EQ(drops(monitor_, "bad_encoding"), 2U);
   EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
-  stage_.handleScan(scanAt(kStart + 0.1));
+  stage_.handleScan(samples::scanWithoutReturns(kStart + 0.1));
   EXPECT_NE(look(imageAt(kStart + 0.1)), nullptr);
 }
 
 TEST_F(MonoGridStageTest, AFrozenImageIsDroppedAndTheNextOneIsUsed) {
   mount();
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   const auto first = imageAt(kStart);
   EXPECT_NE(look(first), nullptr);
   const auto again = boost::make_shared<sensor_msgs::Image>(*first);
   again->header.stamp = ros::Time(kStart + 0.1);
-  stage_.handleScan(scanAt(kStart + 0.1));
+  stage_.handleScan(samples::scanWithoutReturns(kStart + 0.1));
   EXPECT_EQ(look(again), nullptr);
   EXPECT_EQ(drops(monitor_, "frozen_image"), 1U);
-  stage_.handleScan(scanAt(kStart + 0.2));
+  stage_.handleScan(samples::scanWithoutReturns(kStart + 0.2));
   EXPECT_NE(look(imageAt(kStart + 0.2)), nullptr);
 }
 
@@ -168,23 +148,23 @@ TEST_F(MonoGridStageTest, AnInfoOfZerosIsDroppedAndTheLastOneIsKept) {
   zeros.P.fill(0.0);
   stage_.handleCameraInfo(zeros);
   EXPECT_EQ(drops(monitor_, "bad_camera_info"), 1U);
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
 }
 
 TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {
   EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
   EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U) << "of the scanner";
 }
 
 TEST_F(MonoGridStageTest, AClockJumpBackStartsOver) {
   mount();
-  stage_.handleScan(scanAt(kStart));
+  stage_.handleScan(samples::scanWithoutReturns(kStart));
   EXPECT_NE(look(imageAt(kStart)), nullptr);
-  stage_.handleScan(scanAt(kStart - 50.0));
-  stage_.handleScan(scanAt(kStart - 49.9));
+  stage_.handleScan(samples::scanWithoutReturns(kStart - 50.0));
+  stage_.handleScan(samples::scanWithoutReturns(kStart - 49.9));
   EXPECT_NE(look(imageAt(kStart - 49.9)), nullptr);
   EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
 }
