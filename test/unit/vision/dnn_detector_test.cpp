@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 namespace datmo::dnn_detector_test {
 namespace {
@@ -24,6 +26,23 @@ namespace fs = std::filesystem;
 const fs::path kModels = fs::path(DATMO_FUSION_SHARED) / "models";
 const fs::path kDarknet = kModels / "yolo-fastest-1.1-xl" / "yolo-fastest-1.1-xl.weights";
 const fs::path kOnnx = kModels / "yolox_nano" / "yolox_nano.onnx";
+
+/// The left gray camera of KITTI's drive 2011_09_26_0005.
+const fs::path kImages = fs::path(DATMO_FUSION_SHARED) / "data/kitti_raw/2011_09_26" /
+                         "2011_09_26_drive_0005_sync/image_00/data";
+
+using Box = Eigen::AlignedBox2d;
+
+/// Area of the intersection by that of the union.
+double overlapOf(const Box& one, const Box& other) {
+  const Box both = one.intersection(other);
+  const double shared = both.isEmpty() ? 0.0 : both.volume();
+  return shared / (one.volume() + other.volume() - shared);
+}
+
+bool isPerson(ObjectClass object_class) {
+  return object_class == ObjectClass::kPedestrian || object_class == ObjectClass::kCyclist;
+}
 
 class DnnDetectorOf : public testing::TestWithParam<fs::path> {
  protected:
@@ -44,6 +63,31 @@ TEST_P(DnnDetectorOf, SeesNothingInEmptyImages) {
     EXPECT_TRUE(detector.detect(cv::Mat(375, 1242, CV_8UC3, cv::Scalar::all(gray)), {}).empty())
         << gray;
   }
+}
+
+// A van, a cyclist and a pedestrian, outlined by hand.
+TEST_P(DnnDetectorOf, FindsTheRoadUsersOfARealImage) {
+  const fs::path file = kImages / "0000000000.png";
+  if (!fs::exists(file)) {
+    GTEST_SKIP() << "needs " << file << ", which is not there";
+  }
+  const Box van(Eigen::Vector2d(300.0, 168.0), Eigen::Vector2d(447.0, 287.0));
+  const Box cyclist(Eigen::Vector2d(765.0, 170.0), Eigen::Vector2d(875.0, 375.0));
+  const Box pedestrian(Eigen::Vector2d(1105.0, 178.0), Eigen::Vector2d(1195.0, 318.0));
+  DnnDetector detector(options_);
+  int vehicles = 0;
+  int cyclists = 0;
+  int pedestrians = 0;
+  for (const auto& found : detector.detect(cv::imread(file.string(), cv::IMREAD_GRAYSCALE), {})) {
+    constexpr double kMinOverlap = 0.5;
+    vehicles +=
+        found.object_class == ObjectClass::kVehicle && overlapOf(found.box, van) > kMinOverlap;
+    cyclists += isPerson(found.object_class) && overlapOf(found.box, cyclist) > kMinOverlap;
+    pedestrians += isPerson(found.object_class) && overlapOf(found.box, pedestrian) > kMinOverlap;
+  }
+  EXPECT_EQ(vehicles, 1);
+  EXPECT_EQ(cyclists, 1);
+  EXPECT_EQ(pedestrians, 1);
 }
 
 TEST_P(DnnDetectorOf, LabelsOfAnotherNumberAreRefused) {
