@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What other stations and traffic lights send: CAM, CPM, SPATEM, MAPEM.
+#include "fuzz_check.h"
+
+#include "datmo_fusion/fusion/wire/cam.h"
+#include "datmo_fusion/fusion/wire/mapem.h"
+#include "datmo_fusion/fusion/wire/spatem.h"
+#include "datmo_fusion/fusion/wire/station_messages.h"
+#include "datmo_fusion/fusion/wire/wire_error.h"
+
+namespace datmo::fuzz {
+namespace {
+
+const Stamp kNow = Stamp::fromSeconds(1772366400.0);  // 2026-03-01 12:00:00 UTC
+
+void checkStation(std::string_view bytes, ItsDictionary dictionary) {
+  StationMessageOptions options;
+  options.dictionary = dictionary;
+  const StationMessage message = decodeStation(bytes, kNow, options);
+  require(isValid(message.plane.datum()), "a station that is not on the earth");
+  for (const StationTrack& track : message.list.tracks) {
+    require(track.position.allFinite() && track.velocity.allFinite(), "state of a track");
+    require(track.covariance.allFinite(), "covariance of a track");
+    require((track.covariance.diagonal().array() > 0.0).all(), "variance of a track");
+    require(std::isfinite(track.heading) && track.heading_variance > 0.0, "heading of a track");
+    requireFinite(track.length + track.width + track.height, "size of a track");
+    requireFinite(track.existence_probability, "existence of a track");
+  }
+}
+
+/// A message that was decoded and encoded again is decoded without an error to the same bytes.
+template <typename Decode>
+void checkRoundTrip(std::string_view bytes, const Decode& decode) {
+  const std::string encoded = encode(decode(bytes));
+  require(encode(decode(encoded)) == encoded, "an encoded message");
+}
+
+void decodeSelected(const SelectedInput& input) {
+  switch (input.selected) {
+    case 0:
+      checkStation(input.bytes, ItsDictionary::k221);
+      break;
+    case 1:
+      checkStation(input.bytes, ItsDictionary::k211);
+      break;
+    case 2:
+      checkRoundTrip(input.bytes, decodeCam);
+      break;
+    case 3:
+      checkRoundTrip(input.bytes, decodeSpatem);
+      break;
+    default:
+      checkRoundTrip(input.bytes, decodeMapem);
+      break;
+  }
+}
+
+constexpr unsigned kDecoders = 5;
+
+}  // namespace
+}  // namespace datmo::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 0) {
+    try {
+      datmo::fuzz::decodeSelected(datmo::fuzz::select(data, size, datmo::fuzz::kDecoders));
+    } catch (const datmo::WireError&) {  // refused, as intended
+    }
+  }
+  return 0;
+}
