@@ -118,6 +118,11 @@ CanSignal canSignal(const std::string& name, const CanId& id, const std::string&
                       "': expected a factor that is not 0, and limits that "
                       "rise");
   }
+  const double largest = std::ldexp(std::abs(signal.factor), static_cast<int>(signal.length));
+  if (!std::isfinite(largest + std::abs(signal.offset))) {
+    throw OptionError(name + " is '" + text +
+                      "': expected a factor and an offset of finite values");
+  }
   return signal;
 }
 

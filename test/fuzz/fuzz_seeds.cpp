@@ -15,11 +15,11 @@
 namespace datmo {
 namespace {
 
-void write(const std::string& file, unsigned selected, const std::string& bytes) {
-  std::ofstream stream(file, std::ios::binary);
+void write(const std::string& name, unsigned selected, const std::string& bytes) {
+  std::ofstream stream(name + ".bin", std::ios::binary);
   stream << static_cast<char>(selected) << bytes;
   if (!stream.flush()) {
-    throw std::runtime_error(file + " cannot be written");
+    throw std::runtime_error(name + ".bin cannot be written");
   }
 }
 

@@ -87,9 +87,10 @@ TEST(CanSignalTest, ItsTextHasTheFormatOfADbcFile) {
 }
 
 TEST(CanSignalTest, ErrorsInItAreNamed) {
-  for (const char* text : {"", "8|16", "8|16@2+ (1,0)", "8|16@1 (1,0)", "8|0@1+ (1,0)",
-                           "8|65@1+ (1,0)", "505|16@1+ (1,0)", "8|16@1+ (0,0)",
-                           "8|16@1+ (1,0) [5|1]", "8|16@1+ (1.2.3.,0)", "8|16@1+ (1e999,0)"}) {
+  for (const char* text :
+       {"", "8|16", "8|16@2+ (1,0)", "8|16@1 (1,0)", "8|0@1+ (1,0)", "8|65@1+ (1,0)",
+        "505|16@1+ (1,0)", "8|16@1+ (0,0)", "8|16@1+ (1,0) [5|1]", "8|16@1+ (1.2.3.,0)",
+        "8|16@1+ (1e999,0)", "8|16@1+ (1e308,0)"}) {
     const std::string error = errorOf([text] { signalOf(text); });
     EXPECT_NE(error.find("speed"), std::string::npos) << text << ": " << error;
     EXPECT_NE(error.find("expected"), std::string::npos) << text << ": " << error;
