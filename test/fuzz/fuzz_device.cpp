@@ -100,7 +100,7 @@ void checkCan(std::string_view bytes) {
   if (logged) {
     requireFinite(logged->time, "time of a frame");
     require(logged->frame.size <= CanFrame::kLongest, "size of a frame");
-    signal.value(logged->frame);
+    requireFinite(signal.value(logged->frame).value_or(0.0), "value of a signal");
   }
 }
 
