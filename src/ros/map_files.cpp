@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "datmo_fusion/ros/map_server_files.h"
 #include "datmo_fusion/ros/whole_file.h"
@@ -62,9 +64,13 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   }
   try {
     checkWritable(file);
-    const MapServerFiles files =
+    MapServerFiles files =
         toMapServerFiles(map, evidence, std::filesystem::path(image).filename().string());
-    writeWholeFiles({{image, files.image}, {yaml, files.yaml}, {file, mapText(evidence)}});
+    std::vector<NamedText> texts;  // filled later: an initializer list would copy the texts
+    texts.push_back({image, std::move(files.image)});
+    texts.push_back({yaml, std::move(files.yaml)});
+    texts.push_back({file, mapText(evidence)});
+    writeWholeFiles(texts);
     return {evidence.cells.size(), files.cells_of_pixel, map.forgottenTiles(), map.tileFileError()};
   } catch (const std::runtime_error& error) {
     throw MapFileError(error.what());

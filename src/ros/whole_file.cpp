@@ -7,6 +7,7 @@
 #include <functional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -93,8 +94,10 @@ void writeWholeFiles(const std::vector<NamedText>& files) {
   }
 }
 
-void writeWholeFile(const std::string& file, const std::string& text) {
-  writeWholeFiles({{file, text}});
+void writeWholeFile(const std::string& file, std::string text) {
+  std::vector<NamedText> files;  // filled later: an initializer list would copy the text
+  files.push_back({file, std::move(text)});
+  writeWholeFiles(files);
 }
 
 }  // namespace datmo

@@ -17,13 +17,14 @@ struct NamedText {
   std::string text;
 };
 
-/// Writes text files all together or not at all: each is written as `<file>.part` first, and they
-/// appear under their names only when all are complete. Existing files are kept until then, and
-/// links are replaced, not followed. Throws std::runtime_error with the name of a file that cannot
-/// be written: a directory, missing permission, a full disk.
+/// Writes text files, each name once, all together or not at all: each is written as `<file>.part`
+/// first, and they appear under their names, in this order, only when all are complete. Existing
+/// files are kept until then, and links are replaced, not followed. Throws std::runtime_error with
+/// the name of a file that cannot be written: a directory, missing permission, a full disk. If
+/// renaming a complete file fails, those before it have their names already.
 void writeWholeFiles(const std::vector<NamedText>& files);
 
 /// The same for one file.
-void writeWholeFile(const std::string& file, const std::string& text);
+void writeWholeFile(const std::string& file, std::string text);
 
 }  // namespace datmo
