@@ -261,6 +261,10 @@ class BadUsage(ScoreRunCase):
         self.refuse(self.run_bag, self.truth_bag, "--out", self.folder / "." / "run.bag",
                     expected=["must not be an input"])
 
+    def test_each_output_has_a_file_of_its_own(self):
+        self.refuse(self.run_bag, self.truth_bag, "--out", self.report, "--matches", self.report,
+                    expected=["expected another file for each output"])
+
     def test_reports_that_cannot_be_written(self):
         self.refuse(self.run_bag, self.truth_bag, "--out", self.folder, expected=["is a folder"])
         self.refuse(self.run_bag, self.truth_bag, "--out", self.folder / "none" / "report.json",

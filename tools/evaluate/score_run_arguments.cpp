@@ -72,6 +72,9 @@ ScoreRunArguments parseScoreRunArguments(std::vector<std::string> words) {
       }
     }
   }
+  if (!given.output.empty() && isSameFile(given.output, given.matches)) {
+    throw UsageError("'" + given.output + "': expected another file for each output");
+  }
   return {given.run, truth, given.output, given.matches, given.scans, readScoreOptions(given)};
 }
 
