@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "restart_argument.h"
@@ -98,7 +99,7 @@ class ManagedNodelet {
   std::vector<std::string> known_;
   std::vector<std::string> arguments_;
   bool was_loaded_ = false;
-  bool is_cut_off_ = false;  ///< the manager has not responded since it last had the nodelet
+  bool is_cut_off_ = false;  ///< a request has failed since the manager last had the nodelet
   int restarts_ = 0;         ///< of the manager
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every nodelet of the package is unloaded from one process and loaded again, while messages
 // arrive: the process survives, and in the end there are tracks again.
+#include <chrono>
 #include <future>
 #include <string>
 #include <vector>
