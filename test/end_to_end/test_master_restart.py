@@ -67,8 +67,9 @@ class MasterRestart(unittest.TestCase):
             state = self.state()
         except rosgraph.MasterError:  # a node went away between two questions
             return False
-        return ({("/tracks", MANAGER), ("/scan", MANAGER)} <= set(state.publishers) and ("/diagnostics", MANAGER) in state.subscribers and
-                {("/scan", MANAGER), ("/stereo/points2", MANAGER), ("/odometry", MANAGER)} <= set(state.subscribers))
+        inputs = ("/scan", "/stereo/points2", "/odometry", "/diagnostics")
+        return ({("/tracks", MANAGER), ("/scan", MANAGER)} <= set(state.publishers) and
+                {(topic, MANAGER) for topic in inputs} <= set(state.subscribers))
 
     def manager(self):
         """Returns the process of the nodelets; None if it does not answer."""
