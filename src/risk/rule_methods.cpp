@@ -114,11 +114,6 @@ void RuleOptions::visit(OptionVisitor& visitor) {
                   "growth of a vehicle's circle with each meter that it travels (thesis 5.3.5; our "
                   "assumption)"},
                  growth, {0.0, 1.0});
-  visitor.number({"curve", "1",
-                  "exponent by which the risk falls from 1 at the reaction time to 0 at the "
-                  "horizon; 1: a straight line (thesis 5.3.5, figure 5.11 without numbers; our "
-                  "assumption)"},
-                 curve, {0.1, 10.0});
   visitor.number({"host_braking", "m/s^2",
                   "rss: deceleration that the host is certain to reach after the response time"},
                  host_braking, {0.1, 15.0});

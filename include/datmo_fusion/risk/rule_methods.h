@@ -20,7 +20,9 @@ struct RuleOptions {
   /// m, 0.1 to 10: radius of a pedestrian's circle (thesis 5.3.5: predefined; our assumption)
   double pedestrian_radius = 0.5;
   double growth = 0.1;  ///< 1
-  double curve = 1.0;   ///< 1
+  /// 0.1 to 10: exponent by which the risk falls between reaction time and horizon; 1: a straight
+  /// line (thesis 5.3.5; our assumption)
+  double curve = 1.0;
   /// s, 0 to 5: rss: response time (Shalev-Shwartz et al. 2017), a usual value
   double response_time = 0.75;
   /// m/s^2, 0 to 10: rss: acceleration of all road users within the response time
