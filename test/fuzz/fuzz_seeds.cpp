@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes seeds from the samples of the unit tests: fuzz_seeds FOLDER (test/fuzz/corpus). The first
+// Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The first
 // byte of each selects the decoder, as in fuzz_device.cpp and fuzz_wire.cpp.
 #include <fstream>
 #include <iostream>
@@ -76,7 +76,7 @@ void writeWire(const std::string& folder) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: fuzz_seeds FOLDER\n";
+    std::cerr << "usage: fuzz_test_seeds FOLDER\n";
     return 2;
   }
   try {
