@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The first
-// byte of each selects the decoder, as in fuzz_device.cpp and fuzz_wire.cpp.
+// Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The
+// first byte of each selects the decoder, as in fuzz_device.cpp and fuzz_wire.cpp.
 #include <fstream>
 #include <iostream>
 
