@@ -19,6 +19,7 @@ import yaml
 from launch_files import PACKAGE, load
 
 from datmo_tools import open_rviz
+from datmo_tools.errors import InputError
 
 FILE = str(PACKAGE / "config/perception.rviz")
 
@@ -116,11 +117,11 @@ class RvizView(unittest.TestCase):
 class ViewOfAVehicle(unittest.TestCase):
     """One of several vehicles on one master."""
 
-    def vehicle_view(self, prefix, namespace):
+    def vehicle_view(self, prefix, namespace, **shown):
         """Returns the configuration that open_rviz shows."""
         environment = {"ROS_HOME": self.home, "ROS_NAMESPACE": namespace}
         with mock.patch.dict(os.environ, environment):
-            return open_rviz.vehicle_view(FILE, prefix)
+            return open_rviz.vehicle_view(FILE, prefix, shown)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -176,6 +177,26 @@ class ViewOfAVehicle(unittest.TestCase):
         nodes = load("live.launch", ["rviz:=true"]).nodes
         words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
         self.assertEqual(words, ["--frame-prefix", "", "-d", FILE])
+
+    def test_the_camera_is_shown_if_there_is_a_camera_view(self):
+        nodes = load("perception.launch", ["rviz:=true", "mono:=true"]).nodes
+        words = shlex.split(next(node.args for node in nodes if node.name == "rviz"))
+        self.assertEqual(words, ["--frame-prefix", "", "--show", "Camera", "-d", FILE])
+
+    def test_a_panel_is_shown_by_its_display_and_in_the_state_of_the_window(self):
+        for shown in (True, False):
+            view = read(self.vehicle_view("", "", Camera=shown))
+            camera = next(each for each in view["Visualization Manager"]["Displays"] if each["Name"] == "Camera")
+            self.assertEqual(camera["Enabled"], shown)
+            state = bytes.fromhex(str(view["Window Geometry"]["QMainWindow State"]))
+            self.assertIn("Camera".encode("utf-16-be") + bytes([shown]), state)
+            self.assertEqual(len(state), len(bytes.fromhex(str(VIEW["Window Geometry"]["QMainWindow State"]))))
+        self.assertEqual(view, VIEW, "hidden, as it is shipped")
+
+    def test_a_panel_that_is_none_is_refused(self):
+        for name in ("Camra", "Risk"):
+            with self.assertRaisesRegex(InputError, f"'{name}': no panel"):
+                self.vehicle_view("", "", **{name: True})
 
 
 if __name__ == "__main__":

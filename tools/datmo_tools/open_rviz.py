@@ -2,10 +2,11 @@
 """Starts rviz with the given arguments; without a display it says so and exits with 0, so that the
 rest runs.
 
-usage: open_rviz [--frame-prefix PREFIX] [-d FILE] [ARGUMENT OF RVIZ]...
+usage: open_rviz [--frame-prefix PREFIX] [--show PANEL] [--hide PANEL] [-d FILE] [ARGUMENT OF RVIZ]...
 
 With a prefix, or in a namespace, rviz shows a copy of FILE with prefixed frames and namespaced
-topics: one of several vehicles on one master.
+topics: one of several vehicles on one master. --show and --hide do so with panels of images, in
+such a copy, by their names, and can be repeated.
 """
 
 import argparse
@@ -29,12 +30,15 @@ def display_opens():
     return bool(os.environ.get("DISPLAY")) and x11.XOpenDisplay(None) is not None
 
 
-def vehicle_view(file, prefix):
-    """Returns the file to show: `file` for a single vehicle, else a copy. Raises InputError."""
-    namespace = os.environ.get("ROS_NAMESPACE", "")
-    if not prefix and not namespace.strip("/"):
+def vehicle_view(file, prefix, shown):
+    """Returns the file to show: `file` for a single vehicle with its usual panels, else a copy.
+
+    `shown`: whether a panel is shown, by its name, if other than in the file. Raises InputError.
+    """
+    namespace = os.environ.get("ROS_NAMESPACE", "").strip("/")
+    if not prefix and not namespace and not shown:
         return file
-    return write_view(file, prefix, "/" + namespace.strip("/"), os.path.join(rospkg.get_ros_home(), "datmo_fusion"))
+    return write_view(file, prefix, "/" + namespace, os.path.join(rospkg.get_ros_home(), "datmo_fusion"), shown)
 
 
 def main():
@@ -50,9 +54,12 @@ def main():
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--frame-prefix", default="")
     parser.add_argument("-d")
+    for option in ("--show", "--hide"):
+        parser.add_argument(option, action="append", default=[])
     given, others = parser.parse_known_args()
+    shown = {**dict.fromkeys(given.show, True), **dict.fromkeys(given.hide, False)}
     try:
-        view = ["-d", vehicle_view(os.path.abspath(given.d), given.frame_prefix)] if given.d else []
+        view = ["-d", vehicle_view(os.path.abspath(given.d), given.frame_prefix, shown)] if given.d else []
     except InputError as error:
         print(f"open_rviz: {error}", file=sys.stderr)
         return 1
