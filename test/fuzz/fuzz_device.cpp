@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What devices send: NMEA, CoLa (both dialects), SCIP, Velodyne's packets, CAN logs and signals.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "fuzz_check.h"
 
 #include "datmo_fusion/common/options.h"

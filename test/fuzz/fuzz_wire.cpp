@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What other stations and traffic lights send: CAM, CPM, SPATEM, MAPEM.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
 #include "fuzz_check.h"
 
 #include "datmo_fusion/fusion/wire/cam.h"
