@@ -85,6 +85,26 @@ TEST_F(FusedRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
+TEST_F(FusedRun, MatchingAheadGivesTheSameBytes) {
+  appendImages();
+  arguments_.jobs = 1;
+  run();
+  const std::string one = bytes(arguments_.output);
+  arguments_.jobs = 4;
+  run();
+  EXPECT_EQ(one, bytes(arguments_.output));
+}
+
+TEST(JobsArgument, IsANumberOfThreads) {
+  const auto parsed = [](const std::string& jobs) {
+    return parseArguments({"in.bag", "out.bag", "--config", "c.yaml", "--jobs", jobs}).jobs;
+  };
+  EXPECT_EQ(parsed("3"), 3);
+  for (const char* jobs : {"0", "-1", "5000", "x"}) {
+    EXPECT_THROW(parsed(jobs), UsageError) << jobs;
+  }
+}
+
 TEST_F(FusedRun, GridsAreWrittenOnlyOnRequest) {
   appendClouds();
   arguments_.write_grids = false;

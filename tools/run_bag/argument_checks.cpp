@@ -84,6 +84,14 @@ void checkStereo(const Arguments& arguments) {
   }
 }
 
+void checkJobs(const Arguments& arguments) {
+  constexpr int kMaxJobs = 1024;  // more than the processors of one machine
+  if (arguments.jobs < 1 || arguments.jobs > kMaxJobs) {
+    throw UsageError("--jobs " + std::to_string(arguments.jobs) + ": expected 1 to " +
+                     std::to_string(kMaxJobs));
+  }
+}
+
 }  // namespace
 
 void checkArguments(const Arguments& arguments) {
@@ -91,6 +99,7 @@ void checkArguments(const Arguments& arguments) {
   checkStages(arguments);
   checkMaps(arguments);
   checkStereo(arguments);
+  checkJobs(arguments);
 }
 
 }  // namespace datmo

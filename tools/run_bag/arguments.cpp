@@ -2,6 +2,7 @@
 #include "arguments.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "argument_checks.h"
 
@@ -148,6 +149,8 @@ void addStages(CommandLine& line, Arguments& arguments) {
 
 }  // namespace
 
+int processorCount() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
 std::string optionOf(bool StackSwitches::*value) {
   for (const NamedSwitch& each : stackSwitches()) {
     if (each.value == value) {
@@ -187,6 +190,11 @@ Arguments parseArguments(std::vector<std::string> words) {
   line.add_flag("--stereo-from-images", arguments.stereo_from_images,
                 "computes the stereo camera's points from its images, as stereo_image_proc does;\n"
                 "default: only if the bag has no points");
+  line.add_option(
+          "--jobs", arguments.jobs,
+          "threads; from 2 on, as many match stereo images ahead of the stages, with the same\n"
+          "results; default: the number of processors")
+      ->option_text("N");
   line.add_flag("--with-truth", arguments.with_truth, "copies /ground_truth/*, too");
   line.add_flag("--quiet", arguments.quiet, "no progress bar and no table");
   line.read(std::move(words));

@@ -13,6 +13,9 @@
 
 namespace datmo {
 
+/// The processors that this process may use; at least 1.
+int processorCount();
+
 /// The command line of `run_bag`, including the switches of the stack.
 struct Arguments : StackSwitches {
   std::string input;                 ///< bag
@@ -31,6 +34,7 @@ struct Arguments : StackSwitches {
   std::string save_map;       ///< file for the map at the end; empty: none
   std::string report;         ///< JSON file for the report of the run; empty: none
   std::string times;          ///< JSON file for the stages' times; empty: none
+  int jobs = processorCount();  ///< threads; from 2 on, stereo images are matched ahead
   TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -16,8 +17,10 @@
 #include "input_bag.h"
 #include "input_topics.h"
 #include "interruption.h"
+#include "matching_ahead.h"
 #include "output_bag.h"
 #include "progress_bar.h"
+#include "stereo_images.h"
 
 #include <rosbag/view.h>
 
@@ -137,6 +140,20 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   return switches;
 }
 
+/// Null if there are no images to match, or only one thread.
+std::unique_ptr<MatchingAhead> matchingAhead(const Arguments& arguments, const StereoTopics& topics,
+                                             GraphRunner& graph) {
+  const std::string stage = "stereo_image_proc";
+  if (arguments.jobs < 2 || !graph.has(stage)) {
+    return nullptr;
+  }
+  auto& images = graph.stage<StereoImages>(stage);
+  auto ahead = std::make_unique<MatchingAhead>(arguments.input, topics, images.options(),
+                                               static_cast<std::size_t>(arguments.jobs));
+  images.matchWith([&match = *ahead](const StereoPair& pair) { return match.cloudOf(pair); });
+  return ahead;
+}
+
 /// The optimized map, if there is one.
 void saveMap(const GraphRunner& graph, const std::string& file) {
   if (graph.has("loop_closing")) {
@@ -165,6 +182,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   OutputBag output(arguments.output);
   GraphRunner graph(sensors, switchesOf(arguments, sensors, topics),
                     stageType(arguments.last_stage));
+  const std::unique_ptr<MatchingAhead> ahead = matchingAhead(arguments, topics.stereo, graph);
   DriveSummary drive;
   BagToGraph run(topics, graph, drive, output, arguments);
 

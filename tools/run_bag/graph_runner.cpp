@@ -207,7 +207,7 @@ bool GraphRunner::has(const std::string& stage) const {
                      [&stage](const Node& node) { return node.row.name == stage; });
 }
 
-const Stage& GraphRunner::stageNamed(const std::string& name) const {
+Stage& GraphRunner::stageNamed(const std::string& name) const {
   return *std::find_if(nodes_.begin(), nodes_.end(), [&name](const Node& node) {
             return node.row.name == name;
           })->stage;

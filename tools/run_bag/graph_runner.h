@@ -86,6 +86,11 @@ class GraphRunner {
     return dynamic_cast<const HostedStage&>(stageNamed(name));
   }
 
+  template <typename HostedStage>
+  HostedStage& stage(const std::string& name) {
+    return dynamic_cast<HostedStage&>(stageNamed(name));
+  }
+
   const StageTimes& times() const { return times_; }
 
   /// The same, and clears them, as they grow with the drive.
@@ -121,7 +126,7 @@ class GraphRunner {
   /// Which of the waiting messages comes first: by stage, input and age.
   using Turn = std::tuple<std::size_t, std::size_t, std::uint64_t>;
 
-  const Stage& stageNamed(const std::string& name) const;
+  Stage& stageNamed(const std::string& name) const;
   void addStage(const GraphStage& row, const SensorSet& sensors);
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 
 #include "stereo_images_options.h"
+#include "stereo_matcher.h"
 
 #include <sensor_msgs/PointCloud2.h>
 
@@ -13,28 +14,27 @@
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/stereo_pairs.h"
 
-namespace stereo_image_proc {
-class StereoProcessor;
-}
-
 namespace datmo {
 
-/// Converts pairs of images to clouds, as the nodelets image_proc/rectify,
-/// stereo_image_proc/disparity and stereo_image_proc/point_cloud2 publish them on points2: with
-/// their own library and their parameters, without a master. Points: x, y, z (m, optical frame of
-/// the left camera) and rgb, one for each pixel; NaN where no disparity was found. Its stamp is the
-/// left image's.
+/// Pairs the images of two cameras and publishes the cloud of each pair (StereoMatcher) on points2,
+/// as stereo_image_proc does live, without a master.
 ///
 /// Bad input is dropped through the monitor, never thrown.
 class StereoImages : public Stage {
  public:
   using Options = StereoImagesOptions;
+  using Match = std::function<sensor_msgs::PointCloud2Ptr(const StereoPair& pair)>;
 
   /// `monitor` must outlive the stage. Throws OptionError.
   StereoImages(const StereoImagesOptions& options, StageMonitor& monitor);
-  ~StereoImages() override;
   StereoImages(const StereoImages&) = delete;
   StereoImages& operator=(const StereoImages&) = delete;
+
+  const StereoImagesOptions& options() const { return options_; }
+
+  /// Calls `match` for the cloud of a pair from now on, which must return (or throw) what
+  /// StereoMatcher does with these options.
+  void matchWith(Match match) { match_ = std::move(match); }
 
   /// The cloud of the pair that the message completes; null if there is none. An image is mono8,
   /// rgb8 or bgr8.
@@ -45,16 +45,16 @@ class StereoImages : public Stage {
   void connect(StagePorts& ports) override;
 
  private:
-  /// These two throw InputError.
+  /// Throws InputError.
   sensor_msgs::PointCloud2Ptr serve(const std::optional<StereoPair>& pair);
-  sensor_msgs::PointCloud2Ptr cloudOf(const StereoPair& pair) const;
 
-  bool rectified_;
+  StereoImagesOptions options_;
   StageMonitor& monitor_;
   StereoPairs pairs_;
   std::uint64_t unpaired_ = 0;  ///< frames that were reported
   StageRunner runner_;
-  std::unique_ptr<stereo_image_proc::StereoProcessor> processor_;
+  StereoMatcher matcher_;
+  Match match_;
 };
 
 }  // namespace datmo

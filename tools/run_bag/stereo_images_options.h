@@ -27,6 +27,9 @@ struct StereoImagesOptions {
   double large_change_price = 400.0;  ///< P2
   int left_right_difference = 0;      ///< disp12MaxDiff, px
 
+  /// s; maximum difference of the stamps of left and right image.
+  double pairTolerance() const { return approximate_sync ? pair_tolerance : 0.0; }
+
   void visit(OptionVisitor& visitor);
 };
 

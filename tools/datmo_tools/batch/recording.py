@@ -86,7 +86,7 @@ def _run_and_score(settings, folder):
     bag, report, score = folder / "result.bag", folder / "report.json", folder / "score.json"
     try:
         _call(tools / "run_bag", settings["bag"], bag, "--config", settings["config"], "--report",
-              report, "--with-truth", "--quiet", *settings["options"])  # fmt: skip
+              report, "--with-truth", "--quiet", "--jobs", 1, *settings["options"])  # fmt: skip
     except StepFailed as error:
         return {**result, "error": str(error)}
     result["run"] = json.loads(report.read_text())

@@ -146,7 +146,8 @@ def _figures(drive, level, recorded, folder, view, values):
     built, times = values.programs, folder / "times.json"
     report = simulated_run.run_recorded(
         recorded, built, drive.config, folder, drive.score_options,
-        (*{**LEVELS, **COMBINATIONS}[level], "--times", times))  # fmt: skip
+        # One thread: times of all stages, matching included.
+        (*{**LEVELS, **COMBINATIONS}[level], "--times", times, "--jobs", 1))  # fmt: skip
     wide_report = drive.wide_score_options and simulated_run.score(
         folder / "result.bag", built, drive.wide_score_options, folder / "score_any_sensor.json")
     view_report = simulated_run.score(

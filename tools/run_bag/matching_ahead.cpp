@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching_ahead.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+
+namespace datmo {
+
+namespace {
+
+bool isSame(const CameraFrame& one, const CameraFrame& other) {
+  return one.stamp == other.stamp && *one.info == *other.info && *one.image == *other.image;
+}
+
+bool isSame(const StereoPair& one, const StereoPair& other) {
+  return isSame(one.left, other.left) && isSame(one.right, other.right);
+}
+
+}  // namespace
+
+MatchingAhead::MatchingAhead(const std::string& bag, const StereoTopics& topics,
+                             const StereoImagesOptions& options, std::size_t threads)
+    : options_(options),
+      max_ahead_(threads + 1),  // one more, so that no thread waits for the reader
+      reader_(bag, topics, options.pairTolerance()),
+      matcher_(options),
+      matching_(threads),
+      reading_([this] { read(); }) {}
+
+MatchingAhead::~MatchingAhead() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  reading_.join();
+  matching_.stop();
+  matching_.join();
+}
+
+void MatchingAhead::read() {
+  try {
+    readPairs();
+  } catch (const std::exception&) {
+    // From rosbag. The bag is read once more for the stages, where the same fault is reported.
+  }
+  const std::lock_guard lock(mutex_);
+  all_read_ = true;
+  changed_.notify_all();
+}
+
+void MatchingAhead::readPairs() {
+  while (const std::optional<StereoPair> pair = reader_.next()) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || ahead_.size() < max_ahead_; });
+    if (stopping_) {
+      return;
+    }
+    ahead_.push_back({*pair, matched(*pair)});
+    changed_.notify_all();
+  }
+}
+
+MatchingAhead::Cloud MatchingAhead::matched(const StereoPair& pair) {
+  using Task = std::packaged_task<sensor_msgs::PointCloud2Ptr()>;
+  // A matcher for each pair, as one cannot be shared by threads: making it costs little.
+  const auto task = std::make_shared<Task>(
+      [options = options_, pair] { return StereoMatcher(options).cloudOf(pair); });
+  boost::asio::post(matching_, [task] { (*task)(); });
+  return task->get_future();
+}
+
+sensor_msgs::PointCloud2Ptr MatchingAhead::cloudOf(const StereoPair& pair) {
+  Cloud cloud = find(pair);
+  if (!cloud.valid()) {
+    return matcher_.cloudOf(pair);
+  }
+  ++used_;
+  return cloud.get();
+}
+
+MatchingAhead::Cloud MatchingAhead::find(const StereoPair& pair) {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const auto found = std::find_if(ahead_.begin(), ahead_.end(),
+                                    [&](const Ahead& one) { return isSame(one.pair, pair); });
+    if (found != ahead_.end()) {
+      Cloud cloud = std::move(found->cloud);
+      ahead_.erase(ahead_.begin(), std::next(found));
+      changed_.notify_all();
+      return cloud;
+    }
+    // The stage has dropped the pairs before this one.
+    const auto before = [&](const Ahead& one) { return one.pair.left.stamp < pair.left.stamp; };
+    ahead_.erase(std::remove_if(ahead_.begin(), ahead_.end(), before), ahead_.end());
+    if (all_read_ || !ahead_.empty()) {
+      if (ahead_.size() == max_ahead_) {  // stamps were set back: this one is asked for no more
+        ahead_.pop_front();
+      }
+      changed_.notify_all();
+      return {};
+    }
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return all_read_ || !ahead_.empty(); });
+  }
+}
+
+}  // namespace datmo

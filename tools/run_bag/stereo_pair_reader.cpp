@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo_pair_reader.h"
+
+#include <vector>
+
+#include "input_bag.h"
+
+#include "datmo_fusion/ros/frame_ids.h"
+
+namespace datmo {
+
+StereoPairReader::StereoPairReader(const std::string& bag, const StereoTopics& topics,
+                                   double tolerance)
+    : pairs_(tolerance) {
+  const auto add = [this](StereoSide side, const std::string& image, const std::string& info) {
+    handles_[image] = [this, side](const rosbag::MessageInstance& message) {
+      return pairs_.handleImage(side, plain<sensor_msgs::Image>(message));
+    };
+    handles_[info] = [this, side](const rosbag::MessageInstance& message) {
+      return pairs_.handleInfo(side, plain<sensor_msgs::CameraInfo>(message));
+    };
+  };
+  add(StereoSide::kLeft, topics.left_image, topics.left_info);
+  add(StereoSide::kRight, topics.right_image, topics.right_info);
+  bag_.open(bag, rosbag::bagmode::Read);
+  view_.addQuery(
+      bag_, rosbag::TopicQuery(std::vector<std::string>{topics.left_image, topics.left_info,
+                                                        topics.right_image, topics.right_info}));
+  message_ = view_.begin();
+}
+
+std::optional<StereoPair> StereoPairReader::next() {
+  std::optional<StereoPair> pair;
+  while (!pair && message_ != view_.end()) {
+    const rosbag::MessageInstance message = *message_++;
+    try {
+      pair = handles_.at(message.getTopic())(message);
+    } catch (const InputError&) {  // reported where the stages read it
+    }
+  }
+  return pair;
+}
+
+template <typename Message>
+boost::shared_ptr<const Message> StereoPairReader::plain(const rosbag::MessageInstance& message) {
+  return withPlainFrames<Message>(message.getTopic(), read<Message>(message), unread_);
+}
+
+}  // namespace datmo
