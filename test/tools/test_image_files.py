@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images and calibrations from files, and the messages that play_images makes of them."""
+"""Images and calibrations from files, and the messages that are made of them."""
 
 import tempfile
 import unittest
@@ -11,9 +11,10 @@ import numpy as np
 import rospy
 import yaml
 
+from datmo_tools.camera_topics import image_message, info_message
 from datmo_tools.errors import InputError
 from datmo_tools.image_files import Images, check_size, read_calibration
-from datmo_tools.play_images import arguments_of, image_message, info_message
+from datmo_tools.play_images import arguments_of
 
 MATRIX = [400.0, 0.0, 4.0, 0.0, 400.0, 3.0, 0.0, 0.0, 1.0]
 CALIBRATION = {

@@ -114,6 +114,16 @@ class LiveLaunch(unittest.TestCase):
         self.assertEqual(shlex.split(nodes["play_images"].args),
                          ["--rate", "12.0", "--raw", "/l", "/l.yaml", "/r", "/r.yaml"])
 
+    def test_a_usb_camera_is_opened(self):
+        nodes, _ = loaded("camera:=usb", "left_info:=/a b/l.yaml", "camera_options:=--rate 15")
+        self.assertEqual(shlex.split(nodes["usb_camera"].args), ["--rate", "15", "/dev/video0", "/a b/l.yaml"])
+        nodes, _ = loaded("camera:=usb_stereo", "camera_device:=/dev/video2", "left_info:=/l.yaml", "right_info:=/r.yaml",
+                          MACHINES, "stereo_machine:=stereo")  # fmt: skip
+        self.assertEqual(shlex.split(nodes["usb_camera"].args), ["/dev/video2", "/l.yaml", "/r.yaml"])
+        self.assertEqual(nodes["usb_camera"].machine_name, "stereo")
+        nodes, _ = loaded("camera:=external")
+        self.assertNotIn("usb_camera", nodes)
+
     def test_images_are_played_where_they_are_taken(self):
         files = ("camera:=images", "left_images:=/l", "left_info:=/l.yaml")
         nodes, _ = loaded(*files)

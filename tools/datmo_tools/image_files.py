@@ -11,6 +11,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.yaml_files import load_yaml
 
 IMAGE_FILES = {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff"}
+RECTIFIED_MODELS = ("plumb_bob", "rational_polynomial")
 MATRICES = {"camera_matrix": 9, "rectification_matrix": 9, "projection_matrix": 12}
 
 
@@ -77,6 +78,23 @@ def read_calibration(file):
             "D": _numbers(tree, "distortion_coefficients", None, file),
             "K": matrices["camera_matrix"], "R": matrices["rectification_matrix"],
             "P": matrices["projection_matrix"]}
+
+
+class Rectifier:
+    """Rectifies raw images, as image_proc does."""
+
+    def __init__(self, calibration):
+        """calibration: as read_calibration() returns it. Raises InputError for an unknown distortion model."""
+        if calibration["distortion_model"] not in RECTIFIED_MODELS:
+            raise InputError(f"distortion_model {calibration['distortion_model']}: expected {' or '.join(RECTIFIED_MODELS)}")
+        intrinsics, projection = np.reshape(calibration["K"], (3, 3)), np.reshape(calibration["P"], (3, 4))
+        self._maps = cv2.initUndistortRectifyMap(
+            intrinsics, np.array(calibration["D"]), np.reshape(calibration["R"], (3, 3)), projection[:, :3],
+            (calibration["width"], calibration["height"]), cv2.CV_16SC2)
+
+    def rectified(self, image):
+        """Returns the image; pixels from outside the raw image are black."""
+        return cv2.remap(image, *self._maps, cv2.INTER_LINEAR)
 
 
 def check_size(image, calibration, file):

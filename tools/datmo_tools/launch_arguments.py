@@ -28,11 +28,10 @@ CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
            "v2x_part": ("perception", "sensors", "stereo", "risk")}
 # Devices of live.launch: the supported kinds, and what to do for other common devices.
 DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "rear_lidar": ("none", "external", "hokuyo", "sick_lms"),
-           "camera": ("none", "external", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
+           "camera": ("none", "external", "usb", "usb_stereo", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 CAN = ("can", "can_imu")  # odometry that reads can_signals
 INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
-    "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
 }
 # s, to wait for a node to answer; one that has ended is noticed at once. Long enough for a busy
 # machine: a stack that does not answer in time is taken for absent.

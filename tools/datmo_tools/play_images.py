@@ -11,49 +11,26 @@ import sys
 from pathlib import Path
 
 import rospy
-from sensor_msgs.msg import CameraInfo, Image
 
+from datmo_tools.camera_topics import CameraTopics
 from datmo_tools.command_line import check_positive, new_parser, number, run
 from datmo_tools.errors import InputError
 from datmo_tools.image_files import Images, check_size, read_calibration
 
-QUEUE = 5  # images, a few tenths of a second
-
-
-def image_message(image, stamp, frame):
-    """Returns a sensor_msgs/Image of a numpy array."""
-    message = Image(height=image.shape[0], width=image.shape[1], is_bigendian=0)
-    message.header.stamp, message.header.frame_id = stamp, frame
-    message.encoding = "mono8" if image.ndim == 2 else "bgr8"
-    message.step = image.shape[1] * (1 if image.ndim == 2 else 3)
-    message.data = image.tobytes()
-    return message
-
-
-def info_message(calibration, stamp, frame):
-    """Returns a sensor_msgs/CameraInfo of a calibration (read_calibration)."""
-    message = CameraInfo(**calibration)
-    message.header.stamp, message.header.frame_id = stamp, frame
-    return message
-
 
 class Camera:
-    """One camera's files and its two topics."""
+    """One camera's files and its topics."""
 
     def __init__(self, path, calibration, side, topic):
         self.images = Images(path)
-        self.calibration = read_calibration(calibration)
         first = next((image for image in self.images if image is not None), None)
         if first is None:
             raise InputError(f"{path}: no readable image, expected 8 bit, gray or color")
-        check_size(first, self.calibration, path)
-        self._image = rospy.Publisher(f"stereo/{side}/{topic}", Image, queue_size=QUEUE)
-        self._info = rospy.Publisher(f"stereo/{side}/camera_info", CameraInfo, queue_size=QUEUE)
+        self._topics = CameraTopics(side, topic, read_calibration(calibration))
+        check_size(first, self._topics.calibration, path)
 
     def publish(self, image, stamp, frame):
-        check_size(image, self.calibration, self.images.path)
-        self._image.publish(image_message(image, stamp, frame))
-        self._info.publish(info_message(self.calibration, stamp, frame))
+        self._topics.publish(image, stamp, frame, self.images.path)
 
 
 def arguments_of(words):
