@@ -19,7 +19,8 @@ from datmo_tools.usb_camera import Cameras, Device, Status, arguments_of, halves
 CALIBRATION = {"width": 40, "height": 30, "distortion_model": "plumb_bob", "D": [0.0] * 5,
                "K": [50.0, 0, 20, 0, 50.0, 15, 0, 0, 1], "R": [1.0, 0, 0, 0, 1, 0, 0, 0, 1],
                "P": [50.0, 0, 20, 0, 0, 50.0, 15, 0, 0, 0, 1, 0]}  # fmt: skip
-VALUES = arguments_of(["/dev/video3", "left.yaml"])
+DEVICE = "/dev/null"  # is there
+VALUES = arguments_of([DEVICE, "left.yaml"])
 
 
 class Capture:
@@ -66,7 +67,7 @@ class UsbCamera(unittest.TestCase):
 
     def serve(self, captures, rounds, cameras=None):
         """Returns the cameras (a mock that notes images) and the status after that many rounds."""
-        cameras, status = cameras or mock.MagicMock(), Status("/dev/video3")
+        cameras, status = cameras or mock.MagicMock(), Status(DEVICE)
         left = iter([True] * rounds + [False])
         captures = iter(captures)
         serve(VALUES, cameras, status, lambda: next(left), lambda *_: next(captures))
@@ -87,8 +88,8 @@ class UsbCamera(unittest.TestCase):
 
     def test_a_device_is_set_up_as_asked(self):
         capture = Capture([image()])
-        Device(arguments_of(["--size", "1280", "480", "--rate", "15", "--format", "YUYV", "/dev/video1", "a.yaml"]),
-               lambda name, backend: capture if (name, backend) == ("/dev/video1", cv2.CAP_V4L2) else None)  # fmt: skip
+        Device(arguments_of(["--size", "1280", "480", "--rate", "15", "--format", "YUYV", DEVICE, "a.yaml"]),
+               lambda name, backend: capture if (name, backend) == (DEVICE, cv2.CAP_V4L2) else None)  # fmt: skip
         self.assertEqual(capture.settings[cv2.CAP_PROP_FRAME_WIDTH], 1280)
         self.assertEqual(capture.settings[cv2.CAP_PROP_FRAME_HEIGHT], 480)
         self.assertEqual(capture.settings[cv2.CAP_PROP_FPS], 15)
@@ -100,13 +101,18 @@ class UsbCamera(unittest.TestCase):
         self.assertTrue(silent.released)
         found = status.message(0.0).status[0]
         self.assertEqual(found.level, DiagnosticStatus.ERROR)
-        self.assertIn("/dev/video3: cannot be opened", found.message)
+        self.assertIn(f"{DEVICE}: cannot be opened", found.message)
         cameras, status = self.serve([Capture([image(), None]), Capture(is_open=False), back], 5)
         self.assertEqual(cameras.publish.call_count, 3)
         found = status.message(12.5).status[0]
         self.assertEqual(found.level, DiagnosticStatus.OK)
         self.assertEqual({item.key: item.value for item in found.values},
                          {"images": "3", "faults": "2", "rate [Hz]": "12.5"})  # fmt: skip
+
+    def test_a_camera_that_is_not_plugged_in_is_waited_for(self):
+        values = arguments_of(["/dev/no_camera", "a.yaml"])
+        with self.assertRaisesRegex(InputError, "/dev/no_camera: not there"):
+            Device(values, lambda *_: self.fail("opened"))
 
     def test_images_of_another_size_are_a_fault(self):
         cameras = Cameras(VALUES)
@@ -123,11 +129,11 @@ class UsbCamera(unittest.TestCase):
         published = []
         with mock.patch("datmo_tools.camera_topics.CameraTopics.publish",
                         lambda topics, part, stamp, frame, source: published.append((part.mean(), stamp, frame))):
-            Cameras(arguments_of(["/dev/video3", "l.yaml", "r.yaml"])).publish(both, rospy.Time(3))
+            Cameras(arguments_of([DEVICE, "l.yaml", "r.yaml"])).publish(both, rospy.Time(3))
         self.assertEqual(published, [(10.0, rospy.Time(3), "camera"), (20.0, rospy.Time(3), "camera")])
 
     def test_the_rate_is_that_since_the_last_report(self):
-        status = Status("/dev/video3")
+        status = Status(DEVICE)
         start = status._since
         for _ in range(6):
             status.works()

@@ -28,7 +28,6 @@ RETRY = 1.0  # s, from one attempt to open the device to the next
 STATUS_PERIOD = 1.0  # s
 MAX_AGE = 1.0  # s, of an image when it is read; the driver's stamp is of no use if it seems to be older
 SIDES = ("left", "right")
-LOG_ERRORS = 2  # of OpenCV, which warns at each attempt to open a missing device
 
 
 class Device:
@@ -37,9 +36,11 @@ class Device:
     def __init__(self, values, capture_of=cv2.VideoCapture):
         """values: of arguments_of(); capture_of: opens a device by its name."""
         self._name = str(values.device)
+        if not values.device.exists():
+            raise InputError(f"{self._name}: not there, expected the device file of a camera (v4l2-ctl --list-devices)")
         self._capture = capture_of(self._name, cv2.CAP_V4L2)
         if not self._capture.isOpened():
-            raise InputError(f"{self._name}: cannot be opened, expected a camera (v4l2-ctl --list-devices)")
+            raise InputError(f"{self._name}: cannot be opened, expected a camera that no other program uses")
         self._capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter_fourcc(*values.format))
         if values.size:
             self._capture.set(cv2.CAP_PROP_FRAME_WIDTH, values.size[0])
@@ -176,7 +177,6 @@ def arguments_of(words):
 def start(words):
     """Runs the node until it is shut down."""
     values = arguments_of(words)
-    cv2.setLogLevel(LOG_ERRORS)
     rospy.init_node("usb_camera")
     serve(values, Cameras(values), Status(values.device), lambda: not rospy.is_shutdown())
 
