@@ -23,10 +23,10 @@ constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
 void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
   visitor.numbers({"scores", "1", "reliability curve: scores of the detector, in rising order"},
                   scores, {-1e3, 1e3});
-  visitor.numbers(
-      {"right", "1",
-       "share of the reports with this score whose class is right (written by calibrate_classes)"},
-      right, {0.0, 1.0});
+  visitor.numbers({"right", "1",
+                   "share of the reports with this score whose class is right (written by "
+                   "`evaluate calibrate_classes`)"},
+                  right, {0.0, 1.0});
   visitor.numbers({"mistaken", "1",
                    "relative frequencies of what wrongly reported objects really are: rows "
                    "pedestrian, cyclist, vehicle as reported; columns unknown, pedestrian, "

@@ -76,7 +76,7 @@ struct MonoClassifier::InView {
 
 MonoClassifierOptions::MonoClassifierOptions() {
   // Of 252 reports on objects of KITTI raw drive 0005, mostly on a cyclist, 4 were right
-  // (calibrate_classes): it detects people, but does not distinguish pedestrians from riders.
+  // (`evaluate calibrate_classes`): it detects people, but cannot tell pedestrians from riders.
   hog_reliability.scores = {0.08, 0.43};
   hog_reliability.right = {0.034, 0.04};
 }
@@ -92,9 +92,10 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
        "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
        "needs dnn/model"},
       detector, {{"hog", ImageDetectorKind::kHog}, {"dnn", ImageDetectorKind::kDnn}});
-  visitor.toggle({"calibrated", "",
-                  "off: the class and score of the detector, unchanged, for calibrate_classes"},
-                 calibrated);
+  visitor.toggle(
+      {"calibrated", "",
+       "off: the class and score of the detector, unchanged, for `evaluate calibrate_classes`"},
+      calibrated);
   visitor.group("hog", [&] {
     hog.visit(visitor);
     visitor.group("reliability", [&] { hog_reliability.visit(visitor); });

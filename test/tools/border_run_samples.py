@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags of borders that the tests of draw_borders share: a vehicle drives along the map's y axis."""
+"""Bags of borders that the tests of evaluate draw_borders share: a vehicle drives along the map's y axis."""
 
 import math
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""calibrate_track_sources on drives of one second that are counted by hand."""
+"""evaluate calibrate_track_sources on drives of one second that are counted by hand."""
 
 import contextlib
 import io
@@ -12,7 +12,7 @@ from pathlib import Path
 
 import yaml
 
-from datmo_tools.evaluate.calibrate_track_sources import main
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.source_tally import DetectionLaw, Share, SourceTally
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_lists import read_track_lists
@@ -37,7 +37,7 @@ class Tool(unittest.TestCase):
     def run_tool(self, *words, code=0):
         """Returns output, errors, and the sections that it writes (None: it fails)."""
         out, errors = io.StringIO(), io.StringIO()
-        words = [self.bag, "--sources", "stereo", "--out", self.table, *words]
+        words = ["calibrate_track_sources", self.bag, "--sources", "stereo", "--out", self.table, *words]
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             found = main([str(word) for word in words])
         self.assertEqual(found, code, errors.getvalue())

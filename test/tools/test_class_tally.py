@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Confusion and calibration of classes, and calibrate_classes, on reports worked out by hand."""
+"""Confusion and calibration of classes, and evaluate calibrate_classes, on reports worked out by hand."""
 
 import unittest
 

@@ -54,8 +54,8 @@ class Outputs(unittest.TestCase):
         said = io.StringIO()
         with contextlib.redirect_stderr(said), self.assertRaises(SystemExit):
             options = ["/nowhere.bag", "/nowhere.bag", "--json", str(self.root)]
-            with mock.patch.object(sys, "argv", ["compare_borders", *options]):
-                run_tool("compare_borders", "evaluate.compare_borders")
+            with mock.patch.object(sys, "argv", ["evaluate", "compare_borders", *options]):
+                run_tool("evaluate", "evaluate.main")
         self.assertIn("--json", said.getvalue())
         self.assertIn("is a folder", said.getvalue())
 

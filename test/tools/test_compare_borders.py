@@ -10,9 +10,9 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.evaluate.border_comparison import comparison, comparison_table
-from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
 from datmo_tools.evaluate.border_tally import BANDS
-from datmo_tools.evaluate.compare_borders import main
+from datmo_tools.evaluate.main import main
+from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
 
 
 def report(false_moving, in_a_scan, tracked, **counts):
@@ -101,7 +101,7 @@ class Tool(unittest.TestCase):
     def test_scores_both_bags(self):
         out, file = io.StringIO(), self.folder / "out.json"
         with contextlib.redirect_stdout(out):
-            code = main([str(self.folder / "without"), str(self.folder / "with"),
+            code = main(["compare_borders", str(self.folder / "without"), str(self.folder / "with"),
                          "--json", str(file)], str(self.program))  # fmt: skip
         self.assertEqual(code, 0)
         self.assertEqual(json.loads(file.read_text())["lost"], [2])
@@ -109,7 +109,7 @@ class Tool(unittest.TestCase):
 
     def test_failure_of_score_run_is_explained(self):
         with self.assertRaises(SystemExit) as ended:
-            main([str(self.folder / "without"), "/nowhere/with"], str(self.program))
+            main(["compare_borders", str(self.folder / "without"), "/nowhere/with"], str(self.program))
         self.assertNotEqual(ended.exception.code, 0)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""draw_borders on small bags whose borders are worked out by hand."""
+"""evaluate draw_borders on small bags whose borders are worked out by hand."""
 
 import contextlib
 import io
@@ -17,8 +17,8 @@ from datmo_tools.evaluate.border_recordings import Run, edge
 from datmo_tools.evaluate.outlines import corners
 from datmo_tools.evaluate.border_views import FAINTEST, line_style, opacity, title
 from datmo_tools.evaluate.camera_images import read_images
-from datmo_tools.evaluate.draw_borders import main
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.nearest_messages import nearest_messages, stamps_of
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -175,7 +175,7 @@ class Tool(Folder):
         """Returns the tool's standard error; its sheets are named out*.png."""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
-            arguments = [str(bag or self.bag), "--out", str(self.folder / "out.png"), *words]
+            arguments = ["draw_borders", str(bag or self.bag), "--out", str(self.folder / "out.png"), *words]
             self.assertEqual(main(arguments), code, errors.getvalue())
         return errors.getvalue()
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""calibrate_object_covariance on small bags of known variance."""
+"""evaluate calibrate_object_covariance on small bags of known variance."""
 
 import contextlib
 import io
@@ -14,7 +14,7 @@ import numpy as np
 import yaml
 from datmo_tools import bag_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.evaluate.calibrate_object_covariance import main
+from datmo_tools.evaluate.main import main
 from geometry_msgs.msg import Point, Pose, Pose2D, Quaternion, Vector3
 
 from datmo_fusion.msg import FieldOfView, ObjectArray, Track, TrackArray
@@ -94,7 +94,7 @@ class Tool(unittest.TestCase):
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             given = runs or [str(self.bag)]
-            arguments = [*given, "--out", str(self.out), "--range", "26", *words]
+            arguments = ["calibrate_object_covariance", *given, "--out", str(self.out), "--range", "26", *words]
             self.assertEqual(main(arguments), code, errors.getvalue())
         return out.getvalue(), errors.getvalue()
 

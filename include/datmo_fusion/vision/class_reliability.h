@@ -8,7 +8,8 @@
 
 namespace datmo {
 
-/// Reliability of a detector's classes, as measured on a labeled drive (calibrate_classes).
+/// Reliability of a detector's classes, as `evaluate calibrate_classes` measures it on
+/// a labeled drive.
 struct ClassReliabilityOptions {
   /// Reliability curve: scores, strictly increasing, and the share of correct classes at each.
   std::vector<double> scores = {0.0, 1.0};

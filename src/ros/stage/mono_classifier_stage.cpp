@@ -126,7 +126,7 @@ void MonoClassifierStage::handleImage(const sensor_msgs::ImageConstPtr& message,
           InputError("detector_tells_nothing",
                      "images do not classify any object: this detector's reports are no more often "
                      "right than by chance (`reliability`); expected detector: dnn with a model, "
-                     "or a reliability that calibrate_classes measured on your images"));
+                     "or a reliability that `evaluate calibrate_classes` measured on your images"));
     }
     if (!wait_.addImage(message, now)) {
       monitor_.dropped(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what draw_borders shows: a run's borders at some stamps, and their surroundings."""
+"""Reads what evaluate draw_borders shows: a run's borders at some stamps, and their surroundings."""
 
 import bisect
 from typing import NamedTuple, Optional

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of calibrate_classes."""
+"""evaluate calibrate_classes."""
 
 from pathlib import Path
 
@@ -25,6 +25,8 @@ and min_alone: 0. Detections are sorted by score into bins of equal counts; the 
 with one right and one wrong detection added, is made to increase with the score (pool adjacent
 violators: Ayer et al. 1955). Calibrate on other drives than those you evaluate on."""
 
+PRODUCT = "table"
+
 TOPIC = "/objects/mono"
 REPORTED = ("pedestrian", "cyclist", "vehicle")
 # In the order of ObjectClass.
@@ -32,12 +34,6 @@ ACTUAL = {"unknown": (NOTHING, "unknown"), "pedestrian": ("pedestrian",), "cycli
           "vehicle": ("vehicle",), "pole": ("pole",)}  # fmt: skip
 BIN_SIZE = 40  # reports: a share is known to 0.08
 RANGE = 50.0  # m
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("calibrate_classes", lambda: _run(values), product="table")
 
 
 def rising(shares, weights):
@@ -103,7 +99,8 @@ def _reports(run, drive, topic, region):
             for report in reports_of(item, score, region, truth.path)]  # fmt: skip
 
 
-def _run(values):
+def execute(values):
+    """Prints the table and writes it to a file. Raises InputError."""
     region = region_of(values)
     reports = [report for run, drive in zip(values.runs, drives_of(values))
                for report in _reports(run, drive, values.topic, region)]  # fmt: skip
@@ -114,8 +111,8 @@ def _run(values):
     write_whole(values.out.parent, {values.out.name: text})
 
 
-def _parser():
-    parser = command_line.new_parser("calibrate_classes", DESCRIPTION)
+def add_arguments(parser):
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
     add_truths(parser)
@@ -126,4 +123,3 @@ def _parser():
     add("--out", type=command_line.output_file, default=Path("class_reliability.yaml"),
         metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
     add_region(parser, RANGE)
-    return parser

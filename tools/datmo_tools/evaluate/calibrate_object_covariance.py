@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of calibrate_object_covariance."""
+"""evaluate calibrate_object_covariance."""
 
 from pathlib import Path
 
@@ -35,18 +35,14 @@ the law that fits all bins is used: a + b range^4 for range, a + b / range^2 for
 Ranges are from the camera's position, which is in its lists. The lidar is assumed to be unbiased;
 a mean difference is printed as bias. Object fusion does not correct it: --with-bias adds its square."""
 
+PRODUCT = "table"
+
 TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
 
 MIN_PAIRS = 30  # per bin: its variance is known to a quarter (2 / 30, square root)
 BIN_WIDTH = 2.0  # m; thesis 3.3.3
 RANGE = 36.0  # m; thesis 3.3.3
 DISPARITY_SIGMA = 0.25  # px; as the simulator's default
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("calibrate_object_covariance", lambda: _run(values), product="table")
 
 
 def read_pairs(runs, lidar, stereo, tracks, pose):
@@ -89,7 +85,8 @@ def _check(values):
         )
 
 
-def _run(values):
+def execute(values):
+    """Prints the table and writes it to files. Raises InputError."""
     _check(values)
     plot = plotter(values.plot, "covariance_plot", "covariance_plot")
     depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
@@ -105,8 +102,8 @@ def _run(values):
     command_line.write_json(values.json, as_dictionary(table, counts))
 
 
-def _parser():
-    parser = command_line.new_parser("calibrate_object_covariance", DESCRIPTION)
+def add_arguments(parser):
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --object-fusion")
     add("--out", type=command_line.output_file, default=Path("object_covariance.yaml"),
@@ -126,4 +123,3 @@ def _parser():
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities for --drive, px")  # fmt: skip
     command_line.add_json(parser)
-    return parser

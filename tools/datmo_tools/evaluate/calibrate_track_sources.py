@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of calibrate_track_sources."""
+"""evaluate calibrate_track_sources."""
 
 from pathlib import Path
 
@@ -32,6 +32,8 @@ Each with one count of either kind added. Values from fewer than --min-frames fr
 --min-tracks tracks, are left out: the default remains. Calibrate on other drives than those you
 evaluate on."""
 
+PRODUCT = "table"
+
 SOURCES = ("lidar", "stereo")
 CLAIMS = (*CLASSES.values(), OTHER)
 RANGE = 50.0  # m
@@ -39,12 +41,6 @@ GATE = 2.0  # m, as score_run's matching/gate
 BIN_WIDTH = 5.0  # m
 MIN_FRAMES = 50  # a share is known to 0.07
 MIN_TRACKS = 10  # one of 0.9 is known to 0.1
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("calibrate_track_sources", lambda: _run(values), product="table")
 
 
 def as_yaml(tallies, min_frames, min_tracks):
@@ -101,7 +97,8 @@ def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDT
     return tallies
 
 
-def _run(values):
+def execute(values):
+    """Prints the table and writes it to files. Raises InputError."""
     drives = drives_of(values)
     plot = plotter(values.plot, "source_plot", "source_plot")
     tallies = tally_runs(values.runs, drives, values.sources, region_of(values), values.visible_to)
@@ -113,8 +110,8 @@ def _run(values):
         write_whole(values.plot.parent, {values.plot.name: plot(tallies)})
 
 
-def _parser():
-    parser = command_line.new_parser("calibrate_track_sources", DESCRIPTION)
+def add_arguments(parser):
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --track-fusion")
     add_truths(parser)
@@ -132,4 +129,3 @@ def _parser():
     add("--plot", type=command_line.output_file, metavar="FILE",
         help="picture by range: .svg, .pdf or .png")  # fmt: skip
     add_region(parser, RANGE)
-    return parser

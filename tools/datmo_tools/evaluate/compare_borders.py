@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of compare_borders."""
+"""evaluate compare_borders."""
 
 from pathlib import Path
 
@@ -13,14 +13,10 @@ objects before tracking, tracks, intersections found, and for each true moving o
 scanner saw moving the number of frames in which it is tracked. An object is lost if it is tracked
 in some frame without borders, and in none with them. Counts are score_run's."""
 
+PRODUCT = "score"
+
 # All objects that the scanner saw moving, however briefly, at any distance.
 SETTINGS = ("truth/visible_to=scanner", "truth/min_time_seen=0", "region/range=500")
-
-
-def main(arguments=None, program=None):
-    """Runs the command line; returns its exit code. program: of score_run, by default found."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("compare_borders", lambda: _run(values, program), product="score")
 
 
 def compare(without, with_borders, drive=None, program=None):
@@ -35,18 +31,18 @@ def compare(without, with_borders, drive=None, program=None):
     return comparison(*reports)
 
 
-def _run(values, program):
-    result = compare(values.without, values.with_borders, values.drive, program)
+def execute(values):
+    """Prints the comparison, and writes it to the file that --json names. Raises InputError."""
+    result = compare(values.without, values.with_borders, values.drive, values.score_run)
     print(comparison_table(result))
     command_line.write_json(values.json, result)
 
 
-def _parser():
-    parser = command_line.new_parser("compare_borders", DESCRIPTION)
+def add_arguments(parser):
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("without", type=Path, metavar="WITHOUT.bag", help="bag of run_bag")
     add("with_borders", type=Path, metavar="WITH.bag", help="bag of run_bag --road-border")
     add("--drive", type=Path, metavar="DRIVE.bag",
         help="bag with ground truth (default: each its own, of run_bag --with-truth)")  # fmt: skip
     command_line.add_json(parser)
-    return parser

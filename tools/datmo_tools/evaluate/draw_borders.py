@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of draw_borders."""
+"""evaluate draw_borders."""
 
 from pathlib import Path
 
@@ -20,18 +20,15 @@ In the images everything is on the road, the plane z = 0 of base_link: the point
 below the end points of its beams; if the road slopes or the vehicle pitches, distant points are
 displaced accordingly. A border is fainter the less probable it is."""
 
+PRODUCT = "picture"
+
 PERIOD = 5.0  # s
 HISTORY = 3.0  # s
 ROWS = 4
 
 
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("draw_borders", lambda: _run(values), product="picture")
-
-
-def _run(values):
+def execute(values):
+    """Writes the sheets of pictures. Raises InputError."""
     # Matplotlib is not needed for --help.
     try:
         # pylint: disable=import-outside-toplevel
@@ -71,8 +68,8 @@ def _times(text):
     return [command_line.number(word) for word in text.split(",")]
 
 
-def _parser():
-    parser = command_line.new_parser("draw_borders", DESCRIPTION)
+def add_arguments(parser):
+    """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --road-border")
     add("--out", type=command_line.output_file, default=Path("road_borders.png"), metavar="FILE",
@@ -89,4 +86,3 @@ def _parser():
         help="of NAME/image_rect and NAME/camera_info (default %(default)s)")  # fmt: skip
     add("--rows", type=command_line.count, default=ROWS, metavar="N",
         help="rows of pictures per sheet (default %(default)s)")  # fmt: skip
-    return parser

@@ -7,8 +7,13 @@ from pathlib import Path
 from datmo_tools import command_line
 from datmo_tools.evaluate import (
     borders,
+    calibrate_classes,
+    calibrate_object_covariance,
+    calibrate_track_sources,
     changes,
     classes,
+    compare_borders,
+    draw_borders,
     free_cells,
     grids,
     labels,
@@ -26,12 +31,13 @@ from datmo_tools.evaluate.report import as_text, write
 DESCRIPTION = """\
 Scores the results of a run against ground truth: a table on the terminal, and in a folder a JSON
 file and an HTML page that needs no network, both named after the subcommand. If something cannot be
-scored, the message names what is missing in which file, and there is no report. evaluate SUBCOMMAND
---help explains what is scored."""
+scored, the message names what is missing in which file, and there is no report. compare_borders,
+draw_borders and the calibrations write the files that their options name instead. evaluate
+SUBCOMMAND --help explains what is scored."""
 
 # Each has DESCRIPTION, add_arguments(parser), and evaluate(values): the score as a dictionary that
 # JSON can hold, and its sections.
-SUBCOMMANDS = {
+REPORTS = {
     "tracks": (tracks, "tracks, pose and times of one run, or of several side by side"),
     "classes": (classes, "the classes of the tracks"),
     "operating_curve": (operating_curve, "missed frames against false tracks a minute"),
@@ -48,6 +54,18 @@ SUBCOMMANDS = {
     "slam": (slam, "poses, by the relations of the SLAM benchmark"),
 }
 
+# Each has DESCRIPTION, PRODUCT, add_arguments(parser), and execute(values), which prints and writes
+# files of its own: the PRODUCT.
+OTHERS = {
+    "compare_borders": (compare_borders, "moving objects and tracks, without and with borders of the road"),
+    "draw_borders": (draw_borders, "pictures of the borders of the road"),
+    "calibrate_classes": (calibrate_classes, "how often the classes of an image detector are right, by score"),
+    "calibrate_object_covariance": (calibrate_object_covariance, "the errors of a camera's objects, by range"),
+    "calibrate_track_sources": (calibrate_track_sources, "how reliable the tracks of each source are"),
+}
+
+SUBCOMMANDS = {**REPORTS, **OTHERS}
+
 
 def main(arguments=None, score_run=None):
     """Runs the command line; returns its exit code.
@@ -57,12 +75,15 @@ def main(arguments=None, score_run=None):
     """
     values = _parser().parse_args(arguments)
     values.score_run = score_run
-    return command_line.run("evaluate", lambda: _evaluate(values), product="report")
-
-
-def _evaluate(values):
     name = values.subcommand
-    result, sections = SUBCOMMANDS[name][0].evaluate(values)
+    module = SUBCOMMANDS[name][0]
+    if name in OTHERS:
+        return command_line.run("evaluate", lambda: module.execute(values), module.PRODUCT)
+    return command_line.run("evaluate", lambda: _report(name, module, values), "report")
+
+
+def _report(name, module, values):
+    result, sections = module.evaluate(values)
     write(values.out, name, f"Evaluation: {name.replace('_', ' ')}", result, sections)
     print(as_text(sections))
     print(f"\nreport: {values.out / name}.html, {values.out / name}.json")
@@ -76,6 +97,7 @@ def _parser():
             name, help=short, description=module.DESCRIPTION,
             formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
         module.add_arguments(subparser)
-        subparser.add_argument("--out", type=command_line.output_folder, default=Path("evaluation"),
-                               metavar="DIR", help="folder of the report (default %(default)s)")  # fmt: skip
+        if name in REPORTS:
+            subparser.add_argument("--out", type=command_line.output_folder, default=Path("evaluation"),
+                                   metavar="DIR", help="folder of the report (default %(default)s)")  # fmt: skip
     return parser

@@ -29,7 +29,7 @@ struct ClassDetectionOptions {
 };
 
 /// The same for all classes. The defaults are for an uncalibrated source: a missing track of a
-/// person has little weight. calibrate_track_sources measures them.
+/// person has little weight. `evaluate calibrate_track_sources` measures them.
 struct TrackDetectionOptions {
   ClassDetectionOptions pedestrian{0.3, 25.0};
   ClassDetectionOptions cyclist{0.6, 30.0};
