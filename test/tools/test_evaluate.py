@@ -6,6 +6,8 @@ import contextlib
 import io
 import json
 import os
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -30,6 +32,14 @@ if scored.startswith("fail"):
     sys.exit(int(scored.split()[1]))
 assert words[-2] == "--out"
 Path(words[-1]).write_text(scored)
+"""
+
+WITHOUT_MATPLOTLIB = """
+import sys
+sys.modules["matplotlib"] = None
+from datmo_tools.evaluate.main import main
+main(["draw_borders", "/nowhere/run.bag"])
+main(["slam", "/nowhere/run.bag", "/nowhere/relations"])
 """
 
 
@@ -129,6 +139,12 @@ class CommandLine(unittest.TestCase):
             code, out, err = self.evaluate(*words)
             self.assertEqual((code, out), (2, ""))
             self.assertIn("usage: evaluate", err)
+
+    def test_matplotlib_is_needed_only_to_draw(self):
+        done = subprocess.run([sys.executable, "-c", WITHOUT_MATPLOTLIB], check=True, capture_output=True, text=True)
+        drawn, scored = done.stderr.splitlines()
+        self.assertIn("expected the package python3-matplotlib", drawn)
+        self.assertIn("/nowhere/relations: expected a relations file", scored)
 
     def test_format_of_another_version(self):
         code, _, err = self.evaluate(self.bag("a.bag", format=9))

@@ -88,7 +88,7 @@ def _check(values):
 def execute(values):
     """Prints the table and writes it to files. Raises InputError."""
     _check(values)
-    plot = plotter(values.plot, "covariance_plot", "covariance_plot")
+    plot = plotter(values.plot, "covariance_plot")
     depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
     pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.tracks, values.pose)
     table = covariance_table(

@@ -100,7 +100,7 @@ def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDT
 def execute(values):
     """Prints the table and writes it to files. Raises InputError."""
     drives = drives_of(values)
-    plot = plotter(values.plot, "source_plot", "source_plot")
+    plot = plotter(values.plot, "source_plot")
     tallies = tally_runs(values.runs, drives, values.sources, region_of(values), values.visible_to)
     print(summary(tallies))
     text = as_yaml(tallies, values.min_frames, values.min_tracks)

@@ -7,7 +7,9 @@ import numpy as np
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.border_recordings import Run
 from datmo_tools.evaluate.camera_images import CAMERA, read_images
+from datmo_tools.evaluate.plot_files import drawing_module, picture_kind
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
@@ -29,19 +31,9 @@ ROWS = 4
 
 def execute(values):
     """Writes the sheets of pictures. Raises InputError."""
-    # Matplotlib is not needed for --help.
-    try:
-        # pylint: disable=import-outside-toplevel
-        from datmo_tools.evaluate.border_recordings import Run
-        from datmo_tools.evaluate.border_sheets import sheets
-        from datmo_tools.evaluate.plot_style import KINDS
-    except ImportError as error:
-        raise InputError(f"{error}: expected the package python3-matplotlib") from error
-    kind = values.out.suffix[1:].lower()
-    if kind not in KINDS:
-        raise InputError(f"--out {values.out}: expected a name that ends in .{', .'.join(KINDS)}")
-    if values.every <= 0.0:
-        raise InputError(f"--every is {values.every:g}, expected more than 0")
+    kind = picture_kind(values.out, "--out")
+    sheets = drawing_module("border_sheets").sheets
+    command_line.check_positive(values, "every")
     if values.history < 0.0:
         raise InputError(f"--history is {values.history:g}, expected 0 or more")
     run = Run(values.run)

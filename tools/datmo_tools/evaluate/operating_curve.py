@@ -9,6 +9,7 @@ import yaml
 
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import find_score_run, score
 from datmo_tools.text_table import percent, rounded
@@ -32,10 +33,7 @@ SECONDS = 60.0  # of a minute
 def evaluate(values):
     """Returns the points, of each drive and of all, and their sections. Raises InputError."""
     _check(values.probabilities)
-    try:
-        from datmo_tools.evaluate.curve_plot import curve_drawing, curve_picture
-    except ImportError as error:
-        raise InputError(f"{error}: expected the package python3-matplotlib") from error
+    plot = drawing_module("curve_plot")
     values.score_run = values.score_run or find_score_run()
     values.run_bag = values.run_bag or programs.find("run_bag", sys.argv[0])
     presets = [_read(path) for path in (values.config, values.preset) if path is not None]
@@ -46,8 +44,8 @@ def evaluate(values):
             points.append(_point(values, shipped, Path(folder)))
     points.sort(key=lambda point: point["probability"])
     result = {"format": 1, "shipped": shipped, "points": points}
-    write_whole(values.out, {"operating_curve.png": curve_picture(result)})
-    return result, [_section(result)._replace(picture=curve_drawing(result))]
+    write_whole(values.out, {"operating_curve.png": plot.curve_picture(result)})
+    return result, [_section(result)._replace(picture=plot.curve_drawing(result))]
 
 
 def shipped_probability(settings, default):

@@ -4,6 +4,7 @@
 from pathlib import Path
 
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.risk_drives import read_drive
 from datmo_tools.evaluate.risk_scores import score
@@ -35,10 +36,7 @@ def add_arguments(parser):
 
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
-    try:
-        from datmo_tools.evaluate.reliability_plot import reliability_drawing
-    except ImportError as error:
-        raise InputError(f"{error}: expected the package python3-matplotlib") from error
+    plot = drawing_module("reliability_plot")
     result = {}
     for name, folder in values.methods:
         bags = sorted(folder.glob("*.bag"))
@@ -47,7 +45,7 @@ def evaluate(values):
         if name in result:
             raise InputError(f"{name}: given twice, expected another name for each folder")
         result[name] = score_of(bags)
-    diagram = Section("Reliability", hint=_DIAGRAM_HINT, picture=reliability_drawing(result),
+    diagram = Section("Reliability", hint=_DIAGRAM_HINT, picture=plot.reliability_drawing(result),
                       for_page=True)  # fmt: skip
     scores, by_horizon, *bins = sections(result)
     return result, [scores, by_horizon, diagram, *bins]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_truth
-from datmo_tools.evaluate.run_report import sections
+from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.score_run import find_score_run, score
 
 DESCRIPTION = """\
@@ -18,8 +18,9 @@ have to be found, and how close a track has to be, are options; score_run --list
 
 def evaluate(values):
     """Returns the runs' scores by score_run, and their sections. Raises InputError."""
+    report = drawing_module("run_report")
     runs = score_runs(values)
-    return {"format": 1, "runs": runs}, sections(runs)
+    return {"format": 1, "runs": runs}, report.sections(runs)
 
 
 def score_runs(values):
