@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 TREE = ("config", "doc", "launch", "rosbag_fixtures", "scripts", "README.md")
 CLEAN_PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"

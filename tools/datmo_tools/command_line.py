@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.whole_files import check_folder, write_whole
+from datmo_tools.whole_files import check_folder, write_file
 
 
 def run(name, work, product="bag"):
@@ -70,9 +70,9 @@ def add_json(parser):
 
 
 def write_json(path, result):
-    """Writes a dictionary to the file that --json names; does nothing for None."""
+    """Writes a dictionary to the file (Path) that an option names; does nothing for None."""
     if path is not None:
-        write_whole(path.parent, {path.name: json.dumps(result, indent=2) + "\n"})
+        write_file(path, json.dumps(result, indent=2) + "\n")
 
 
 def output_file(text):

@@ -7,7 +7,6 @@ Out: stereo/left/image_rect (with --raw image_raw), stereo/left/camera_info, and
 The images of both cameras are paired by their order, and stamped with the time of publication.
 """
 
-import sys
 from pathlib import Path
 
 import rospy

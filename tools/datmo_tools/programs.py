@@ -42,6 +42,11 @@ def find(name, tool):
     return found
 
 
+def settings(assignments, option="--set"):
+    """Returns the words of a command line that give each assignment (KEY=VALUE) to an option."""
+    return [word for assignment in assignments for word in (option, assignment)]
+
+
 def check(folder, names):
     """Raises InputError unless the programs are in the folder (Path)."""
     for name in names:

@@ -21,6 +21,11 @@ def check_folder(folder):
         raise InputError(f"{folder}: cannot be written: no permission to write in {there}")
 
 
+def write_file(path, text):
+    """Writes one file (Path), of str or bytes, as write_whole() does."""
+    write_whole(path.parent, {path.name: text})
+
+
 def write_whole(folder, texts):
     """Writes files to `folder` (Path), which is created if needed.
 

@@ -17,7 +17,7 @@ from datmo_tools.batch.moments import worst_moments
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
 from datmo_tools.text_table import one_line
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 FORMAT = 1  # of the outcome
 # What our programs say after the name of a file that they could not write. The reason that follows is
@@ -58,7 +58,7 @@ def process(settings, outcome):
                       **_run_and_score(settings, Path(folder))}  # fmt: skip
             result["took"] = {"wall_s": time.monotonic() - started, "processor_s": _processor_time()}
             _keep(settings, Path(folder), outcome)
-        write_whole(outcome.parent, {outcome.name: json.dumps(result, indent=1) + "\n"})
+        write_file(outcome, json.dumps(result, indent=1) + "\n")
     except (OSError, InputError) as error:
         with contextlib.suppress(OSError):
             cause_file(outcome.parent.parent, settings["id"]).write_text(str(error))

@@ -11,7 +11,7 @@ from datmo_tools.check_bag.findings import Severity
 from datmo_tools.check_bag.opening import open_recording
 from datmo_tools.errors import InputError
 from datmo_tools.text_table import one_line
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Reports what a recording contains, which problems it has for this package, and how to start.
@@ -62,7 +62,7 @@ def _run(values):
     result = check(recording, values.scan, values.odometry)
     _print(recording, result)
     if not values.no_yaml and result.can_start:
-        write_whole(out.parent, {out.name: result.yaml_text()})
+        write_file(out, result.yaml_text())
         print(f"\nInitial parameters: {one_line(str(out))}\nTo start:")
         print("\n".join(f"  {line}" for line in result.start_lines(values.bag, out)))
     command_line.write_json(values.json, result.as_dictionary())

@@ -30,6 +30,18 @@ def drives_of(values):
     return drives
 
 
+def add_settings(parser):
+    """Adds the option --set, for programs.settings()."""
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="one option of score_run")  # fmt: skip
+
+
+def add_table(parser, name):
+    """Adds the option --out of a calibration; name: of the file by default."""
+    parser.add_argument("--out", type=command_line.output_file, default=Path(name),
+                        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+
+
 def add_grids(parser, topic):
     """Adds the run and the KITTI drive, and --topic of its grids; topic: the default."""
     add = parser.add_argument

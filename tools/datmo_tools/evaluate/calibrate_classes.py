@@ -8,12 +8,12 @@ import yaml
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.arguments import add_region, add_truths, drives_of, region_of
+from datmo_tools.evaluate.arguments import add_region, add_table, add_truths, drives_of, region_of
 from datmo_tools.evaluate.class_tally import NOTHING, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_lists
 from datmo_tools.evaluate.truth import NONE, Asked, Truth
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Measures how often the detections of an image detector are right at each score, on drives with
@@ -108,7 +108,7 @@ def execute(values):
     right = sum(report.is_right for report in reports)
     print(f"{len(reports)} reports, {right} of them right")
     print(text, end="")
-    write_whole(values.out.parent, {values.out.name: text})
+    write_file(values.out, text)
 
 
 def add_arguments(parser):
@@ -120,6 +120,5 @@ def add_arguments(parser):
     add("--topic", default=TOPIC, help="of the objects (default %(default)s)")
     add("--bin-size", type=command_line.count, default=BIN_SIZE, metavar="N",
         help="reports per point of the curve (default %(default)s)")  # fmt: skip
-    add("--out", type=command_line.output_file, default=Path("class_reliability.yaml"),
-        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add_table(parser, "class_reliability.yaml")
     add_region(parser, RANGE)

@@ -6,6 +6,7 @@ from pathlib import Path
 from datmo_tools import command_line
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_table
 from datmo_tools.evaluate.covariance_report import as_dictionary, as_yaml, summary
 from datmo_tools.evaluate.covariance_table import covariance_table
 from datmo_tools.evaluate.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, view_of
@@ -13,7 +14,7 @@ from datmo_tools.evaluate.object_lists import read_lists, read_moving_boxes
 from datmo_tools.evaluate.object_pairs import Counts, paired_objects
 from datmo_tools.evaluate.plot_files import plotter
 from datmo_tools.pose_path import read_path
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Measures the errors of a stereo camera's objects in range and bearing, by range (thesis 3.3.3:
@@ -96,9 +97,9 @@ def execute(values):
     )
     print(summary(table, counts))
     text = as_yaml(table, values.source, values.runs)
-    write_whole(values.out.parent, {values.out.name: text})
+    write_file(values.out, text)
     if plot is not None:
-        write_whole(values.plot.parent, {values.plot.name: plot(table, depth_sigma)})
+        write_file(values.plot, plot(table, depth_sigma))
     command_line.write_json(values.json, as_dictionary(table, counts))
 
 
@@ -106,8 +107,7 @@ def add_arguments(parser):
     """Adds the arguments of this subcommand."""
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --object-fusion")
-    add("--out", type=command_line.output_file, default=Path("object_covariance.yaml"),
-        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add_table(parser, "object_covariance.yaml")
     add("--plot", type=command_line.output_file, metavar="FILE",
         help="picture of it: .svg, .pdf or .png")  # fmt: skip
     add("--drive", type=Path, metavar="DRIVE.bag",

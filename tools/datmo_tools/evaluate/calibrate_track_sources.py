@@ -7,14 +7,14 @@ import yaml
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.arguments import add_region, add_truths, drives_of, region_of
+from datmo_tools.evaluate.arguments import add_region, add_table, add_truths, drives_of, region_of
 from datmo_tools.evaluate.plot_files import plotter
 from datmo_tools.evaluate.source_tally import CLASSES, OTHER, SourceTally
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_lists import read_track_lists
 from datmo_tools.evaluate.truth import ANY, NONE
 from datmo_tools.text_table import aligned
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Measures the reliability of the tracks of each source, on drives with truth, and writes it as yaml
@@ -105,9 +105,9 @@ def execute(values):
     print(summary(tallies))
     text = as_yaml(tallies, values.min_frames, values.min_tracks)
     print(text, end="")
-    write_whole(values.out.parent, {values.out.name: text})
+    write_file(values.out, text)
     if plot is not None:
-        write_whole(values.plot.parent, {values.plot.name: plot(tallies)})
+        write_file(values.plot, plot(tallies))
 
 
 def add_arguments(parser):
@@ -124,8 +124,7 @@ def add_arguments(parser):
         help="minimum number of frames for a share to be written (default %(default)s)")  # fmt: skip
     add("--min-tracks", type=command_line.count, default=MIN_TRACKS, metavar="N",
         help="minimum number of tracks for a share to be written (default %(default)s)")  # fmt: skip
-    add("--out", type=command_line.output_file, default=Path("track_sources.yaml"),
-        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add_table(parser, "track_sources.yaml")
     add("--plot", type=command_line.output_file, metavar="FILE",
         help="picture by range: .svg, .pdf or .png")  # fmt: skip
     add_region(parser, RANGE)

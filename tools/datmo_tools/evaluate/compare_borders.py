@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from datmo_tools import command_line
+from datmo_tools import command_line, programs
 from datmo_tools.evaluate.border_comparison import comparison, comparison_table
 from datmo_tools.evaluate.score_run import find_score_run, score
 
@@ -26,7 +26,7 @@ def compare(without, with_borders, drive=None, program=None):
     Raises InputError without score_run, and SystemExit if it fails.
     """
     program = program or find_score_run()
-    settings = [word for assignment in SETTINGS for word in ("--set", assignment)]
+    settings = programs.settings(SETTINGS)
     reports = [score(program, run, drive, settings) for run in (without, with_borders)]
     return comparison(*reports)
 

@@ -9,6 +9,7 @@ import yaml
 
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_settings
 from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import find_score_run, score
@@ -109,7 +110,7 @@ def _point(values, probability, folder):
     preset = folder / "preset.yaml"
     base = {} if values.preset is None else _read(values.preset)
     preset.write_text(yaml.safe_dump(with_probability(base, probability)), encoding="utf-8")
-    settings = [word for assignment in values.set for word in ("--set", assignment)]
+    settings = programs.settings(values.set)
     drives = []
     for bag in values.bags:
         run = folder / "run.bag"
@@ -144,7 +145,7 @@ def add_arguments(parser):
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="sensor set of run_bag")
     add("--preset", type=Path, metavar="FILE.yaml", help="preset of run_bag")
     add("--road-border", action="store_true", help="of run_bag")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
+    add_settings(parser)
     add("--run-bag", metavar="PROGRAM", help="instead of the run_bag next to this")
     add("--probabilities", nargs="+", type=command_line.number, default=PROBABILITIES, metavar="P",
         help="required probabilities of motion, 0.5 to 1 (default %(default)s)")  # fmt: skip

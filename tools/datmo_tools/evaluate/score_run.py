@@ -50,7 +50,7 @@ def matches(run, truth, options):
 
     truth: see score(); options: dictionary of score_run's. Raises InputError if it fails.
     """
-    words = [word for key, value in options.items() for word in ("--set", f"{key}={value}")]
+    words = programs.settings(f"{key}={value}" for key, value in options.items())
     return matches_by(run, truth, words)
 
 

@@ -3,8 +3,9 @@
 
 from pathlib import Path
 
+from datmo_tools import programs
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.arguments import add_truth
+from datmo_tools.evaluate.arguments import add_settings, add_truth
 from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.score_run import find_score_run, score
 
@@ -53,9 +54,7 @@ def _check_same_drive(runs):
 def settings_of(values):
     """Returns the words for score_run that set its options."""
     words = [] if values.options is None else ["--options", str(values.options)]
-    for assignment in values.set:
-        words += ["--set", assignment]
-    return words
+    return words + programs.settings(values.set)
 
 
 def add_arguments(parser):
@@ -68,4 +67,4 @@ def add_arguments(parser):
     add("--attainable", type=Path, metavar="DRIVE.bag",
         help="bag with the scans: compares delays with the minimum that they allow")  # fmt: skip
     add("--options", type=Path, metavar="FILE.yaml", help="options of score_run")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
+    add_settings(parser)

@@ -21,7 +21,7 @@ from datmo_tools.experiments.line_faults import INPUTS, KEPT, STEREO_INPUTS, Fau
 from datmo_tools.pose_path import read_messages, read_path
 from datmo_tools.programs import StepFailed
 from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Plays drives with truth through the stack with one sensor fault after another, and writes the effect
@@ -114,10 +114,10 @@ def _campaign(values):
     for part in ("mutated", "soak", "load", "outages"):
         file = getattr(values, part)
         report[part] = json.loads(file.read_text(encoding="utf-8")) if file else None
-    write_whole(values.page.parent, {values.page.name: page(report)})
+    write_file(values.page, page(report))
     if values.out is not None:
         report["load"] = None  # its samples have a separate file
-        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+        command_line.write_json(values.out, report)
     if report["beyond"]:
         raise InputError("faults beyond their bounds:\n  " + "\n  ".join(report["beyond"]))
 

@@ -122,7 +122,7 @@ def _of_tracks(each, folder, values):
 
 
 def _options(option, method, values):
-    return [word for assignment in (f"method={method}", *values.set) for word in (option, assignment)]
+    return programs.settings((f"method={method}", *values.set), option)
 
 
 def _parser():

@@ -2,7 +2,6 @@
 """Measures what gaps of scans and odometry, and being carried elsewhere, do to the pose: the
 command line and the runs."""
 
-import json
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -20,7 +19,6 @@ from datmo_tools.experiments.carried_drive import CarriedDrive
 from datmo_tools.experiments.gap_score import CARRIED, Gap, passed, score, table
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Removes parts of scans, of odometry or of both from drives, at regular times, and prints the
@@ -142,9 +140,7 @@ def _sweep(values):
         with ThreadPoolExecutor(values.jobs) as pool:
             runs = list(tqdm(pool.map(lambda case: run_case(case, values), cases), "runs",
                              len(cases)))  # fmt: skip
-    if values.out is not None:
-        report = {"format": FORMAT, "config": str(values.config), "runs": runs}
-        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    command_line.write_json(values.out, {"format": FORMAT, "config": str(values.config), "runs": runs})
     print(table(runs))
     for run in runs:
         if not passed(run["score"]):

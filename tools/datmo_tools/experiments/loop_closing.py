@@ -17,7 +17,6 @@ from datmo_tools.experiments import simulated_run
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import aligned, rounded
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Drives a scene through simulator and run_bag, with several seeds, and prints the final and the
@@ -140,9 +139,7 @@ def _run(values):
         except programs.StepFailed as error:
             raise InputError(str(error)) from error
     print(table(results))
-    if values.out is not None:
-        report = {"format": FORMAT, "scene": values.scene.stem, "results": results}
-        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+    command_line.write_json(values.out, {"format": FORMAT, "scene": values.scene.stem, "results": results})
 
 
 def _parser():

@@ -2,7 +2,6 @@
 """Compares the stack on three computers with a lossy network to one computer: the report."""
 
 import contextlib
-import json
 import statistics
 import tempfile
 from pathlib import Path
@@ -18,7 +17,6 @@ from datmo_tools.experiments import lossy_network, machines_run, simulated_run
 from datmo_tools.experiments.machines_run import Drive, Kill
 from datmo_tools.programs import StepFailed
 from datmo_tools.text_table import aligned, rounded
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Plays a drive in real time to the stack on one computer, and on three (network namespaces) whose
@@ -186,8 +184,7 @@ def _campaign(values):
             except StepFailed as error:
                 raise InputError(f"{name}: {error}") from error
     print("\n\n".join(table(name, of_drive) for name, of_drive in figures.items()))
-    if values.json:
-        write_whole(values.json.parent, {values.json.name: json.dumps(figures, indent=2) + "\n"})
+    command_line.write_json(values.json, figures)
 
 
 def _parser():

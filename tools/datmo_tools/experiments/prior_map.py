@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps the first part of a drive, and tests localization in this map: command line and runs."""
 
-import json
 import math
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -18,7 +17,6 @@ from datmo_tools.experiments.map_coverage import MapSurfaces, known_shares
 from datmo_tools.pose_path import POSE_OF, planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS, to_ros_time
 from datmo_tools.text_table import aligned
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it, at
@@ -148,9 +146,7 @@ def _run(values):
         except programs.StepFailed as error:
             raise InputError(str(error)) from error
     print(table(results, values.within))
-    if values.out is not None:
-        report = {"format": FORMAT, "drive": values.drive.name, "starts": results}
-        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+    command_line.write_json(values.out, {"format": FORMAT, "drive": values.drive.name, "starts": results})
     return results
 
 

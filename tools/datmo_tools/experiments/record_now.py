@@ -17,7 +17,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from datmo_fusion.msg import ObjectArray, RiskArray, TrackArray
 from datmo_tools.experiments.machines_run import track_positions
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 QUEUE = 200
 SILENCE = 5.0  # s
@@ -54,5 +54,5 @@ def main():
     sys.stdin.read()
     while time.time() - recorder.last < SILENCE:
         time.sleep(POLL)
-    write_whole(out.parent, {out.name: json.dumps({"messages": recorder.messages, "stack": recorder.stack})})
+    write_file(out, json.dumps({"messages": recorder.messages, "stack": recorder.stack}))
     return 0

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures how stable the pose is among moving objects, over many seeds: command line and runs."""
 
-import json
 import os
 import tempfile
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -15,7 +14,6 @@ from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.robustness_summary import summarize, table
 from datmo_tools.programs import StepFailed
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Drives each scene with each number of moving vehicles and each seed through simulator, stack and
@@ -57,7 +55,7 @@ def _benchmark(values):
     runs = _run_all(cases, values)
     summary = summarize(runs)
     report = {"format": FORMAT, "config": str(values.config), "summary": summary, "runs": runs}
-    write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    command_line.write_json(values.out, report)
     print(table(summary))
     failed = [run for run in runs if run["error"] is not None]
     for run in failed:

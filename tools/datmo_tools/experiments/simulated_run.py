@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from datmo_tools import programs as built
-from datmo_tools.programs import call
+from datmo_tools.programs import call, settings
 
 STEPS = ("simulate", "run_bag", "score_run")
 
@@ -37,7 +37,7 @@ def run(drive, programs, config, folder, score_options=(), run_options=()):
 
 def record(drive, programs, recorded):
     """Simulates the drive into a bag (Path). Raises StepFailed."""
-    call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
+    call(programs / "simulate", drive.scene, recorded, "--quiet", *settings(drive.options))
 
 
 def run_recorded(recorded, programs, config, folder, score_options=(), run_options=(), attainable=None):
@@ -55,9 +55,5 @@ def score(computed, programs, score_options, report, attainable=None):
     """Returns the report of score_run (dict) on a bag of run_bag (Path), kept in the file `report`
     (Path)."""
     scans = () if attainable is None else ("--attainable", attainable)
-    call(programs / "score_run", computed, *_settings(score_options), *scans, "--out", report)
+    call(programs / "score_run", computed, *settings(score_options), *scans, "--out", report)
     return json.loads(report.read_text(encoding="utf-8"))
-
-
-def _settings(assignments):
-    return [word for assignment in assignments for word in ("--set", assignment)]

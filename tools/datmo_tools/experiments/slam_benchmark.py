@@ -12,7 +12,6 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.relations import read_relations
 from datmo_tools.evaluate.slam import score
 from datmo_tools.text_table import aligned
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Runs CARMEN logs through carmen_to_bag and run_bag with one configuration for all, and scores with
@@ -135,9 +134,7 @@ def _run(values):
     except programs.StepFailed as error:
         raise InputError(str(error)) from error
     print(table(results))
-    if values.out is not None:
-        report = {"format": FORMAT, "clock": values.clock, "results": results}
-        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+    command_line.write_json(values.out, {"format": FORMAT, "clock": values.clock, "results": results})
 
 
 def _check_files(pairs, config):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures the speed of the stack: the command line, and what is measured in which order."""
 
-import json
 import subprocess
 import tempfile
 from pathlib import Path
@@ -13,7 +12,6 @@ from datmo_tools.errors import InputError
 from datmo_tools.experiments import speed_live, speed_micro, speed_report
 from datmo_tools.experiments.speed_context import describe, devel_space
 from datmo_tools.experiments.speed_live import LiveDrive
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Measures the speed of the stack. micro: each hot path by itself, in processor time, and the ratio to
@@ -69,7 +67,7 @@ def _measure(values):
             report["micro"] = speed_micro.measure(program, Path(folder), values.quick)
         if "live" in parts:
             report["live"] = _measure_live(values, Path(folder))
-    write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    command_line.write_json(values.out, report)
     print(speed_report.table(report))
     print(f"\nall of it: {values.out}")
     return report
@@ -105,9 +103,8 @@ def _drives(values, folder):
 
 
 def _simulate(values, scene, bag, options):
-    settings = [word for option in options for word in ("--set", option)]
     program = _program(values, "simulate")
-    done = subprocess.run([program, scene, bag, "--quiet", *settings], check=False)
+    done = subprocess.run([program, scene, bag, "--quiet", *programs.settings(options)], check=False)
     if done.returncode != 0:
         raise InputError(f"{scene}: simulate failed with exit code {done.returncode}")
 

@@ -4,8 +4,6 @@
 import math
 from functools import partial
 
-import yaml
-
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.data_sets import STEREO_OPTIONS

@@ -12,7 +12,7 @@ from datmo_tools.figures.render import FILE, rendered
 from datmo_tools.figures.step import Bench
 from datmo_tools.figures.steps import STEPS
 from datmo_tools.text_table import aligned
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
 Measures the figures of README's table of results and of doc/results.md at one commit, writes them
@@ -65,7 +65,7 @@ def check(source):
 def write_pages(source, results):
     """Writes README's table and doc/results.md."""
     for name, text in rendered(source, results).items():
-        write_whole((source / name).parent, {Path(name).name: text})
+        write_file(source / name, text)
 
 
 def _measure(values):
@@ -89,7 +89,7 @@ def _write_done(source, store):
     """Writes the file of figures and the pages, from all steps that are done at the commit."""
     results = store.results(STEPS)
     if results is not None:
-        write_whole((source / FILE).parent, {Path(FILE).name: results_file.as_text(results)})
+        write_file(source / FILE, results_file.as_text(results))
         write_pages(source, results)
         print(f"{FILE}, README.md and doc/results.md: {store.commit}, {', '.join(results['steps'])}")
 

@@ -3,6 +3,7 @@
 
 from functools import partial
 
+from datmo_tools import programs
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run, speed_report
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
@@ -43,7 +44,7 @@ def _operating_curve(bench, folder):
     for drive in drives:
         scene = simulated_run.SimulatedDrive(bench.scene(drive.stem))
         simulated_run.record(scene, bench.programs, drive)
-    options = [word for assignment in SCORE_OPTIONS for word in ("--set", assignment)]
+    options = programs.settings(SCORE_OPTIONS)
     curve = bench.evaluated(folder, "operating_curve", *drives, "--config",
                             bench.config("demonstrator"), "--road-border", *options)  # fmt: skip
     keys = ("probability", "missed_share", "false_tracks_per_minute")

@@ -5,6 +5,7 @@ from functools import partial
 
 import yaml
 
+from datmo_tools import programs
 from datmo_tools.evaluate.class_tally import NOTHING
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.fusion_drives import LABELED, ODOMETRY_ERRORS
@@ -69,7 +70,7 @@ def _run(bench, name, section, degrees, folder):
         recorded, bench.programs, bench.config("kitti"), folder, (*LABELED, VELODYNE_NOISE), words,
         recorded)  # fmt: skip
     computed = folder / "result.bag"
-    options = [word for assignment in LABELED for word in ("--set", assignment)]
+    options = programs.settings(LABELED)
     classes = bench.evaluated(folder, "classes", computed, *options)["runs"][0]
     found = {
         **drive_figures(report),

@@ -12,7 +12,7 @@ from pathlib import Path
 from datmo_tools.errors import InputError
 from datmo_tools.spread import rounded
 from datmo_tools.figures.step import read_json
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import write_file, write_whole
 
 FORMAT = 1
 CHANGED = "-changed"  # suffix of a commit's name if the sources have been changed since
@@ -63,7 +63,7 @@ class StepStore:
     def add_job(self, step, name, result, seconds):
         """Stores a job's result, so that an interrupted step continues with the next one."""
         file = self._job_file(step, name)
-        write_whole(file.parent, {file.name: json.dumps({"result": result, "seconds": seconds})})
+        write_file(file, json.dumps({"result": result, "seconds": seconds}))
 
     def add(self, step, figures, seconds, bench):
         """Stores a step's result; seconds: of all its jobs."""
