@@ -103,10 +103,12 @@ class Calibrate(unittest.TestCase):
         np.testing.assert_allclose(scores, [0.3, 0.9])
         np.testing.assert_allclose(shares, [2 / 6, 4 / 6])
 
-    def test_scores_increase_despite_ties(self):
-        scores, shares = curve(reports(40, 0, 0.5), 10)
-        self.assertEqual(scores, [0.5])
-        self.assertEqual(len(shares), 1)
+    def test_bins_of_one_score_are_one(self):
+        """A network gives many a score that differs from the next one by less than is written."""
+        for last in (0.5, 0.5004):
+            scores, shares = curve(reports(30, 0, 0.5) + reports(2, 8, last), 10)
+            self.assertEqual(scores, [0.5])
+            np.testing.assert_allclose(shares, [33 / 42])
 
     def test_without_reports_there_is_no_curve(self):
         with self.assertRaises(InputError):

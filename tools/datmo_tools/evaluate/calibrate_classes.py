@@ -32,6 +32,7 @@ REPORTED = ("pedestrian", "cyclist", "vehicle")
 # In the order of ObjectClass.
 ACTUAL = {"unknown": (NOTHING, "unknown"), "pedestrian": ("pedestrian",), "cyclist": ("cyclist",),
           "vehicle": ("vehicle",), "pole": ("pole",)}  # fmt: skip
+DIGITS = 3  # after the decimal point, of scores and shares
 BIN_SIZE = 40  # reports: a share is known to 0.08
 RANGE = 50.0  # m
 
@@ -49,22 +50,20 @@ def rising(shares, weights):
 
 
 def curve(reports, bin_size):
-    """Returns (scores, shares) of the reliability curve; scores increase. Raises InputError."""
+    """Returns (scores, shares) of the reliability curve; scores increase, also as they are written:
+    bins that differ by less are one. Raises InputError."""
     if not reports:
         raise InputError("no object of a known class in the runs: expected those of a detector")
     ordered = sorted(reports, key=lambda report: report.probability)
     bins = np.array_split(np.arange(len(ordered)), max(1, len(ordered) // bin_size))
-    scores, shares, weights = [], [], []
+    counts = {}  # score -> number of reports, number of right ones
     for indices in bins:
         inside = [ordered[i] for i in indices]
-        right = sum(report.is_right for report in inside)
-        score = float(np.mean([report.probability for report in inside]))
-        if scores and score <= scores[-1]:
-            continue  # more of one score than fill a bin
-        scores.append(score)
-        shares.append((right + 1) / (len(inside) + 2))
-        weights.append(len(inside))
-    return scores, rising(shares, weights)
+        score = round(float(np.mean([report.probability for report in inside])), DIGITS)
+        count, right = counts.get(score, (0, 0))
+        counts[score] = count + len(inside), right + sum(report.is_right for report in inside)
+    shares = [(right + 1) / (count + 2) for count, right in counts.values()]
+    return list(counts), rising(shares, [count for count, _ in counts.values()])
 
 
 def mistaken(reports):
@@ -82,9 +81,9 @@ def mistaken(reports):
 def as_yaml(detector, reports, bin_size):
     """Returns the section of mono_classifier."""
     scores, shares = curve(reports, bin_size)
-    section = {"scores": [round(value, 3) for value in scores],
-               "right": [round(value, 3) for value in shares],
-               "mistaken": [round(value, 3) for value in mistaken(reports)]}  # fmt: skip
+    section = {"scores": scores,
+               "right": [round(value, DIGITS) for value in shares],
+               "mistaken": [round(value, DIGITS) for value in mistaken(reports)]}  # fmt: skip
     return yaml.safe_dump({"mono_classifier": {detector: {"reliability": section}}},
                           default_flow_style=None, sort_keys=False)  # fmt: skip
 
