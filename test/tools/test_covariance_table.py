@@ -138,6 +138,11 @@ class Table(unittest.TestCase):
         width = float(str(context.exception).rsplit(" ", 1)[1])
         self.assertEqual(covariance_table(few, width, 30.0, 30).bin_width, width)
 
+    def test_pairs_beyond_the_range_are_no_reason_for_wider_bins(self):
+        few = [*pairs(20, reach=10.0), *pairs(200, nearest=11.0)]
+        with self.assertRaisesRegex(InputError, "several are taken together$"):
+            covariance_table(few, 2.0, 10.0, 30)
+
     def test_normal_spread(self):
         spread = robust_spread(random().normal(1.0, 2.0, 20000))
         self.assertAlmostEqual(spread.variance, 4.0, delta=0.1)

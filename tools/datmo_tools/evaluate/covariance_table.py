@@ -118,7 +118,7 @@ def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
     about zero, not about the mean. Raises InputError for fewer than two measured bins of range or
     of bearing.
     """
-    bins = int(np.ceil(reach / bin_width - 1e-9))
+    bins = _bins(reach, bin_width)
     values = np.array(pairs, dtype=float).reshape(-1, 5)
     index = np.floor(values[:, 0] / bin_width).astype(int)
     centers = (np.arange(bins) + 0.5) * bin_width
@@ -131,7 +131,8 @@ def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
             raise InputError(
                 f"{sum(map(np.sum, seen))} pairs with {name}; {enough} bins of {bin_width:g} m "
                 f"within {reach:g} m have {min_pairs} or more, expected two bins: bags with more "
-                f"traffic, several are taken together{_wider_bins(values, bin_width, min_pairs)}"
+                "traffic, several are taken together"
+                f"{_wider_bins(values, bin_width, reach, min_pairs)}"
             )
         return _column(members, centers, min_pairs, power, with_bias)
 
@@ -140,12 +141,16 @@ def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
     )
 
 
-def _wider_bins(values, bin_width, min_pairs):
+def _bins(reach, bin_width):
+    """Returns the number of bins up to a range, m."""
+    return int(np.ceil(reach / bin_width - 1e-9))
+
+
+def _wider_bins(values, bin_width, reach, min_pairs):
     """Returns the advice to use wider bins, if these would have enough pairs."""
     seen = [values[np.isfinite(values[:, difference]), 0] for difference in (1, 2)]
-    farthest = np.max(values[:, 0], initial=0.0)
-    for width in np.arange(2 * bin_width, farthest, bin_width):
-        counts = [np.bincount((ranges / width).astype(int)) for ranges in seen]
+    for width in np.arange(2 * bin_width, reach, bin_width):
+        counts = [np.bincount((ranges / width).astype(int))[: _bins(reach, width)] for ranges in seen]
         if all(np.count_nonzero(count >= min_pairs) >= 2 for count in counts):
             return f", or --bin-width {width:g}"
     return ""
