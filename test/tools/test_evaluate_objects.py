@@ -16,6 +16,7 @@ from nav_msgs.msg import OccupancyGrid
 from datmo_fusion.msg import Object, ObjectArray, TrueObject, TrueObjectArray
 from evaluate_case import EvaluateCase
 from object_samples import object_at
+from old_objects import old_types
 
 START = 1000 * 10**9
 VEHICLE, PEDESTRIAN = Object.CLASS_VEHICLE, Object.CLASS_PEDESTRIAN
@@ -205,6 +206,9 @@ class Tool(EvaluateCase):
             bag.write("/objects", START, message)
         said = self.score(code=1)[1]
         self.assertIn("/objects is nav_msgs/OccupancyGrid, expected datmo_fusion/ObjectArray", said)
+        with whole_bag(self.bag, "test") as bag:
+            bag.write("/objects", START, old_types(ObjectArray)[ObjectArray._type]())
+        self.assertIn("/objects is another version of datmo_fusion/ObjectArray", self.score(code=1)[1])
         self.write("/objects/stereo", object_at(8.0, 0.0))
         with whole_bag(self.drive, "test") as bag:
             bag.write("/other", START, message)

@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate risk: scores of drives that are worked out by hand, and its reading of bags."""
 
+import contextlib
+import io
+import math
 import re
 import unittest
 
 import rosbag
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.risk_scores import (
     HORIZONS,
     RiskDrive,
@@ -142,6 +146,29 @@ class Tool(EvaluateCase):
     def test_a_folder_without_bags_is_reported(self):
         _, errors, _ = self.evaluate("risk", f"ours={self.folder}", code=1)
         self.assertIn("no bag in it", errors)
+
+    def test_a_method_needs_a_name(self):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), self.assertRaises(SystemExit):
+            main(["risk", str(self.folder)])
+        self.assertIn(f"'{self.folder}', expected NAME=FOLDER", said.getvalue())
+
+    def add(self, topic, message):
+        """Adds a message at the start of a drive."""
+        folder = self.write("hit")
+        message.header.stamp = to_ros_time(START * 10**9)
+        with rosbag.Bag(str(folder / "hit.bag"), "a") as bag:
+            bag.write(topic, message, message.header.stamp)
+        return f"ours={folder}"
+
+    def test_two_messages_of_one_stamp(self):
+        """They differ only in that one has no time to contact."""
+        risk = Risk(id=1, contact_probability=[0.0, 0.2, 0.6, 0.9], median_ttc=math.inf)
+        self.evaluate("risk", self.add("/risks", RiskArray(level=NONE, risks=[risk])))
+
+    def test_a_contact_of_another_type_is_reported(self):
+        _, errors, _ = self.evaluate("risk", self.add("/ground_truth/contact", RiskArray()), code=1)
+        self.assertIn("/ground_truth/contact is datmo_fusion/RiskArray, expected datmo_fusion/TrueContact", errors)
 
 
 if __name__ == "__main__":

@@ -12,16 +12,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.evaluate.nearest_messages import check_kinds, nearest_messages, stamps_of, topics_of
 from datmo_tools.evaluate.outlines import corners
-from datmo_tools.evaluate.truth import (
-    MAX_GAP,
-    NONE,
-    TRUE_OBJECT_ARRAY,
-    TRUE_OBJECTS,
-    TRUE_POSE,
-    Asked,
-    Region,
-    Truth,
-)
+from datmo_tools.evaluate.truth import MAX_GAP, NONE, TRUE_OBJECTS, TRUE_POSE, Asked, Region, Truth
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 
@@ -34,7 +25,7 @@ KINDS = {
     OBJECTS: "datmo_fusion/ObjectArray",
     DROPPED: "datmo_fusion/DroppedObjects",
     TRUE_BORDERS: "datmo_fusion/TrueRoadBorders",
-    TRUE_OBJECTS: TRUE_OBJECT_ARRAY,
+    TRUE_OBJECTS: "datmo_fusion/TrueObjectArray",
 }
 
 TRUE_REGION = Region(80.0)  # of true objects to draw

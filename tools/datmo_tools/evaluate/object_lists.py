@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools.bag_input import opened
+from datmo_fusion.msg import ObjectArray, TrackArray
+from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import planar, read_messages
-
-OBJECT_ARRAY, TRACK_ARRAY = "datmo_fusion/ObjectArray", "datmo_fusion/TrackArray"
 
 
 class Seen(NamedTuple):
@@ -64,14 +63,12 @@ def read_lists(path, topics):
 
     Objects with a position, size or covariance that is not finite are ignored, as in the stack.
 
-    Raises InputError for another type.
+    Raises InputError for another type or version.
     """
     lists = {}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages(list(topics)):
-            kind = message._type  # pylint: disable=protected-access
-            if kind != OBJECT_ARRAY:
-                raise InputError(f"{path}: {topic} is {kind}, expected {OBJECT_ARRAY}")
+            check_type(path, topic, message, ObjectArray)
             lists.setdefault(topic, []).append(_seen_list(message))
     return lists
 
@@ -79,12 +76,11 @@ def read_lists(path, topics):
 def read_moving_boxes(path, topic):
     """Returns a dictionary stamp (ns) -> list of MovingBox: the moving tracks, in the map.
 
-    Raises InputError for another type, and if there are none.
+    Raises InputError for another type or version, and if there are none.
     """
     boxes = {}
-    for message, kind in read_messages(path, topic):
-        if kind != TRACK_ARRAY:
-            raise InputError(f"{path}: {topic} is {kind}, expected {TRACK_ARRAY}")
+    for message, _ in read_messages(path, topic):
+        check_type(path, topic, message, TrackArray)
         boxes[message.header.stamp.to_nsec()] = [
             MovingBox(
                 np.array(planar(track.pose)),

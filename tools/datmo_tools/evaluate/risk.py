@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate risk."""
 
+import argparse
 from pathlib import Path
 
 from datmo_tools.errors import InputError
@@ -108,5 +109,5 @@ _ROWS = (
 def _named_folder(text):
     name, _, folder = text.partition("=")
     if not name or not folder:
-        raise ValueError(text)
+        raise argparse.ArgumentTypeError(f"'{text}', expected NAME=FOLDER")
     return name, Path(folder)

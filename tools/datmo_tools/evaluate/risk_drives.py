@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from datmo_fusion.msg import RiskArray
+from datmo_fusion.msg import RiskArray, TrueContact
 from datmo_tools.bag_input import check_type, opened
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.risk_scores import HORIZONS, LIKELY, RiskDrive, RiskFrame, any_contact
@@ -21,8 +21,8 @@ def read_drive(path):
     frames, contact = [], None
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages([RISKS, CONTACT]):
+            check_type(path, topic, message, RiskArray if topic == RISKS else TrueContact)
             if topic == RISKS:
-                check_type(path, topic, message, RiskArray)
                 frames.append(_frame(message.header.stamp.to_sec(), message))
             else:
                 contact = message
@@ -32,7 +32,7 @@ def read_drive(path):
                for stamp, items in sorted(read_true_objects(path).items())}  # fmt: skip
     if not objects:
         raise InputError(f"{path}: nothing on {TRUE_OBJECTS}, expected a bag of run_bag --with-truth")
-    frames.sort()
+    frames.sort(key=lambda frame: frame.time)
     if contact is None:
         return RiskDrive(path.stem, frames, max(frames[-1].time, *objects), None, None)
     time = contact.header.stamp.to_sec()

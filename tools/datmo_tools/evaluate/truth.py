@@ -6,14 +6,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from datmo_fusion.msg import TrueObjectArray
 from datmo_tools import transforms
+from datmo_tools.bag_input import check_type
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState
 from datmo_tools.pose_path import planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS
 
 TRUE_OBJECTS, TRUE_POSE = "/ground_truth/objects", "/ground_truth/pose"
-TRUE_OBJECT_ARRAY = "datmo_fusion/TrueObjectArray"
 
 ANY, NONE = "any", "none"  # sensors that must see an object: at least one; not required
 
@@ -53,9 +54,8 @@ ANYTHING = Asked(Region(math.inf), NONE)
 def read_true_objects(path):
     """Returns a dictionary stamp (ns) -> list of TrueObject of a bag (Path). Raises InputError."""
     objects = {}
-    for message, kind in read_messages(path, TRUE_OBJECTS):
-        if kind != TRUE_OBJECT_ARRAY:
-            raise InputError(f"{path}: {TRUE_OBJECTS} is {kind}, expected {TRUE_OBJECT_ARRAY}")
+    for message, _ in read_messages(path, TRUE_OBJECTS):
+        check_type(path, TRUE_OBJECTS, message, TrueObjectArray)
         objects[message.header.stamp.to_nsec()] = message.objects
     return objects
 
