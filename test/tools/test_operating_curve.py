@@ -54,10 +54,10 @@ class Settings(unittest.TestCase):
         self.assertEqual(preset, {"tracker": {"target": {"a": 1}}, "b": 2})
 
     def test_the_last_file_that_names_it_is_shipped(self):
-        self.assertEqual(shipped_probability([], 0.8), 0.8)
+        self.assertIsNone(shipped_probability([]))
         files = [with_probability({}, 0.6), {"tracker": None}]
-        self.assertEqual(shipped_probability(files, 0.8), 0.6)
-        self.assertEqual(shipped_probability([*files, with_probability({}, 0.7)], 0.8), 0.7)
+        self.assertEqual(shipped_probability(files), 0.6)
+        self.assertEqual(shipped_probability([*files, with_probability({}, 0.7)]), 0.7)
 
     def test_rates_are_of_all_frames_and_minutes(self):
         short = {"misses": 1, "required": 10, "false_tracks": 3, "duration_s": 30.0}
@@ -107,6 +107,31 @@ class CommandLine(unittest.TestCase):
         calls = (self.folder / "calls").read_text().splitlines()
         self.assertEqual(len(calls), 6)
         self.assertTrue(all("--road-border" in json.loads(call) for call in calls))
+
+    def test_drives_of_one_name_are_told_apart(self):
+        _, out, _ = self.evaluate("left/drive.bag", "right/drive.bag", "--probabilities", "0.5")
+        self.assertIn("left/drive: missed, %", out)
+        page = (self.out / "operating_curve.html").read_text()
+        for name in ("left/drive", "right/drive"):
+            self.assertIn(f">{name}</text>", page)
+
+    def test_invalid_presets(self):
+        """They are reported before anything runs."""
+        preset = self.folder / "preset.yaml"
+        for text, said in (("tracker: 3", "tracker is 3, expected a mapping of options"),
+                           ("tracker: {target: {motion_likelihood: {required_probability: low}}}",
+                            "required_probability is low, expected a number")):  # fmt: skip
+            preset.write_text(text)
+            code, _, err = self.evaluate("a.bag", "--preset", preset)
+            self.assertEqual(code, 1)
+            self.assertIn(said, err)
+        self.assertFalse((self.folder / "calls").exists())
+
+    def test_missing_program(self):
+        (self.folder / "run_bag").unlink()
+        code, _, err = self.evaluate("a.bag")
+        self.assertEqual(code, 1)
+        self.assertIn("run_bag: cannot be run: No such file or directory", err)
 
     def test_invalid_requests(self):
         code, _, err = self.evaluate("a.bag", "--probabilities", "1.2")

@@ -55,7 +55,7 @@ def check(folder, names):
 
 
 def call(program, *words):
-    """Runs a program (Path) to its end, without output. Raises StepFailed."""
+    """Runs a program (Path) to its end, without output. Raises StepFailed, also without it."""
     _run(program, words, subprocess.DEVNULL)
 
 
@@ -65,15 +65,18 @@ def output_of(program, *words):
 
 
 def _run(program, words, stdout):
-    done = subprocess.run(
-        [str(program), *map(str, words)],
-        stdout=stdout,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-        env={**os.environ, "LC_ALL": "C"},  # texts of the system, which callers search, in English
-    )
+    try:
+        done = subprocess.run(
+            [str(program), *map(str, words)],
+            stdout=stdout,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            check=False,
+            env={**os.environ, "LC_ALL": "C"},  # texts of the system, which callers search, in English
+        )
+    except OSError as error:
+        raise StepFailed(program.name, f"{program}: cannot be run: {error.strerror}") from error
     if done.returncode != 0:
         raise StepFailed(program.name, done.stderr, done.returncode)
     return done

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the picture of evaluate operating_curve."""
 
-from pathlib import Path
-
+from datmo_tools.evaluate.metrics import short_names
 from datmo_tools.evaluate.plot_style import FAINT, INK, drawing, picture, plain, series_color
 
 HEIGHT = 5.0  # inch
@@ -20,10 +19,11 @@ def curve_picture(result):
 
 def _draw(ax, result):
     points = result["points"]
-    for i, drive in enumerate(points[0]["drives"]):
+    names = short_names([drive["drive"] for drive in points[0]["drives"]])
+    for i, name in enumerate(names):
         of_drive = [point["drives"][i] for point in points]
         ax.plot(*_line(of_drive), color=series_color(i), alpha=0.5, marker=".",
-                label=plain(Path(drive["drive"]).stem))  # fmt: skip
+                label=plain(name))  # fmt: skip
     ax.plot(*_line(points), color=INK, linewidth=2.0, marker="o", label="all")
     for point in points:
         x, y = _line([point])

@@ -10,6 +10,7 @@ import yaml
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_settings
+from datmo_tools.evaluate.metrics import short_names
 from datmo_tools.evaluate.plot_files import drawing_module
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import find_score_run, score
@@ -38,9 +39,10 @@ def evaluate(values):
     values.score_run = values.score_run or find_score_run()
     values.run_bag = values.run_bag or programs.find("run_bag", sys.argv[0])
     presets = [_read(path) for path in (values.config, values.preset) if path is not None]
+    shipped = shipped_probability(presets)
     with tempfile.TemporaryDirectory(prefix="operating_curve_") as folder:
         points = [_point(values, float(p), Path(folder)) for p in sorted(set(values.probabilities))]
-        shipped = shipped_probability(presets, points[0]["default"])
+        shipped = points[0]["default"] if shipped is None else shipped
         if shipped not in [point["probability"] for point in points]:
             points.append(_point(values, shipped, Path(folder)))
     points.sort(key=lambda point: point["probability"])
@@ -49,22 +51,29 @@ def evaluate(values):
     return result, [_section(result)._replace(picture=plot.curve_drawing(result))]
 
 
-def shipped_probability(settings, default):
-    """Returns what the last of the `settings` (dictionaries of yaml files) that has it requires."""
-    found = default
+def shipped_probability(settings):
+    """Returns what the last of the `settings` (dictionaries of yaml files) that has it requires;
+    None: none has. Raises InputError."""
+    found = None
     for setting in settings:
         for key in KEYS:
             setting = setting.get(key) if isinstance(setting, dict) else None
+        if not isinstance(setting, (int, float, type(None))):
+            raise InputError(f"{'/'.join(KEYS)} is {setting}, expected a number")
         found = found if setting is None else float(setting)
     return found
 
 
 def with_probability(preset, probability):
-    """Returns a copy of a preset (dictionary of a yaml file) that requires this probability."""
+    """Returns a copy of a preset (dictionary of a yaml file) that requires this probability. Raises
+    InputError."""
     result = dict(preset)
     inner = result
     for key in KEYS[:-1]:
-        inner[key] = dict(inner.get(key) or {})
+        section = inner.get(key) or {}
+        if not isinstance(section, dict):
+            raise InputError(f"{key} is {section}, expected a mapping of options")
+        inner[key] = dict(section)
         inner = inner[key]
     inner[KEYS[-1]] = probability
     return result
@@ -127,7 +136,7 @@ def _point(values, probability, folder):
 
 
 def _section(result):
-    drives = [Path(drive["drive"]).stem for drive in result["points"][0]["drives"]]
+    drives = short_names([drive["drive"] for drive in result["points"][0]["drives"]])
     rows = [["required probability", "missed, %", "false a minute",
              *(f"{name}: missed, %" for name in drives)]]  # fmt: skip
     for point in result["points"]:
