@@ -4,9 +4,12 @@
 
 import math
 import unittest
+from pathlib import Path
 
 import numpy as np
+import yaml
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.covariance_report import as_yaml
 from datmo_tools.evaluate.covariance_table import covariance_table, fitted_law, robust_spread
 from datmo_tools.evaluate.object_pairs import Pair
 
@@ -142,6 +145,10 @@ class Table(unittest.TestCase):
         few = [*pairs(20, reach=10.0), *pairs(200, nearest=11.0)]
         with self.assertRaisesRegex(InputError, "several are taken together$"):
             covariance_table(few, 2.0, 10.0, 30)
+
+    def test_a_name_of_several_lines_stays_in_its_comment(self):
+        text = as_yaml(covariance_table(pairs(), 2.0, 30.0, 30), "stereo", [Path("two\nlines: true.bag")])
+        self.assertEqual(list(yaml.safe_load(text)), ["object_fusion"])
 
     def test_normal_spread(self):
         spread = robust_spread(random().normal(1.0, 2.0, 20000))

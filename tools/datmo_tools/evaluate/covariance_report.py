@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from datmo_tools.text_table import aligned, rounded
+from datmo_tools.text_table import aligned, one_line, rounded
 
 DEGREES = np.degrees(1.0)
 
@@ -17,7 +17,7 @@ def as_yaml(table, source, runs):
     bearings = _numbers(table.bearing.variance)
     return "\n".join([
         f"# How far objects of {source} are off, measured against the lidar's by",
-        f"# evaluate calibrate_object_covariance {' '.join(map(str, runs))}",
+        f"# evaluate calibrate_object_covariance {one_line(' '.join(map(str, runs)))}",
         f"# Bins of {table.bin_width:g} m from 0 m on: pairs and mean differences",
         *(f"# {line}" for line in _bins(table)),
         "object_fusion:",
