@@ -54,7 +54,7 @@ def documented_name(key):
 
 
 def keys_of(tree, prefix=""):
-    """Yields the paths of all values in nested mappings."""
+    """Returns the paths of all values in nested mappings."""
     if not isinstance(tree, dict):
         return [prefix]
     start = f"{prefix}/" if prefix else ""

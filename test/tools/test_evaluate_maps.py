@@ -45,7 +45,7 @@ def moment(standing=(), resting=(), seen=None, thin=None):
 
 
 def add_map(run, topic, frame, occupied, free, percents=(90, 10)):
-    """Evaluates a run that write_drive has written; points in the true map."""
+    """Adds a map to a run that write_drive has written; points in the true map."""
     in_map = [
         [transforms.compose(DRIFT, (x, y, 0.0))[:2] for x, y in points] for points in (occupied, free)
     ]

@@ -29,8 +29,8 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 
 
 def inline_commands(text):
-    """Returns (our program, its arguments, options) of the commands with
-    options outside of fenced blocks."""
+    """Yields (our program, its arguments, options) of the commands with options outside of fenced
+    blocks."""
     for name, words in SPAN.findall(FENCED.sub("", text)):
         options = OPTION.findall(words)
         if options and name not in OTHERS:

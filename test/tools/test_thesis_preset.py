@@ -46,7 +46,7 @@ def value_of(text, allowed):
 
 
 def thesis_values(page):
-    """Returns (section, key, default value, the thesis's value) of the rows that have one."""
+    """Yields (section, key, default value, the thesis's value) of the rows that have one."""
     section = None
     for line in page.splitlines():
         if line.startswith("#"):
@@ -62,7 +62,7 @@ def thesis_values(page):
 
 
 def leaves(node, name=""):
-    """Yields each value of nested sections by its full key."""
+    """Returns each value of nested sections by its full key."""
     if not isinstance(node, dict):
         return {name: node}
     return {key: value for part, inner in node.items() for key, value in leaves(inner, f"{name}/{part}").items()}

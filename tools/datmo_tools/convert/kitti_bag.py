@@ -110,7 +110,7 @@ class _Conversion:
             yield "an unsynchronized drive: every sensor at its own rate, without true objects"
 
     def events(self):
-        """Returns all events to be written, in any order of stamps."""
+        """Yields all events to be written, in any order of stamps."""
         for index in self._motion:
             yield _Event(self._drive.oxts_stamps[index], index, self._write_motion)
         for frame in self._frames:

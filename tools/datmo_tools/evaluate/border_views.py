@@ -83,7 +83,7 @@ def legend_handles(with_truth):
     ring = {"linestyle": "", "marker": "o", **RING}
     handles = [
         line(LEFT, "left border"),
-        line(RIGHT, "right border, ± 2 sigma"),
+        line(RIGHT, f"right border, ± {SIGMAS:g} sigma"),
         line(INK, f"unseen for {LONG_UNSEEN:g} s", linestyle="--"),
         line(INK, "of a side street", linestyle=":"),
         line(STATES[ScanPoint.STATIC], "static point", **dots),

@@ -77,7 +77,7 @@ class _Score:
         self.reported = np.zeros(len(items), dtype=bool)
 
     def add(self, points, base):
-        """Returns the cells (n x 2, base_link, m) of a map as seen from the true pose `base`."""
+        """Adds the cells (n x 2, base_link, m) of a map as seen from the true pose `base`."""
         boxes = boxes_from(base, self.items)
         near = boxes.depths(points) <= NEAR
         right = int(np.sum(near.any(axis=1)))

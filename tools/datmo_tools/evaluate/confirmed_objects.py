@@ -130,7 +130,7 @@ def score_confirmed(fused, members, gate, soon, sensors):
 
 
 def _add_tracks(entry, stamp, number, on):
-    """Returns the object's tracks, and the least distance between two of different sources."""
+    """Adds the object's tracks, and the least distance between two of different sources."""
     positions = []
     for source, (then, tracks) in on.items():
         entry.tracks.update((source, track.id) for track in tracks[number])

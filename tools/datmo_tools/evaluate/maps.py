@@ -140,7 +140,7 @@ def sections(result):
 
 
 def share(result, right, of):
-    """Formats two counts of a score; None if there is nothing."""
+    """Returns the share of two counts of a score; None if there is nothing."""
     return result[right] / result[of] if result[of] else None
 
 

@@ -91,7 +91,7 @@ def paired_objects(lidar_lists, camera_lists, tracks, path):
 
 
 def _delay(item):
-    """Returns the stamps of a list's objects, ns."""
+    """Returns the median delay (ns) of a list's objects after its stamp."""
     return np.median([seen.delay for seen in item.objects] or [0.0]) * NANOSECONDS
 
 
@@ -170,7 +170,7 @@ def _scaled_distance(seen, position):
 
 
 def _alike(one, other):
-    """Whether sizes are compatible; longer sides may be seen only partly."""
+    """Whether classes and sizes are compatible; longer sides may be seen only partly."""
     classes = {one.classification, other.classification} - {Object.CLASS_UNKNOWN}
     shorter = min(one.size), min(other.size)
     return len(classes) <= 1 and abs(shorter[0] - shorter[1]) <= SIZE_DIFFERENCE

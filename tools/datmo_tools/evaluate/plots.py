@@ -128,7 +128,7 @@ def stage_times(runs, names):
 
 
 def _consistency_rows(runs, names):
-    """Yields (name, score_run's values, color) of each state of each run."""
+    """Returns a list of (name, score_run's values, color), of each state of each run."""
     rows = []
     for state in ("position", "velocity", "pose of the vehicle"):
         for i, (run, name) in enumerate(zip(runs, names)):

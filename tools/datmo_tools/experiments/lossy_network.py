@@ -131,7 +131,7 @@ def _checked(*words):
 
 
 def _end_processes(name):
-    """Returns the processes left in one of our namespaces."""
+    """Kills the processes left in one of our namespaces."""
     left = subprocess.run(["ip", "netns", "pids", name], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                           encoding="utf-8", check=False).stdout
     for process in left.split():
@@ -163,7 +163,7 @@ def _relay(devices, quality, parent):
 
 
 def _packets(device):
-    """Returns the packets that have arrived."""
+    """Yields the packets that have arrived."""
     while True:
         try:
             yield os.read(device, LARGEST_PACKET)

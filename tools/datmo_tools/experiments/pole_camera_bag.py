@@ -122,7 +122,7 @@ def _fixes(truth, random, sigma):
 
 
 def _lists(truth, random, values):
-    """Returns the camera's Kalman-filtered tracks of objects near the pole and of the vehicle."""
+    """Yields the camera's Kalman-filtered tracks of objects near the pole and of the vehicle."""
     filters = {}
     next_stamp = truth.start
     for (stamp, items), pose in zip(truth.frames, truth.poses):

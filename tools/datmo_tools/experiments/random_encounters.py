@@ -10,7 +10,7 @@ FASTEST = 60.0  # km/h, of the host
 
 
 def random_scenes(count, seed):
-    """Returns `count` scenes (dicts) with random speeds, times and places near those of the
+    """Yields `count` scenes (dicts) with random speeds, times and places near those of the
     protocols, and road users and hosts that change their behavior: whether they meet is random."""
     random = np.random.default_rng(seed)
     protocols = [name for name in PROTOCOLS if not name.startswith("turn")]
