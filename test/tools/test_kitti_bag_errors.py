@@ -46,7 +46,7 @@ class Errors(Conversion):
 
     def test_options(self):
         self.assert_refused("--scan-resolution is -1", options=["--scan-resolution", "-1"])
-        self.assert_refused("expected 0 or more", options=["--odometry-yaw-noise", "-1"])
+        self.assert_refused("--odometry-yaw-noise is -1, expected 0 or more", options=["--odometry-yaw-noise", "-1"])
         self.assert_refused("--seed is -1", options=["--seed", "-1"])
 
     def test_bag_that_cannot_be_written(self):

@@ -57,10 +57,19 @@ def add_number(group, name, default, metavar, description):
 
 def check_positive(values, *names):
     """Raises InputError unless these options, by their argparse names, are greater than 0."""
+    _check(values, names, lambda value: value > 0.0, "more than 0")
+
+
+def check_not_negative(values, *names):
+    """Like that, of options that may be 0."""
+    _check(values, names, lambda value: value >= 0.0, "0 or more")
+
+
+def _check(values, names, is_valid, expected):
     for name in names:
         value = getattr(values, name)
-        if value <= 0.0:
-            raise InputError(f"--{name.replace('_', '-')} is {value:g}, expected more than 0")
+        if not is_valid(value):
+            raise InputError(f"--{name.replace('_', '-')} is {value:g}, expected {expected}")
 
 
 def add_json(parser):

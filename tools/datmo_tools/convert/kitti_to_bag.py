@@ -9,7 +9,6 @@ from datmo_tools.command_line import add_number
 from datmo_tools.convert import kitti_bag
 from datmo_tools.convert.kitti_scans import ScannerOptions
 from datmo_tools.convert.odometry import OdometryErrors
-from datmo_tools.errors import InputError
 
 DESCRIPTION = """\
 Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
@@ -103,10 +102,7 @@ def _add_truth(group):
 
 
 def _options(values):
-    if values.odometry_speed_noise < 0.0 or values.odometry_yaw_noise < 0.0:
-        raise InputError("--odometry-speed-noise and --odometry-yaw-noise: expected 0 or more")
-    if values.seed < 0:
-        raise InputError(f"--seed is {values.seed}, expected 0 or more")
+    command_line.check_not_negative(values, "odometry_speed_noise", "odometry_yaw_noise", "seed")
     return kitti_bag.Options(
         scanner=ScannerOptions(
             values.scan_resolution,

@@ -83,8 +83,7 @@ def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
     command_line.check_positive(
         values, "gate", "found_within", "false_from", "curve_radius", "car_length")  # fmt: skip
-    if values.bridged < 0.0:
-        raise InputError(f"--bridged is {values.bridged:g}, expected 0 or more")
+    command_line.check_not_negative(values, "bridged")
     rows = RowOptions(values.bridged, values.car_length)
     limits = Limits(values.gate, values.found_within, values.false_from, values.curve_radius, rows)
     result = score(values.run, values.truth, limits)

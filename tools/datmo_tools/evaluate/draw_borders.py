@@ -34,8 +34,7 @@ def execute(values):
     kind = picture_kind(values.out, "--out")
     sheets = drawing_module("border_sheets").sheets
     command_line.check_positive(values, "every")
-    if values.history < 0.0:
-        raise InputError(f"--history is {values.history:g}, expected 0 or more")
+    command_line.check_not_negative(values, "history")
     run = Run(values.run)
     if not values.at and run.duration == 0.0:
         raise InputError(f"{values.run}: all borders have one stamp, expected two or more, or --at 0")

@@ -94,8 +94,7 @@ def _figures(values):
 
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
-    if values.tolerance < 0.0:
-        raise InputError(f"--tolerance is {values.tolerance}, expected 0 s or more")
+    command_line.check_not_negative(values, "tolerance")
     result = score(values.poses, values.relations, values.topic, values.recording, values.tolerance)
     if result["not_covered"]:
         print(

@@ -107,8 +107,7 @@ def _band(near, far, counts):
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
     command_line.check_positive(values, "disparity_sigma")
-    if values.first_column < 0.0:
-        raise InputError(f"--first-column is {values.first_column:g}, expected 0 or more")
+    command_line.check_not_negative(values, "first_column")
     result = score(
         values.run, values.drive, values.topic, values.disparity_sigma, values.first_column
     )
