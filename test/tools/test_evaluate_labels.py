@@ -13,6 +13,8 @@ from visualization_msgs.msg import Marker
 
 import simulated_recording as simulated
 from datmo_fusion.msg import Track, TrackArray
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.track_lists import read_track_lists
 from datmo_tools.transforms import quaternion_of_yaw
 from evaluate_case import EvaluateCase
 
@@ -108,6 +110,11 @@ class Tool(EvaluateCase):
 
     def test_nothing_labeled(self):
         self.assertIn("nothing on /people", self.score([], {}, code=1))
+
+    def test_result_without_tracks(self):
+        self.score([(3, label(1, 2.0, 0.0))], {})
+        with self.assertRaisesRegex(InputError, "nothing on /tracks, expected a bag of run_bag$"):
+            read_track_lists(self.folder / "in.bag", ["/tracks"])
 
     def test_frame_without_mount(self):
         text = self.score([(3, label(1, 2.0, 0.0))], {}, "--base", "chassis", code=1)

@@ -11,7 +11,7 @@ from datmo_tools.evaluate.arguments import add_region, add_table, add_truths, dr
 from datmo_tools.evaluate.plot_files import plotter
 from datmo_tools.evaluate.source_tally import CLASSES, OTHER, SourceTally
 from datmo_tools.evaluate.track_frames import Scene
-from datmo_tools.evaluate.track_lists import read_track_lists
+from datmo_tools.evaluate.track_lists import TRACKS, read_track_lists
 from datmo_tools.evaluate.truth import ANY, NONE
 from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_file
@@ -81,7 +81,7 @@ def summary(tallies):
 def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDTH):
     """Returns a dictionary source -> SourceTally of runs and drives (Paths). Raises InputError."""
     tallies = {name: SourceTally(bin_width) for name in sources}
-    topics = {name: f"/tracks/{name}" for name in sources}
+    topics = {name: f"{TRACKS}/{name}" for name in sources}
     for run, drive in zip(runs, drives):
         lists = read_track_lists(run, topics.values())
         scene = Scene(run, drive, region, visible_to, GATE)

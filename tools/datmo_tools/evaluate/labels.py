@@ -14,7 +14,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.labeled_positions import LabelOptions, read_labels
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import matches
-from datmo_tools.evaluate.track_lists import read_track_lists
+from datmo_tools.evaluate.track_lists import TRACKS, read_track_lists
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import rounded
 
@@ -26,7 +26,6 @@ belongs to the last scan recorded before it, in that scan's frame.
 
 Unlabeled objects are not scored: if only some people are labeled, false tracks are not detected."""
 
-TRACKS = "/tracks"
 GATE = 0.5  # m
 EVERYWHERE = 500.0  # m
 TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest list of tracks

@@ -12,7 +12,7 @@ from datmo_tools.evaluate.false_tracks import reduction, score_false
 from datmo_tools.evaluate.passed_tracks import score_passed
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_ghosts import score_ghosts
-from datmo_tools.evaluate.track_lists import read_track_lists
+from datmo_tools.evaluate.track_lists import TRACKS, read_track_lists
 from datmo_tools.evaluate.track_table import sections
 from datmo_tools.evaluate.truth import ANY, NONE, Region
 
@@ -38,8 +38,6 @@ False, late and missed tracks are listed with stamp and position. KITTI's labels
 camera's view, and do not tell which sensor sees what: --visible-to none --range 500 --half-angle
 0.7."""
 
-FUSED = "/tracks"
-
 # By source, the name of its sensor in the truth.
 SENSORS = {"lidar": "scanner", "stereo": "stereo"}
 CAMERA = "stereo"  # the source whose views are used
@@ -64,7 +62,7 @@ def score(run, drive=None, limits=Limits()):
     drive: bag with the truth (Path), by default `run`. Raises InputError, also if nothing can be
     scored.
     """
-    topics = {"fused": FUSED, **{source: f"{FUSED}/{source}" for source in SENSORS}}
+    topics = {"fused": TRACKS, **{source: f"{TRACKS}/{source}" for source in SENSORS}}
     lists = read_track_lists(run, topics.values())
     lists = {name: lists[topic] for name, topic in topics.items()}
     scene = Scene(run, drive or run, limits.region, limits.visible_to, limits.gate)

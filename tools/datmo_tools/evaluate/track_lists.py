@@ -11,6 +11,8 @@ from datmo_tools.errors import InputError
 from datmo_tools.pose_path import planar
 from datmo_tools.stamps import NANOSECONDS
 
+TRACKS = "/tracks"  # the fused ones if there is track fusion; with /NAME after it those of a source
+
 
 class SeenTrack(NamedTuple):
     """A track at the stamp of its list, in the map of the run."""
@@ -56,9 +58,8 @@ def read_track_lists(path, topics):
             lists[topic][stamp] = TrackList(stamp, _finite_tracks(message), message.views)
     for topic in topics:
         if not lists[topic]:
-            raise InputError(
-                f"{path}: nothing on {topic}, expected a bag of run_bag --track-fusion"
-            )
+            option = "" if topic == TRACKS else " --track-fusion"
+            raise InputError(f"{path}: nothing on {topic}, expected a bag of run_bag{option}")
     return {topic: [items[stamp] for stamp in sorted(items)] for topic, items in lists.items()}
 
 
