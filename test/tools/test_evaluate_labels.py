@@ -111,6 +111,10 @@ class Tool(EvaluateCase):
     def test_nothing_labeled(self):
         self.assertIn("nothing on /people", self.score([], {}, code=1))
 
+    def test_label_that_is_not_finite(self):
+        text = self.score([(3, label(1, math.nan, 0.0))], {}, code=1)
+        self.assertIn("in.bag: /people: id 1 at nan, 0, expected finite numbers", text)
+
     def test_result_without_tracks(self):
         self.score([(3, label(1, 2.0, 0.0))], {})
         with self.assertRaisesRegex(InputError, "nothing on /tracks, expected a bag of run_bag$"):

@@ -76,6 +76,11 @@ def _checked(recording, topic, message):
     pose = getattr(pose, "pose", pose)
     if not hasattr(pose, "position") or not hasattr(message, "id"):
         raise InputError(f"{recording}: {topic} has no pose and id, expected one of an object each")
+    if not np.all(np.isfinite([pose.position.x, pose.position.y])):
+        raise InputError(
+            f"{recording}: {topic}: id {message.id} at {pose.position.x:g}, {pose.position.y:g}, "
+            "expected finite numbers"
+        )
     return message
 
 
