@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate objects on lists and truths that are worked out by hand."""
 
+import contextlib
+import io
 import math
 import unittest
 
 import numpy as np
+import yaml
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState, score_lists
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
@@ -155,6 +159,20 @@ class Tool(EvaluateCase):
         self.assertEqual(figures["class_right"]["vehicle"]["share"], 1.0)
         self.assertEqual(figures["class_right"]["pedestrian"], {"count": 0, "of": 1, "share": 0.0})
         self.assertEqual(figures["said"]["pedestrian"]["vehicle"], 1)
+
+    def test_calibration_of_classes(self):
+        """Of three reports that of the car is right; the pedestrian and a wall are no vehicles."""
+        self.write("/objects/mono", object_at(8.0, 0.0), object_at(15.0, 3.0, size=(0.6, 0.6)), object_at(30.0, 0.0))
+        table, out = self.folder / "table.yaml", io.StringIO()
+        with contextlib.redirect_stdout(out):
+            code = main(["calibrate_classes", str(self.bag), "--truth", str(self.drive), "--detector", "dnn",
+                         "--out", str(table)])  # fmt: skip
+        self.assertEqual(code, 0)
+        self.assertIn("3 reports, 1 of them right", out.getvalue())
+        reliability = yaml.safe_load(table.read_text())["mono_classifier"]["dnn"]["reliability"]
+        self.assertEqual((reliability["scores"], reliability["right"]), ([0.0], [0.4]))
+        of_vehicles = reliability["mistaken"][10:]
+        self.assertEqual(of_vehicles, [0.333, 0.333, 0.167, 0.0, 0.167])
 
     def test_sensor_that_must_see(self):
         """The topic's sensor, or the named one; what another sensor sees is not false."""
