@@ -93,7 +93,7 @@ def evaluate(values):
 def add_arguments(parser):
     """Adds the arguments of this subcommand."""
     add = parser.add_argument
-    add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --road-border")
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --road-border")
     add_truth(parser)
     for name, default, text in (
         ("--gate", GATE, "distance from the true border beyond which no error counts, m"),

@@ -34,8 +34,8 @@ TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest li
 def add_arguments(parser):
     """Adds the arguments of this subcommand."""
     add = parser.add_argument
-    add("result", type=Path, help="result of run_bag, with /tracks and /pose")
-    add("recording", type=Path, help="the bag that it was made from, with the labels")
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag, with /tracks and /pose")
+    add("recording", type=Path, metavar="RECORDING.bag", help="the bag that it was made from, with the labels")
     add("--labels", required=True, metavar="TOPIC", help="topic of the labels")
     add("--scan", default="/scan", metavar="TOPIC", help="of the scans (default %(default)s)")
     add("--base", default="base_link", metavar="FRAME", help="of the vehicle (default %(default)s)")
@@ -46,7 +46,7 @@ def add_arguments(parser):
 def evaluate(values):
     """Returns the score and its sections. Raises InputError."""
     options = LabelOptions(values.labels, values.scan, values.frame, values.base)
-    result = score(values.result, values.recording, options, values.gate)
+    result = score(values.run, values.recording, options, values.gate)
     return result, sections(result)
 
 

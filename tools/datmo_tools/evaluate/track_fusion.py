@@ -107,7 +107,7 @@ def evaluate(values):
 def add_arguments(parser):
     """Adds the arguments of this subcommand."""
     add = parser.add_argument
-    add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --track-fusion")
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --track-fusion")
     add_truth(parser)
     add("--visible-to", default=ANY, metavar="SENSOR",
         help="sensor that must see a true object for it to have to be found, "
