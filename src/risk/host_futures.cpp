@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/normal_density.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
 namespace {
 
-enum HostDraw : std::uint32_t { kDrawAcceleration, kDrawSteering, kDrawVariation };
+enum HostDraw : std::uint32_t { kDrawAcceleration, kDrawSteering, kDrawVariation, kDrawIntention };
 constexpr std::uint32_t kHost = 0;  ///< no track has this id
 
 /// m/s; below this, a lateral acceleration does not define a steering angle.
@@ -93,6 +94,21 @@ Curvature curvatureBetween(const BorderPoint& here, const BorderPoint& there) {
           square(per_offset) * (square(here.sigma) + square(there.sigma) + square(kMinSigma))};
 }
 
+/// Returns the probability that a driver follows the road with this border rather than turns off
+/// it, by the border's direction. `here`, `near`: of the border, in the host's frame.
+double followProbability(const BorderPoint& here, const BorderPoint& near, double speed,
+                         const HostFutureOptions& options) {
+  const Point2 along = near.position - here.position;
+  const double sway = options.lane_deviation / (options.lane_time * std::max(speed, kSteered));
+  const double variance =
+      square(sway) +
+      (square(here.sigma) + square(near.sigma) + square(kMinSigma)) / along.squaredNorm();
+  const double follows =
+      (1.0 - options.turning_share) * normalDensity(std::atan2(along.y(), along.x()), variance);
+  const double turns = options.turning_share / kPi;  // any direction ahead
+  return follows / (follows + turns);
+}
+
 double curvatureOf(const BodyPath& path) {
   constexpr double kShortPath = 1.0;  // m; a shorter path does not define a curvature
   double length = 0.0;
@@ -135,18 +151,22 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
   const double ahead = std::max(options.min_course_distance, options.course_time * host.speed);
   double weights = 0.0;
   double curvature = 0.0;
+  double probability = 0.0;
   for (const RoadBorder& border : road.borders) {
     if (border.side_street || border.probability < options.border_probability) {
       continue;
     }
     const std::vector<BorderPoint> points = inFrame(border, host.pose);
     const auto here = pointAt(points, 0.0);
+    const auto near = pointAt(points, options.min_course_distance);
     const auto there = pointAt(points, ahead);
-    if (here && there) {
+    if (here && near && there) {
       const Curvature arc = curvatureBetween(*here, *there);
-      const double weight = border.probability / arc.variance;
+      const double follows = followProbability(*here, *near, host.speed, options);
+      const double weight = border.probability * follows / arc.variance;
       curvature += weight * arc.value;
       weights += weight;
+      probability = std::max(probability, follows);
     }
   }
   const double sigma = vehicle.wheelbase / std::sqrt(weights);  // infinite without a border
@@ -155,27 +175,31 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
   }
   return CourseSteering{std::clamp(std::atan(vehicle.wheelbase * curvature / weights),
                                    -vehicle.max_steering, vehicle.max_steering),
-                        sigma};
+                        sigma, probability};
 }
 
 HostFutures::HostFutures(const HostState& host, const std::optional<CourseSteering>& course,
                          const HostVehicleOptions& vehicle, const HostFutureOptions& options,
                          const HorizonOptions& horizon, const RandomDraws& draws)
     : host_(host), vehicle_(vehicle), options_(options), horizon_(horizon) {
-  const double steering = course ? course->angle : host.steering;
   // Bicycle model: lateral acceleration v^2 tan(steering) / wheelbase.
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());
-  const double spread =
-      std::hypot(std::min(options.max_steering_spread,
-                          options.steering_spread * vehicle.wheelbase / squared_speed),
-                 course ? course->sigma : 0.0);
-  nominal_ = nominalPath(steering);
+  const CourseSteering kept{host.steering,
+                            std::min(options.max_steering_spread,
+                                     options.steering_spread * vehicle.wheelbase / squared_speed)};
+  const CourseSteering followed =
+      course ? CourseSteering{course->angle, std::hypot(kept.sigma, course->sigma),
+                              course->probability}
+             : CourseSteering{0.0, 0.0, 0.0};
+  nominal_ = nominalPath(followed.probability >= 0.5 ? followed.angle : kept.angle);
   curvature_ = curvatureOf(nominal_);
   paths_.reserve(static_cast<std::size_t>(horizon.futures));
   for (int i = 0; i < horizon.futures; ++i) {
     const auto future = static_cast<std::uint32_t>(i);
-    const double turn = spread * draws.normal({kHost, future, 0, kDrawSteering});
-    paths_.push_back(path(steering + turn, future, draws));
+    const bool follows = draws.uniform({kHost, future, 0, kDrawIntention}) < followed.probability;
+    const CourseSteering& intended = follows ? followed : kept;
+    const double turn = intended.sigma * draws.normal({kHost, future, 0, kDrawSteering});
+    paths_.push_back(path(intended.angle + turn, future, draws));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/normal_density.h"
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/common/square.h"
 
@@ -18,10 +19,6 @@ namespace {
 /// Returns the density of the velocity across the road if all directions are equally likely, s/m:
 /// that of a projected circle at its center.
 double densityOfAnyDirection(double speed) { return 1.0 / (kPi * speed); }
-
-double normalDensity(double value, double variance) {
-  return std::exp(-0.5 * square(value) / variance) / std::sqrt(kTurn * variance);
-}
 
 /// Returns the probability that a moving object is a driver or rider: it is not a pole, and an
 /// unknown class is any of the others.

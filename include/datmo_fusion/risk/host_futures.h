@@ -28,32 +28,38 @@ struct HostFutureOptions {
   double min_course_distance = 6.0;  ///< m, 1 to 50: the same at low speed
   /// 0 to 1: a less probable border of the road is not used for the course
   double border_probability = 0.7;
+  /// 0 to 1: share of the time in which a driver does not follow the road, but turns off it
+  double turning_share = 0.1;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// The intended steering angle, and its standard deviation.
+/// The steering angle that follows the road.
 struct CourseSteering {
-  double angle = 0.0;  ///< rad
-  double sigma = 0.0;  ///< rad
+  double angle = 0.0;        ///< rad
+  double sigma = 0.0;        ///< rad, standard deviation of the angle
+  double probability = 1.0;  ///< that the driver follows the road
 };
 
 /// Returns the steering angle that follows the course of the road: pure pursuit (Coulter 1992) of
 /// the point ahead at the vehicle's present distance from each border, averaged over the borders
 /// with their probability and the inverse of the variance that results from that of their points as
-/// weights. None if its standard deviation exceeds `max_steering_spread`, or if no border is
-/// probable enough, does not belong to a side street, and extends from beside the vehicle to that
-/// far ahead.
+/// weights. A driver who follows the road is parallel to its border here, within the sway in the
+/// lane; one who turns off it (`turning_share`) has any direction: by Bayes' rule, a border counts
+/// the less, the more the vehicle has turned away from it. None if its standard deviation exceeds
+/// `max_steering_spread`, or if no border is probable enough, does not belong to a side street, and
+/// extends from beside the vehicle to that far ahead.
 std::optional<CourseSteering> courseSteering(const HostState& host, const RoadModel& road,
                                              const HostVehicleOptions& vehicle,
                                              const HostFutureOptions& options);
 
-/// Possible futures of the host: it keeps its acceleration and its steering, or steers to the
-/// course of the road. Its acceleration varies about the current one (first-order Gauss-Markov),
-/// and begins within the noise of that one if it is measured. It sways about its course like a
-/// driver who keeps the lane: the deviation is pulled back, so that it stays within a lane however
-/// far the futures reach (critically damped, driven by white noise). The uncertainty of the course
-/// itself is a constant lateral acceleration, which leads away from it.
+/// Possible futures of the host: it keeps its acceleration, and its steering or, in a share of the
+/// futures that is the probability of that, steers to the course of the road. Its acceleration
+/// varies about the current one (first-order Gauss-Markov), and begins within the noise of that one
+/// if it is measured. It sways about its course like a driver who keeps the lane: the deviation is
+/// pulled back, so that it stays within a lane however far the futures reach (critically damped,
+/// driven by white noise). The uncertainty of the course itself is a constant lateral acceleration,
+/// which leads away from it.
 class HostFutures {
  public:
   /// `course`: the intended steering; none: the current one.
@@ -62,7 +68,7 @@ class HostFutures {
               const HorizonOptions& horizon, const RandomDraws& draws);
 
   const std::vector<BodyPath>& paths() const { return paths_; }
-  /// The path without random deviations.
+  /// The likelier path, without random deviations.
   const BodyPath& nominal() const { return nominal_; }
   /// Mean curvature of the nominal path, 1/m, positive to the left; 0 if the path is too short.
   double curvature() const { return curvature_; }

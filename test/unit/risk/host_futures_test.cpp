@@ -121,5 +121,26 @@ TEST(HostFutures, AStationaryHostDoesNotSway) {
   EXPECT_EQ(spread.along, 0.0);
 }
 
+TEST(HostFutures, FollowTheRoadAsOftenAsItIsProbable) {
+  HostState host;
+  host.speed = 8.0;
+  host.steering = -0.1;  // to the right
+  const RandomDraws draws(1);
+  HorizonOptions horizon;
+  horizon.futures = 400;
+  const HostVehicleOptions vehicle;
+  const HostFutureOptions options;
+  for (const double probability : {0.0, 0.3, 1.0}) {
+    const HostFutures futures(host, CourseSteering{0.1, 0.0, probability}, vehicle, options,
+                              horizon, draws);
+    int to_left = 0;
+    for (const BodyPath& path : futures.paths()) {
+      to_left += path.poses.back().center.y() > 0.0 ? 1 : 0;
+    }
+    EXPECT_NEAR(to_left / 400.0, probability, 0.06);
+    EXPECT_EQ(futures.curvature() > 0.0, probability > 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace datmo::host_futures_test

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/risk/host_futures.h"
 
@@ -117,8 +118,10 @@ TEST(CourseSteering, KeepsBesideABorderThatGoesStraight) {
   const auto steering = courseSteering(host, roadAlong({{-10, 3}, {40, 3}}), kVehicle, {});
   ASSERT_TRUE(steering);
   EXPECT_NEAR(steering->angle, 0.0, 1e-12);
+  EXPECT_GT(steering->probability, 0.98);
   // Two points of 0.1 m (0.02 m more): 2 / 30^2 of 0.1414 m, over the wheelbase.
-  EXPECT_NEAR(steering->sigma, kVehicle.wheelbase * 2.0 / 900.0 * std::sqrt(0.0204 / 0.9), 1e-6);
+  const double weight = 0.9 * steering->probability;
+  EXPECT_NEAR(steering->sigma, kVehicle.wheelbase * 2.0 / 900.0 * std::sqrt(0.0204 / weight), 1e-6);
 }
 
 TEST(CourseSteering, TurnsWithTheBorder) {
@@ -132,6 +135,27 @@ TEST(CourseSteering, TurnsWithTheBorder) {
   const auto steering = courseSteering(host, roadAlong(points), kVehicle, {});
   ASSERT_TRUE(steering);
   EXPECT_NEAR(std::tan(steering->angle) / kVehicle.wheelbase, 1.0 / 50.0, 0.002);
+}
+
+// At 5 m/s a driver who keeps the lane sways by 0.3 / (1.2 * 5) = 0.05 rad, and points of 0.1 m, 6
+// m apart, tell the direction to 0.024 rad.
+TEST(CourseSteering, IsNotOfABorderFromWhichTheVehicleTurnsAway) {
+  HostState host;
+  host.speed = 5.0;
+  const auto probability = [&](double angle) {
+    const Point2 along(std::cos(angle), std::sin(angle));
+    const Point2 here(0.0, 3.0);
+    const auto steering =
+        courseSteering(host, roadAlong({here - 10.0 * along, here + 40.0 * along}), kVehicle, {});
+    return steering ? steering->probability : 0.0;
+  };
+  const double variance = 0.05 * 0.05 + 0.0204 / 36.0;
+  const double peak = 0.9 / std::sqrt(2.0 * kPi * variance);
+  EXPECT_NEAR(probability(0.0), peak / (peak + 0.1 / kPi), 1e-3);
+  EXPECT_GT(probability(0.1), 0.95);
+  EXPECT_GT(probability(-0.1), 0.95);
+  EXPECT_LT(probability(0.3), 0.05);
+  EXPECT_LT(probability(-0.3), 0.05);
 }
 
 TEST(CourseSteering, FollowsTheBorderThatIsKnownBetter) {
