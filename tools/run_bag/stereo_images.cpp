@@ -36,7 +36,7 @@ sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>&
   if (!pair) {
     return nullptr;
   }
-  const sensor_msgs::PointCloud2Ptr cloud = match_(*pair);
+  sensor_msgs::PointCloud2Ptr cloud = match_(*pair);
   runner_.processed(pair->left.stamp);
   return cloud;
 }
