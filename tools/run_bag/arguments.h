@@ -28,12 +28,12 @@ struct Arguments : StackSwitches {
   FusionLevel fusion = FusionLevel::kNone;  ///< its switches are among those of the stack
   bool stereo_from_images = false;          ///< even if the bag has clouds
   bool write_grids = false;
-  std::string grid_rule;      ///< of fusion, overrides the yaml file; empty: as in the file
-  std::string map;            ///< file to start in; empty: none
-  std::vector<double> start;  ///< approximate x, y (m), heading (degrees) in it; empty: anywhere
-  std::string save_map;       ///< file for the map at the end; empty: none
-  std::string report;         ///< JSON file for the report of the run; empty: none
-  std::string times;          ///< JSON file for the stages' times; empty: none
+  std::string grid_rule;        ///< of fusion, overrides the yaml file; empty: as in the file
+  std::string map;              ///< file to start in; empty: none
+  std::vector<double> start;    ///< approximate x, y (m), heading (degrees) in it; empty: anywhere
+  std::string save_map;         ///< file for the map at the end; empty: none
+  std::string report;           ///< JSON file for the report of the run; empty: none
+  std::string times;            ///< JSON file for the stages' times; empty: none
   int jobs = processorCount();  ///< threads; from 2 on, stereo images are matched ahead
   TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's

@@ -8,7 +8,8 @@
 
 namespace datmo {
 
-/// Returns the density of a normal distribution at this distance from its mean. `variance`: above 0.
+/// Returns the density of a normal distribution at this distance from its mean. `variance`: above
+/// 0.
 inline double normalDensity(double distance, double variance) {
   return std::exp(-0.5 * square(distance) / variance) / std::sqrt(2.0 * kPi * variance);
 }
