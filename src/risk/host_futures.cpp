@@ -95,14 +95,14 @@ Curvature curvatureBetween(const BorderPoint& here, const BorderPoint& there) {
 }
 
 /// Returns the probability that a driver follows the road with this border rather than turns off
-/// it, by the border's direction. `here`, `near`: of the border, in the host's frame.
-double followProbability(const BorderPoint& here, const BorderPoint& near, double speed,
+/// it, by the border's direction. `from`, `to`: of the border, in the host's frame.
+double followProbability(const BorderPoint& from, const BorderPoint& to, double speed,
                          const HostFutureOptions& options) {
-  const Point2 along = near.position - here.position;
+  const Point2 along = to.position - from.position;
   const double sway = options.lane_deviation / (options.lane_time * std::max(speed, kSteered));
   const double variance =
       square(sway) +
-      (square(here.sigma) + square(near.sigma) + square(kMinSigma)) / along.squaredNorm();
+      (square(from.sigma) + square(to.sigma) + square(kMinSigma)) / along.squaredNorm();
   const double follows =
       (1.0 - options.turning_share) * normalDensity(std::atan2(along.y(), along.x()), variance);
   const double turns = options.turning_share / kPi;  // any direction ahead
@@ -149,6 +149,8 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
     return std::nullopt;
   }
   const double ahead = std::max(options.min_course_distance, options.course_time * host.speed);
+  // Beside the vehicle, where the chord of a bend is parallel to it.
+  const double beside = 0.5 * options.min_course_distance;
   double weights = 0.0;
   double curvature = 0.0;
   double probability = 0.0;
@@ -158,19 +160,24 @@ std::optional<CourseSteering> courseSteering(const HostState& host, const RoadMo
     }
     const std::vector<BorderPoint> points = inFrame(border, host.pose);
     const auto here = pointAt(points, 0.0);
-    const auto near = pointAt(points, options.min_course_distance);
+    const auto rear = pointAt(points, -beside);
+    const auto front = pointAt(points, beside);
     const auto there = pointAt(points, ahead);
-    if (here && near && there) {
+    if (here && front && there) {
       const Curvature arc = curvatureBetween(*here, *there);
-      const double follows = followProbability(*here, *near, host.speed, options);
+      const double follows = followProbability(rear.value_or(*here), *front, host.speed, options);
       const double weight = border.probability * follows / arc.variance;
       curvature += weight * arc.value;
       weights += weight;
       probability = std::max(probability, follows);
     }
   }
-  const double sigma = vehicle.wheelbase / std::sqrt(weights);  // infinite without a border
-  if (!(sigma <= options.max_steering_spread)) {
+  if (weights <= 0.0) {
+    return std::nullopt;
+  }
+  // Of a driver who follows the road.
+  const double sigma = vehicle.wheelbase / std::sqrt(weights / probability);
+  if (sigma > options.max_steering_spread) {
     return std::nullopt;
   }
   return CourseSteering{std::clamp(std::atan(vehicle.wheelbase * curvature / weights),

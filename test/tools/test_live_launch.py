@@ -222,6 +222,12 @@ class MissingDevice(unittest.TestCase):
     def test_known_devices_are_accepted(self):
         self.assertIsNone(missing_device(["lidar:=hokuyo", "camera:=external", "odometry:=none"]))
 
+    def test_a_usb_camera_needs_its_calibrations(self):
+        self.assertIn("camera:=usb without left_info", missing_device(["camera:=usb", "left_info:="]))
+        self.assertIn("camera:=usb_stereo without right_info",
+                      missing_device(["camera:=usb_stereo", "left_info:=l.yaml", "right_info:="]))
+        self.assertIsNone(missing_device(["camera:=usb", "left_info:=l.yaml", "right_info:="]))
+
     def test_a_rear_scanner_needs_an_address_and_another_planar_one(self):
         self.assertIn("rear_lidar:=hokuyo without rear_lidar_address",
                       missing_device(["rear_lidar:=hokuyo", "rear_lidar_address:=", "cloud:="]))

@@ -14,7 +14,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from datmo_tools import usb_camera
 from datmo_tools.errors import InputError
 from datmo_tools.image_files import Rectifier
-from datmo_tools.usb_camera import Cameras, Device, Status, arguments_of, halves, serve
+from datmo_tools.usb_camera import Cameras, Device, Status, arguments_of, serve, split
 
 CALIBRATION = {"width": 40, "height": 30, "distortion_model": "plumb_bob", "D": [0.0] * 5,
                "K": [50.0, 0, 20, 0, 50.0, 15, 0, 0, 1], "R": [1.0, 0, 0, 0, 1, 0, 0, 0, 1],
@@ -81,6 +81,23 @@ class UsbCamera(unittest.TestCase):
             self.assertAlmostEqual(stamp, 49.75, delta=0.1)
         self.assertEqual(status.message(30.0).status[0].level, DiagnosticStatus.OK)
 
+    def test_a_known_delay_is_taken_off(self):
+        values = arguments_of(["--delay", "0.5", DEVICE, "left.yaml"])
+        cameras = mock.MagicMock()
+        left = iter([True, False])
+        serve(values, cameras, Status(DEVICE), lambda: next(left), lambda *_: Capture([image()], age=0.25))
+        self.assertAlmostEqual(cameras.publish.call_args.args[1].to_sec(), 49.25, delta=0.1)
+
+    def test_a_wrong_image_of_the_right_camera_keeps_the_left_one_back(self):
+        published = []
+        with mock.patch("datmo_tools.camera_topics.CameraTopics.publish", lambda *arguments: published.append(arguments)):
+            with mock.patch("datmo_tools.usb_camera.read_calibration",
+                            lambda file: {**CALIBRATION, "width": 50} if file.stem == "r" else CALIBRATION):
+                cameras = Cameras(arguments_of([DEVICE, "l.yaml", "r.yaml"]))
+            with self.assertRaisesRegex(InputError, "expected 50 x 30"):
+                cameras.publish(np.hstack([image(), image()]), rospy.Time(3))
+        self.assertEqual(published, [])
+
     def test_a_clock_that_is_not_the_computers_is_not_used(self):
         for age in (-1e6, 1e6):
             cameras, _ = self.serve([Capture([image()], age=age)], 1)
@@ -121,11 +138,11 @@ class UsbCamera(unittest.TestCase):
 
     def test_two_images_side_by_side_are_those_of_two_cameras(self):
         both = np.hstack([image(10), image(20)])
-        left, right = halves(both, 2)
+        left, right = split(both, 2)
         self.assertEqual((left.shape, right.shape), ((30, 40, 3), (30, 40, 3)))
         self.assertEqual((left.max(), right.min()), (10, 20))
         with self.assertRaisesRegex(InputError, "even number"):
-            halves(both[:, :-1], 2)
+            split(both[:, :-1], 2)
         published = []
         with mock.patch("datmo_tools.camera_topics.CameraTopics.publish",
                         lambda topics, part, stamp, frame, source: published.append((part.mean(), stamp, frame))):
@@ -166,6 +183,8 @@ class Rectification(unittest.TestCase):
     def test_an_unknown_lens_is_refused(self):
         with self.assertRaisesRegex(InputError, "distortion_model equidistant"):
             Rectifier({**CALIBRATION, "distortion_model": "equidistant"})
+        with self.assertRaisesRegex(InputError, "3 distortion_coefficients: expected 0, 4, 5, 8"):
+            Rectifier({**CALIBRATION, "D": [0.0] * 3})
 
 
 if __name__ == "__main__":

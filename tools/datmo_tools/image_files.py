@@ -12,6 +12,7 @@ from datmo_tools.yaml_files import load_yaml
 
 IMAGE_FILES = {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff"}
 RECTIFIED_MODELS = ("plumb_bob", "rational_polynomial")
+DISTORTION_COUNTS = (0, 4, 5, 8)
 MATRICES = {"camera_matrix": 9, "rectification_matrix": 9, "projection_matrix": 12}
 
 
@@ -87,6 +88,8 @@ class Rectifier:
         """calibration: as read_calibration() returns it. Raises InputError for an unknown distortion model."""
         if calibration["distortion_model"] not in RECTIFIED_MODELS:
             raise InputError(f"distortion_model {calibration['distortion_model']}: expected {' or '.join(RECTIFIED_MODELS)}")
+        if len(calibration["D"]) not in DISTORTION_COUNTS:
+            raise InputError(f"{len(calibration['D'])} distortion_coefficients: expected {', '.join(map(str, DISTORTION_COUNTS))}")
         intrinsics, projection = np.reshape(calibration["K"], (3, 3)), np.reshape(calibration["P"], (3, 4))
         self._maps = cv2.initUndistortRectifyMap(
             intrinsics, np.array(calibration["D"]), np.reshape(calibration["R"], (3, 3)), projection[:, :3],

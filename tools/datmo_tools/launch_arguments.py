@@ -3,7 +3,8 @@
 of sensor sets without a file, and a stack that already runs on the same master.
 
 usage: check_launch [--devices lidar:=KIND rear_lidar:=KIND rear_lidar_address:=ADDRESS cloud:=TOPIC
-                    merge_scans:=BOOL camera:=KIND odometry:=KIND can_signals:=FILE.yaml]
+                    merge_scans:=BOOL camera:=KIND left_info:=FILE.yaml right_info:=FILE.yaml
+                    odometry:=KIND can_signals:=FILE.yaml]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. Files
 that are included by pass_all_args take arguments, too; includes of other packages' launch files
@@ -30,6 +31,7 @@ CHOICES = {"fusion": ("none", "low", "object", "track", "recommended"),
 DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "rear_lidar": ("none", "external", "hokuyo", "sick_lms"),
            "camera": ("none", "external", "usb", "usb_stereo", "images"), "odometry": ("external", "can", "can_imu", "gps_imu", "none")}
 CAN = ("can", "can_imu")  # odometry that reads can_signals
+CALIBRATIONS = {"usb": ("left_info",), "usb_stereo": ("left_info", "right_info")}  # that cameras need
 INSTEAD = {
     "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
 }
@@ -131,6 +133,9 @@ def missing_device(words):
         return f"rear_lidar:={rear} with merge_scans:={given['merge_scans']}: expected merge_scans:=true, as nothing else uses its scans"
     if rear not in ("none", "external") and not given.get("rear_lidar_address"):
         return f"rear_lidar:={rear} without rear_lidar_address: expected its address"
+    for name in CALIBRATIONS.get(given.get("camera"), ()):
+        if not given.get(name):
+            return f"camera:={given['camera']} without {name}: expected the path of a calibration"
     return unreadable(given.get("can_signals")) if given.get("odometry") in CAN else None
 
 

@@ -12,8 +12,12 @@ Out: stereo/left/image_rect, stereo/left/camera_info, and the same for right; th
 on /diagnostics. A device that is missing, or silent, is opened again until it is back.
 """
 
+import os
 import time
 from pathlib import Path
+
+# s; OpenCV reads it when it is loaded, and otherwise waits for ten.
+os.environ.setdefault("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "1")
 
 import cv2
 import rospy
@@ -51,7 +55,7 @@ class Device:
         """Waits for the next image; returns it, and its age (s) now."""
         is_there, image = self._capture.read()
         if not is_there:
-            raise InputError(f"{self._name}: no image, expected one every few milliseconds; opening it again")
+            raise InputError(f"{self._name}: no image for a second, expected them at the requested rate; opening it again")
         return image, self._age()
 
     def _age(self):
@@ -63,7 +67,7 @@ class Device:
         self._capture.release()
 
 
-def halves(image, count):
+def split(image, count):
     """Returns the images of `count` cameras, which are side by side in one. Raises InputError."""
     width = image.shape[1]
     if width % count:
@@ -83,9 +87,10 @@ class Cameras:
 
     def publish(self, image, stamp):
         """Raises InputError for images of another size than their calibration's."""
-        parts = halves(image, len(self._topics))
-        for topics, rectifier, part in zip(self._topics, self._rectifiers, parts):
+        parts = split(image, len(self._topics))
+        for topics, part in zip(self._topics, parts):
             topics.check(part, self._values.device)
+        for topics, rectifier, part in zip(self._topics, self._rectifiers, parts):
             topics.publish(rectifier.rectified(part), stamp, self._values.frame, self._values.device)
 
 

@@ -13,7 +13,7 @@
 
 namespace datmo {
 
-/// The processors that this process may use; at least 1.
+/// The processors of this machine; at least 1.
 int processorCount();
 
 /// The command line of `run_bag`, including the switches of the stack.

@@ -2,8 +2,6 @@
 #include "matching_ahead.h"
 
 #include <algorithm>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -54,45 +52,49 @@ void MatchingAhead::read() {
 }
 
 void MatchingAhead::readPairs() {
-  while (const std::optional<StereoPair> pair = reader_.next()) {
+  while (const std::optional<StereoPair> pair = reader_.next(stopping_)) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_ || ahead_.size() < max_ahead_; });
     if (stopping_) {
       return;
     }
-    ahead_.push_back({*pair, matched(*pair)});
+    ahead_.push_back(started(*pair));
     changed_.notify_all();
   }
 }
 
-MatchingAhead::Cloud MatchingAhead::matched(const StereoPair& pair) {
-  using Task = std::packaged_task<sensor_msgs::PointCloud2Ptr()>;
+MatchingAhead::Ahead MatchingAhead::started(const StereoPair& pair) {
   // A matcher for each pair, as one cannot be shared by threads: making it costs little.
   const auto task = std::make_shared<Task>(
       [options = options_, pair] { return StereoMatcher(options).cloudOf(pair); });
-  boost::asio::post(matching_, [task] { (*task)(); });
-  return task->get_future();
+  Ahead ahead{pair, task, task->get_future()};
+  boost::asio::post(matching_, [waiting = std::weak_ptr<Task>(task)] {
+    if (const std::shared_ptr<Task> needed = waiting.lock()) {
+      (*needed)();
+    }
+  });
+  return ahead;
 }
 
 sensor_msgs::PointCloud2Ptr MatchingAhead::cloudOf(const StereoPair& pair) {
-  Cloud cloud = find(pair);
-  if (!cloud.valid()) {
+  std::optional<Ahead> ahead = find(pair);
+  if (!ahead) {
     return matcher_.cloudOf(pair);
   }
   ++used_;
-  return cloud.get();
+  return ahead->cloud.get();
 }
 
-MatchingAhead::Cloud MatchingAhead::find(const StereoPair& pair) {
+std::optional<MatchingAhead::Ahead> MatchingAhead::find(const StereoPair& pair) {
   std::unique_lock lock(mutex_);
   while (true) {
     const auto found = std::find_if(ahead_.begin(), ahead_.end(),
                                     [&](const Ahead& one) { return isSame(one.pair, pair); });
     if (found != ahead_.end()) {
-      Cloud cloud = std::move(found->cloud);
+      std::optional<Ahead> ahead = std::move(*found);
       ahead_.erase(ahead_.begin(), std::next(found));
       changed_.notify_all();
-      return cloud;
+      return ahead;
     }
     // The stage has dropped the pairs before this one.
     const auto before = [&](const Ahead& one) { return one.pair.left.stamp < pair.left.stamp; };
@@ -102,7 +104,7 @@ MatchingAhead::Cloud MatchingAhead::find(const StereoPair& pair) {
         ahead_.pop_front();
       }
       changed_.notify_all();
-      return {};
+      return std::nullopt;
     }
     changed_.notify_all();
     changed_.wait(lock, [this] { return all_read_ || !ahead_.empty(); });

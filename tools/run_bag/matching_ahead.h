@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <future>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -39,20 +42,22 @@ class MatchingAhead {
   std::size_t usedCount() const { return used_; }
 
  private:
-  using Cloud = std::future<sensor_msgs::PointCloud2Ptr>;
+  using Task = std::packaged_task<sensor_msgs::PointCloud2Ptr()>;
 
+  /// A pair and its cloud. It is not matched any more when nobody has the task.
   struct Ahead {
     StereoPair pair;
-    Cloud cloud;
+    std::shared_ptr<Task> task;
+    std::future<sensor_msgs::PointCloud2Ptr> cloud;
   };
 
   /// The work of a thread, until the end of the bag or the destructor.
   void read();
   void readPairs();
-  Cloud matched(const StereoPair& pair);
+  Ahead started(const StereoPair& pair);
 
-  /// The cloud of this pair, and forgets the pairs before it; not valid if it was not read ahead.
-  Cloud find(const StereoPair& pair);
+  /// The cloud of this pair, and forgets the pairs before it; none if it was not read ahead.
+  std::optional<Ahead> find(const StereoPair& pair);
 
   StereoImagesOptions options_;
   std::size_t max_ahead_;
@@ -64,7 +69,7 @@ class MatchingAhead {
   std::condition_variable changed_;
   std::deque<Ahead> ahead_;  ///< in the order of the bag
   bool all_read_ = false;
-  bool stopping_ = false;
+  std::atomic<bool> stopping_{false};
 
   boost::asio::thread_pool matching_;
   std::thread reading_;  ///< last: it uses all others

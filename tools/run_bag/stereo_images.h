@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "stereo_images_options.h"
 #include "stereo_matcher.h"

@@ -6,15 +6,28 @@
 #include "input_bag.h"
 
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
+
+namespace {
+
+/// Decodes a message, with frames as the stages get them.
+template <typename Message>
+boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
+  const boost::shared_ptr<Message> content = read<Message>(message);
+  stripSlashes(*content);
+  return content;
+}
+
+}  // namespace
 
 StereoPairReader::StereoPairReader(const std::string& bag, const StereoTopics& topics,
                                    double tolerance)
     : pairs_(tolerance) {
   const auto add = [this](StereoSide side, const std::string& image, const std::string& info) {
     handles_[image] = [this, side](const rosbag::MessageInstance& message) {
-      return pairs_.handleImage(side, plain<sensor_msgs::Image>(message));
+      return handleImage(side, plain<sensor_msgs::Image>(message));
     };
     handles_[info] = [this, side](const rosbag::MessageInstance& message) {
       return pairs_.handleInfo(side, plain<sensor_msgs::CameraInfo>(message));
@@ -29,9 +42,9 @@ StereoPairReader::StereoPairReader(const std::string& bag, const StereoTopics& t
   message_ = view_.begin();
 }
 
-std::optional<StereoPair> StereoPairReader::next() {
+std::optional<StereoPair> StereoPairReader::next(const std::atomic<bool>& stop) {
   std::optional<StereoPair> pair;
-  while (!pair && message_ != view_.end()) {
+  while (!pair && !stop && message_ != view_.end()) {
     const rosbag::MessageInstance message = *message_++;
     try {
       pair = handles_.at(message.getTopic())(message);
@@ -41,9 +54,14 @@ std::optional<StereoPair> StereoPairReader::next() {
   return pair;
 }
 
-template <typename Message>
-boost::shared_ptr<const Message> StereoPairReader::plain(const rosbag::MessageInstance& message) {
-  return withPlainFrames<Message>(message.getTopic(), read<Message>(message), unread_);
+std::optional<StereoPair> StereoPairReader::handleImage(StereoSide side,
+                                                        const sensor_msgs::ImageConstPtr& image) {
+  const Stamp stamp = toStamp(image->header.stamp);
+  if (last_ && secondsBetween(stamp, *last_) > StreamOptions().restart_after) {
+    pairs_.clear();  // the clock was set back, as StageRunner::check()
+  }
+  last_ = stamp;
+  return pairs_.handleImage(side, image);
 }
 
 }  // namespace datmo

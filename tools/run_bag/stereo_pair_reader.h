@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,7 +12,6 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "datmo_fusion/ros/stage/stage_monitor.h"
 #include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 namespace datmo {
@@ -23,21 +23,20 @@ class StereoPairReader {
   /// `tolerance`: as StereoPairs. Throws what rosbag throws.
   StereoPairReader(const std::string& bag, const StereoTopics& topics, double tolerance);
 
-  /// None at the end of the bag.
-  std::optional<StereoPair> next();
+  /// None at the end of the bag, or when `stop` is set meanwhile.
+  std::optional<StereoPair> next(const std::atomic<bool>& stop);
 
  private:
   using Handle = std::function<std::optional<StereoPair>(const rosbag::MessageInstance& message)>;
 
-  template <typename Message>
-  boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message);
+  std::optional<StereoPair> handleImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
 
   rosbag::Bag bag_;
   rosbag::View view_;
   rosbag::View::iterator message_;
   StereoPairs pairs_;
-  StageMonitor unread_{"stereo_pair_reader"};  ///< the stages report the same faults
-  std::map<std::string, Handle> handles_;      ///< by topic
+  std::optional<Stamp> last_;              ///< of an image
+  std::map<std::string, Handle> handles_;  ///< by topic
 };
 
 }  // namespace datmo

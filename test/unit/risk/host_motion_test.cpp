@@ -120,8 +120,7 @@ TEST(CourseSteering, KeepsBesideABorderThatGoesStraight) {
   EXPECT_NEAR(steering->angle, 0.0, 1e-12);
   EXPECT_GT(steering->probability, 0.98);
   // Two points of 0.1 m (0.02 m more): 2 / 30^2 of 0.1414 m, over the wheelbase.
-  const double weight = 0.9 * steering->probability;
-  EXPECT_NEAR(steering->sigma, kVehicle.wheelbase * 2.0 / 900.0 * std::sqrt(0.0204 / weight), 1e-6);
+  EXPECT_NEAR(steering->sigma, kVehicle.wheelbase * 2.0 / 900.0 * std::sqrt(0.0204 / 0.9), 1e-6);
 }
 
 TEST(CourseSteering, TurnsWithTheBorder) {
@@ -156,6 +155,27 @@ TEST(CourseSteering, IsNotOfABorderFromWhichTheVehicleTurnsAway) {
   EXPECT_GT(probability(-0.1), 0.95);
   EXPECT_LT(probability(0.3), 0.05);
   EXPECT_LT(probability(-0.3), 0.05);
+}
+
+TEST(CourseSteering, IsFollowedInTheSharpestBendOfAStreet) {
+  HostState host;
+  host.speed = 5.0;
+  for (const double radius : {15.0, 30.0}) {
+    for (const double aside : {-3.0, 3.0}) {  // m, of the border: inside or outside of a left turn
+      std::vector<Point2> points;
+      for (double angle = -0.5; angle < 1.3; angle += 0.02) {
+        points.emplace_back((radius - aside) * std::sin(angle),
+                            radius - (radius - aside) * std::cos(angle));
+      }
+      const auto steering = courseSteering(host, roadAlong(points), kVehicle, {});
+      // Inside of the sharper bend the border ends before it is far enough ahead.
+      if (steering) {
+        EXPECT_GT(steering->probability, 0.95) << radius << " m, " << aside << " m";
+      } else {
+        EXPECT_LT(radius - aside, 15.0);
+      }
+    }
+  }
 }
 
 TEST(CourseSteering, FollowsTheBorderThatIsKnownBetter) {
