@@ -87,26 +87,30 @@ sensor_msgs::PointCloud2Ptr MatchingAhead::cloudOf(const StereoPair& pair) {
 
 std::optional<MatchingAhead::Ahead> MatchingAhead::find(const StereoPair& pair) {
   std::unique_lock lock(mutex_);
+  const Stamp stamp = pair.left.stamp;
+  if (asked_ && stamp <= *asked_) {
+    left_out_after_ = asked_;
+  }
+  asked_ = stamp;
   while (true) {
     const auto found = std::find_if(ahead_.begin(), ahead_.end(),
                                     [&](const Ahead& one) { return isSame(one.pair, pair); });
     if (found != ahead_.end()) {
       std::optional<Ahead> ahead = std::move(*found);
       ahead_.erase(ahead_.begin(), std::next(found));
+      left_out_after_.reset();
       changed_.notify_all();
       return ahead;
     }
-    // The stage has dropped the pairs before this one.
-    const auto before = [&](const Ahead& one) { return one.pair.left.stamp < pair.left.stamp; };
-    ahead_.erase(std::remove_if(ahead_.begin(), ahead_.end(), before), ahead_.end());
+    const auto left_out = [&](const Ahead& one) {
+      return one.pair.left.stamp < stamp ||
+             (left_out_after_ && one.pair.left.stamp > *left_out_after_);
+    };
+    ahead_.erase(std::remove_if(ahead_.begin(), ahead_.end(), left_out), ahead_.end());
+    changed_.notify_all();
     if (all_read_ || !ahead_.empty()) {
-      if (ahead_.size() == max_ahead_) {  // stamps were set back: this one is asked for no more
-        ahead_.pop_front();
-      }
-      changed_.notify_all();
       return std::nullopt;
     }
-    changed_.notify_all();
     changed_.wait(lock, [this] { return all_read_ || !ahead_.empty(); });
   }
 }

@@ -67,7 +67,10 @@ class MatchingAhead {
 
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
-  std::deque<Ahead> ahead_;  ///< in the order of the bag
+  std::deque<Ahead> ahead_;     ///< in the order of the bag
+  std::optional<Stamp> asked_;  ///< of the last pair that was asked for
+  /// Since stamps were set back: those after this one were before that, and nobody asks for them.
+  std::optional<Stamp> left_out_after_;
   bool all_read_ = false;
   std::atomic<bool> stopping_{false};
 

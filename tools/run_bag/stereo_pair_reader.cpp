@@ -27,10 +27,14 @@ StereoPairReader::StereoPairReader(const std::string& bag, const StereoTopics& t
     : pairs_(tolerance) {
   const auto add = [this](StereoSide side, const std::string& image, const std::string& info) {
     handles_[image] = [this, side](const rosbag::MessageInstance& message) {
-      return handleImage(side, plain<sensor_msgs::Image>(message));
+      const auto content = plain<sensor_msgs::Image>(message);
+      checkClock(content->header.stamp);
+      return pairs_.handleImage(side, content);
     };
     handles_[info] = [this, side](const rosbag::MessageInstance& message) {
-      return pairs_.handleInfo(side, plain<sensor_msgs::CameraInfo>(message));
+      const auto content = plain<sensor_msgs::CameraInfo>(message);
+      checkClock(content->header.stamp);
+      return pairs_.handleInfo(side, content);
     };
   };
   add(StereoSide::kLeft, topics.left_image, topics.left_info);
@@ -54,14 +58,12 @@ std::optional<StereoPair> StereoPairReader::next(const std::atomic<bool>& stop) 
   return pair;
 }
 
-std::optional<StereoPair> StereoPairReader::handleImage(StereoSide side,
-                                                        const sensor_msgs::ImageConstPtr& image) {
-  const Stamp stamp = toStamp(image->header.stamp);
+void StereoPairReader::checkClock(const ros::Time& time) {
+  const Stamp stamp = toStamp(time);
   if (last_ && secondsBetween(stamp, *last_) > StreamOptions().restart_after) {
-    pairs_.clear();  // the clock was set back, as StageRunner::check()
+    pairs_.clear();
   }
   last_ = stamp;
-  return pairs_.handleImage(side, image);
 }
 
 }  // namespace datmo

@@ -29,13 +29,14 @@ class StereoPairReader {
  private:
   using Handle = std::function<std::optional<StereoPair>(const rosbag::MessageInstance& message)>;
 
-  std::optional<StereoPair> handleImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  /// Forgets all images if the clock was set back, as StageRunner::check().
+  void checkClock(const ros::Time& time);
 
   rosbag::Bag bag_;
   rosbag::View view_;
   rosbag::View::iterator message_;
   StereoPairs pairs_;
-  std::optional<Stamp> last_;              ///< of an image
+  std::optional<Stamp> last_;
   std::map<std::string, Handle> handles_;  ///< by topic
 };
 
