@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What devices send: NMEA, CoLa (both dialects), SCIP, Velodyne's packets, CAN logs and signals.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -112,47 +113,20 @@ void checkCan(std::string_view bytes) {
   }
 }
 
-void decodeSelected(const SelectedInput& input) {
-  switch (input.selected) {
-    case 0:
-      checkNmea(input.bytes);
-      break;
-    case 1:
-      checkSick(input.bytes, ColaDialect::kText);
-      break;
-    case 2:
-      checkSick(input.bytes, ColaDialect::kBinary);
-      break;
-    case 3:
-      checkSickScan(input.bytes, ColaDialect::kText);
-      break;
-    case 4:
-      checkSickScan(input.bytes, ColaDialect::kBinary);
-      break;
-    case 5:
-      checkScip(input.bytes);
-      break;
-    case 6:
-      checkVelodyne(input.bytes);
-      break;
-    default:
-      checkCan(input.bytes);
-      break;
-  }
-}
-
-constexpr unsigned kDecoders = 8;
+constexpr std::array<Decoder, 8> kDecoders{
+    checkNmea,
+    [](std::string_view bytes) { checkSick(bytes, ColaDialect::kText); },
+    [](std::string_view bytes) { checkSick(bytes, ColaDialect::kBinary); },
+    [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kText); },
+    [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kBinary); },
+    checkScip,
+    checkVelodyne,
+    checkCan};
 
 }  // namespace
 }  // namespace datmo::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 0) {
-    try {
-      datmo::fuzz::decodeSelected(datmo::fuzz::select(data, size, datmo::fuzz::kDecoders));
-    } catch (const datmo::DeviceError&) {  // refused, as intended
-    } catch (const datmo::OptionError&) {
-    }
-  }
-  return 0;
+  return datmo::fuzz::decodeSelected<datmo::DeviceError, datmo::OptionError>(datmo::fuzz::kDecoders,
+                                                                             data, size);
 }

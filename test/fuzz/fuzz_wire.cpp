@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What other stations and traffic lights send: CAM, CPM, SPATEM, MAPEM.
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -41,37 +42,16 @@ void checkRoundTrip(std::string_view bytes, const Decode& decode) {
   require(encode(decode(encoded)) == encoded, "an encoded message");
 }
 
-void decodeSelected(const SelectedInput& input) {
-  switch (input.selected) {
-    case 0:
-      checkStation(input.bytes, ItsDictionary::k221);
-      break;
-    case 1:
-      checkStation(input.bytes, ItsDictionary::k211);
-      break;
-    case 2:
-      checkRoundTrip(input.bytes, decodeCam);
-      break;
-    case 3:
-      checkRoundTrip(input.bytes, decodeSpatem);
-      break;
-    default:
-      checkRoundTrip(input.bytes, decodeMapem);
-      break;
-  }
-}
-
-constexpr unsigned kDecoders = 5;
+constexpr std::array<Decoder, 5> kDecoders{
+    [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k221); },
+    [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k211); },
+    [](std::string_view bytes) { checkRoundTrip(bytes, decodeCam); },
+    [](std::string_view bytes) { checkRoundTrip(bytes, decodeSpatem); },
+    [](std::string_view bytes) { checkRoundTrip(bytes, decodeMapem); }};
 
 }  // namespace
 }  // namespace datmo::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 0) {
-    try {
-      datmo::fuzz::decodeSelected(datmo::fuzz::select(data, size, datmo::fuzz::kDecoders));
-    } catch (const datmo::WireError&) {  // refused, as intended
-    }
-  }
-  return 0;
+  return datmo::fuzz::decodeSelected<datmo::WireError>(datmo::fuzz::kDecoders, data, size);
 }
