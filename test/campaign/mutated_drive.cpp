@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "message_mutation.h"
+#include "message_kinds.h"
 #include "processor_time.h"
 #include <boost/make_shared.hpp>
 
@@ -40,16 +40,6 @@ constexpr const char* kClock = "clock_answer";
 constexpr std::array<const char*, 5> kStampReasons{"zero_stamp", "stamp_out_of_range",
                                                    "repeated_stamp", "old_stamp", "stray_stamp"};
 
-template <typename Message>
-std::pair<std::string, std::function<AnyMessage(const AnyMessage&, ros::Duration, std::mt19937&)>>
-mutationOf() {
-  return {ros::message_traits::datatype<Message>(),
-          [](const AnyMessage& message, ros::Duration shift, std::mt19937& random) -> AnyMessage {
-            return boost::make_shared<Message>(mutated(
-                shifted(*boost::static_pointer_cast<const Message>(message), shift), random));
-          }};
-}
-
 /// Returns whether a publication holds anything that must not be published.
 template <typename... Messages>
 std::string faultOf(const Publication& publication) {
@@ -64,35 +54,6 @@ std::string faultOf(const Publication& publication) {
 }
 
 }  // namespace
-
-const std::map<std::string, MutatedDrive::Mutate>& MutatedDrive::mutations() {
-  static const std::map<std::string, Mutate> by_type{
-      mutationOf<nav_msgs::Odometry>(),
-      mutationOf<nav_msgs::OccupancyGrid>(),
-      mutationOf<sensor_msgs::LaserScan>(),
-      mutationOf<sensor_msgs::MultiEchoLaserScan>(),
-      mutationOf<sensor_msgs::PointCloud2>(),
-      mutationOf<sensor_msgs::CameraInfo>(),
-      mutationOf<sensor_msgs::Image>(),
-      mutationOf<sensor_msgs::Imu>(),
-      mutationOf<sensor_msgs::JointState>(),
-      mutationOf<sensor_msgs::NavSatFix>(),
-      mutationOf<geometry_msgs::AccelWithCovarianceStamped>(),
-      mutationOf<geometry_msgs::TwistStamped>(),
-      mutationOf<geometry_msgs::TwistWithCovarianceStamped>(),
-      mutationOf<geometry_msgs::PoseWithCovarianceStamped>(),
-      mutationOf<tf2_msgs::TFMessage>(),
-      mutationOf<EarthFrameMessage>(),
-      mutationOf<LabeledScanMessage>(),
-      mutationOf<ObjectArray>(),
-      mutationOf<PartClock>(),
-      mutationOf<RadarScanMessage>(),
-      mutationOf<RoadBorders>(),
-      mutationOf<StationTracksMessage>(),
-      mutationOf<StereoAlignmentMessage>(),
-      mutationOf<TrackArray>()};
-  return by_type;
-}
 
 MutatedDrive::MutatedDrive(const std::string& config, unsigned seed, double max_seconds,
                            Tally& tally)
@@ -147,8 +108,8 @@ AnyMessage MutatedDrive::givenFor(const Publication& message) {
 }
 
 AnyMessage MutatedDrive::mutatedOf(const Publication& message, ros::Duration shift) {
-  const auto mutation = mutations().find(message.data_type);
-  if (mutation == mutations().end()) {
+  const auto kind = messageKinds().find(message.data_type);
+  if (kind == messageKinds().end()) {
     note("nothing mutates a " + message.data_type);
     return message.message;
   }
@@ -156,7 +117,7 @@ AnyMessage MutatedDrive::mutatedOf(const Publication& message, ros::Duration shi
   ++tally_.mutated;
   ++tally_.mutated_on[message.topic];
   ++tally_.mutated_type[message.data_type];
-  return mutation->second(message.message, shift, random_);
+  return kind->second.mutated(kind->second.shifted(message.message, shift), random_);
 }
 
 /// Sends mutated copies of earlier messages, with stamps between this step and the next one.

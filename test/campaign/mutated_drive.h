@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <random>
 #include <string>
@@ -44,12 +43,6 @@ class MutatedDrive {
   std::vector<std::string> run();
 
  private:
-  /// Returns a copy whose stamps are moved by `shift`, with some fields mutated.
-  using Mutate = std::function<AnyMessage(const AnyMessage& message, ros::Duration shift,
-                                          std::mt19937& random)>;
-
-  static const std::map<std::string, Mutate>& mutations();
-
   bool isTurn(double probability);
   /// Returns the message that a stage gets in place of the original.
   AnyMessage givenFor(const Publication& message);
