@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-set(DATMO_FUSION_SANITIZE "" CACHE STRING "sanitizers: address,undefined or thread")
+set(DATMO_FUSION_SANITIZE "" CACHE STRING
+  "sanitizers: address,undefined or thread; address,undefined,fuzzer-no-link for scripts/fuzz")
 if(DATMO_FUSION_SANITIZE)
   add_compile_options(-fsanitize=${DATMO_FUSION_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)

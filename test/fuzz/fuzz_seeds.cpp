@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The
-// first byte of each selects the decoder, as in fuzz_device.cpp and fuzz_wire.cpp.
+// first byte of each for devices and stations selects the decoder, as in fuzz_device.cpp and
+// fuzz_wire.cpp.
 #include <fstream>
 #include <iostream>
 
@@ -8,6 +9,10 @@
 #include "device/velodyne_packets.h"
 #include "fusion/complete_signal_messages.h"
 #include "fusion/wire_messages.h"
+#include "stage_seeds.h"
+
+#include <ros/console.h>
+#include <ros/time.h>
 
 #include "datmo_fusion/device/cola.h"
 #include "datmo_fusion/device/scip.h"
@@ -15,12 +20,16 @@
 namespace datmo {
 namespace {
 
-void write(const std::string& name, unsigned selected, const std::string& bytes) {
+void write(const std::string& name, const std::string& bytes) {
   std::ofstream stream(name + ".bin", std::ios::binary);
-  stream << static_cast<char>(selected) << bytes;
+  stream << bytes;
   if (!stream.flush()) {
     throw std::runtime_error(name + ".bin cannot be written");
   }
+}
+
+void write(const std::string& name, unsigned selected, const std::string& bytes) {
+  write(name, static_cast<char>(selected) + bytes);
 }
 
 /// Returns lines with their checksums, as a scanner sends them.
@@ -71,6 +80,14 @@ void writeWire(const std::string& folder) {
   write(folder + "/mapem", 4, samples::mapemWithAll().bytes());
 }
 
+void writeStages(const std::string& folder) {
+  ros::Time::init();
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Error);
+  for (const fuzz::StageSeed& seed : fuzz::stageSeeds()) {
+    write(folder + "/" + seed.name, encode(seed.input));
+  }
+}
+
 }  // namespace
 }  // namespace datmo
 
@@ -82,6 +99,7 @@ int main(int argc, char** argv) {
   try {
     datmo::writeDevice(std::string(argv[1]) + "/device");
     datmo::writeWire(std::string(argv[1]) + "/wire");
+    datmo::writeStages(std::string(argv[1]) + "/stages");
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
