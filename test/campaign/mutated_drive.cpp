@@ -10,20 +10,12 @@
 #include "processor_time.h"
 #include <boost/make_shared.hpp>
 
-#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TwistStamped.h>
-#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
-#include <sensor_msgs/Imu.h>
-#include <sensor_msgs/JointState.h>
-#include <sensor_msgs/MultiEchoLaserScan.h>
-#include <sensor_msgs/NavSatFix.h>
 
 #include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
-#include "datmo_fusion/ros/stage/radar_objects_stage.h"
 
 namespace datmo::campaign {
 
