@@ -60,7 +60,7 @@ MarkerArray predictionsOf(const TrackArray& message, const TrackStyle& style) {
         continue;
       }
       Marker marker = pathOf(message.header, path, style.sizes.line_width);
-      marker.id = static_cast<int>(track.id) * kMotionModes + mode;
+      marker.id = static_cast<int>(track.id * kMotionModes + static_cast<unsigned>(mode));
       marker.color = inkOf(message.tracks[i], style.color_by);
       marker.color.a = kCertain * static_cast<float>(share);
       markers.markers.push_back(marker);
