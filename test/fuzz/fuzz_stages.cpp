@@ -5,18 +5,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <memory>
 #include <random>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "campaign_graph.h"
 #include "fuzz_check.h"
+#include "fuzzed_graph.h"
 #include "message_kinds.h"
-#include "run_bag/graph_runner.h"
 #include "stage_input.h"
 #include "stage_mutation.h"
 
@@ -39,39 +36,11 @@ void printMessages() {
                static_cast<unsigned long long>(messages));
 }
 
-/// A graph whose options are read once.
-struct PreparedGraph {
-  GraphSwitches switches;
-  SensorSet sensors;
-  std::set<std::string> topics;  ///< that its stages read, and those of transforms
-};
-
-PreparedGraph prepared(const campaign::CampaignGraph& graph) {
-  PreparedGraph all{graph.switches,
-                    campaign::sensorsOf(DATMO_FUSION_FUZZED_STAGES, graph),
-                    {"/tf", "/tf_static"}};
-  for (const StageState& stage : GraphRunner(all.sensors, all.switches).states(kStart)) {
-    all.topics.insert(stage.topics.inputs.begin(), stage.topics.inputs.end());
-  }
-  return all;
-}
-
-const PreparedGraph& graphAt(std::uint8_t index) {
-  static const std::vector<PreparedGraph> graphs = [] {
-    std::vector<PreparedGraph> all;
-    for (const campaign::CampaignGraph& graph : campaign::campaignGraphs()) {
-      all.push_back(prepared(graph));
-    }
-    return all;
-  }();
-  return graphs[index % graphs.size()];
-}
-
 /// One input through the stages.
 class StageRun {
  public:
-  explicit StageRun(const PreparedGraph& graph)
-      : topics_(graph.topics), runner_(graph.sensors, graph.switches) {}
+  explicit StageRun(const FuzzedGraph& graph)
+      : topics_(graph.topics), runner_(graph.sensors, graph.campaign.switches) {}
 
   void handle(const Door& door, const Record& record) {
     now_ = now_ + kMilliseconds * record.wait;
@@ -80,7 +49,7 @@ class StageRun {
     }
     ++messages;
     if (const AnyMessage message = decoded(door, record.bytes)) {
-      deliver({door.topic, door.data_type, message});
+      deliver({door.topic, door.data_type, message}, now_, runner_);
       check();
     }
   }
@@ -101,17 +70,6 @@ class StageRun {
       return kind->second.decoded(bytes);
     } catch (const std::exception&) {
       return nullptr;
-    }
-  }
-
-  void deliver(const Publication& message) {
-    const auto transforms = message.as<tf2_msgs::TFMessage>();
-    if (transforms && message.topic == "/tf_static") {
-      runner_.handleStaticTransforms(*transforms);
-    } else if (transforms) {
-      runner_.handleTransforms(*transforms, now_);
-    } else {
-      runner_.handle(message, now_);
     }
   }
 
@@ -161,7 +119,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const datmo::fuzz::StageInput input =
       datmo::fuzz::decodeStageInput(datmo::fuzz::view(data, size));
   if (!input.records.empty()) {
-    datmo::fuzz::StageRun run(datmo::fuzz::graphAt(input.graph));
+    const auto& graphs = datmo::fuzz::fuzzedGraphs();
+    datmo::fuzz::StageRun run(graphs[input.graph % graphs.size()]);
     for (const datmo::fuzz::Record& record : input.records) {
       run.handle(input.doorOf(record), record);
     }

@@ -6,10 +6,9 @@
 #include <cstring>
 #include <set>
 
-#include "campaign_graph.h"
 #include "campaign_sensors.h"
+#include "fuzzed_graph.h"
 #include "message_kinds.h"
-#include "run_bag/graph_runner.h"
 #include <boost/make_shared.hpp>
 
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -111,14 +110,11 @@ void shrinkAny(Publication& publication) {
 class SeedDrive {
  public:
   explicit SeedDrive(std::size_t index)
-      : graph_(campaign::campaignGraphs()[index]),
-        runner_(campaign::sensorsOf(DATMO_FUSION_FUZZED_STAGES, graph_), graph_.switches),
-        sensors_(graph_) {
+      : graph_(fuzzedGraphs()[index]),
+        runner_(graph_.sensors, graph_.campaign.switches),
+        sensors_(graph_.campaign) {
     seed_.name = "graph_" + std::to_string(index);
     seed_.input.graph = static_cast<std::uint8_t>(index);
-    for (const StageState& stage : runner_.states(Stamp())) {
-      topics_.insert(stage.topics.inputs.begin(), stage.topics.inputs.end());
-    }
   }
 
   /// `copied`: topics between stages that an earlier seed has; extended.
@@ -130,7 +126,7 @@ class SeedDrive {
         shrinkAny(message);
         if (isSent(message, step)) {
           record(message);
-          take(deliver(message, step));
+          take(deliver(message, timeOf(step), runner_));
         }
       }
     }
@@ -144,25 +140,18 @@ class SeedDrive {
         "/tf",        "scan",        "echoes", "scans/front",
         "scans/rear", "odometry",    "twist",  "twist_with_covariance",
         "imu",        "joint_states"};
-    const bool is_read =
-        message.topic == "/tf" || message.topic == "/tf_static" || topics_.count(message.topic) > 0;
-    return is_read && (fast.count(message.topic) > 0 || step % kSlowSteps == 0);
+    return graph_.topics.count(message.topic) > 0 &&
+           (fast.count(message.topic) > 0 || step % kSlowSteps == 0);
   }
 
-  Publications deliver(const Publication& message, int step) {
-    const Stamp now = Stamp::fromSeconds(World::kStart + CampaignSensors::kStep * step);
-    const auto transforms = message.as<tf2_msgs::TFMessage>();
-    if (transforms && message.topic == "/tf_static") {
-      runner_.handleStaticTransforms(*transforms);
-      return {};
-    }
-    return transforms ? runner_.handleTransforms(*transforms, now) : runner_.handle(message, now);
+  static Stamp timeOf(int step) {
+    return Stamp::fromSeconds(World::kStart + CampaignSensors::kStep * step);
   }
 
   /// Keeps the last message of each topic between stages.
   void take(const Publications& published) {
     for (const Publication& publication : published) {
-      if (topics_.count(publication.topic) > 0) {
+      if (graph_.topics.count(publication.topic) > 0) {
         between_[publication.topic] = publication;
       }
     }
@@ -188,10 +177,9 @@ class SeedDrive {
     }
   }
 
-  const campaign::CampaignGraph& graph_;
+  const FuzzedGraph& graph_;
   GraphRunner runner_;
   CampaignSensors sensors_;
-  std::set<std::string> topics_;  ///< that the stages read
   std::map<std::string, Publication> between_;
   long next_wait_ = 0;  ///< ms
   StageSeed seed_;
@@ -202,7 +190,7 @@ class SeedDrive {
 std::vector<StageSeed> stageSeeds() {
   std::vector<StageSeed> seeds;
   std::set<std::string> copied;
-  for (std::size_t i = 0; i < campaign::campaignGraphs().size(); ++i) {
+  for (std::size_t i = 0; i < fuzzedGraphs().size(); ++i) {
     seeds.push_back(SeedDrive(i).run(copied));
   }
   return seeds;
