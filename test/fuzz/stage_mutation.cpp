@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <exception>
 #include <iterator>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "message_kinds.h"
 

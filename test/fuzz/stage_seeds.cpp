@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stage_seeds.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "campaign_sensors.h"
 #include "fuzzed_graph.h"
@@ -35,9 +35,7 @@ void keepEvery(std::vector<Element>& elements, std::size_t step) {
   elements = std::move(kept);
 }
 
-// A small message in place of a large one.
-template <typename Message>
-void shrink(Message& /*message*/) {}
+// shrink(): a small message in place of a large one.
 
 template <typename Scan>
 void shrinkScan(Scan& scan) {
