@@ -25,7 +25,6 @@ void GridFusionStageOptions::visit(OptionVisitor& visitor) {
 GridFusionStage::GridFusionStage(const Checked<GridFusionStageOptions>& options,
                                  StageMonitor& monitor)
     : options_(*options),
-      monitor_(monitor),
       runner_(monitor, options->input, std::string("forgets all ") + kGrid + "s",
               [this] { reset(); }),
       inputs_({options->frames.base, options->frames, options->motion, options->input,

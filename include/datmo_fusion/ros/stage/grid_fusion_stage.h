@@ -74,7 +74,6 @@ class GridFusionStage : public Stage {
   void reset();
 
   GridFusionStageOptions options_;
-  StageMonitor& monitor_;
   StageRunner runner_;
   FusionInputs inputs_;
   GridMatcher matcher_;
