@@ -133,14 +133,12 @@ Publications GraphRunner::settle(Stamp now, std::size_t first) {
 }
 
 void GraphRunner::serveNext(Stamp now) {
-  const auto first = waiting_.begin();
-  const auto& [stage, input, age] = first->first;
+  const auto served = waiting_.extract(waiting_.begin());
+  const auto& [stage, index, age] = served.key();
   Node& node = nodes_[stage];
-  const AnyMessage message = first->second;
-  const StageInput::Callback& callback = node.inputs[input].callback;
-  waiting_.erase(first);
-  node.monitor->received(node.inputs[input].booked_as, now);
-  guarded(*node.monitor, node.inputs[input].topic, [&] { callback(message, now); });
+  const StageInput& input = node.inputs[index];
+  node.monitor->received(input.booked_as, now);
+  guarded(*node.monitor, input.topic, [&] { input.callback(served.mapped(), now); });
   bookTime(node);
 }
 
