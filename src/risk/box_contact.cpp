@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "datmo_fusion/common/perpendicular.h"
+#include "datmo_fusion/common/rotated.h"
 
 namespace datmo {
 
 namespace {
-
-/// m; closer than this is contact: no track is that accurate.
-constexpr double kTouching = 0.01;
 
 /// Share of a move that a search for its contact advances by at least, so that a body of
 /// absurd size or spin costs a bounded time.
@@ -57,21 +55,7 @@ Separation separation(const BodyPose& a, const BodySize& size_a, const BodyPose&
 BodyPose BodyMove::at(double share) const {
   const Point2 center = from.center + share * (to.center - from.center);
   const double turn = share * (to.heading - from.heading);
-  return turn == 0.0 ? BodyPose{center, from.heading, from.direction}
-                     : bodyPose(center, from.heading + turn);
-}
-
-bool circlesMeet(const CircleMove& a, const CircleMove& b) {
-  const Point2 apart = b.from - a.from;
-  const Point2 drift = (b.to - b.from) - (a.to - a.from);
-  const double reach = a.radius + b.radius + kTouching;
-  const double farthest = reach + drift.lpNorm<1>();
-  if (apart.squaredNorm() > farthest * farthest) {
-    return false;  // the usual case; avoids the slow division
-  }
-  const double length = drift.squaredNorm();
-  const double nearest = length > 0.0 ? std::clamp(-apart.dot(drift) / length, 0.0, 1.0) : 0.0;
-  return (apart + nearest * drift).squaredNorm() <= reach * reach;
+  return {center, from.heading + turn, rotated(from.direction, turn)};
 }
 
 std::optional<double> firstContact(const BodyMove& a, const BodyMove& b) {

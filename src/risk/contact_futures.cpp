@@ -70,14 +70,15 @@ std::optional<FutureContact> contactOf(const BodyPath& host, const BodySize& hos
                                        std::size_t future) {
   const double host_radius = host_size.radius();
   const double radius = size.radius();
-  ObjectFutures::State from = object.begin(future);
+  ObjectFutures::State state = object.begin(future);
   for (std::size_t i = 0; i + 1 < host.poses.size(); ++i) {
-    const ObjectFutures::State to = object.next(from, future, i);
+    const Point2 from = state.position;
+    const double heading = state.heading;
+    object.advance(state, future, i);
     if (circlesMeet({host.poses[i].center, host.poses[i + 1].center, host_radius},
-                    {from.position, to.position, radius})) {
+                    {from, state.position, radius})) {
       const BodyMove host_move{host.poses[i], host.poses[i + 1], host_size};
-      const BodyMove move{bodyPose(from.position, from.heading), bodyPose(to.position, to.heading),
-                          size};
+      const BodyMove move{bodyPose(from, heading), bodyPose(state.position, state.heading), size};
       if (const auto share = firstContact(host_move, move)) {
         FutureContact contact = contactAt(host_move, move, *share, host.step);
         contact.time += static_cast<double>(i) * host.step;
@@ -85,7 +86,6 @@ std::optional<FutureContact> contactOf(const BodyPath& host, const BodySize& hos
         return contact;
       }
     }
-    from = to;
   }
   return std::nullopt;
 }

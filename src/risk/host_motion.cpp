@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/rotated.h"
 #include "datmo_fusion/common/square.h"
 
 namespace datmo {
@@ -27,8 +28,9 @@ double curvatureOf(double speed, double steering, const HostVehicleOptions& vehi
   return std::clamp(curvature, -limit, limit);
 }
 
-Rates ratesOf(double heading, double speed, double curvature) {
-  return {speed * Point2(std::cos(heading), std::sin(heading)), speed * curvature};
+/// `direction`: of length 1.
+Rates ratesOf(const Point2& direction, double speed, double curvature) {
+  return {speed * direction, speed * curvature};
 }
 
 /// Returns the speed after an acceleration that does not reverse the direction of travel: a
@@ -96,7 +98,7 @@ double combined(const Estimate& a, const Estimate& b) {
 }
 
 BicycleState bicycleState(const HostState& host) {
-  return {host.pose.position(), host.pose.heading(), host.speed, host.steering};
+  return {bodyPose(host.pose.position(), host.pose.heading()), host.speed, host.steering};
 }
 
 BicycleState afterStep(const BicycleState& state, const HostCommand& command, double seconds,
@@ -110,20 +112,23 @@ BicycleState afterStep(const BicycleState& state, const HostCommand& command, do
   const double speed_end = speedAfter(state.speed, command.acceleration, seconds);
   const double curvature_mid = curvatureOf(speed_mid, steering_at(half), vehicle);
   const double steering_end = steering_at(seconds);
+  const BodyPose& from = state.axle;
+  const auto direction_after = [&](double turn) { return rotated(from.direction, turn); };
   const Rates k1 =
-      ratesOf(state.heading, state.speed, curvatureOf(state.speed, state.steering, vehicle));
-  const Rates k2 = ratesOf(state.heading + half * k1.heading, speed_mid, curvature_mid);
-  const Rates k3 = ratesOf(state.heading + half * k2.heading, speed_mid, curvature_mid);
-  const Rates k4 = ratesOf(state.heading + seconds * k3.heading, speed_end,
+      ratesOf(from.direction, state.speed, curvatureOf(state.speed, state.steering, vehicle));
+  const Rates k2 = ratesOf(direction_after(half * k1.heading), speed_mid, curvature_mid);
+  const Rates k3 = ratesOf(direction_after(half * k2.heading), speed_mid, curvature_mid);
+  const Rates k4 = ratesOf(direction_after(seconds * k3.heading), speed_end,
                            curvatureOf(speed_end, steering_end, vehicle));
   const double sixth = seconds / 6.0;
-  return {state.position + sixth * (k1.position + 2.0 * (k2.position + k3.position) + k4.position),
-          state.heading + sixth * (k1.heading + 2.0 * (k2.heading + k3.heading) + k4.heading),
+  return {bodyPose(
+              from.center + sixth * (k1.position + 2.0 * (k2.position + k3.position) + k4.position),
+              from.heading + sixth * (k1.heading + 2.0 * (k2.heading + k3.heading) + k4.heading)),
           speed_end, steering_end};
 }
 
 BodyPose outlineOf(const BicycleState& state, const HostVehicleOptions& vehicle) {
-  BodyPose pose = bodyPose(state.position, state.heading);
+  BodyPose pose = state.axle;
   pose.center += vehicle.middleAhead() * pose.direction;
   return pose;
 }

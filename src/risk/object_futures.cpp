@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/rotated.h"
+
 namespace datmo {
 
 namespace {
@@ -50,16 +52,6 @@ bool isTurn(MotionMode mode) {
 /// Replaces turns for objects that follow the road, since they would lead off it.
 MotionMode modeIn(bool follows_road, MotionMode mode) {
   return follows_road && isTurn(mode) ? MotionMode::kConstantVelocity : mode;
-}
-
-/// The turns of most steps are small: their series is accurate to 1e-5, and much faster.
-Point2 turned(const Point2& vector, double angle) {
-  constexpr double kSmall = 0.1;
-  const double square = angle * angle;
-  const bool small = std::abs(angle) < kSmall;
-  const double c = small ? 1.0 - 0.5 * square : std::cos(angle);
-  const double s = small ? angle * (1.0 - square / 6.0) : std::sin(angle);
-  return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
 }
 
 /// Returns the mode whose range of the cumulative probabilities contains the uniform number.
@@ -185,20 +177,20 @@ void ObjectFutures::enter(State& state, MotionMode mode, DrawKey key) const {
 }
 
 double ObjectFutures::turnRate(const State& state) const {
+  if (!state.follows_road && !isTurn(state.mode)) {
+    return 0.0;
+  }
   const double most = options_.max_lateral / std::max(kRest, state.speed);
   const double rate = std::min(class_turn_rate_, most);
   if (state.follows_road) {
     const double into = std::clamp(state.into_road / horizon_.step, -rate, rate);
     return std::clamp(into + state.curvature * state.speed, -most, most);
   }
-  if (!isTurn(state.mode)) {
-    return 0.0;
-  }
   return state.mode == MotionMode::kLeftTurn ? rate : -rate;
 }
 
 /// `turn`: rad, in this step. The position moves at the mean of the velocities before and after.
-void ObjectFutures::advance(State& state, double turn) const {
+void ObjectFutures::move(State& state, double turn) const {
   double acceleration = 0.0;
   if (state.mode == MotionMode::kConstantAcceleration) {
     acceleration = state.acceleration;
@@ -207,7 +199,7 @@ void ObjectFutures::advance(State& state, double turn) const {
   }
   Point2 moved = state.speed * state.course;
   if (state.speed > kRest) {
-    state.course = turned(state.course, turn);
+    state.course = rotated(state.course, turn);
     state.heading += turn;
     state.speed = std::max(0.0, state.speed + acceleration * horizon_.step);
   } else {
@@ -217,30 +209,28 @@ void ObjectFutures::advance(State& state, double turn) const {
   state.position += 0.5 * horizon_.step * moved;
 }
 
-ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
-                                         std::size_t step) const {
-  State after = state;
-  DrawKey key{track_.id, narrow(future), narrow(step) + 1, kDrawStep};
+void ObjectFutures::advance(State& state, std::size_t future, std::size_t step) const {
+  const DrawKey key{track_.id, narrow(future), narrow(step) + 1, kDrawStep};
   const StepDraws drawn = draws_.step(key);
   const MotionMode mode = modeIn(
       state.follows_road, modeAt(cumulated_.row(static_cast<int>(state.mode)), drawn.uniform));
   if (mode != state.mode) {
-    enter(after, mode, key);
+    enter(state, mode, key);
   }
-  if (after.mode == MotionMode::kStanding) {
-    if (after.speed <= kRest) {
-      return after;
+  if (state.mode == MotionMode::kStanding) {
+    if (state.speed <= kRest) {
+      return;
     }
   } else {
-    after.speed = std::max(0.0, after.speed + speed_noise_ * drawn.second);
+    state.speed = std::max(0.0, state.speed + speed_noise_ * drawn.second);
   }
-  after.sway = sway_kept_ * state.sway + turning_ * drawn.first;
-  const double turn = turnRate(after) * horizon_.step;
-  if (after.follows_road && after.speed > kRest) {
-    after.into_road += after.curvature * after.speed * horizon_.step - turn;
+  const double sway = state.sway;
+  state.sway = sway_kept_ * sway + turning_ * drawn.first;
+  const double turn = turnRate(state) * horizon_.step;
+  if (state.follows_road && state.speed > kRest) {
+    state.into_road += state.curvature * state.speed * horizon_.step - turn;
   }
-  advance(after, turn + after.sway - state.sway);
-  return after;
+  move(state, turn + state.sway - sway);
 }
 
 BodyPath ObjectFutures::path(std::size_t future) const {
@@ -248,7 +238,7 @@ BodyPath ObjectFutures::path(std::size_t future) const {
   State state = begin(future);
   path.poses.push_back(bodyPose(state.position, state.heading));
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
-    state = next(state, future, step);
+    advance(state, future, step);
     path.poses.push_back(bodyPose(state.position, state.heading));
   }
   return path;
@@ -265,7 +255,7 @@ BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
   }
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
-    advance(state, turnRate(state) * horizon_.step);
+    move(state, turnRate(state) * horizon_.step);
     path.poses.push_back(bodyPose(state.position, state.heading));
   }
   return path;

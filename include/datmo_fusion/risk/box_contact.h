@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -54,6 +55,9 @@ struct BodyMove {
   BodyPose at(double share) const;
 };
 
+/// m; closer than this is contact: no track is that accurate.
+constexpr double kTouching = 0.01;
+
 /// A circle that moves uniformly along a line.
 struct CircleMove {
   Point2 from = Point2::Zero();  ///< m
@@ -63,7 +67,18 @@ struct CircleMove {
 
 /// Returns whether two circles that move at the same time touch: if the circles around two
 /// rectangles do not, neither do the rectangles.
-bool circlesMeet(const CircleMove& a, const CircleMove& b);
+inline bool circlesMeet(const CircleMove& a, const CircleMove& b) {
+  const Point2 apart = b.from - a.from;
+  const Point2 drift = (b.to - b.from) - (a.to - a.from);
+  const double reach = a.radius + b.radius + kTouching;
+  const double farthest = reach + drift.lpNorm<1>();
+  if (apart.squaredNorm() > farthest * farthest) {
+    return false;  // the usual case; avoids the slow division
+  }
+  const double length = drift.squaredNorm();
+  const double nearest = length > 0.0 ? std::clamp(-apart.dot(drift) / length, 0.0, 1.0) : 0.0;
+  return (apart + nearest * drift).squaredNorm() <= reach * reach;
+}
 
 /// Returns the share (0 to 1) of two simultaneous moves at which the rectangles first touch, to
 /// within 1 cm; none if they do not. No contact that lasts for 2.5e-4 of the moves is missed,

@@ -64,10 +64,9 @@ struct HostCommand {
 
 /// State of the bicycle model.
 struct BicycleState {
-  Point2 position = Point2::Zero();  ///< m, of the rear axle
-  double heading = 0.0;              ///< rad, continuous
-  double speed = 0.0;                ///< m/s
-  double steering = 0.0;             ///< rad
+  BodyPose axle;          ///< of the rear axle
+  double speed = 0.0;     ///< m/s
+  double steering = 0.0;  ///< rad
 };
 
 BicycleState bicycleState(const HostState& host);

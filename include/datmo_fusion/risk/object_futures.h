@@ -85,8 +85,8 @@ class ObjectFutures {
 
   /// Returns the initial state of a future.
   State begin(std::size_t future) const;
-  /// Returns the state one step later; `step`: number of steps before.
-  State next(const State& state, std::size_t future, std::size_t step) const;
+  /// Advances the state of a future by one step; `step`: number of steps before.
+  void advance(State& state, std::size_t future, std::size_t step) const;
 
   /// Returns a whole future.
   BodyPath path(std::size_t future) const;
@@ -98,7 +98,7 @@ class ObjectFutures {
  private:
   void followRoad(State& state) const;
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
-  void advance(State& state, double turn) const;
+  void move(State& state, double turn) const;
   void enter(State& state, MotionMode mode, DrawKey key) const;
   double turnRate(const State& state) const;
 

@@ -170,7 +170,8 @@ std::vector<StartFromRest> startsInto(MotionMode mode) {
   const ObjectFutures futures(track, std::nullopt, options, horizon, kDraws);
   std::vector<StartFromRest> starts;
   for (std::size_t i = 0; i < kFutures; ++i) {
-    const ObjectFutures::State state = futures.next(futures.begin(i), i, 0);
+    ObjectFutures::State state = futures.begin(i);
+    futures.advance(state, i, 0);
     if (state.mode == mode) {
       starts.push_back({std::atan2(state.course.y(), state.course.x()), state.speed,
                         std::abs(state.acceleration)});

@@ -19,8 +19,7 @@ def random_scenes(count, seed):
         host = random.uniform(min(PROTOCOLS[protocol]) - SLOWER, FASTEST)
         host = 50.0 if protocol.startswith("car_braking") else host
         drawn = scene(Encounter(protocol, host, str(random.choice(ENDINGS))), int(number + 1))
-        # Consecutive frames say the same: more encounters instead of more frames of each.
-        drawn["options"]["scanner"] = {"scan_rate": 5.0, "beam_spacing": 1.0}
+        drawn["options"]["scanner"] = {"beam_spacing": 1.0}
         drawn["options"]["ground_truth"] = {"radius": 45.0}
         yield _varied(drawn, random)
 
