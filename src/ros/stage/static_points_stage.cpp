@@ -22,6 +22,9 @@ sensor_msgs::PointCloud2ConstPtr toCloud(const std::vector<Point2>& points,
   modifier.setPointCloud2FieldsByString(1, "xyz");
   modifier.resize(points.size());
   cloud->is_dense = 1U;
+  if (points.empty()) {
+    return cloud;  // the iterator would read the first byte
+  }
   sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x");
   for (const Point2& point : points) {
     xyz[0] = static_cast<float>(point.x());
