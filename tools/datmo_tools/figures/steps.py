@@ -6,7 +6,7 @@ from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
     Step("kitti_tracking", "tracker on KITTI tracking", "kitti_tracking_run, kitti_tracking_score",
-         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,)),
+         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,), alone=True),
     Step("model_cars", "1:10 cars", "mocap_to_bag, run_bag, score_run", recordings.model_car_jobs,
          by_name, (recordings.MODEL_CARS,)),
     Step("people", "people around a robot", "check_bag, run_bag, evaluate labels",
