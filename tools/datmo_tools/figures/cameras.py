@@ -86,7 +86,8 @@ def _camera(bench, folder, drive, view):
 
 
 def _level_figures(run):
-    return {key: value for key, value in run.items() if key != "objects"}
+    # Without the processing time, which depends on what runs in parallel.
+    return {key: value for key, value in run.items() if key not in ("objects", "time_per_scan_ms")}
 
 
 def _object_figures(scored):
