@@ -39,8 +39,8 @@ KITTI = {kind: {overlap: dict.fromkeys(("samota", "amota", "amotp", "mota", "mot
 
 def results(**figures):
     """Returns a file of figures with these steps."""
-    done = {name: {"shows": name, "command": "x", "seeds": None, "date": "2026-01-02",
-                   "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
+    done = {name: {"shows": name, "command": "x", "seeds": None, "commit": "0123abcd",
+                   "date": "2026-01-02", "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
     return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",
             "machine": {"processor": "P", "cores": 2}, "steps": done}  # fmt: skip
 
@@ -65,6 +65,21 @@ class Pages(InFolder):
         self.assertIn("## People around a robot", pages["doc/results.md"])
         self.assertNotIn("Indoors", pages["doc/results.md"])
         self.assertIn("`0123abcd`", pages["doc/results.md"])
+
+    def test_steps_name_the_commit_of_their_measurement(self):
+        made = results(people=PEOPLE)
+        made["steps"]["people"]["commit"] = "89abcdef"
+        pages = render.rendered(self.folder, made)
+        self.assertIn("All figures are of commit `0123abcd`", pages["doc/results.md"])
+        self.assertIn("| `people` | people | `x` |  | `89abcdef` | 0.0 |", pages["doc/results.md"])
+        self.assertIn("All by `scripts/figures`, of commit `0123abcd`", pages["README.md"])
+
+    def test_steps_of_an_older_file_are_of_its_commit(self):
+        made = results(people=PEOPLE)
+        del made["steps"]["people"]["commit"]
+        file = self.folder / "results.json"
+        file.write_text(json.dumps(made))
+        self.assertEqual(results_file.read(file), results(people=PEOPLE))
 
     def test_loops_are_shown_where_they_were_measured(self):
         scored = {"translation_m": {"mean": 0.5, "std": 0.1}, "rotation_deg": {"mean": 1, "std": 2}}

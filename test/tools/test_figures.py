@@ -4,13 +4,13 @@
 
 import contextlib
 import io
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, results_file, risk
+from datmo_tools.figures.commits import CHANGED
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from folder_case import InFolder
@@ -188,6 +188,7 @@ class Pass(InFolder):
         self.assertEqual(self.run_all(step)[0], [])
         done = self.store.results([step])
         self.assertEqual(done["commit"], "0123abcd")
+        self.assertEqual(done["steps"]["one"]["commit"], "0123abcd")
         self.assertEqual(done["steps"]["one"]["seeds"], [1, 2])
         self.assertEqual(done["steps"]["one"]["figures"], {"one": {"value": 1.235}})
 
@@ -202,6 +203,35 @@ class Pass(InFolder):
         self.run_all(step)
         self.bench = self.bench._replace(seeds=(1, 2, 3))
         self.assertNotIn("done at", self.run_all(step)[1])
+
+    def test_a_step_that_no_change_has_affected_is_kept_as_it_was_measured(self):
+        one, two = self.step("one", seeded=True), self.step("two")
+        self.run_all(one)
+        earlier = self.store.results([one])["steps"]
+        self.store = results_file.StepStore(self.folder / "out", "89abcdef", earlier)
+        self.assertIn("one: done at 0123abcd", self.run_all(one, two)[1])
+        self.assertEqual(self.runs, ["one", "two"])
+        done = self.store.results([one, two])
+        self.assertEqual(done["commit"], "89abcdef")
+        self.assertEqual({name: step["commit"] for name, step in done["steps"].items()},
+                         {"one": "0123abcd", "two": "89abcdef"})  # fmt: skip
+
+    def test_an_earlier_step_with_other_seeds_runs_again(self):
+        step = self.step("one", seeded=True)
+        self.run_all(step)
+        self.store = results_file.StepStore(self.folder / "out", "89abcdef", self.store.results([step])["steps"])
+        self.bench = self.bench._replace(seeds=(1,))
+        self.run_all(step)
+        self.assertEqual(self.store.results([step])["steps"]["one"]["commit"], "89abcdef")
+
+    def test_steps_that_are_done_are_repeated_on_request(self):
+        step = self.step("one")
+        self.run_all(step)
+        earlier = self.store.results([step])["steps"]
+        for commit in ("0123abcd", "89abcdef"):
+            self.store = results_file.StepStore(self.folder / "out", commit, earlier, again=True)
+            self.run_all(step)
+        self.assertEqual(self.runs, ["one", "one", "one"])
 
     def test_a_step_resumes_with_the_failed_job(self):
         broken = [True]
@@ -224,14 +254,14 @@ class Pass(InFolder):
 
     def test_with_changed_sources_nothing_counts_as_done(self):
         for _ in range(2):
-            self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
+            self.store = results_file.StepStore(self.folder, "0123abcd" + CHANGED)
             self.run_all(self.step("one"))
         self.assertEqual(self.runs, ["one", "one"])
 
     def test_results_of_changed_sources_are_those_of_this_run_alone(self):
         one, two = self.step("one"), self.step("two")
         for step in (one, two):  # the sources may have changed again in between
-            self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
+            self.store = results_file.StepStore(self.folder, "0123abcd" + CHANGED)
             self.assertIsNone(self.store.results([one, two]))
             self.run_all(step)
         self.assertEqual(list(self.store.results([one, two])["steps"]), ["two"])
@@ -253,32 +283,6 @@ class Pass(InFolder):
     def test_scratch_files_are_gone_afterward(self):
         self.run_all(self.step("one", lambda folder: (folder / "big.bag").write_text("") and {}))
         self.assertEqual(list(self.store.folder.rglob("*.bag")), [])
-
-
-class Commit(InFolder):
-    def git(self, *words):
-        identity = ("-c", "user.name=n", "-c", "user.email=e@x")
-        subprocess.run(["git", "-C", str(self.folder), *identity, *words], check=True,
-                       capture_output=True)  # fmt: skip
-
-    def test_documents_may_change_and_sources_may_not(self):
-        self.git("init")
-        for name in ("README.md", "code.cpp"):
-            (self.folder / name).write_text("1")
-        self.git("add", ".")
-        self.git("commit", "-m", "all")
-        commit = results_file.commit_of(self.folder)
-        self.assertRegex(commit, "^[0-9a-f]{8}$")
-        (self.folder / "README.md").write_text("2")
-        self.assertEqual(results_file.commit_of(self.folder), commit)
-        self.git("commit", "-a", "-m", "page")
-        self.assertEqual(results_file.commit_of(self.folder), commit)
-        (self.folder / "code.cpp").write_text("2")
-        self.assertEqual(results_file.commit_of(self.folder), commit + results_file.CHANGED)
-
-    def test_no_checkout(self):
-        with self.assertRaisesRegex(InputError, "expected a git checkout"):
-            results_file.commit_of(self.folder)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ from pathlib import Path
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.figures import results_file
+from datmo_tools.figures.commits import commit_of
+from datmo_tools.figures.earlier import unaffected
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.render import FILE, rendered
 from datmo_tools.figures.step import Bench
@@ -17,7 +19,8 @@ from datmo_tools.whole_files import write_file
 DESCRIPTION = """\
 Measures the figures of README's table of results and of doc/results.md at one commit, writes them
 to doc/results.json, and renders both from it. A step that is done at this commit is not repeated,
-so an interrupted run resumes; with uncommitted changes every step runs, and only the figures of
+so an interrupted run resumes, and neither is one in doc/results.json whose figures no change since
+can affect (figures/effects.py); with uncommitted changes every step runs, and only the figures of
 this run are written. Steps whose data is missing below ../shared/data are left out and named. A
 step that fails is reported, and the others continue; the exit code is then 1."""
 
@@ -75,7 +78,7 @@ def _measure(values):
         raise InputError(f"{sorted(unknown)[0]}: no such step, expected {', '.join(names)}")
     bench = Bench(values.source, values.build, values.programs, values.data,
                   tuple(range(1, values.seeds + 1)))  # fmt: skip
-    store = results_file.StepStore(values.out, results_file.commit_of(values.source))
+    store = _store(values)
     try:
         failures = run_steps(_chosen(values), bench, store, values.jobs)
     finally:
@@ -85,8 +88,14 @@ def _measure(values):
     return int(bool(failures))
 
 
+def _store(values):
+    commit = commit_of(values.source)
+    earlier = unaffected(values.source / FILE, values.source, commit, STEPS)
+    return results_file.StepStore(values.out, commit, earlier, values.again)
+
+
 def _write_done(source, store):
-    """Writes the file of figures and the pages, from all steps that are done at the commit."""
+    """Writes the file of figures and the pages, from all steps whose figures are those of the commit."""
     results = store.results(STEPS)
     if results is not None:
         write_file(source / FILE, results_file.as_text(results))
@@ -116,6 +125,7 @@ def _parser():
         help="seeds of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
     add("--only", nargs="+", default=[], metavar="STEP", help="only these steps")
     add("--also", nargs="+", default=[], metavar="STEP", help="optional steps to include")
+    add("--again", action="store_true", help="repeat steps that are done, too")
     action = parser.add_mutually_exclusive_group()
     for name, text in (
         ("--list", "print the steps"),

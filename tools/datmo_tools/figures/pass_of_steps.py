@@ -38,8 +38,9 @@ def run_steps(steps, bench, store, jobs):
 
 
 def _is_due(step, bench, store):
-    if store.is_done(step, bench):
-        print(f"{step.name}: done at {store.commit}")
+    done_at = store.done_at(step, bench)
+    if done_at:
+        print(f"{step.name}: done at {done_at}")
         return False
     absent = [name for name in step.needs if not (bench.data / name).exists()]
     for name in absent:

@@ -6,56 +6,40 @@ import json
 import os
 import platform
 import re
-import subprocess
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.spread import rounded
+from datmo_tools.figures.commits import CHANGED
 from datmo_tools.figures.step import read_json
+from datmo_tools.spread import rounded
 from datmo_tools.whole_files import write_file, write_whole
 
 FORMAT = 1
-CHANGED = "-changed"  # suffix of a commit's name if the sources have been changed since
-# Everything except what no figure depends on.
-SOURCES = (".", ":(exclude)README.md", ":(exclude)CHANGELOG.rst", ":(exclude)doc", ":(exclude)test")
 LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|null))*)\s+\]")
 
 
-def commit_of(source):
-    """Returns the abbreviated last commit of SOURCES in a checkout (Path). Raises InputError."""
-    name = _git(source, "log", "-1", "--abbrev=8", "--format=%h", "--", *SOURCES)
-    changes = _git(source, "status", "--porcelain", "--", *SOURCES)
-    return name + (CHANGED if changes else "")
-
-
-def _git(source, *words):
-    done = subprocess.run(["git", "-C", str(source), *words], check=False, capture_output=True,
-                          encoding="utf-8")  # fmt: skip
-    if done.returncode != 0:
-        raise InputError(f"{source}: no git commit, expected a git checkout: {done.stderr}")
-    return done.stdout.strip()
-
-
 class StepStore:
-    """A file for each step, and for each of its jobs, that is done at a commit. With changed
-    sources, none counts as done, and the results are those of this run alone."""
+    """A file for each step, and for each of its jobs, that is done at a commit, and the steps that
+    were done before and are not affected by what has changed since. With changed sources, none counts
+    as done, and the results are those of this run alone."""
 
-    def __init__(self, folder, commit):
-        """folder (Path): for all commits."""
+    def __init__(self, folder, commit, earlier=None, again=False):
+        """folder (Path): for all commits; earlier: records of steps by name, as in the file of
+        figures; again: whether no step counts as done."""
         self.folder, self.commit = folder / commit, commit
+        self._earlier = earlier or {}
+        self._repeats = again or commit.endswith(CHANGED)
         self._added = set()  # names of steps, by this run
 
-    def is_done(self, step, bench):
-        """Whether the step need not run again."""
-        file = self._file(step.name)
-        if self.commit.endswith(CHANGED) or not file.is_file():
-            return False
-        return read_json(file)["seeds"] == _seeds(step, bench)
+    def done_at(self, step, bench):
+        """Returns the commit at which the step was measured; None if it has to run."""
+        record = None if self._repeats else self._record(step.name)
+        return record["commit"] if record and record["seeds"] == _seeds(step, bench) else None
 
     def of_job(self, step, name):
         """Returns what add_job() stored of a job: (result, s); None if it has to run."""
         file = self._job_file(step, name)
-        if self.commit.endswith(CHANGED) or not file.is_file():
+        if self._repeats or not file.is_file():
             return None
         kept = read_json(file)
         return kept["result"], kept["seconds"]
@@ -71,6 +55,7 @@ class StepStore:
             "shows": step.shows,
             "command": step.command,
             "seeds": _seeds(step, bench),
+            "commit": self.commit,
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
             "job_seconds": round(seconds),
             "figures": rounded(figures),
@@ -80,22 +65,23 @@ class StepStore:
 
     def results(self, steps):
         """Returns all steps that are done (dict), in the order of `steps`; None without any."""
-        done = {step.name: read_json(self._file(step.name)) for step in steps if self._counts(step.name)}
+        found = {step.name: self._record(step.name) for step in steps}
+        done = {name: record for name, record in found.items() if record}
         if not done:
             return None
         date = max(step["date"] for step in done.values())
         return {"format": FORMAT, "commit": self.commit, "date": date, "machine": machine(),
                 "steps": done}  # fmt: skip
 
-    def _counts(self, name):
-        """Whether a step's file is of these sources: a former run may have had other changes."""
-        return name in self._added if self.commit.endswith(CHANGED) else self._file(name).is_file()
+    def _record(self, name):
+        """Returns a step's record of these sources (dict); None without one."""
+        file = self.folder / f"{name}.json"
+        if self.commit.endswith(CHANGED):  # a former run may have had other changes
+            return read_json(file) if name in self._added else None
+        return {"commit": self.commit, **read_json(file)} if file.is_file() else self._earlier.get(name)
 
     def _job_file(self, step, name):
         return self.folder / "jobs" / step.name / f"{name}.json"
-
-    def _file(self, name):
-        return self.folder / f"{name}.json"
 
 
 def _seeds(step, bench):
@@ -123,4 +109,6 @@ def read(file):
         raise InputError(f"{file}: cannot be read: {error}; scripts/figures makes it") from error
     if results.get("format") != FORMAT:
         raise InputError(f"{file}: format {results.get('format')}, expected {FORMAT}")
+    for record in results["steps"].values():
+        record.setdefault("commit", results["commit"])  # in older files all steps are of one commit
     return results

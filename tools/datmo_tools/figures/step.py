@@ -62,7 +62,8 @@ class Step(NamedTuple):
     needs: tuple = ()  # paths below Bench.data
     seeded: bool = False  # whether it depends on Bench.seeds
     on_request: bool = False
-    alone: bool = False  # it measures time: nothing may run in parallel
+    timed: bool = False  # among its figures are times, which are those of one machine
+    alone: bool = False  # nothing may run in parallel
 
 
 def only(results):

@@ -6,13 +6,13 @@ from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
     Step("kitti_tracking", "tracker on KITTI tracking", "kitti_tracking_run, kitti_tracking_score",
-         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,), alone=True),
+         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,), timed=True, alone=True),
     Step("model_cars", "1:10 cars", "mocap_to_bag, run_bag, score_run", recordings.model_car_jobs,
          by_name, (recordings.MODEL_CARS,)),
     Step("people", "people around a robot", "check_bag, run_bag, evaluate labels",
          recordings.people_jobs, only, (recordings.PEOPLE,)),
     Step("slam", "pose indoors", "scripts/slam_benchmark", recordings.slam_jobs, only,
-         (recordings.SLAM_LOGS,)),
+         (recordings.SLAM_LOGS,), timed=True),
     Step("drive_0005", "KITTI's drive 0005, the scanner alone", "kitti_to_bag, run_bag, score_run",
          recordings.drive_0005_jobs, by_name, (recordings.DRIVE_0005,)),
     Step("data_sets", "simulated data sets without and with borders of the road",
@@ -34,5 +34,5 @@ STEPS = (
     Step("operating_curve", "missed frames against false tracks", "evaluate operating_curve",
          measurements.operating_curve_jobs, only, on_request=True),
     Step("speed", "speed and latency", "scripts/benchmark", measurements.speed_jobs, only,
-         alone=True),
+         timed=True, alone=True),
 )  # fmt: skip
