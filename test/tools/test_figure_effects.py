@@ -17,7 +17,7 @@ CODE = ("src", "include", "tools", "benchmark")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 WORD = re.compile(r'"(\w+)"')
 # Python files that name programs, subcommands and experiments to run them.
-RUNNERS = ("tools/datmo_tools/figures/", "tools/datmo_tools/experiments/")
+RUNNERS = tuple(f"tools/datmo_tools/{folder}/" for folder in ("evaluate", "experiments", "figures"))
 RUN_BY_NAME = tuple(f"tools/datmo_tools/{folder}/" for folder in ("convert", "evaluate", "experiments"))
 
 

@@ -41,6 +41,9 @@ _NOT_RUN = (
     Leaf((), _under("figures", "commits.py", "earlier.py", "effects.py", "render.py", "fusion_results.",
                     "map_results.", "mono_results.", "readme_table.", "results.md.jinja", "risk_results."),
          _under("figures", "main.py", "results_file.py")),
+    Leaf((), tuple(f"tools/datmo_tools/{name}.py" for name in (
+        "camera_topics", "convert/merge_bags", "image_files", "open_rviz", "play_images",
+        "publish_tracks_as", "rviz_view", "track_bridge", "usb_camera"))),
     Leaf((), ("tools/datmo_tools/batch/",
               *_under("experiments", "campaign", "carried_drive.py", "fault_bounds.py", "gap_score.py",
                       "gaps.py", "kept_ids.py", "line_faults.py", "lossy_network.py", "machines.py",
@@ -52,7 +55,10 @@ _NOT_RUN = (
 )  # fmt: skip
 
 _SPEED = (
-    Leaf(("speed",), ("benchmark/", "src/nodelets/")),  # the other steps run the stages without nodelets
+    # The other steps run the stages without nodelets and launch files.
+    Leaf(("speed",), ("benchmark/", "src/nodelets/", "launch/", "tools/launch/", "config/diagnostics/",
+                      "tools/datmo_tools/launch_arguments.py", "tools/datmo_tools/registrations.py",
+                      "tools/datmo_tools/keep_registrations.py")),
     Leaf(("speed",), _under("experiments", "process_usage.py", "speed_"), (_MEASUREMENTS,)),
     # Devices, which only nodelets use.
     Leaf(("speed",), ("src/device/", "include/datmo_fusion/device/",
