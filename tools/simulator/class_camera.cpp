@@ -102,6 +102,11 @@ ClassProbabilities ClassCamera::probabilitiesOf(ObjectClass reported) const {
   return result;
 }
 
+bool ClassCamera::isNear(const ObjectState& object, const Pose2& base) const {
+  const Point2 camera = base * Point2(options_.mount_x, options_.mount_y);
+  return (object.center.position() - camera).norm() - object.box().halfDiagonal() <= options_.range;
+}
+
 Object ClassCamera::seen(const ObjectState& object, const Pose2& base, ObjectClass reported) {
   const Pose2 center = base.inverse() * object.center;
   const Point2 camera(options_.mount_x, options_.mount_y);
@@ -130,7 +135,7 @@ ObjectList ClassCamera::measure(const World& world, double time) {
     // Drawn before the visibility is tested, so that whether one object is visible does not change
     // the draws of the others.
     const ObjectClass reported = drawnReport(object.kind.object_class);
-    if (reported != ObjectClass::kUnknown &&
+    if (reported != ObjectClass::kUnknown && isNear(object, state.base) &&
         lookAt(object, viewpoint(), world, state).visible >= options_.min_visible_share) {
       list.objects.push_back(seen(object, state.base, reported));
     }

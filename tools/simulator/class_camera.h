@@ -54,6 +54,9 @@ class ClassCamera {
   ObjectClass drawnReport(ObjectClass object_class);
   /// Given this report, if pedestrians, cyclists and vehicles were equally frequent.
   ClassProbabilities probabilitiesOf(ObjectClass reported) const;
+  /// Whether some of it may be in range: most objects of a long street are not, and to look at one
+  /// takes longer than all else.
+  bool isNear(const ObjectState& object, const Pose2& base) const;
   Object seen(const ObjectState& object, const Pose2& base, ObjectClass reported);
 
   ClassCameraOptions options_;
