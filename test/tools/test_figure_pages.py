@@ -124,6 +124,20 @@ class Pages(InFolder):
         self.assertIn("Of 9 classified objects 2 are", with_network)
         self.assertIn("| tracks | 80 | 70 | 9 |", with_network)
 
+    def test_wrong_classes_beside_the_scanner_alone(self):
+        run = {"mota": [0.75, 0.5, 1.0], "misses": [5, 4, 6], "required": [100, 90, 110], "missed_objects": [0, 0, 1],
+               "moving_objects": [9, 9, 9], "id_switches": [2, 1, 3], "class_right": [0.75, 0.5, 1.0],
+               "class_right_by_range": {"0 to 10 m": [0.75, 0.75, 0.75], "10 to 20 m": None}}  # fmt: skip
+        done = results(wrong_classes={"scanner alone": run, "0.2": run})
+        done["steps"]["wrong_classes"]["seeds"] = [1, 2]
+        page = render.rendered(self.folder, done)["doc/results.md"]
+        self.assertIn("with 2 seeds", page)
+        self.assertIn("| id switches | class right, % of frames | 0 to 10 m | 10 to 20 m |\n|---|---|---|---|---|---|---|---|\n",
+                      page)  # fmt: skip
+        figures = ("75.0 (50.0 to 100.0) | 5 (4 to 6) of 100 (90 to 110) | 0 (0 to 1) of 9 | 2 (1 to 3) | "
+                   "75.0 (50.0 to 100.0) | 75.0 | - |")  # fmt: skip
+        self.assertIn(f"| scanner alone | {figures}\n| 20 | {figures}\n", page)
+
     def test_risks_by_tracks_and_method(self):
         methods = dict.fromkeys(("futures", "thesis", "ttc_boxes", "rss"), RISKS)
         traffic = {"warnings": 8, "seconds": 410.0}

@@ -56,7 +56,7 @@ def _recorded(bench, folder, *words):
     return recorded
 
 
-def _preset(folder, settings):
+def preset(folder, settings):
     """Returns the words for run_bag that lay these settings over the sensor set."""
     file = folder / "preset.yaml"
     file.write_text(yaml.safe_dump(settings), encoding="utf-8")
@@ -65,7 +65,7 @@ def _preset(folder, settings):
 
 def _run(bench, name, section, degrees, folder):
     recorded = _recorded(bench, folder, "--scan-resolution", degrees)
-    words = ("--mono", *_preset(folder, {"mono_classifier": section})) if section else ()
+    words = ("--mono", *preset(folder, {"mono_classifier": section})) if section else ()
     report = simulated_run.run_recorded(
         recorded, bench.programs, bench.config("kitti"), folder, (*LABELED, VELODYNE_NOISE), words,
         recorded)  # fmt: skip
@@ -106,7 +106,7 @@ def class_figures(scored):
 def _grids(bench, folder):
     recorded, computed = _recorded(bench, folder, "--points"), folder / "result.bag"
     bench.call("run_bag", recorded, computed, "--config", bench.config("kitti"), "--quiet", "--mono",
-               "--low-level-fusion", "--write-grids", *_preset(folder, MONO_GRIDS))  # fmt: skip
+               "--low-level-fusion", "--write-grids", *preset(folder, MONO_GRIDS))  # fmt: skip
     scores = {}
     for source in GRIDS:
         bands = bench.evaluated(folder, "free_cells", computed, recorded, "--topic", f"/grids/{source}")["bands"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All steps of scripts/figures: those for README first, those that need an idle machine last."""
 
-from datmo_tools.figures import cameras, data_sets, maps, measurements, mono, recordings, risk
+from datmo_tools.figures import cameras, data_sets, maps, measurements, mono, recordings, risk, wrong_classes
 from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
@@ -27,6 +27,9 @@ STEPS = (
          "evaluate maps, evaluate changes", maps.jobs, maps.figures, seeded=True),
     Step("mono", "a single camera: classes, tracks and grids", "run_bag --mono, evaluate classes",
          mono.jobs, mono.figures, (recordings.DRIVE_0005,)),
+    Step("wrong_classes", "wrong classes of a camera: classes of tracks, lost tracks",
+         "simulate, run_bag --object-fusion, evaluate classes", wrong_classes.jobs,
+         wrong_classes.figures, seeded=True),
     Step("risk", "risk of contact: encounters by all methods, false warnings", "scripts/encounters",
          risk.jobs, risk.figures),
     Step("robustness", "pose among moving vehicles", "scripts/robustness --seeds 5",
