@@ -131,7 +131,7 @@ class Pages(InFolder):
         done = results(wrong_classes={"scanner alone": run, "0.2": run})
         done["steps"]["wrong_classes"]["seeds"] = [1, 2]
         page = render.rendered(self.folder, done)["doc/results.md"]
-        self.assertIn("with 2 seeds", page)
+        self.assertIn("road borders and 2 seeds", page)
         self.assertIn("| id switches | class right, % of frames | 0 to 10 m | 10 to 20 m |\n|---|---|---|---|---|---|---|---|\n",
                       page)  # fmt: skip
         figures = ("75.0 (50.0 to 100.0) | 5 (4 to 6) of 100 (90 to 110) | 0 (0 to 1) of 9 | 2 (1 to 3) | "

@@ -13,7 +13,7 @@ from datmo_tools.spread import pooled_counts, spread_of
 
 SCENE = "data_set_2"
 DURATION = "duration=75"  # s: past the intersection, where most of its objects move
-WRONG = (0.0, 0.2, 0.4)  # shares of a camera's reports
+WRONG = (0.0, 0.1, 0.2, 0.4)  # shares of a camera's reports
 SCANNER = "scanner alone"
 # The camera's objects come from the drive.
 CAMERA = {"object_fusion": {"sources": {"stereo": {"use": False}, "mono": {"use": True}}}}
