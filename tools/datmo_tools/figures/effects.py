@@ -39,7 +39,8 @@ _NOT_RUN = (
         "run_readme", "slam_benchmark", "test", "thread_sanitizer", "tidy"))),
     # Which steps run, and how figures look.
     Leaf((), _under("figures", "commits.py", "earlier.py", "effects.py", "render.py", "fusion_results.",
-                    "map_results.", "mono_results.", "readme_table.", "results.md.jinja", "risk_results."),
+                    "map_results.", "mono_results.", "readme_table.", "results.md.jinja", "risk_results.",
+                    "wrong_classes_results."),
          _under("figures", "main.py", "results_file.py")),
     Leaf((), tuple(f"tools/datmo_tools/{name}.py" for name in (
         "camera_topics", "convert/merge_bags", "image_files", "open_rviz", "play_images",
@@ -88,9 +89,11 @@ _CAMERA = (
           *_parts("vision", "class_reliability", "detection_association", "dnn_detector", "hog_detector",
                  "mono_classifier", "mono_grid", "network_decoding", "road_color"),
           *_parts("ros/stage", "mono_classifier_stage", "mono_grid_stage"))),
-    Leaf(("mono",), (*_under("evaluate", "classes.py", "track_classes.py"), *_under("figures", "mono.py")),
+    Leaf(("mono", "wrong_classes"),
+         (*_under("evaluate", "classes.py", "track_classes.py"), *_under("figures", "mono.py")),
          # The latter's "classes" are score_run's.
          (_EVALUATE, _STEPS, *_under("experiments", "fusion_comparison.py"))),
+    Leaf(("wrong_classes",), _under("figures", "wrong_classes.py"), (_STEPS,)),
     Leaf(("fusion",), _under("experiments", "camera_view.py", "compare_fusion.py", "fusion_comparison.py",
                              "fusion_plot.py"), (_CAMERAS,)),
     Leaf(("fusion", "grids", "stereo_grids"), (_CAMERAS,), (_STEPS,)),
