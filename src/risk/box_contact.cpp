@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "datmo_fusion/common/perpendicular.h"
-#include "datmo_fusion/common/rotated.h"
+#include "datmo_fusion/common/turned.h"
 
 namespace datmo {
 
@@ -55,7 +55,7 @@ Separation separation(const BodyPose& a, const BodySize& size_a, const BodyPose&
 BodyPose BodyMove::at(double share) const {
   const Point2 center = from.center + share * (to.center - from.center);
   const double turn = share * (to.heading - from.heading);
-  return {center, from.heading + turn, rotated(from.direction, turn)};
+  return {center, from.heading + turn, turned(from.direction, turn)};
 }
 
 std::optional<double> firstContact(const BodyMove& a, const BodyMove& b) {

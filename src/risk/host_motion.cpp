@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "datmo_fusion/common/rotated.h"
 #include "datmo_fusion/common/square.h"
+#include "datmo_fusion/common/turned.h"
 
 namespace datmo {
 
@@ -112,8 +112,8 @@ BicycleState afterStep(const BicycleState& state, const HostCommand& command, do
   const double speed_end = speedAfter(state.speed, command.acceleration, seconds);
   const double curvature_mid = curvatureOf(speed_mid, steering_at(half), vehicle);
   const double steering_end = steering_at(seconds);
-  const BodyPose& from = state.axle;
-  const auto direction_after = [&](double turn) { return rotated(from.direction, turn); };
+  const BodyPose& from = state.rear_axle;
+  const auto direction_after = [&](double turn) { return turned(from.direction, turn); };
   const Rates k1 =
       ratesOf(from.direction, state.speed, curvatureOf(state.speed, state.steering, vehicle));
   const Rates k2 = ratesOf(direction_after(half * k1.heading), speed_mid, curvature_mid);
@@ -128,7 +128,7 @@ BicycleState afterStep(const BicycleState& state, const HostCommand& command, do
 }
 
 BodyPose outlineOf(const BicycleState& state, const HostVehicleOptions& vehicle) {
-  BodyPose pose = state.axle;
+  BodyPose pose = state.rear_axle;
   pose.center += vehicle.middleAhead() * pose.direction;
   return pose;
 }

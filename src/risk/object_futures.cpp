@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/rotated.h"
+#include "datmo_fusion/common/turned.h"
 
 namespace datmo {
 
@@ -199,7 +199,7 @@ void ObjectFutures::move(State& state, double turn) const {
   }
   Point2 moved = state.speed * state.course;
   if (state.speed > kRest) {
-    state.course = rotated(state.course, turn);
+    state.course = turned(state.course, turn);
     state.heading += turn;
     state.speed = std::max(0.0, state.speed + acceleration * horizon_.step);
   } else {

@@ -14,6 +14,7 @@ datmo_fusion_add_core_test(common
   common/sensor_clock_test.cpp
   common/stamp_gate_test.cpp
   common/stamp_test.cpp
+  common/turned_test.cpp
   common/twist2_test.cpp
 )
 

@@ -56,7 +56,7 @@ struct BodyMove {
 };
 
 /// m; closer than this is contact: no track is that accurate.
-constexpr double kTouching = 0.01;
+inline constexpr double kTouching = 0.01;
 
 /// A circle that moves uniformly along a line.
 struct CircleMove {
@@ -66,7 +66,8 @@ struct CircleMove {
 };
 
 /// Returns whether two circles that move at the same time touch: if the circles around two
-/// rectangles do not, neither do the rectangles.
+/// rectangles do not, neither do the rectangles. Inline, as it is called for every step of every
+/// future.
 inline bool circlesMeet(const CircleMove& a, const CircleMove& b) {
   const Point2 apart = b.from - a.from;
   const Point2 drift = (b.to - b.from) - (a.to - a.from);

@@ -64,7 +64,7 @@ struct HostCommand {
 
 /// State of the bicycle model.
 struct BicycleState {
-  BodyPose axle;          ///< of the rear axle
+  BodyPose rear_axle;
   double speed = 0.0;     ///< m/s
   double steering = 0.0;  ///< rad
 };

@@ -24,13 +24,13 @@ BicycleState drive(BicycleState state, const HostCommand& command, double second
 
 TEST(BicycleModel, GoesStraight) {
   const BicycleState end = drive({bodyPose({1, 2}, 0.0), 10.0, 0.0}, {}, 2.0, 10);
-  EXPECT_NEAR(end.axle.center.x(), 21.0, 1e-9);
-  EXPECT_NEAR(end.axle.center.y(), 2.0, 1e-9);
+  EXPECT_NEAR(end.rear_axle.center.x(), 21.0, 1e-9);
+  EXPECT_NEAR(end.rear_axle.center.y(), 2.0, 1e-9);
 }
 
 TEST(BicycleModel, AcceleratesExactly) {
   const BicycleState end = drive({BodyPose(), 10.0, 0.0}, {2.0, 0.0}, 2.0, 1);
-  EXPECT_NEAR(end.axle.center.x(), 24.0, 1e-9);
+  EXPECT_NEAR(end.rear_axle.center.x(), 24.0, 1e-9);
   EXPECT_NEAR(end.speed, 14.0, 1e-12);
 }
 
@@ -39,17 +39,17 @@ TEST(BicycleModel, FollowsACircle) {
   const double yaw_rate = 5.0 * std::tan(steering) / kVehicle.wheelbase;
   const BicycleState end = drive({BodyPose(), 5.0, steering}, {}, 4.0, 20);
   const Pose2 circle = arc({5.0, yaw_rate}, 4.0);
-  EXPECT_NEAR(end.axle.center.x(), circle.x(), 1e-5);
-  EXPECT_NEAR(end.axle.center.y(), circle.y(), 1e-5);
-  EXPECT_NEAR(end.axle.heading, circle.heading(), 1e-9);
+  EXPECT_NEAR(end.rear_axle.center.x(), circle.x(), 1e-5);
+  EXPECT_NEAR(end.rear_axle.center.y(), circle.y(), 1e-5);
+  EXPECT_NEAR(end.rear_axle.heading, circle.heading(), 1e-9);
 }
 
 TEST(BicycleModel, ErrorFallsWithTheFourthPowerOfTheStep) {
   const BicycleState start{BodyPose(), 8.0, -0.1};
   const HostCommand command{1.0, 0.1};
-  const Point2 exact = drive(start, command, 2.0, 2000).axle.center;
-  const double coarse = (drive(start, command, 2.0, 4).axle.center - exact).norm();
-  const double fine = (drive(start, command, 2.0, 8).axle.center - exact).norm();
+  const Point2 exact = drive(start, command, 2.0, 2000).rear_axle.center;
+  const double coarse = (drive(start, command, 2.0, 4).rear_axle.center - exact).norm();
+  const double fine = (drive(start, command, 2.0, 8).rear_axle.center - exact).norm();
   EXPECT_LT(fine, coarse / 10.0);
   EXPECT_LT(fine, 1e-3);
 }
@@ -57,15 +57,15 @@ TEST(BicycleModel, ErrorFallsWithTheFourthPowerOfTheStep) {
 TEST(BicycleModel, BrakesToRestAndStays) {
   const BicycleState end = drive({BodyPose(), 6.0, 0.0}, {-3.0, 0.0}, 4.0, 40);
   EXPECT_EQ(end.speed, 0.0);
-  EXPECT_NEAR(end.axle.center.x(), 6.0, 0.01);
+  EXPECT_NEAR(end.rear_axle.center.x(), 6.0, 0.01);
   const BicycleState reversing = drive({BodyPose(), -2.0, 0.0}, {1.0, 0.0}, 4.0, 40);
   EXPECT_EQ(reversing.speed, 0.0);
-  EXPECT_NEAR(reversing.axle.center.x(), -2.0, 0.01);
+  EXPECT_NEAR(reversing.rear_axle.center.x(), -2.0, 0.01);
 }
 
 TEST(BicycleModel, TiresHoldNoSharperTurn) {
   const BicycleState end = drive({BodyPose(), 20.0, 0.5}, {}, 1.0, 10);
-  EXPECT_NEAR(end.axle.heading, kVehicle.max_lateral / 20.0, 1e-9);
+  EXPECT_NEAR(end.rear_axle.heading, kVehicle.max_lateral / 20.0, 1e-9);
 }
 
 TEST(Steering, IsThatOfTheYawRate) {

@@ -9,8 +9,8 @@ namespace datmo {
 
 /// Returns the vector turned left by an angle (rad). Small angles, as of one step of a motion, are
 /// accurate to 1e-5 and much faster, thanks to the sine's and cosine's series.
-inline Point2 rotated(const Point2& vector, double angle) {
-  constexpr double kSmall = 0.1;
+inline Point2 turned(const Point2& vector, double angle) {
+  constexpr double kSmall = 0.1;  // rad
   const double square = angle * angle;
   const bool small = std::abs(angle) < kSmall;
   const double c = small ? 1.0 - 0.5 * square : std::cos(angle);
