@@ -44,11 +44,12 @@ bool areShares(const std::array<double, count>& values) {
 /// Finite, symmetric and positive definite.
 template <int size>
 bool isCovariance(const Eigen::Matrix<double, size, size>& matrix) {
-  // The check of published messages compares Frobenius norms; those of elements near the limits of
-  // a double would overflow here.
-  const double max_difference = kMaxAsymmetry * matrix.trace() / (size * std::sqrt(size));
+  // Of a negative variance: NaN, with which every comparison fails.
+  const Eigen::Array<double, size, 1> deviations = matrix.diagonal().array().sqrt();
+  const Eigen::Array<double, size, size> max_difference =
+      kMaxAsymmetry * (deviations.matrix() * deviations.matrix().transpose()).array();
   return matrix.allFinite() &&
-         (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= max_difference &&
+         ((matrix - matrix.transpose()).array().abs() <= max_difference).all() &&
          matrix.llt().info() == Eigen::Success;
 }
 

@@ -19,8 +19,9 @@ inline constexpr double kMaxRate = 1000.0;  ///< m/s, m/s^2, rad/s, of anything 
 inline constexpr double kMaxBearing = 2.0 * kTurn;  ///< rad: drivers count from 0 or from -pi
 inline constexpr double kMaxSweep = 10.0;           ///< s, from a scan's first beam to its last
 
-/// Largest accepted asymmetry of a covariance, relative to its norm, in received and in published
-/// messages: it covers the rounding of sums.
+/// Largest accepted asymmetry of a covariance in received and in published messages, relative to
+/// the standard deviations of row and column, since its elements differ in unit and in size: it
+/// covers the rounding of sums.
 inline constexpr double kMaxAsymmetry = 1e-6;
 
 /// Returns whether no element is larger in magnitude; false if one is NaN.

@@ -12,8 +12,12 @@ namespace datmo {
 
 namespace {
 
-/// Relative to the largest element: rounding error of sums of doubles.
+/// Negative eigenvalues of a matrix of correlations, for each of its rows: rounding error of sums
+/// of doubles.
 constexpr double kRounding = 1e-6;
+
+/// Variances that are smaller relative to the largest one are mere rounding errors.
+constexpr double kMinVarianceRatio = 1e-9;
 
 /// s, ahead of the newest input: results refer to measurements, not to the future.
 constexpr double kMaxAhead = 1.0;
@@ -23,12 +27,20 @@ constexpr double kMaxAhead = 1.0;
 bool isCovariance(const double* values, std::size_t size) {
   const auto rows = static_cast<Eigen::Index>(size);
   const Eigen::Map<const Eigen::MatrixXd> matrix(values, rows, rows);
-  const double tolerance = kRounding * matrix.cwiseAbs().maxCoeff();
-  if (!matrix.allFinite() || !matrix.isApprox(matrix.transpose(), kMaxAsymmetry)) {
+  const double largest = matrix.diagonal().maxCoeff();
+  if (!matrix.allFinite() || largest <= 0.0) {
+    return matrix.isZero(0.0);
+  }
+  // Correlations have no units, in which the elements differ: a large variance of one quantity must
+  // not hide what is wrong with the others.
+  const Eigen::VectorXd scale =
+      matrix.diagonal().cwiseMax(kMinVarianceRatio * largest).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd correlations = scale.asDiagonal() * matrix * scale.asDiagonal();
+  if ((correlations - correlations.transpose()).cwiseAbs().maxCoeff() > kMaxAsymmetry) {
     return false;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().minCoeff() >= -tolerance;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlations, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() >= -kRounding * static_cast<double>(size);
 }
 
 OutputCheck::OutputCheck(std::string topic, StageMonitor& monitor)

@@ -75,6 +75,9 @@ TEST(ContentFault, ACovarianceIsPositiveSemidefinite) {
   pose.pose.covariance[1] = 0.9;
   pose.pose.covariance[6] = 0.5;
   EXPECT_NE(contentFault(pose), "") << "not symmetric";
+  pose.pose.covariance[1] = pose.pose.covariance[6] = 1.1;
+  pose.pose.covariance[35] = 1e8;
+  EXPECT_NE(contentFault(pose), "") << "small beside another quantity's variance";
   TrackArray tracks;
   tracks.tracks.resize(1);
   tracks.tracks[0].covariance[0] = -1.0;

@@ -90,6 +90,9 @@ TEST(TrackCheck, CovarianceIsSymmetricAndPositiveDefinite) {
   EXPECT_FALSE(isValid(track)) << "skew";
   track.covariance(0, 2) = 3e-6;
   EXPECT_FALSE(isValid(track)) << "more than the check of published messages allows";
+  track.covariance(4, 4) = 1e8;
+  EXPECT_FALSE(isValid(track)) << "small only beside another quantity's variance";
+  track.covariance(4, 4) = 1.0;
   track.covariance(0, 2) = 1e308;
   EXPECT_FALSE(isValid(track)) << "its square would overflow";
   track.covariance(0, 2) = track.covariance(2, 0) = 0.5;
