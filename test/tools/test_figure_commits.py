@@ -6,12 +6,14 @@ import contextlib
 import io
 import subprocess
 import unittest
+from functools import partial
+from unittest import mock
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import results_file
+from datmo_tools.figures import main, render, results_file
 from datmo_tools.figures.commits import CHANGED, changed_files, commit_of
 from datmo_tools.figures.earlier import unaffected
-from datmo_tools.figures.step import Step, by_name
+from datmo_tools.figures.step import Job, Step, by_name
 from folder_case import InFolder
 
 # A file that affects the risk and the speed, and one that affects every step.
@@ -84,8 +86,7 @@ class ChangedFiles(Checkout):
 
 
 class Unaffected(Checkout):
-    STEPS = tuple(Step(name, "a value", "x", None, by_name, timed=name == "speed")
-                  for name in ("slam", "risk", "speed"))  # fmt: skip
+    STEPS = tuple(Step(name, "a value", "x", None, by_name) for name in ("slam", "risk", "speed"))
 
     def setUp(self):
         super().setUp()
@@ -119,10 +120,6 @@ class Unaffected(Checkout):
             commit = self.commit()
         self.assertEqual(self.kept(commit), ["slam", "risk", "speed"])
 
-    def test_times_are_those_of_one_machine(self):
-        self.results["machine"] = {**self.results["machine"], "processor": "another"}
-        self.assertEqual(self.kept(self.results["commit"]), ["slam", "risk"])
-
     def test_changed_sources(self):
         self.assertEqual(self.kept(self.results["commit"] + CHANGED), [])
 
@@ -133,6 +130,35 @@ class Unaffected(Checkout):
         with contextlib.redirect_stdout(said):
             self.assertEqual(unaffected(self.file, self.folder, self.results["commit"], self.STEPS), {})
         self.assertRegex(said.getvalue(), "results.json: cannot be read: .*; no step in it counts as done")
+
+
+class Again(Checkout):
+    """The command line with steps of a line."""
+
+    def run_main(self, *words, broken=False):
+        """Returns the exit code, and the names of the steps that have figures then."""
+        def work(name, folder):
+            self.ran.append(name)
+            return (name, {}[name] if broken else 1)
+
+        self.ran = []
+        steps = [Step(name, "a value", "x", lambda _, name=name: [Job("a", partial(work, name))], by_name)
+                 for name in ("one", "two")]  # fmt: skip
+        options = ("--source", str(self.folder), "--out", str(self.folder / "doc/out"), *words)
+        said = io.StringIO()
+        with mock.patch.object(main, "STEPS", steps), contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            code = main.main(options)
+        return code, list(results_file.read(self.folder / render.FILE)["steps"])
+
+    def test_chosen_steps_are_repeated_and_keep_no_old_figures(self):
+        self.write(**{"README.md": f"{render.BEGIN}\n{render.END}\n"})
+        self.assertEqual(self.run_main(), (0, ["one", "two"]))
+        self.assertEqual(self.run_main("--again"), (0, ["one", "two"]))
+        self.assertEqual(self.ran, ["one", "two"])
+        self.assertEqual(self.run_main("--again", "--only", "one", broken=True), (1, ["two"]))
+        self.assertEqual(self.ran, ["one"])
+        self.assertEqual(self.run_main(), (0, ["one", "two"]))
+        self.assertEqual(self.ran, ["one"])
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distanc
           "id_switches": 4, "ids": 12, "never_found": 0}  # fmt: skip
 
 
+MACHINE = {"processor": "P", "cores": 2}
 HORIZONS = ("1", "2", "3", "4")
 # Of one method, as in steps.risk; for the first one also the reliability.
 RISKS = {
@@ -40,9 +41,10 @@ KITTI = {kind: {overlap: dict.fromkeys(("samota", "amota", "amotp", "mota", "mot
 def results(**figures):
     """Returns a file of figures with these steps."""
     done = {name: {"shows": name, "command": "x", "seeds": None, "commit": "0123abcd",
-                   "date": "2026-01-02", "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
+                   "date": "2026-01-02", "machine": MACHINE, "job_seconds": 1, "figures": value}
+            for name, value in figures.items()}  # fmt: skip
     return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",
-            "machine": {"processor": "P", "cores": 2}, "steps": done}  # fmt: skip
+            "machine": MACHINE, "steps": done}  # fmt: skip
 
 
 class Pages(InFolder):
@@ -74,9 +76,10 @@ class Pages(InFolder):
         self.assertIn("| `people` | people | `x` |  | `89abcdef` | 0.0 |", pages["doc/results.md"])
         self.assertIn("All by `scripts/figures`, of commit `0123abcd`", pages["README.md"])
 
-    def test_steps_of_an_older_file_are_of_its_commit(self):
+    def test_steps_of_an_older_file_are_of_its_commit_and_machine(self):
         made = results(people=PEOPLE)
-        del made["steps"]["people"]["commit"]
+        for key in ("commit", "machine"):
+            del made["steps"]["people"][key]
         file = self.folder / "results.json"
         file.write_text(json.dumps(made))
         self.assertEqual(results_file.read(file), results(people=PEOPLE))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/figures: a pass of the steps, and how figures are summarized."""
+"""scripts/figures: how figures are summarized."""
 
 import contextlib
 import io
@@ -9,10 +9,8 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, results_file, risk
-from datmo_tools.figures.commits import CHANGED
-from datmo_tools.figures.pass_of_steps import run_steps
-from datmo_tools.figures.step import Bench, Job, Step, by_name
+from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, risk
+from datmo_tools.figures.step import Bench
 from folder_case import InFolder
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -158,131 +156,6 @@ class MonoFigures(InFolder):
                                           "pedestrian": {"0 to 10 m": [0, 0]}})  # fmt: skip
         self.assertEqual((found["reported"], found["on_nothing"]), (18, 4))
         self.assertEqual(found["calibration"], [[0.8, 0.7, 18]])
-
-
-class Pass(InFolder):
-    """Steps of a few lines."""
-
-    def setUp(self):
-        super().setUp()
-        self.runs = []
-        self.bench = Bench(ROOT, self.folder, self.folder, self.folder / "data", (1, 2))
-        self.store = results_file.StepStore(self.folder / "out", "0123abcd")
-
-    def step(self, name, work=None, **rest):
-        def counted(folder):
-            self.runs.append(name)
-            return (name, work(folder) if work else {"value": 1.23456})
-
-        return Step(name, "a value", "x", lambda _: [Job("a", counted)], by_name, **rest)
-
-    def run_all(self, *chosen):
-        """Returns (failures, output)."""
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
-            failures = run_steps(chosen, self.bench, self.store, 2)
-        return failures, said.getvalue()
-
-    def test_figures_are_kept_with_how_they_were_made(self):
-        step = self.step("one", seeded=True)
-        self.assertEqual(self.run_all(step)[0], [])
-        done = self.store.results([step])
-        self.assertEqual(done["commit"], "0123abcd")
-        self.assertEqual(done["steps"]["one"]["commit"], "0123abcd")
-        self.assertEqual(done["steps"]["one"]["seeds"], [1, 2])
-        self.assertEqual(done["steps"]["one"]["figures"], {"one": {"value": 1.235}})
-
-    def test_finished_steps_do_not_run_again(self):
-        step = self.step("one")
-        self.run_all(step)
-        self.assertIn("one: done at 0123abcd", self.run_all(step)[1])
-        self.assertEqual(self.runs, ["one"])
-
-    def test_other_seeds_run_again(self):
-        step = self.step("one", seeded=True)
-        self.run_all(step)
-        self.bench = self.bench._replace(seeds=(1, 2, 3))
-        self.assertNotIn("done at", self.run_all(step)[1])
-
-    def test_a_step_that_no_change_has_affected_is_kept_as_it_was_measured(self):
-        one, two = self.step("one", seeded=True), self.step("two")
-        self.run_all(one)
-        earlier = self.store.results([one])["steps"]
-        self.store = results_file.StepStore(self.folder / "out", "89abcdef", earlier)
-        self.assertIn("one: done at 0123abcd", self.run_all(one, two)[1])
-        self.assertEqual(self.runs, ["one", "two"])
-        done = self.store.results([one, two])
-        self.assertEqual(done["commit"], "89abcdef")
-        self.assertEqual({name: step["commit"] for name, step in done["steps"].items()},
-                         {"one": "0123abcd", "two": "89abcdef"})  # fmt: skip
-
-    def test_an_earlier_step_with_other_seeds_runs_again(self):
-        step = self.step("one", seeded=True)
-        self.run_all(step)
-        self.store = results_file.StepStore(self.folder / "out", "89abcdef", self.store.results([step])["steps"])
-        self.bench = self.bench._replace(seeds=(1,))
-        self.run_all(step)
-        self.assertEqual(self.store.results([step])["steps"]["one"]["commit"], "89abcdef")
-
-    def test_steps_that_are_done_are_repeated_on_request(self):
-        step = self.step("one")
-        self.run_all(step)
-        earlier = self.store.results([step])["steps"]
-        for commit in ("0123abcd", "89abcdef"):
-            self.store = results_file.StepStore(self.folder / "out", commit, earlier, again=True)
-            self.run_all(step)
-        self.assertEqual(self.runs, ["one", "one", "one"])
-
-    def test_a_step_resumes_with_the_failed_job(self):
-        broken = [True]
-
-        def second(_):
-            if broken:
-                raise InputError("no disk")
-            return ("b", 2)
-
-        def first(_):
-            self.runs.append("a")
-            return ("a", 1)
-
-        step = Step("two", "values", "x", lambda _: [Job("a", first), Job("b", second)], by_name)
-        self.assertEqual(self.run_all(step)[0], ["two, b: no disk"])
-        broken.clear()
-        self.assertEqual(self.run_all(step)[0], [])
-        self.assertEqual(self.runs, ["a"])
-        self.assertEqual(self.store.results([step])["steps"]["two"]["figures"], {"a": 1, "b": 2})
-
-    def test_with_changed_sources_nothing_counts_as_done(self):
-        for _ in range(2):
-            self.store = results_file.StepStore(self.folder, "0123abcd" + CHANGED)
-            self.run_all(self.step("one"))
-        self.assertEqual(self.runs, ["one", "one"])
-
-    def test_results_of_changed_sources_are_those_of_this_run_alone(self):
-        one, two = self.step("one"), self.step("two")
-        for step in (one, two):  # the sources may have changed again in between
-            self.store = results_file.StepStore(self.folder, "0123abcd" + CHANGED)
-            self.assertIsNone(self.store.results([one, two]))
-            self.run_all(step)
-        self.assertEqual(list(self.store.results([one, two])["steps"]), ["two"])
-
-    def test_a_step_without_its_data_is_left_out_and_named(self):
-        failures, said = self.run_all(self.step("one", needs=("drive",)))
-        self.assertEqual((failures, self.runs), ([], []))
-        self.assertRegex(said, "one: left out, .*data/drive is not there")
-
-    def test_a_failed_step_is_reported_and_the_others_continue(self):
-        def fail(_):
-            raise InputError("no bag")
-
-        bad, broken = self.step("bad", fail), self.step("broken", lambda _: {}["mota"])
-        failures, _ = self.run_all(bad, broken, self.step("good", alone=True))
-        self.assertEqual(sorted(failures), ["bad, a: no bag", "broken, a: KeyError('mota')"])
-        self.assertEqual(list(self.store.results([bad, broken, self.step("good")])["steps"]), ["good"])
-
-    def test_scratch_files_are_gone_afterward(self):
-        self.run_all(self.step("one", lambda folder: (folder / "big.bag").write_text("") and {}))
-        self.assertEqual(list(self.store.folder.rglob("*.bag")), [])
 
 
 if __name__ == "__main__":

@@ -17,12 +17,13 @@ from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_file
 
 DESCRIPTION = """\
-Measures the figures of README's table of results and of doc/results.md at one commit, writes them
-to doc/results.json, and renders both from it. A step that is done at this commit is not repeated,
-so an interrupted run resumes, and neither is one in doc/results.json whose figures no change since
-can affect (figures/effects.py); with uncommitted changes every step runs, and only the figures of
-this run are written. Steps whose data is missing below ../shared/data are left out and named. A
-step that fails is reported, and the others continue; the exit code is then 1."""
+Measures the figures of README's table of results and of doc/results.md, writes them to
+doc/results.json, and renders both from it. A step that is done at this commit is not repeated, so
+an interrupted run resumes, and neither is one in doc/results.json that was measured at an earlier
+commit if no change since can affect its figures (figures/effects.py); with uncommitted changes
+every step runs, and only the figures of this run are written. Steps that have to run and whose data
+is missing below ../shared/data are left out and named. A step that fails is reported, and the
+others continue; the exit code is then 1."""
 
 
 def main(arguments=None):
@@ -78,9 +79,12 @@ def _measure(values):
         raise InputError(f"{sorted(unknown)[0]}: no such step, expected {', '.join(names)}")
     bench = Bench(values.source, values.build, values.programs, values.data,
                   tuple(range(1, values.seeds + 1)))  # fmt: skip
-    store = _store(values)
+    chosen, store = _chosen(values), _store(values)
+    if values.again:
+        for step in chosen:
+            store.forget(step)
     try:
-        failures = run_steps(_chosen(values), bench, store, values.jobs)
+        failures = run_steps(chosen, bench, store, values.jobs)
     finally:
         _write_done(values.source, store)
     for failure in failures:
@@ -91,7 +95,7 @@ def _measure(values):
 def _store(values):
     commit = commit_of(values.source)
     earlier = unaffected(values.source / FILE, values.source, commit, STEPS)
-    return results_file.StepStore(values.out, commit, earlier, values.again)
+    return results_file.StepStore(values.out, commit, earlier)
 
 
 def _write_done(source, store):
@@ -125,7 +129,7 @@ def _parser():
         help="seeds of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
     add("--only", nargs="+", default=[], metavar="STEP", help="only these steps")
     add("--also", nargs="+", default=[], metavar="STEP", help="optional steps to include")
-    add("--again", action="store_true", help="repeat steps that are done, too")
+    add("--again", action="store_true", help="drop the figures of these steps first")
     action = parser.add_mutually_exclusive_group()
     for name, text in (
         ("--list", "print the steps"),

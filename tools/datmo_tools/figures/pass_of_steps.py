@@ -26,13 +26,13 @@ class Outcome(NamedTuple):
 
 
 def run_steps(steps, bench, store, jobs):
-    """Runs the steps that are not done, and stores each one after its last job; returns the
-    failures as a list of text."""
+    """Runs the steps that are not done, and stores each one after its last job; those that measure
+    time come last, one after the other. Returns the failures as a list of text."""
     todo = [step for step in steps if _is_due(step, bench, store)]
-    side_by_side = [step for step in todo if not step.alone]
+    side_by_side = [step for step in todo if not step.timed]
     failures = _run(side_by_side, bench, store, jobs)
     for step in todo:
-        if step.alone:
+        if step.timed:
             failures += _run([step], bench, store, 1)
     return failures
 

@@ -6,13 +6,14 @@ import json
 import os
 import platform
 import re
+import shutil
 from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures.commits import CHANGED
 from datmo_tools.figures.step import read_json
 from datmo_tools.spread import rounded
-from datmo_tools.whole_files import write_file, write_whole
+from datmo_tools.whole_files import write_file
 
 FORMAT = 1
 LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|null))*)\s+\]")
@@ -20,34 +21,42 @@ LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|nul
 
 class StepStore:
     """A file for each step, and for each of its jobs, that is done at a commit, and the steps that
-    were done before and are not affected by what has changed since. With changed sources, none counts
-    as done, and the results are those of this run alone."""
+    were done before and are not affected by what has changed since. Times count only on the machine
+    that they are of. With changed sources, no step counts as done, and the results are those of this
+    run alone."""
 
-    def __init__(self, folder, commit, earlier=None, again=False):
+    def __init__(self, folder, commit, earlier=None):
         """folder (Path): for all commits; earlier: records of steps by name, as in the file of
-        figures; again: whether no step counts as done."""
+        figures."""
         self.folder, self.commit = folder / commit, commit
         self._earlier = earlier or {}
-        self._repeats = again or commit.endswith(CHANGED)
+        self._changed = commit.endswith(CHANGED)  # a former run may have had other changes
         self._added = set()  # names of steps, by this run
+
+    def forget(self, step):
+        """Removes what is stored of a step, so that it has to run, also after an interruption."""
+        jobs = self._job_file(step, "any").parent
+        if jobs.exists():
+            shutil.rmtree(jobs)
+        self._write(step, None)  # in place of the earlier record, which counts without a file
 
     def done_at(self, step, bench):
         """Returns the commit at which the step was measured; None if it has to run."""
-        record = None if self._repeats else self._record(step.name)
+        record = None if self._changed else self._record(step)
         return record["commit"] if record and record["seeds"] == _seeds(step, bench) else None
 
     def of_job(self, step, name):
         """Returns what add_job() stored of a job: (result, s); None if it has to run."""
         file = self._job_file(step, name)
-        if self._repeats or not file.is_file():
+        if self._changed or not file.is_file():
             return None
         kept = read_json(file)
-        return kept["result"], kept["seconds"]
+        return (kept["result"], kept["seconds"]) if _counts_here(step, kept) else None
 
     def add_job(self, step, name, result, seconds):
         """Stores a job's result, so that an interrupted step continues with the next one."""
         file = self._job_file(step, name)
-        write_file(file, json.dumps({"result": result, "seconds": seconds}))
+        write_file(file, json.dumps({"result": result, "seconds": seconds, "machine": machine()}))
 
     def add(self, step, figures, seconds, bench):
         """Stores a step's result; seconds: of all its jobs."""
@@ -57,15 +66,16 @@ class StepStore:
             "seeds": _seeds(step, bench),
             "commit": self.commit,
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+            "machine": machine(),
             "job_seconds": round(seconds),
             "figures": rounded(figures),
         }
-        write_whole(self.folder, {f"{step.name}.json": json.dumps(record) + "\n"})
+        self._write(step, record)
         self._added.add(step.name)
 
     def results(self, steps):
         """Returns all steps that are done (dict), in the order of `steps`; None without any."""
-        found = {step.name: self._record(step.name) for step in steps}
+        found = {step.name: self._record(step) for step in steps}
         done = {name: record for name, record in found.items() if record}
         if not done:
             return None
@@ -73,12 +83,19 @@ class StepStore:
         return {"format": FORMAT, "commit": self.commit, "date": date, "machine": machine(),
                 "steps": done}  # fmt: skip
 
-    def _record(self, name):
+    def _record(self, step):
         """Returns a step's record of these sources (dict); None without one."""
-        file = self.folder / f"{name}.json"
-        if self.commit.endswith(CHANGED):  # a former run may have had other changes
-            return read_json(file) if name in self._added else None
-        return {"commit": self.commit, **read_json(file)} if file.is_file() else self._earlier.get(name)
+        if self._changed and step.name not in self._added:
+            return None
+        file = self._file(step)
+        record = read_json(file) if file.is_file() else self._earlier.get(step.name)
+        return record if record and _counts_here(step, record) else None
+
+    def _write(self, step, record):
+        write_file(self._file(step), json.dumps(record) + "\n")
+
+    def _file(self, step):
+        return self.folder / f"{step.name}.json"
 
     def _job_file(self, step, name):
         return self.folder / "jobs" / step.name / f"{name}.json"
@@ -86,6 +103,11 @@ class StepStore:
 
 def _seeds(step, bench):
     return list(bench.seeds) if step.seeded else None
+
+
+def _counts_here(step, stored):
+    """stored: a step's record, or a job's."""
+    return not step.timed or stored["machine"] == machine()
 
 
 def machine():
@@ -110,5 +132,6 @@ def read(file):
     if results.get("format") != FORMAT:
         raise InputError(f"{file}: format {results.get('format')}, expected {FORMAT}")
     for record in results["steps"].values():
-        record.setdefault("commit", results["commit"])  # in older files all steps are of one commit
+        for key in ("commit", "machine"):  # in older files the same for all steps
+            record.setdefault(key, results[key])
     return results

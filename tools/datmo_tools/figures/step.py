@@ -62,8 +62,7 @@ class Step(NamedTuple):
     needs: tuple = ()  # paths below Bench.data
     seeded: bool = False  # whether it depends on Bench.seeds
     on_request: bool = False
-    timed: bool = False  # among its figures are times, which are those of one machine
-    alone: bool = False  # nothing may run in parallel
+    timed: bool = False  # measures time: nothing may run in parallel, and another machine's do not count
 
 
 def only(results):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All steps of scripts/figures: those for README first, those that need an idle machine last."""
+"""All steps of scripts/figures, in the order of the file of figures; those that measure time run last."""
 
 from datmo_tools.figures import cameras, data_sets, maps, measurements, mono, recordings, risk, wrong_classes
 from datmo_tools.figures.step import Step, by_name, only
 
 STEPS = (
     Step("kitti_tracking", "tracker on KITTI tracking", "kitti_tracking_run, kitti_tracking_score",
-         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,), timed=True, alone=True),
+         recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,), timed=True),
     Step("model_cars", "1:10 cars", "mocap_to_bag, run_bag, score_run", recordings.model_car_jobs,
          by_name, (recordings.MODEL_CARS,)),
     Step("people", "people around a robot", "check_bag, run_bag, evaluate labels",
@@ -37,5 +37,5 @@ STEPS = (
     Step("operating_curve", "missed frames against false tracks", "evaluate operating_curve",
          measurements.operating_curve_jobs, only, on_request=True),
     Step("speed", "speed and latency", "scripts/benchmark", measurements.speed_jobs, only,
-         timed=True, alone=True),
+         timed=True),
 )  # fmt: skip
