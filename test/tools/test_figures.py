@@ -10,7 +10,8 @@ from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, risk
-from datmo_tools.figures.step import Bench
+from datmo_tools.figures.step import Bench, preset
+from datmo_tools.yaml_files import load_yaml
 from folder_case import InFolder
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,6 +27,12 @@ class KittiSpeed(unittest.TestCase):
     def test_other_output_is_refused(self):
         with self.assertRaisesRegex(InputError, "expected frames/s"):
             recordings.frames_per_second("4100 frames\n")
+
+
+class Preset(InFolder):
+    def test_settings_are_in_the_file_that_run_bag_is_told(self):
+        option, file = preset(self.folder, recordings.NO_ODOMETRY)
+        self.assertEqual((option, load_yaml(file)), ("--preset", {"motion": {"source": "none"}}))
 
 
 class Pooled(unittest.TestCase):

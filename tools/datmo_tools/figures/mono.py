@@ -3,14 +3,12 @@
 
 from functools import partial
 
-import yaml
-
 from datmo_tools import programs
 from datmo_tools.evaluate.class_tally import NOTHING
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.fusion_drives import LABELED, ODOMETRY_ERRORS
 from datmo_tools.figures.recordings import DRIVE_0005, VELODYNE_NOISE, drive_figures
-from datmo_tools.figures.step import Job
+from datmo_tools.figures.step import Job, preset
 
 RESOLUTIONS = (2, 1)  # degrees between beams
 OBJECTS = "/objects/mono"
@@ -54,13 +52,6 @@ def _recorded(bench, folder, *words):
     recorded = folder / "drive.bag"
     bench.call("kitti_to_bag", bench.data / DRIVE_0005, recorded, "--images", *ODOMETRY_ERRORS, *words)
     return recorded
-
-
-def preset(folder, settings):
-    """Returns the words for run_bag that lay these settings over the sensor set."""
-    file = folder / "preset.yaml"
-    file.write_text(yaml.safe_dump(settings), encoding="utf-8")
-    return ("--preset", file)
 
 
 def _run(bench, name, section, degrees, folder):

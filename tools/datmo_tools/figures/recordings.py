@@ -8,7 +8,7 @@ from functools import partial
 from datmo_tools.errors import InputError
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.fusion_drives import LABELED, ODOMETRY_ERRORS
-from datmo_tools.figures.step import Job, read_json
+from datmo_tools.figures.step import Job, preset, read_json
 
 DRIVE_0005 = "kitti_raw/2011_09_26/2011_09_26_drive_0005_sync"
 KITTI_TRACKING = "kitti_tracking"
@@ -23,7 +23,7 @@ PEOPLE_LABELS = "/ground_truth_people_tracks"
 
 VELODYNE_NOISE = "attainable/range_noise=0.02"  # option of score_run
 
-NO_ODOMETRY = "no_odometry.yaml"  # a preset
+NO_ODOMETRY = {"motion": {"source": "none"}}
 
 WHOLE_DRIVE = 0.9  # share of the frames: an object in so many is there for the whole drive
 
@@ -31,10 +31,10 @@ WHOLE_DRIVE = 0.9  # share of the frames: an object in so many is there for the 
 def drive_0005_jobs(bench):
     """Returns jobs of the scanner alone: beams every 2 degrees, every degree, no odometry."""
     variants = {
-        "2 degrees": (2, ()),
-        "2 degrees, road borders": (2, ("--road-border",)),
-        "1 degree": (1, ()),
-        "2 degrees, no odometry": (2, ("--preset", NO_ODOMETRY)),
+        "2 degrees": (2, (), {}),
+        "2 degrees, road borders": (2, ("--road-border",), {}),
+        "1 degree": (1, (), {}),
+        "2 degrees, no odometry": (2, (), NO_ODOMETRY),
     }
     return [
         Job(name.replace(" ", "_"), partial(_drive_0005, bench, name, *variant))
@@ -42,9 +42,8 @@ def drive_0005_jobs(bench):
     ]
 
 
-def _drive_0005(bench, name, resolution, words, folder):
-    (folder / NO_ODOMETRY).write_text("motion: {source: none}\n", encoding="utf-8")
-    words = [folder / word if word == NO_ODOMETRY else word for word in words]
+def _drive_0005(bench, name, resolution, words, settings, folder):
+    words = (*words, *preset(folder, settings)) if settings else words
     recorded = folder / "drive.bag"
     bench.call("kitti_to_bag", bench.data / DRIVE_0005, recorded,
                "--scan-resolution", resolution, *ODOMETRY_ERRORS)  # fmt: skip

@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 from typing import Callable, NamedTuple
 
+import yaml
+
 from datmo_tools import programs
 
 
@@ -73,6 +75,14 @@ def only(results):
 def by_name(results):
     """Returns the figures of a step whose jobs return (name, figures)."""
     return dict(sorted(map(tuple, results)))  # lists after JSON
+
+
+def preset(folder, settings):
+    """Returns the words for run_bag that lay settings (dict) over the sensor set, by a file in the
+    folder (Path)."""
+    file = folder / "preset.yaml"
+    file.write_text(yaml.safe_dump(settings), encoding="utf-8")
+    return ("--preset", file)
 
 
 def read_json(file):
