@@ -15,9 +15,17 @@ ROOT = Path(__file__).resolve().parents[2]
 NAMES = {step.name for step in STEPS}
 CODE = ("src", "include", "tools", "benchmark")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-WORD = re.compile(r'"(\w+)"')
-# Python files that name programs, subcommands and experiments to run them.
-RUNNERS = tuple(f"tools/datmo_tools/{folder}/" for folder in ("evaluate", "experiments", "figures"))
+WORD = re.compile(r'"(--[\w-]+|\w+)"')
+# Python files that name programs, subcommands, experiments and switches to run them.
+RUNNERS = tuple(f"tools/datmo_tools/{folder}/" for folder in ("convert", "evaluate", "experiments", "figures"))
+STAGES = "src/ros/stage/"
+# Switches of run_bag that start stages in leaves; no include leads there, as it makes stages by their names.
+SWITCHES = {
+    "--mono": {f"{STAGES}mono_classifier_stage.cpp", f"{STAGES}mono_grid_stage.cpp"},
+    "--risk": {f"{STAGES}risk_stage.cpp"},
+}
+# What a script runs or sources beside it.
+SCRIPT = re.compile(r"""(?:repository/scripts|\$\(dirname "\$\{BASH_SOURCE\[0\]\}"\))/(\w[\w.]*)""")
 RUN_BY_NAME = tuple(f"tools/datmo_tools/{folder}/" for folder in ("convert", "evaluate", "experiments"))
 
 
@@ -46,7 +54,7 @@ def imported(text, modules):
 
 def runnable(files):
     """Returns a dictionary word -> files that a tool which says the word may run."""
-    found = {}
+    found = dict(SWITCHES)
     for file in files:
         name = file.parent.name if file.name == "main.py" else re.sub("_main$", "", file.stem)
         if name != file.stem or name_of(file).startswith(RUN_BY_NAME):
@@ -70,6 +78,16 @@ def uses():
 
 
 USES = dict(uses())
+
+
+def scripts_run_by(name):
+    """Returns the names of a script and of those that it runs or sources, and so on."""
+    found, todo = set(), {name}
+    while todo:
+        found |= todo
+        texts = [(ROOT / "scripts" / name).read_text(encoding="utf-8") for name in todo]
+        todo = {name for text in texts for name in SCRIPT.findall(text) if (ROOT / "scripts" / name).is_file()} - found
+    return found
 
 
 def other_users(leaf):
@@ -105,12 +123,10 @@ class Table(unittest.TestCase):
         self.assertEqual({paths: users for paths, users in found.items() if users}, {})
 
     def test_scripts_that_scripts_figures_runs_affect_every_step(self):
-        run = {"figures", "lib.sh"}
-        for name in ("figures", "setup", "build", "lib.sh"):
-            text = (ROOT / "scripts" / name).read_text(encoding="utf-8")
-            run.update(re.findall(r"repository/scripts/(\w+)", text))
-        self.assertLessEqual({"setup", "build"}, run)
+        run = scripts_run_by("figures")
+        self.assertLessEqual({"figures", "lib.sh", "setup", "build"}, run)
         self.assertEqual([name for name in run if leaf_of(f"scripts/{name}")], [])
+        self.assertLessEqual({"lib.sh", "display.sh"}, scripts_run_by("demo"))
 
     def test_other_users_are_found(self):
         header = other_users(Leaf(("risk", "speed"), ("include/datmo_fusion/risk/box_contact.h",)))
@@ -120,6 +136,17 @@ class Table(unittest.TestCase):
         self.assertEqual(module, ["tools/datmo_tools/evaluate/main.py", "tools/datmo_tools/figures/recordings.py"])
         program = other_users(Leaf(("risk",), ("tools/kitti_tracking/kitti_tracking_run_main.cpp",)))
         self.assertEqual(program, ["tools/datmo_tools/figures/recordings.py"])
+        converter = other_users(Leaf(("risk",), ("tools/convert/clouds_to_scans_main.cpp",)))
+        self.assertEqual(converter, ["tools/datmo_tools/convert/kitti_scans.py"])
+        switch = other_users(Leaf(("speed",), (f"{STAGES}risk_stage.cpp",)))
+        self.assertEqual(switch, ["tools/datmo_tools/experiments/encounters.py", "tools/datmo_tools/figures/risk.py"])
+
+    def test_switches_lead_to_all_stages_in_leaves(self):
+        in_leaves = {name for name in USES if name.startswith(STAGES) and name.endswith("_stage.cpp") and leaf_of(name)}
+        self.assertEqual(set().union(*SWITCHES.values()), in_leaves)
+        switches = (ROOT / STAGES / "stack_switches.cpp").read_text(encoding="utf-8")
+        for switch in SWITCHES:
+            self.assertIn(f'{{"{switch[2:]}", &', switches)
 
     def test_stated_users_are_users(self):
         for leaf in LEAVES:

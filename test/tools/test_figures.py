@@ -10,6 +10,7 @@ from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, risk
+from datmo_tools.figures.class_figures import class_figures
 from datmo_tools.figures.step import Bench, preset
 from datmo_tools.yaml_files import load_yaml
 from folder_case import InFolder
@@ -157,7 +158,7 @@ class MonoFigures(InFolder):
             return {"vehicle": vehicle, "cyclist": cyclist, "pedestrian": 0}
 
         table = {"vehicle": row(8, 2), "cyclist": row(1, 3), "pedestrian": row(0, 0), "nothing": row(4, 0)}
-        found = mono.class_figures({"bands_m": [[0.0, 10.0]], "confusion": [table],
+        found = class_figures({"bands_m": [[0.0, 10.0]], "confusion": [table],
                                     "calibration": [{"said": 0.8, "right": 0.7, "count": 18}]})  # fmt: skip
         self.assertEqual(found["right"], {"vehicle": {"0 to 10 m": [8, 10]}, "cyclist": {"0 to 10 m": [3, 4]},
                                           "pedestrian": {"0 to 10 m": [0, 0]}})  # fmt: skip

@@ -90,9 +90,10 @@ _CAMERA = (
                  "mono_classifier", "mono_grid", "network_decoding", "road_color"),
           *_parts("ros/stage", "mono_classifier_stage", "mono_grid_stage"))),
     Leaf(("mono", "wrong_classes"),
-         (*_under("evaluate", "classes.py", "track_classes.py"), *_under("figures", "mono.py")),
+         (*_under("evaluate", "classes.py", "track_classes.py"), *_under("figures", "class_figures.py")),
          # The latter's "classes" are score_run's.
-         (_EVALUATE, _STEPS, *_under("experiments", "fusion_comparison.py"))),
+         (_EVALUATE, *_under("experiments", "fusion_comparison.py"))),
+    Leaf(("mono",), _under("figures", "mono.py"), (_STEPS,)),
     Leaf(("wrong_classes",), _under("figures", "wrong_classes.py"), (_STEPS,)),
     Leaf(("fusion",), _under("experiments", "camera_view.py", "compare_fusion.py", "fusion_comparison.py",
                              "fusion_plot.py"), (_CAMERAS,)),

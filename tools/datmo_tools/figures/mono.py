@@ -4,15 +4,14 @@
 from functools import partial
 
 from datmo_tools import programs
-from datmo_tools.evaluate.class_tally import NOTHING
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.fusion_drives import LABELED, ODOMETRY_ERRORS
+from datmo_tools.figures.class_figures import band_name, class_figures
 from datmo_tools.figures.recordings import DRIVE_0005, VELODYNE_NOISE, drive_figures
 from datmo_tools.figures.step import Job, preset
 
 RESOLUTIONS = (2, 1)  # degrees between beams
 OBJECTS = "/objects/mono"
-CLASSES = ("vehicle", "cyclist", "pedestrian")
 # Labels cover only the camera's view.
 LABELED_VIEW = ("--visible-to", "none", "--half-angle", "0.7", "--range", "50")
 NEAR = 20.0  # m, up to which grids are shown
@@ -76,24 +75,6 @@ def _run(bench, name, section, degrees, folder):
     return name, degrees, found
 
 
-def class_figures(scored):
-    """Returns by true class and range how many of the reported classes are right, how often classes
-    are right at which probability, and how many are reported where the truth has nothing.
-
-    scored: with bands_m, confusion and calibration, of evaluate.
-    """
-    reported = [sum(said.values()) for table in scored["confusion"] for said in table.values()]
-    nothing = sum(sum(table[NOTHING].values()) for table in scored["confusion"])
-    return {
-        "right": {kind: {_band(*band): [table[kind][kind], sum(table[kind].values())]
-                         for band, table in zip(scored["bands_m"], scored["confusion"])}
-                  for kind in CLASSES},
-        "reported": sum(reported),
-        "on_nothing": nothing,
-        "calibration": [[item["said"], item["right"], item["count"]] for item in scored["calibration"]],
-    }  # fmt: skip
-
-
 def _grids(bench, folder):
     recorded, computed = _recorded(bench, folder, "--points"), folder / "result.bag"
     bench.call("run_bag", recorded, computed, "--config", bench.config("kitti"), "--quiet", "--mono",
@@ -101,10 +82,6 @@ def _grids(bench, folder):
     scores = {}
     for source in GRIDS:
         bands = bench.evaluated(folder, "free_cells", computed, recorded, "--topic", f"/grids/{source}")["bands"]
-        scores[source] = {_band(band["from"], band["to"]): {key: band[key] for key in ("precision", "recall")}
+        scores[source] = {band_name(band["from"], band["to"]): {key: band[key] for key in ("precision", "recall")}
                           for band in bands if band["to"] <= NEAR and band["road"]}  # fmt: skip
     return "grids", None, scores
-
-
-def _band(near, far):
-    return f"{near:g} to {far:g} m"

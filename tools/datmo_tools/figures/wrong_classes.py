@@ -7,7 +7,7 @@ from functools import partial
 from datmo_tools import programs
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
-from datmo_tools.figures.mono import class_figures
+from datmo_tools.figures.class_figures import class_figures
 from datmo_tools.figures.step import Job, preset
 from datmo_tools.spread import pooled_counts, spread_of
 
