@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <boost/make_shared.hpp>
-
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
@@ -57,11 +55,7 @@ boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
     failForType(message, ros::message_traits::datatype<Message>());
   }
   try {
-    std::vector<std::uint8_t> bytes = bytesOf(message);
-    BoundedStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-    const auto content = boost::make_shared<Message>();
-    stream.next(*content);
-    return content;
+    return decodeBounded<Message>(bytesOf(message));
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/make_shared.hpp>
+
 #include <ros/serialization.h>
 
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -46,6 +48,15 @@ class BoundedStream : public ros::serialization::Stream {
     ros::serialization::deserialize(*this, elements);
   }
 };
+
+/// Decodes a message. Throws std::exception if its bytes are corrupt.
+template <typename Message>
+boost::shared_ptr<Message> decodeBounded(std::vector<std::uint8_t> bytes) {
+  BoundedStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  const auto message = boost::make_shared<Message>();
+  stream.next(*message);
+  return message;
+}
 
 /// The error for a message whose bytes are corrupt (`undecodable_message`). `where`: its topic, and
 /// what else identifies it; `why`: what the stream has thrown.
