@@ -54,4 +54,13 @@ SensorSet sensorsOf(const std::string& config, const CampaignGraph& graph) {
   return sensors;
 }
 
+Publications handleAny(const Publication& message, Stamp now, GraphRunner& runner) {
+  const auto transforms = message.as<tf2_msgs::TFMessage>();
+  if (transforms && message.topic == kStaticTransforms) {
+    runner.handleStaticTransforms(*transforms);
+    return {};
+  }
+  return transforms ? runner.handleTransforms(*transforms, now) : runner.handle(message, now);
+}
+
 }  // namespace datmo::campaign

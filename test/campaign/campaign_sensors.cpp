@@ -79,8 +79,8 @@ void addImages(int step, std::vector<Publication>& sent) {
 std::vector<Publication> CampaignSensors::at(int step) const {
   const double seconds = kStep * step;
   std::vector<Publication> sent;
-  add("/tf_static", listOf({world_.scannerInBase(), world_.cameraInBase()}), sent);
-  add("/tf", listOf({world_.baseInOdom(seconds)}), sent);
+  add(kStaticTransforms, listOf({world_.scannerInBase(), world_.cameraInBase()}), sent);
+  add(kTransforms, listOf({world_.baseInOdom(seconds)}), sent);
   addMotion(seconds, sent);
   addOthers(seconds, sent);
   if (graph_.switches.stereo == StereoPoints::kClouds) {

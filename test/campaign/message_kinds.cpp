@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "message_mutation.h"
+#include "ros/raw_message.h"
 #include <boost/make_shared.hpp>
 #include <tf2_msgs/TFMessage.h>
 
@@ -40,9 +41,7 @@ const Message& typed(const AnyMessage& message) {
 
 template <typename Message>
 AnyMessage decode(std::vector<std::uint8_t> bytes) {
-  BoundedStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  const auto message = boost::make_shared<Message>();
-  stream.next(*message);
+  const auto message = decodeBounded<Message>(std::move(bytes));
   if constexpr (ros::message_traits::HasHeader<Message>::value ||
                 std::is_same_v<Message, tf2_msgs::TFMessage>) {
     stripSlashes(*message);
@@ -51,18 +50,10 @@ AnyMessage decode(std::vector<std::uint8_t> bytes) {
 }
 
 template <typename Message>
-std::vector<std::uint8_t> encode(const AnyMessage& message) {
-  namespace serialization = ros::serialization;
-  std::vector<std::uint8_t> bytes(serialization::serializationLength(typed<Message>(message)));
-  serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  serialization::serialize(stream, typed<Message>(message));
-  return bytes;
-}
-
-template <typename Message>
 std::pair<const std::string, MessageKind> kind() {
   return {ros::message_traits::datatype<Message>(),
-          {decode<Message>, encode<Message>,
+          {decode<Message>,
+           [](const AnyMessage& message) { return toRaw(typed<Message>(message)).bytes; },
            [](const AnyMessage& message, ros::Duration shift) -> AnyMessage {
              return boost::make_shared<Message>(shifted(typed<Message>(message), shift));
            },

@@ -142,18 +142,16 @@ void MutatedDrive::askClock() {
 void MutatedDrive::deliver(const Publication& message, std::uint64_t mutated_before) {
   const double begin = processorSeconds();
   try {
-    if (message.topic == "/tf_static") {
-      runner_.handleStaticTransforms(
-          *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)));
-    } else if (message.topic == "/tf") {
-      take(runner_.handleTransforms(
-          *boost::static_pointer_cast<const tf2_msgs::TFMessage>(givenFor(message)), now_));
-    } else if (message.topic == kClock) {
+    if (message.topic == kClock) {
       clocks_.addAnswer(*boost::static_pointer_cast<const PartClock>(givenFor(message)), now_);
       clocks_.judged({}, now_);
       clocks_.descriptions(now_);
     } else {
-      take(runner_.handle(message, now_));
+      // The runner passes all others through givenFor() itself.
+      const bool is_transforms = message.as<tf2_msgs::TFMessage>() != nullptr;
+      take(handleAny(
+          {message.topic, message.data_type, is_transforms ? givenFor(message) : message.message},
+          now_, runner_));
     }
   } catch (const std::exception& error) {
     note(std::string("an exception left the graph: ") + error.what());
@@ -206,10 +204,10 @@ void MutatedDrive::take(const Publications& published) {
   }
 }
 
-/// Notes internal errors of the code since the last call.
+/// Notes defects of the code since the last call.
 void MutatedDrive::findFaults() {
   for (const StageMonitor* monitor : runner_.monitors()) {
-    for (const char* const reason : {"unexpected_error", "bad_output"}) {
+    for (const char* const reason : kDefectReasons) {
       const auto found = monitor->drops().find(reason);
       if (found != monitor->drops().end() && found->second > unexpected_[monitor][reason]) {
         unexpected_[monitor][reason] = found->second;

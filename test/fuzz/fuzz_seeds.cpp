@@ -84,7 +84,7 @@ void writeStages(const std::string& folder) {
   ros::Time::init();
   ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Error);
   for (const fuzz::StageSeed& seed : fuzz::stageSeeds()) {
-    write(folder + "/" + seed.name, encode(seed.input));
+    write(folder + "/" + seed.name, encode(seed.drive));
   }
 }
 

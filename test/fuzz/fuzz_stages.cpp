@@ -13,11 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "campaign_sensors.h"
+#include "drive_mutation.h"
 #include "fuzz_check.h"
+#include "fuzzed_drive.h"
 #include "fuzzed_graph.h"
 #include "message_kinds.h"
-#include "stage_input.h"
-#include "stage_mutation.h"
 
 #include <ros/console.h>
 #include <ros/time.h>
@@ -29,29 +30,28 @@ namespace datmo::fuzz {
 namespace {
 
 constexpr double kMilliseconds = 1e-3;
-const Stamp kStart = Stamp::fromSeconds(1000.0);  // as the seeds
 
-std::uint64_t messages = 0;  // so far, at doors of their graphs
+std::uint64_t decoded_messages = 0;  // so far, on topics of their graphs
 
 void printMessages() {
   std::fprintf(stderr, "stat::number_of_messages: %llu\n",
-               static_cast<unsigned long long>(messages));
+               static_cast<unsigned long long>(decoded_messages));
 }
 
-/// One input through the stages.
+/// One drive through the stages.
 class StageRun {
  public:
   explicit StageRun(const FuzzedGraph& graph)
       : topics_(graph.topics), runner_(graph.sensors, graph.campaign.switches) {}
 
-  void handle(const Door& door, const Record& record) {
-    now_ = now_ + kMilliseconds * record.wait;
-    if (topics_.count(door.topic) == 0) {
+  void handle(const TypedTopic& topic, const TimedMessage& message) {
+    now_ = now_ + kMilliseconds * message.wait;
+    if (topics_.count(topic.name) == 0) {
       return;
     }
-    ++messages;
-    if (const AnyMessage message = decoded(door, record.bytes)) {
-      deliver({door.topic, door.data_type, message}, now_, runner_);
+    if (const AnyMessage content = decoded(topic, message.bytes)) {
+      ++decoded_messages;
+      campaign::handleAny({topic.name, topic.data_type, content}, now_, runner_);
       check();
     }
   }
@@ -63,8 +63,8 @@ class StageRun {
 
  private:
   /// Null if it cannot be decoded: hosts drop it.
-  static AnyMessage decoded(const Door& door, const std::vector<std::uint8_t>& bytes) {
-    const auto kind = campaign::messageKinds().find(door.data_type);
+  static AnyMessage decoded(const TypedTopic& topic, const std::vector<std::uint8_t>& bytes) {
+    const auto kind = campaign::messageKinds().find(topic.data_type);
     if (kind == campaign::messageKinds().end()) {
       return nullptr;
     }
@@ -75,10 +75,9 @@ class StageRun {
     }
   }
 
-  /// Internal errors and outputs that must not be published, both of which stages drop.
   void check() const {
     for (const StageMonitor* monitor : runner_.monitors()) {
-      for (const char* const reason : {"unexpected_error", "bad_output"}) {
+      for (const char* const reason : campaign::kDefectReasons) {
         if (monitor->drops().count(reason) > 0) {
           std::fprintf(stderr, "%s: %s: ", monitor->stage().c_str(), reason);
           require(false, monitor->lastDrop().c_str());
@@ -89,16 +88,16 @@ class StageRun {
 
   const std::set<std::string>& topics_;
   GraphRunner runner_;
-  Stamp now_ = kStart;
+  Stamp now_ = Stamp::fromSeconds(World::kStart);  // as the seeds
 };
 
 std::string_view view(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-std::size_t written(StageInput input, std::uint8_t* out, std::size_t max_size) {
-  shorten(input, max_size);
-  const std::string bytes = encode(input);
+std::size_t written(FuzzedDrive drive, std::uint8_t* out, std::size_t max_size) {
+  shorten(drive, max_size);
+  const std::string bytes = encode(drive);
   return bytes.copy(reinterpret_cast<char*>(out), max_size);
 }
 
@@ -118,13 +117,12 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const datmo::fuzz::StageInput input =
-      datmo::fuzz::decodeStageInput(datmo::fuzz::view(data, size));
-  if (!input.records.empty()) {
+  const datmo::fuzz::FuzzedDrive drive = datmo::fuzz::decodeDrive(datmo::fuzz::view(data, size));
+  if (!drive.messages.empty()) {
     const auto& graphs = datmo::fuzz::fuzzedGraphs();
-    datmo::fuzz::StageRun run(graphs[input.graph % graphs.size()]);
-    for (const datmo::fuzz::Record& record : input.records) {
-      run.handle(input.doorOf(record), record);
+    datmo::fuzz::StageRun run(graphs[drive.graph % graphs.size()]);
+    for (const datmo::fuzz::TimedMessage& message : drive.messages) {
+      run.handle(drive.topicOf(message), message);
     }
     run.finish();
   }
@@ -134,9 +132,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {
   std::mt19937 random(seed);
-  datmo::fuzz::StageInput input = datmo::fuzz::decodeStageInput(datmo::fuzz::view(data, size));
-  datmo::fuzz::mutate(input, random, datmo::fuzz::mutateBytes);
-  return datmo::fuzz::written(std::move(input), data, max_size);
+  datmo::fuzz::FuzzedDrive drive = datmo::fuzz::decodeDrive(datmo::fuzz::view(data, size));
+  datmo::fuzz::mutate(drive, datmo::campaign::CampaignSensors::kStep, datmo::fuzz::mutateBytes,
+                      random);
+  return datmo::fuzz::written(std::move(drive), data, max_size);
 }
 
 extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data, std::size_t size,
@@ -145,8 +144,7 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data, std::
                                                  unsigned seed) {
   std::mt19937 random(seed);
   return datmo::fuzz::written(
-      datmo::fuzz::crossed(datmo::fuzz::decodeStageInput(datmo::fuzz::view(data, size)),
-                           datmo::fuzz::decodeStageInput(datmo::fuzz::view(other, other_size)),
-                           random),
+      datmo::fuzz::crossed(datmo::fuzz::decodeDrive(datmo::fuzz::view(data, size)),
+                           datmo::fuzz::decodeDrive(datmo::fuzz::view(other, other_size)), random),
       out, max_size);
 }

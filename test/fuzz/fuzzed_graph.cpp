@@ -5,13 +5,10 @@ namespace datmo::fuzz {
 
 namespace {
 
-constexpr char kTransforms[] = "/tf";
-constexpr char kStaticTransforms[] = "/tf_static";
-
 FuzzedGraph fuzzed(const campaign::CampaignGraph& graph) {
   FuzzedGraph all{graph,
                   campaign::sensorsOf(DATMO_FUSION_FUZZED_STAGES, graph),
-                  {kTransforms, kStaticTransforms}};
+                  {campaign::kTransforms, campaign::kStaticTransforms}};
   for (const StageState& stage : GraphRunner(all.sensors, graph.switches).states(Stamp())) {
     all.topics.insert(stage.topics.inputs.begin(), stage.topics.inputs.end());
   }
@@ -29,15 +26,6 @@ const std::vector<FuzzedGraph>& fuzzedGraphs() {
     return all;
   }();
   return graphs;
-}
-
-Publications deliver(const Publication& message, Stamp now, GraphRunner& runner) {
-  const auto transforms = message.as<tf2_msgs::TFMessage>();
-  if (transforms && message.topic == kStaticTransforms) {
-    runner.handleStaticTransforms(*transforms);
-    return {};
-  }
-  return transforms ? runner.handleTransforms(*transforms, now) : runner.handle(message, now);
 }
 
 }  // namespace datmo::fuzz

@@ -21,7 +21,4 @@ struct FuzzedGraph {
 /// All of them; read once.
 const std::vector<FuzzedGraph>& fuzzedGraphs();
 
-/// Passes on a message, which may be one of transforms.
-Publications deliver(const Publication& message, Stamp now, GraphRunner& runner);
-
 }  // namespace datmo::fuzz

@@ -18,6 +18,7 @@ namespace datmo::fuzz {
 namespace {
 
 using campaign::CampaignSensors;
+using campaign::kTransforms;
 
 constexpr int kSteps = 8;                // then there are tracks
 constexpr std::size_t kBeamStep = 4;     // every fourth beam is kept
@@ -112,7 +113,7 @@ class SeedDrive {
         runner_(graph_.sensors, graph_.campaign.switches),
         sensors_(graph_.campaign) {
     seed_.name = "graph_" + std::to_string(index);
-    seed_.input.graph = static_cast<std::uint8_t>(index);
+    seed_.drive.graph = static_cast<std::uint8_t>(index);
   }
 
   /// `copied`: topics between stages that an earlier seed has; extended.
@@ -124,7 +125,7 @@ class SeedDrive {
         shrinkAny(message);
         if (isSent(message, step)) {
           record(message);
-          take(deliver(message, timeOf(step), runner_));
+          take(campaign::handleAny(message, timeOf(step), runner_));
         }
       }
     }
@@ -135,7 +136,7 @@ class SeedDrive {
  private:
   bool isSent(const Publication& message, int step) const {
     static const std::set<std::string> fast{
-        "/tf",        "scan",        "echoes", "scans/front",
+        kTransforms,  "scan",        "echoes", "scans/front",
         "scans/rear", "odometry",    "twist",  "twist_with_covariance",
         "imu",        "joint_states"};
     return graph_.topics.count(message.topic) > 0 &&
@@ -156,8 +157,8 @@ class SeedDrive {
   }
 
   void record(const Publication& message) {
-    seed_.input.records.push_back(
-        {doorIn(seed_.input, {message.topic, message.data_type}),
+    seed_.drive.messages.push_back(
+        {topicIndexIn(seed_.drive, {message.topic, message.data_type}),
          static_cast<std::uint16_t>(std::exchange(next_wait_, 0)),
          campaign::messageKinds().at(message.data_type).encoded(message.message)});
   }

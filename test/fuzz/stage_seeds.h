@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "stage_input.h"
+#include "fuzzed_drive.h"
 
 namespace datmo::fuzz {
 
 /// A seed of the target `stages`.
 struct StageSeed {
   std::string name;
-  StageInput input;
+  FuzzedDrive drive;
 };
 
 /// A short drive for each of the campaign's graphs: what its sensors send, and then the last
