@@ -21,10 +21,11 @@ namespace datmo {
 class CameraViewNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
-    const auto options = loadOptions<CameraViewOptions>(getPrivateNodeHandle());
+    const NodeletParameters parameters(getPrivateNodeHandle());
+    const auto options = parameters.options<CameraViewOptions>();
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(
-        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
+    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after,
+                                                    parameters.shared(), *monitor_);
     view_ = std::make_unique<CameraView>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
     // Without subscribers no input counts as missing.

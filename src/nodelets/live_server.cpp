@@ -6,13 +6,34 @@
 #include <ros/console.h>
 
 #include "datmo_fusion/ros/convert/live_option_conversion.h"
+#include "datmo_fusion/ros/master_requests.h"
 #include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
 namespace {
 
+using XmlRpc::XmlRpcValue;
+
 constexpr char kService[] = "set_parameters";
+
+XmlRpcValue xmlRpcOf(const std::vector<double>& numbers) {
+  XmlRpcValue list;
+  list.setSize(0);  // an array, also if it stays empty
+  for (const double number : numbers) {
+    list[list.size()] = number;
+  }
+  return list;
+}
+
+template <typename Value>
+XmlRpcValue xmlRpcOf(const Value& value) {
+  return XmlRpcValue(value);
+}
+
+XmlRpcValue xmlRpcOf(const OptionValue& option) {
+  return std::visit([](const auto& value) { return xmlRpcOf(value); }, option);
+}
 
 }  // namespace
 
@@ -49,9 +70,12 @@ bool LiveServer::setParameters(dynamic_reconfigure::Reconfigure::Request& reques
 }
 
 void LiveServer::publish(const std::vector<LiveOption>& options) {
+  std::vector<MasterRequest> requests;
   for (const LiveOption& option : options) {
-    std::visit([&](const auto& value) { node_.setParam(option.key, value); }, option.value);
+    requests.push_back(
+        {"setParam", {XmlRpcValue(node_.resolveName(option.key)), xmlRpcOf(option.value)}});
   }
+  askMasterAtOnce(requests);
   updates_.publish(configOf(options));
 }
 

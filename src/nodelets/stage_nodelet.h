@@ -17,10 +17,11 @@ template <typename HostedStage>
 class StageNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
-    const auto options = loadOptions<typename HostedStage::Options>(getPrivateNodeHandle());
+    const NodeletParameters parameters(getPrivateNodeHandle());
+    const auto options = parameters.options<typename HostedStage::Options>();
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(
-        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
+    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after,
+                                                    parameters.shared(), *monitor_);
     const Stopwatch watch;
     stage_ = makeStage<HostedStage>(options,
                                     {*transforms_, *monitor_, [watch] { return watch.seconds(); }});

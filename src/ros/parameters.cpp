@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/parameters.h"
 
-#include <ros/names.h>
+#include "datmo_fusion/ros/master_requests.h"
 
 namespace datmo {
 
@@ -72,17 +72,35 @@ OptionValues readParameters(const ros::NodeHandle& node) {
   return flattenParameters(tree, node.getNamespace());
 }
 
-SharedOptions loadSharedOptions(const ros::NodeHandle& private_node) {
-  const ros::NodeHandle around(ros::names::parentNamespace(private_node.getNamespace()));
-  const auto section = [&around](const std::string& name) {
-    return readParameters(ros::NodeHandle(around, name));
-  };
-  try {
-    return readSharedOptions(section);
-  } catch (const OptionError& error) {
-    ROS_FATAL("%s does not start: %s", private_node.getNamespace().c_str(), error.what());
-    throw;
+NodeletParameters::NodeletParameters(const ros::NodeHandle& private_node) {
+  const std::string full_name = private_node.getNamespace();
+  const std::size_t slash = full_name.rfind('/');
+  around_ = full_name.substr(0, slash + 1);
+  name_ = full_name.substr(slash + 1);
+  std::vector<std::string> names = sharedSections();
+  names.insert(names.end(), {kStereoImagesSection, name_});
+  std::vector<MasterRequest> requests;
+  for (const std::string& name : names) {
+    requests.push_back({"getParam", {XmlRpcValue(around_ + name)}});
   }
+  const MasterAnswers answers = askMasterAtOnce(requests);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (answers[i]) {
+      sections_[names[i]] = *answers[i];
+    }
+  }
+}
+
+SharedOptions NodeletParameters::shared() const {
+  return reported([this] {
+    return readSharedOptions([this](const std::string& section) { return valuesOf(section); });
+  });
+}
+
+OptionValues NodeletParameters::valuesOf(const std::string& section) const {
+  const auto found = sections_.find(section);
+  return found == sections_.end() ? OptionValues()
+                                  : flattenParameters(found->second, around_ + section);
 }
 
 }  // namespace datmo

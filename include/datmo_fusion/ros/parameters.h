@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 
 #include <XmlRpcValue.h>
@@ -21,21 +22,45 @@ OptionValues readParameters(const ros::NodeHandle& node);
 /// The same for a tree of values; `name` is the tree's name in messages.
 OptionValues flattenParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
-/// Loads what all nodelets of a namespace share: the sections beside a nodelet's private namespace.
-/// Errors are printed on the console before OptionError is thrown.
-SharedOptions loadSharedOptions(const ros::NodeHandle& private_node);
+/// The parameters of a nodelet: its private namespace, and the sections beside it that all nodelets
+/// share. They are read with one request to the master.
+class NodeletParameters {
+ public:
+  explicit NodeletParameters(const ros::NodeHandle& private_node);
 
-/// Loads the options of a nodelet from its private namespace, and those shared by all nodelets
-/// (`frames`, `motion`). Errors are printed on the console before OptionError is thrown.
+  /// Errors are printed on the console before OptionError is thrown; also by options().
+  SharedOptions shared() const;
+
+  /// The nodelet's options, including the shared ones.
+  template <typename Options>
+  Options options() const {
+    const SharedOptions shared_options = shared();
+    return reported([&] { return readStageOptions<Options>(valuesOf(name_), shared_options); });
+  }
+
+ private:
+  /// Of a section; empty if it is not set.
+  OptionValues valuesOf(const std::string& section) const;
+
+  template <typename Read>
+  auto reported(const Read& read) const {
+    try {
+      return read();
+    } catch (const OptionError& error) {
+      ROS_FATAL("%s does not start: %s", (around_ + name_).c_str(), error.what());
+      throw;
+    }
+  }
+
+  std::string around_;  ///< namespace of the sections, with a slash at the end
+  std::string name_;
+  std::map<std::string, XmlRpc::XmlRpcValue> sections_;  ///< those that are set
+};
+
+/// Loads the options of a nodelet, like NodeletParameters::options().
 template <typename Options>
 Options loadOptions(const ros::NodeHandle& private_node) {
-  const SharedOptions shared = loadSharedOptions(private_node);
-  try {
-    return readStageOptions<Options>(readParameters(private_node), shared);
-  } catch (const OptionError& error) {
-    ROS_FATAL("%s does not start: %s", private_node.getNamespace().c_str(), error.what());
-    throw;
-  }
+  return NodeletParameters(private_node).options<Options>();
 }
 
 }  // namespace datmo
