@@ -16,7 +16,10 @@ namespace datmo {
 
 namespace {
 
-constexpr double kPeriod = 0.5;  // s, polling period of the manager
+// s, polling periods of the manager. The requests of all loaders run in the thread that loads the
+// nodelets: frequent ones only while there is no manager, which nothing can run without.
+constexpr double kPeriod = 0.5;
+constexpr double kPeriodWithoutManager = 0.1;
 
 volatile std::sig_atomic_t stop_requested = 0;
 
@@ -30,7 +33,7 @@ bool waitForManager(ManagedNodelet& nodelet) {
     if (nodelet.isThere()) {
       return true;
     }
-    ros::WallDuration(kPeriod).sleep();
+    ros::WallDuration(kPeriodWithoutManager).sleep();
   }
   return false;
 }
@@ -39,14 +42,17 @@ bool waitForManager(ManagedNodelet& nodelet) {
 int keepLoaded(ManagedNodelet& nodelet) {
   while (waitForManager(nodelet)) {
     if (!nodelet.isLoaded()) {
-      if (nodelet.wasLoaded()) {
-        ROS_WARN("%s: no longer loaded in its manager %s: loads it again",
+      const bool was_loaded = nodelet.wasLoaded();
+      if (!nodelet.load()) {
+        if (nodelet.isThere()) {
+          ROS_FATAL("%s: %s failed to load it; its output gives the reason",
+                    ros::this_node::getName().c_str(), nodelet.manager().c_str());
+          return 1;
+        }
+      } else if (was_loaded) {
+        // Only now: the first line on the console costs requests to the master.
+        ROS_WARN("%s: was no longer loaded in its manager %s: has been loaded again",
                  ros::this_node::getName().c_str(), nodelet.manager().c_str());
-      }
-      if (!nodelet.load() && nodelet.isThere()) {
-        ROS_FATAL("%s: %s failed to load it; its output gives the reason",
-                  ros::this_node::getName().c_str(), nodelet.manager().c_str());
-        return 1;
       }
       nodelet.isLoaded();
     }

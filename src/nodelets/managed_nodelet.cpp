@@ -51,6 +51,7 @@ void ManagedNodelet::unload() {
 
 bool ManagedNodelet::ask() {
   if (!list_.isValid()) {
+    is_cut_off_ = true;  // even if the next manager already responds
     list_ = ros::NodeHandle().serviceClient<nodelet::NodeletList>(manager_ + "/list", true);
   }
   nodelet::NodeletList list;

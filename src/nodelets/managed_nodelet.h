@@ -44,7 +44,7 @@ class ManagedNodelet {
   std::vector<std::string> known_;  ///< nodelets of the manager
   std::vector<std::string> arguments_;
   bool was_loaded_ = false;
-  bool is_cut_off_ = false;  ///< a request has failed since the manager last had the nodelet
+  bool is_cut_off_ = false;  ///< not connected at some time since the manager last had the nodelet
   int restarts_ = 0;         ///< of the manager
 };
 
