@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class StageHost : private StagePorts {
   StageOutput::Publish addOutput(StageOutput output) override;
   void addService(StageService service) override;
 
+  void offerLiveOptions();
+  void beginReports(double silence_after);
   void subscribe(const StageInput& input);
   void publishReady();
   /// Publishes the timing of results since the last call.
@@ -41,13 +44,15 @@ class StageHost : private StagePorts {
   Stage& stage_;
   StageMonitor& monitor_;
   std::vector<StageInput> inputs_;
+  /// Tell the master of outputs and services, which can be used afterward.
+  std::vector<std::function<void()>> announcements_;
   std::vector<std::string> outputs_;  ///< topics, as named by the stage
   std::uint64_t timed_ = 0;           ///< results already reported
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;
   std::vector<Subscription> subscriptions_;
-  std::vector<ros::ServiceServer> services_;
+  std::vector<std::shared_ptr<ros::ServiceServer>> services_;
   ros::Timer timer_;
 };
 
