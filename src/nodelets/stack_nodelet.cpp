@@ -38,23 +38,32 @@ class StackNodelet : public nodelet::Nodelet {
     result_ = getNodeHandle().resolveName("tracks");
     restarts_ = restartsIn(getMyArgv());
     clocks_ = std::make_unique<PartClocks>(loadOptions<PartClocksOptions>(getPrivateNodeHandle()));
-    updater_ = std::make_unique<diagnostic_updater::Updater>(
-        getNodeHandle(), getPrivateNodeHandle(), getPrivateNodeHandle().getNamespace());
-    updater_->setHardwareID("none");
-    updater_->add("stack",
-                  [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
+    timer_ = getNodeHandle().createSteadyTimer(ros::WallDuration(kPeriod),
+                                               [this](const ros::SteadyTimerEvent&) {
+                                                 guarded(*monitor_, "timer", [this] {
+                                                   connect();
+                                                   updater_->force_update();
+                                                   askClocks();
+                                                 });
+                                               });
+  }
+
+  /// In a callback instead of onInit(): the process loads one nodelet after the other, and the
+  /// stages need not wait until the master has answered this one.
+  void connect() {
+    if (updater_) {
+      return;
+    }
     diagnostics_ = Subscription::to(getNodeHandle(), "/diagnostics", kQueue, *monitor_,
                                     &StackNodelet::handleDiagnostics, this);
     questions_ = getNodeHandle().advertise<std_msgs::Time>("clock_question", 1);
     answers_ = Subscription::to(getNodeHandle(), "clock_answer", kQueue, *monitor_,
                                 &StackNodelet::handleAnswer, this);
-    timer_ = getNodeHandle().createSteadyTimer(ros::WallDuration(kPeriod),
-                                               [this](const ros::SteadyTimerEvent&) {
-                                                 guarded(*monitor_, "timer", [this] {
-                                                   updater_->force_update();
-                                                   askClocks();
-                                                 });
-                                               });
+    updater_ = std::make_unique<diagnostic_updater::Updater>(
+        getNodeHandle(), getPrivateNodeHandle(), getPrivateNodeHandle().getNamespace());
+    updater_->setHardwareID("none");
+    updater_->add("stack",
+                  [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
   }
 
   static int restartsIn(const std::vector<std::string>& arguments) {
