@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-
+#include "datmo_fusion/common/covariance_check.h"
 #include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/common/pose2.h"
 
@@ -39,18 +37,6 @@ template <std::size_t count>
 bool areShares(const std::array<double, count>& values) {
   return std::all_of(values.begin(), values.end(), isShare) &&
          std::accumulate(values.begin(), values.end(), 0.0) <= 1.0 + kShareRounding;
-}
-
-/// Finite, symmetric and positive definite.
-template <int size>
-bool isCovariance(const Eigen::Matrix<double, size, size>& matrix) {
-  // Of a negative variance: NaN, with which every comparison fails.
-  const Eigen::Array<double, size, 1> deviations = matrix.diagonal().array().sqrt();
-  const Eigen::Array<double, size, size> max_difference =
-      kMaxAsymmetry * (deviations.matrix() * deviations.matrix().transpose()).array();
-  return matrix.allFinite() &&
-         ((matrix - matrix.transpose()).array().abs() <= max_difference).all() &&
-         matrix.llt().info() == Eigen::Success;
 }
 
 }  // namespace datmo

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/covariance_check.h"
 #include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
@@ -17,12 +17,6 @@
 namespace datmo {
 
 namespace {
-
-bool isCovariance(const Eigen::Matrix4d& covariance) {
-  return isWithin(covariance, kMaxCoordinate * kMaxCoordinate) &&
-         covariance.isApprox(covariance.transpose()) &&
-         Eigen::LLT<Eigen::Matrix4d>(covariance).info() == Eigen::Success;
-}
 
 double squaredDistance(const Point2& difference, const Eigen::Matrix2d& covariance) {
   return difference.dot(covariance.inverse() * difference);
@@ -138,6 +132,7 @@ StationTracks::Before StationTracks::before(const StationTrackList& list) const 
 bool StationTracks::isCredible(const StationTrackList& list, const StationTrack& track,
                                const Before& before) {
   const bool is_valid = isWithin(track.position, kMaxCoordinate) && track.velocity.allFinite() &&
+                        isWithin(track.covariance, kMaxCoordinate * kMaxCoordinate) &&
                         isCovariance(track.covariance);
   counts_.invalid += is_valid ? 0 : 1;
   if (!is_valid) {

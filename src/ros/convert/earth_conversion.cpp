@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include <sensor_msgs/NavSatStatus.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/covariance_check.h"
 #include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -101,8 +100,7 @@ EarthFrame fromMessage(const EarthFrameMessage& message) {
   const Pose2 pose(message.pose.x, message.pose.y, message.pose.theta);
   const bool is_near = isWithin(pose.position(), kMaxCoordinate) &&
                        isWithin(covariance, kMaxCoordinate * kMaxCoordinate);
-  if (!isValid(datum) || !is_near || !std::isfinite(pose.heading()) ||
-      Eigen::LLT<Eigen::Matrix3d>(covariance).info() != Eigen::Success) {
+  if (!isValid(datum) || !is_near || !std::isfinite(pose.heading()) || !isCovariance(covariance)) {
     throw InputError("bad_earth_frame",
                      "the map's pose on the earth at " + std::to_string(message.pose.x) + ", " +
                          std::to_string(message.pose.y) +
@@ -136,8 +134,7 @@ Eigen::Matrix2d covarianceOf(const sensor_msgs::NavSatFix& message, double sigma
   covariance << values[0], values[1], values[kRow], values[kRow + 1];
   const bool is_known =
       message.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN &&
-      covariance.allFinite() && Eigen::LLT<Eigen::Matrix2d>(covariance).info() == Eigen::Success &&
-      covariance.diagonal().minCoeff() >= kMinFixVariance &&
+      isCovariance(covariance) && covariance.diagonal().minCoeff() >= kMinFixVariance &&
       covariance.diagonal().maxCoeff() <= kMaxFixVariance;
   return is_known ? covariance : Eigen::Matrix2d(sigma * sigma * Eigen::Matrix2d::Identity());
 }

@@ -270,6 +270,8 @@ TEST(EarthFrameConversion, ImpossiblePosesAndCovariancesAreRefused) {
   EXPECT_EQ(reason([](auto& message) { message.covariance[0] = 1e300; }), "bad_earth_frame");
   EXPECT_EQ(reason([](auto& message) { message.covariance[8] = std::nan(""); }), "bad_earth_frame");
   EXPECT_EQ(reason([](auto& message) { message.covariance[4] = 0.0; }), "bad_earth_frame");
+  EXPECT_EQ(reason([](auto& message) { message.covariance[2] += 0.1; }), "bad_earth_frame")
+      << "not symmetric";
 }
 
 TEST(NavSatFixCovariance, OfAnImpossibleFixIsNotAccepted) {
