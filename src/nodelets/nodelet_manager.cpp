@@ -2,7 +2,10 @@
 // The process of the nodelets, in place of `nodelet manager`, from which it differs in the number
 // of requests to the master: they are sequential, and on a slow network they are what a restart
 // waits for. Argument: manager.
+#include <cstdio>
 #include <future>
+#include <string>
+#include <vector>
 
 #include <dlfcn.h>
 
@@ -14,6 +17,7 @@
 
 namespace {
 
+constexpr char kUsage[] = "usage: nodelet_manager manager: the process in which load_nodelet loads";
 constexpr char kNeeded[] = DATMO_FUSION_NEEDED_LIBRARY;
 
 /// Parameters of roscpp's topic statistics, with its defaults. All subscriptions of a process have
@@ -52,6 +56,15 @@ int main(int argc, char** argv) {
   // pluginlib loads: OpenCV alone depends on more than a hundred libraries.
   const auto needed = std::async(std::launch::async, [] { return dlopen(kNeeded, RTLD_LAZY); });
   ros::init(argc, argv, "manager");
+  const std::vector<std::string> words(argv + 1, argv + argc);  // without ROS arguments
+  if (words == std::vector<std::string>{"--help"}) {
+    std::puts(kUsage);
+    return 0;
+  }
+  if (words != std::vector<std::string>{"manager"}) {
+    ROS_FATAL("%s", kUsage);
+    return 2;
+  }
   const nodelet::Loader loader;
   ros::spin();
   return 0;
