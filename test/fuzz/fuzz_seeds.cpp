@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The
-// first byte of each for devices and stations selects the decoder, as in fuzz_device.cpp and
-// fuzz_wire.cpp.
+// first byte of each but those for stages selects the decoder, as in fuzz_device.cpp,
+// fuzz_files.cpp and fuzz_wire.cpp.
 #include <fstream>
 #include <iostream>
 
 #include "device/nmea_sentences.h"
 #include "device/velodyne_packets.h"
+#include "file_seeds.h"
 #include "fusion/complete_signal_messages.h"
 #include "fusion/wire_messages.h"
 #include "stage_seeds.h"
@@ -80,6 +81,12 @@ void writeWire(const std::string& folder) {
   write(folder + "/mapem", 4, samples::mapemWithAll().bytes());
 }
 
+void writeFiles(const std::string& folder) {
+  for (const fuzz::FileSeed& seed : fuzz::fileSeeds()) {
+    write(folder + "/" + seed.name, seed.decoder, seed.bytes);
+  }
+}
+
 void writeStages(const std::string& folder) {
   ros::Time::init();
   ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Error);
@@ -99,6 +106,7 @@ int main(int argc, char** argv) {
   try {
     datmo::writeDevice(std::string(argv[1]) + "/device");
     datmo::writeWire(std::string(argv[1]) + "/wire");
+    datmo::writeFiles(std::string(argv[1]) + "/files");
     datmo::writeStages(std::string(argv[1]) + "/stages");
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

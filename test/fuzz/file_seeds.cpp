@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "file_seeds.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "device/capture_sample.h"
+
+#include <rosbag/bag.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/checkpoint_file.h"
+#include "datmo_fusion/ros/map_files.h"
+
+namespace datmo::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+/// A wall, and free cells before it.
+MapEvidence wall() {
+  MapEvidence evidence{0.5, {}};
+  CellHits hits;
+  hits.add({-0.05F, 0.02F}, 50.0F);
+  for (int row = -2; row < 2; ++row) {
+    evidence.cells.push_back({{8, row}, 3.0F, 2.0F, 1, 7, hits});
+    evidence.cells.push_back({{7, row}, -3.0F, 0.0F, 0, 0, {}});
+  }
+  return evidence;
+}
+
+OccupancyMapOptions smallMap() {
+  OccupancyMapOptions options;
+  options.window = {40.0, 40.0, 0.5};
+  return options;
+}
+
+/// The fields in a checkpoint's header.
+std::string checkpointFields(const fs::path& file) {
+  Checkpoint checkpoint;
+  checkpoint.run = "run 1";
+  checkpoint.options = {{"map/cell_size", "0.5"}};
+  PoseTracker::State& pose = checkpoint.slam.pose;
+  pose.stamp = Stamp::fromSeconds(1000.0);
+  pose.scan_interval = 0.1;
+  pose.estimate.velocity = {5.0, 0.1};
+  pose.estimate.covariance.setIdentity();
+  pose.odometry = {{Stamp::fromSeconds(999.9), {5.0, 0.1}, Pose2(1.0, 0.0, 0.0), true, true}};
+  writeCheckpoint(file, checkpoint);
+  std::istringstream content(contentOf(file));
+  std::string line;
+  std::getline(content, line);
+  std::getline(content, line);
+  std::string fields(std::stoul(line), '\0');
+  content.read(fields.data(), static_cast<std::streamsize>(fields.size()));
+  return fields;
+}
+
+void writeBag(const fs::path& file) {
+  sensor_msgs::LaserScan scan;
+  scan.header.frame_id = "scanner";
+  scan.angle_min = static_cast<float>(degrees(-80.0));
+  scan.angle_max = static_cast<float>(degrees(80.0));
+  scan.angle_increment = static_cast<float>(degrees(40.0));
+  scan.range_max = 50.0F;
+  scan.ranges.assign(5, 10.0F);
+  rosbag::Bag bag(file, rosbag::bagmode::Write);
+  for (const double time : {1.0, 1.1}) {
+    scan.header.stamp = ros::Time(time);
+    bag.write("/scan", scan.header.stamp, scan);
+  }
+}
+
+constexpr char kConfiguration[] =
+    "scanner:\n  max_range: 50.0\ngrid_slam:\n  map: {cell_size: 0.5}\n  seed: 2\n";
+
+constexpr char kDatabase[] =
+    "VERSION \"\"\n\nBO_ 416 Motion: 8 Gateway\n"
+    " SG_ Speed : 8|16@1+ (0.01,0) [0|250] \"km/h\" Vector__XXX\n"
+    " SG_ Gear m1 : 0|4@0- (1,-2) [0|0] \"\" Vector__XXX\n"
+    "SIG_VALTYPE_ 416 Gear : 1;\n";
+
+}  // namespace
+
+std::vector<FileSeed> fileSeeds() {
+  std::string name = (fs::temp_directory_path() / "fuzz_seeds_XXXXXX").string();
+  const fs::path folder = mkdtemp(name.data());
+  const std::string map = mapText(wall());
+  const std::size_t cells = wall().cells.size() * kMapBytesPerCell;
+  writeMap(folder / "map", OccupancyMap::restored(smallMap(), wall()));
+  writeBag(folder / "drive.bag");
+  samples::writeCapture(folder / "frames.pcap", {{1.0, 2368, "data"}});
+  const std::vector<FileSeed> seeds{
+      {"map", 0, map},
+      {"cells", 1, map.substr(map.size() - cells)},
+      {"map_server", 2, contentOf(folder / "map.yaml") + contentOf(folder / "map.pgm")},
+      {"checkpoint", 3, checkpointFields(folder / "checkpoint")},
+      {"configuration", 4, kConfiguration},
+      {"can_database", 5, kDatabase},
+      {"capture", 6, contentOf(folder / "frames.pcap")},
+      {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
+      {"bag", 7, contentOf(folder / "drive.bag")}};
+  fs::remove_all(folder);
+  return seeds;
+}
+
+}  // namespace datmo::fuzz
