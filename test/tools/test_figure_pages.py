@@ -161,12 +161,16 @@ class Pages(InFolder):
         page = self.pages(risk={"true": methods, "own": methods, "random": methods, **drives})["doc/results.md"]
         self.assertIn("On KITTI's drive 0005 (16 s without contact, a beam every 2 degrees) there are 3.", page)
 
-    def test_frames_per_second_only_where_measured(self):
+    def test_speed_and_frames_per_second_only_where_measured(self):
         latency = dict.fromkeys(("median", "percentile_99", "worst"), 3.0)
-        live = {"demonstrator": {"scans": 1, "unanswered": 0, "latency_ms": latency}}
-        speed = {"live": live, "limits": {}, "cpu_us": {}}
+        run = {"scans": 1, "unanswered": 0, "latency_ms": latency, "cpu_share": 0.25,
+               "memory_peak_mib": 174.4, "memory_growth_mib": 0.5}  # fmt: skip
+        risk = {"assessRisks/30": {"median": 5600.0, "percentile_99": 7200.0}}
+        speed = {"live": {"demonstrator": run}, "limits": {}, "cpu_us": {}, "percentiles_us": risk}
         without = self.pages(speed=speed, kitti_tracking=KITTI)["doc/results.md"]
         self.assertNotIn("frames/s", without)
+        self.assertIn("| demonstrator | 1 | 0 | 3.0 | 3.0 | 3.0 | 0.25 | 174 |", without)
+        self.assertIn("`assessRisks/30`, of each call: median 5600 µs, 99 % 7200 µs.", without)
         rates = {"trackers": 1990, "with_ego_motion": 1500}
         page = self.pages(speed=speed, kitti_tracking={**KITTI, "frames_per_second": rates})
         self.assertIn("1990 frames/s, 1500 with the vehicle's motion", page["doc/results.md"])

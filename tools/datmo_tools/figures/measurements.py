@@ -19,6 +19,8 @@ HOT_PATHS = (
     "fusion", "assessRisks",
 )  # fmt: skip
 
+LIVE = ("scans", "unanswered", "latency_ms", "cpu_share", "memory_peak_mib", "memory_growth_mib")
+
 
 def robustness_jobs(bench):
     """Returns a job for each scene, whose runs are compared with those without vehicles."""
@@ -66,10 +68,12 @@ def _speed(bench, folder):
     return {
         "cpu_us": {name: run["cpu_us"] for name, run in measured["micro"].items()
                    if name.split("/")[0] in HOT_PATHS},
+        "percentiles_us": {name: {key: run[f"{key}_us"] for key in ("median", "percentile_99")}
+                           for name, run in measured["micro"].items() if "percentile_99_us" in run},
         "limits": {name: dict(zip(("cpu_us", "limit_us", "ratio"), values))
                    for name, values in speed_report.ratios(measured).items()},
         "live": {
-            name: {key: run[key] for key in ("scans", "unanswered", "latency_ms")}
+            name: {key: run[key] for key in LIVE}
             for name, run in measured["live"].items()
         },
     }  # fmt: skip
