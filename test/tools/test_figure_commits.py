@@ -12,7 +12,7 @@ from unittest import mock
 from datmo_tools.errors import InputError
 from datmo_tools.figures import main, render, results_file
 from datmo_tools.figures.commits import CHANGED, changed_files, commit_of
-from datmo_tools.figures.earlier import unaffected
+from datmo_tools.figures.earlier import Earlier, earlier_steps
 from datmo_tools.figures.step import Job, Step, by_name
 from folder_case import InFolder
 
@@ -85,7 +85,7 @@ class ChangedFiles(Checkout):
             self.assertIsNone(changed_files(self.folder, earlier))
 
 
-class Unaffected(Checkout):
+class EarlierSteps(Checkout):
     STEPS = tuple(Step(name, "a value", "x", None, by_name) for name in ("slam", "risk", "speed"))
 
     def setUp(self):
@@ -95,10 +95,14 @@ class Unaffected(Checkout):
                         "machine": results_file.machine(),
                         "steps": {step.name: {"figures": {}} for step in self.STEPS}}  # fmt: skip
 
+    def earlier(self, commit):
+        """Returns the Earlier steps at a commit."""
+        self.write(**{"doc/results.json": results_file.as_text(self.results)})
+        return earlier_steps(self.file, self.folder, commit, self.STEPS)
+
     def kept(self, commit):
         """Returns the names of the earlier steps that count at a commit."""
-        self.write(**{"doc/results.json": results_file.as_text(self.results)})
-        return list(unaffected(self.file, self.folder, commit, self.STEPS))
+        return list(self.earlier(commit).unaffected)
 
     def test_a_change_affects_the_steps_of_its_leaf(self):
         self.write(**{RISK: "2"})
@@ -114,6 +118,17 @@ class Unaffected(Checkout):
         self.write(**{"benchmark/speed.cpp": "1"})
         self.assertEqual(self.kept(self.commit()), ["risk"])
 
+    def test_a_confirmed_step_is_compared_with_the_commit_at_which_it_was(self):
+        self.write(**{TRACKER: "2"})
+        self.results["steps"]["risk"]["confirmed"] = {"commit": self.commit(), "job": "a"}
+        self.assertEqual(self.kept(commit_of(self.folder)), ["risk"])
+
+    def test_others_may_be_sampled_unless_their_figures_are_made_in_another_way(self):
+        self.write(**{TRACKER: "2"})
+        self.assertEqual(list(self.earlier(self.commit()).affected), ["slam", "risk", "speed"])
+        self.write(**{"tools/datmo_tools/figures/risk.py": "1"})
+        self.assertEqual(list(self.earlier(self.commit()).affected), ["slam", "speed"])
+
     def test_a_change_that_was_taken_back_has_no_effect(self):
         for text in ("2", "1"):
             self.write(**{TRACKER: text})
@@ -124,11 +139,11 @@ class Unaffected(Checkout):
         self.assertEqual(self.kept(self.results["commit"] + CHANGED), [])
 
     def test_no_file_or_an_unreadable_one(self):
-        self.assertEqual(unaffected(self.file, self.folder, self.results["commit"], self.STEPS), {})
+        self.assertEqual(earlier_steps(self.file, self.folder, self.results["commit"], self.STEPS), Earlier())
         self.write(**{"doc/results.json": "<<<"})
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
-            self.assertEqual(unaffected(self.file, self.folder, self.results["commit"], self.STEPS), {})
+            self.assertEqual(earlier_steps(self.file, self.folder, self.results["commit"], self.STEPS), Earlier())
         self.assertRegex(said.getvalue(), "results.json: cannot be read: .*; no step in it counts as done")
 
 

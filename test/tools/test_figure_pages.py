@@ -40,7 +40,7 @@ KITTI = {kind: {overlap: dict.fromkeys(("samota", "amota", "amotp", "mota", "mot
 
 def results(**figures):
     """Returns a file of figures with these steps."""
-    done = {name: {"shows": name, "command": "x", "seeds": None, "commit": "0123abcd",
+    done = {name: {"shows": name, "command": "x", "seeds": None, "commit": "0123abcd", "confirmed": None,
                    "date": "2026-01-02", "machine": MACHINE, "job_seconds": 1, "figures": value}
             for name, value in figures.items()}  # fmt: skip
     return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",

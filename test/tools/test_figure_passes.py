@@ -6,11 +6,12 @@ import contextlib
 import io
 import re
 import unittest
+from functools import partial
 from pathlib import Path
 from unittest import mock
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import results_file
+from datmo_tools.figures import results_file, sample
 from datmo_tools.figures.commits import CHANGED
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
@@ -43,10 +44,12 @@ class Steps(InFolder):
             failures = run_steps(chosen, self.bench, self.store, 2)
         return failures, said.getvalue()
 
-    def next_run(self, commit, *steps):
-        """Opens the store anew, with these steps as it has them now in the file of figures."""
-        earlier = self.store.results(steps)["steps"] if steps else None
-        self.store = results_file.StepStore(self.folder / "out", commit, earlier)
+    def next_run(self, commit, *steps, affected=()):
+        """Opens the store anew, with these steps as it has them now in the file of figures; affected:
+        those that a change may have affected."""
+        found = (self.store.results([*steps, *affected]) or {"steps": {}})["steps"]
+        records = [{step.name: found[step.name] for step in group} for group in (steps, affected)]
+        self.store = results_file.StepStore(self.folder / "out", commit, *records)
 
 
 class Pass(Steps):
@@ -140,6 +143,75 @@ class Pass(Steps):
     def test_scratch_files_are_gone_afterward(self):
         self.run_all(self.step("one", lambda folder: (folder / "big.bag").write_text("") and {}))
         self.assertEqual(list(self.store.folder.rglob("*.bag")), [])
+
+
+class Sampled(Steps):
+    """A step with three jobs that a change may have affected."""
+
+    def setUp(self):
+        super().setUp()
+        self.value = {"a": 0.1, "b": 0.2, "c": 0.3}
+        self.several = self.several_jobs()
+        self.run_all(self.several)
+        self.runs.clear()
+
+    def several_jobs(self, **rest):
+        def work(name, _):
+            self.runs.append(name)
+            return (name, self.value[name])
+
+        jobs = [Job(name, partial(work, name)) for name in self.value]
+        return Step("several", "values", "x", lambda _: jobs, by_name, **rest)
+
+    def test_the_same_result_of_one_job_keeps_the_step(self):
+        self.next_run("89abcdef", affected=[self.several])
+        failures, said = self.run_all(self.several)
+        self.assertEqual((failures, len(self.runs)), ([], 1))
+        self.assertIn(f"several: done at 0123abcd, and {self.runs[0]} is the same now", said)
+        kept = self.store.results([self.several])["steps"]["several"]
+        self.assertEqual(kept["commit"], "0123abcd")
+        self.assertEqual(kept["confirmed"], {"commit": "89abcdef", "job": self.runs[0]})
+        self.assertEqual(results_file.last_commit(kept), "89abcdef")
+        self.assertIn("several: done at", self.run_all(self.several)[1])
+        self.assertEqual(len(self.runs), 1)
+
+    def test_another_result_in_the_last_digit_repeats_the_others_too(self):
+        self.next_run("89abcdef", affected=[self.several])
+        self.value = {name: value + 1e-16 for name, value in self.value.items()}
+        self.run_all(self.several)
+        self.assertEqual(sorted(self.runs), ["a", "b", "c"])
+        done = self.store.results([self.several])["steps"]["several"]
+        self.assertEqual((done["commit"], done["confirmed"]), ("89abcdef", None))
+
+    def test_each_job_is_drawn_at_some_commit(self):
+        record = self.store.results([self.several])["steps"]["several"]
+        self.assertEqual({sample.drawn(record, f"{i:08x}") for i in range(50)}, {"a", "b", "c"})
+
+    def test_a_job_that_fails_is_no_confirmation(self):
+        self.next_run("89abcdef", affected=[self.several])
+        self.value.clear()
+        failures, _ = self.run_all(self.several)
+        self.assertEqual(len(failures), 3)
+        self.assertIsNone(self.store.results([self.several]))
+
+    def test_without_a_sample_all_jobs_run(self):
+        record = self.store.results([self.several])["steps"]["several"]
+        cases = {"timed": self.several_jobs(timed=True), "other seeds": self.several_jobs(seeded=True)}
+        for name, step in cases.items():
+            with self.subTest(name):
+                self.store = results_file.StepStore(self.folder / name, "89abcdef", {}, {"several": record})
+                self.runs.clear()
+                self.run_all(step)
+                self.assertEqual(sorted(self.runs), ["a", "b", "c"])
+        for name, records in {"of an older file": {key: value for key, value in record.items() if key != "jobs"},
+                              "a single job": {**record, "jobs": {"a": record["jobs"]["a"]}}}.items():  # fmt: skip
+            self.assertIsNone(sample.drawn(records, "89abcdef"), name)
+
+    def test_a_step_to_be_repeated_is_not_sampled(self):
+        self.next_run("89abcdef", affected=[self.several])
+        self.store.forget(self.several)
+        self.run_all(self.several)
+        self.assertEqual(sorted(self.runs), ["a", "b", "c"])
 
 
 class Timed(Steps):

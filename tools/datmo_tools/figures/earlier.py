@@ -1,32 +1,47 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps in the file of figures on which no change has had an effect since they were measured."""
+"""Steps in the file of figures: those on which no change has had an effect since, and the others."""
+
+from typing import NamedTuple
 
 from datmo_tools.errors import InputError
 from datmo_tools.figures import results_file
 from datmo_tools.figures.commits import CHANGED, changed_files
 from datmo_tools.figures.effects import can_affect
 
+# What also makes the figures from the results of the jobs, which a sample of the jobs does not check.
+FROM_JOBS = "tools/datmo_tools/figures/"
 
-def unaffected(file, source, commit, steps):
-    """Returns the records (dict, by name) of the steps whose figures are those of the sources, too.
+
+class Earlier(NamedTuple):
+    """Records of steps (dict, by name), as in the file of figures."""
+
+    unaffected: dict = {}  # whose figures are those of the sources, too
+    affected: dict = {}  # whose jobs a change since may have affected
+
+
+def earlier_steps(file, source, commit, steps):
+    """Returns the Earlier records of steps.
 
     file (Path): of figures; without a readable one there are no records. source (Path), commit: the
     checkout, and the commit of its figures.
     """
     if commit.endswith(CHANGED) or not file.is_file():
-        return {}
+        return Earlier()
     try:
         results = results_file.read(file)
     except InputError as error:
         print(f"{error}; no step in it counts as done")
-        return {}
+        return Earlier()
     found = {step.name: results["steps"][step.name] for step in steps if step.name in results["steps"]}
-    changes = {name: changed_files(source, name)
-               for name in {record["commit"] for record in found.values()}}  # fmt: skip
-    return {name: record for name, record in found.items()
-            if _has_no_effect(changes[record["commit"]], name)}  # fmt: skip
-
-
-def _has_no_effect(files, step):
-    """files: that have changed; None if that is not known."""
-    return files is not None and not any(can_affect(file, step) for file in files)
+    commits = {results_file.last_commit(record) for record in found.values()}
+    changes = {name: changed_files(source, name) for name in commits}
+    unaffected, affected = {}, {}
+    for name, record in found.items():
+        files = changes[results_file.last_commit(record)]
+        if files is not None:
+            causes = [file for file in files if can_affect(file, name)]
+            if not causes:
+                unaffected[name] = record
+            elif not any(file.startswith(FROM_JOBS) for file in causes):
+                affected[name] = record
+    return Earlier(unaffected, affected)

@@ -37,11 +37,13 @@ _NOT_RUN = (
         "compare_fusion", "data_sets", "demo", "display.sh", "encounters", "fuzz", "gaps",
         "loop_closing", "machines", "meshes", "pole_camera", "prior_map", "risk_demo", "robustness",
         "run_readme", "slam_benchmark", "test", "thread_sanitizer", "tidy"))),
-    # Which steps run, and how figures look.
-    Leaf((), _under("figures", "commits.py", "earlier.py", "effects.py", "render.py", "fusion_results.",
-                    "map_results.", "mono_results.", "readme_table.", "results.md.jinja", "risk_results.",
+    # Which steps run, and how figures are stored and look.
+    Leaf((), _under("figures", "commits.py", "earlier.py", "effects.py", "main.py", "pass_of_steps.py",
+                    "render.py", "results_file.py", "sample.py", "fusion_results.", "map_results.",
+                    "mono_results.", "readme_table.", "results.md.jinja", "risk_results.",
                     "wrong_classes_results."),
-         _under("figures", "main.py", "results_file.py")),
+         # Which say "figures", and mean those of a step.
+         (*_under("experiments", "compare_fusion.py"), *_under("figures", "cameras.py", "data_sets.py"))),
     Leaf((), tuple(f"tools/datmo_tools/{name}.py" for name in (
         "camera_topics", "convert/merge_bags", "image_files", "open_rviz", "play_images",
         "publish_tracks_as", "rviz_view", "track_bridge", "usb_camera"))),

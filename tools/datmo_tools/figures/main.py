@@ -8,7 +8,7 @@ from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.figures import results_file
 from datmo_tools.figures.commits import commit_of
-from datmo_tools.figures.earlier import unaffected
+from datmo_tools.figures.earlier import earlier_steps
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.render import FILE, rendered
 from datmo_tools.figures.step import Bench
@@ -20,10 +20,11 @@ DESCRIPTION = """\
 Measures the figures of README's table of results and of doc/results.md, writes them to
 doc/results.json, and renders both from it. A step that is done at this commit is not repeated, so
 an interrupted run resumes, and neither is one in doc/results.json that was measured at an earlier
-commit if no change since can affect its figures (figures/effects.py); with uncommitted changes
-every step runs, and only the figures of this run are written. Steps that have to run and whose data
-is missing below ../shared/data are left out and named. A step that fails is reported, and the
-others continue; the exit code is then 1."""
+commit if no change since can affect its figures (figures/effects.py), or if one of its jobs, drawn
+at random, has the same result as then. With uncommitted changes every step runs, and only the
+figures of this run are written. Steps that have to run and whose data is missing below
+../shared/data are left out and named. A step that fails is reported, and the others continue; the
+exit code is then 1."""
 
 
 def main(arguments=None):
@@ -94,8 +95,8 @@ def _measure(values):
 
 def _store(values):
     commit = commit_of(values.source)
-    earlier = unaffected(values.source / FILE, values.source, commit, STEPS)
-    return results_file.StepStore(values.out, commit, earlier)
+    earlier = earlier_steps(values.source / FILE, values.source, commit, STEPS)
+    return results_file.StepStore(values.out, commit, *earlier)
 
 
 def _write_done(source, store):

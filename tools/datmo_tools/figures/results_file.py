@@ -10,6 +10,7 @@ import shutil
 from pathlib import Path
 
 from datmo_tools.errors import InputError
+from datmo_tools.figures import sample
 from datmo_tools.figures.commits import CHANGED
 from datmo_tools.figures.step import read_json
 from datmo_tools.spread import rounded
@@ -21,15 +22,15 @@ LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|nul
 
 class StepStore:
     """A file for each step, and for each of its jobs, that is done at a commit, and the steps that
-    were done before and are not affected by what has changed since. Times count only on the machine
-    that they are of. With changed sources, no step counts as done, and the results are those of this
-    run alone."""
+    were done before and are not affected by what has changed since, or whose sample shows no effect.
+    Times count only on the machine that they are of. With changed sources, no step counts as done,
+    and the results are those of this run alone."""
 
-    def __init__(self, folder, commit, earlier=None):
-        """folder (Path): for all commits; earlier: records of steps by name, as in the file of
-        figures."""
+    def __init__(self, folder, commit, unaffected=None, affected=None):
+        """folder (Path): for all commits; unaffected, affected: records of steps, as in Earlier."""
         self.folder, self.commit = folder / commit, commit
-        self._earlier = earlier or {}
+        self._earlier = unaffected or {}
+        self._affected = affected or {}
         self._changed = commit.endswith(CHANGED)  # a former run may have had other changes
         self._added = set()  # names of steps, by this run
 
@@ -45,6 +46,23 @@ class StepStore:
         record = None if self._changed else self._record(step)
         return record["commit"] if record and record["seeds"] == _seeds(step, bench) else None
 
+    def sample_of(self, step, bench):
+        """Returns the job (name) whose result tells whether a step that was affected by a change has to
+        run; None if it has to anyway."""
+        record = self._affected.get(step.name)
+        is_usable = (record and not step.timed and not self._file(step).is_file()
+                     and record["seeds"] == _seeds(step, bench))  # fmt: skip
+        return sample.drawn(record, self.commit) if is_usable else None
+
+    def confirm(self, step, job, result):
+        """Keeps the step as it was measured before if this job's result is the same. Returns whether
+        it is."""
+        record = self._affected[step.name]
+        is_same = sample.digest(result) == record["jobs"][job]
+        if is_same:
+            self._write(step, {**record, "confirmed": {"commit": self.commit, "job": job}})
+        return is_same
+
     def of_job(self, step, name):
         """Returns what add_job() stored of a job: (result, s); None if it has to run."""
         file = self._job_file(step, name)
@@ -58,16 +76,18 @@ class StepStore:
         file = self._job_file(step, name)
         write_file(file, json.dumps({"result": result, "seconds": seconds, "machine": machine()}))
 
-    def add(self, step, figures, seconds, bench):
-        """Stores a step's result; seconds: of all its jobs."""
+    def add(self, step, figures, jobs, bench):
+        """Stores a step's figures; jobs: name -> (result, s)."""
         record = {
             "shows": step.shows,
             "command": step.command,
             "seeds": _seeds(step, bench),
             "commit": self.commit,
+            "confirmed": None,  # at which later commit, and by which job
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
             "machine": machine(),
-            "job_seconds": round(seconds),
+            "job_seconds": round(sum(seconds for _, seconds in jobs.values())),
+            "jobs": {name: sample.digest(jobs[name][0]) for name in sorted(jobs)},
             "figures": rounded(figures),
         }
         self._write(step, record)
@@ -99,6 +119,11 @@ class StepStore:
 
     def _job_file(self, step, name):
         return self.folder / "jobs" / step.name / f"{name}.json"
+
+
+def last_commit(record):
+    """Returns the last commit at which a step's figures (record) are known to be the same."""
+    return (record.get("confirmed") or record)["commit"]
 
 
 def _seeds(step, bench):
@@ -134,4 +159,5 @@ def read(file):
     for record in results["steps"].values():
         for key in ("commit", "machine"):  # in older files the same for all steps
             record.setdefault(key, results[key])
+        record.setdefault("confirmed", None)
     return results
