@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/fusion/object/object_fuser.h"
 
@@ -37,6 +38,14 @@ inline Object boxObject(double x, double y, double length, double width, double 
 
 inline void hide(Object& object, BoxSide side) {
   object.side_variance[sideIndex(side)] = kHiddenSide;
+}
+
+/// Output of MonoClassifier for a scanner's object: its class, at a position that tells nothing.
+inline Object classOnly(Object of, ObjectClass object_class, double probability) {
+  of.position_covariance *= 100.0;
+  of.side_variance.fill(kHiddenSide);
+  of.class_probabilities = reportedClass(object_class, probability);
+  return of;
 }
 
 inline const Stamp kReference = Stamp::fromSeconds(5.0);

@@ -12,14 +12,7 @@
 namespace datmo::object_names_test {
 namespace {
 
-/// Output of MonoClassifier for a scanner's object that the image shows to be a vehicle.
-Object nameOfVehicle(const Object& of) {
-  Object name = of;
-  name.position_covariance *= 100.0;
-  name.side_variance.fill(kHiddenSide);
-  name.class_probabilities = reportedClass(ObjectClass::kVehicle, 0.8);
-  return name;
-}
+Object nameOfVehicle(const Object& of) { return classOnly(of, ObjectClass::kVehicle, 0.8); }
 
 ObjectFusionResult fuseNames(std::vector<Object> seen, std::vector<Object> names,
                              const LabeledScan* scan = nullptr) {
