@@ -136,21 +136,27 @@ std::vector<Cause> furtherCauses() {
       {"frozen scans", scan([](auto& each) { each.ranges = scanAt(kStart).ranges; }),
        "no tracks: grid_slam: the scanner repeats its last scan bit for bit"},
       {"range limits the wrong way round", scan([](auto& each) { each.range_min = 60.0F; }),
-       "no tracks: grid_slam: scan with"},
+       "no tracks: grid_slam: scan with ranges from 60.000000 to 50.000000 m: expected 0 <= "
+       "range_min < range_max"},
       {"beams without a number",
        scan([](auto& each) { std::fill(each.ranges.begin(), each.ranges.end(), kNan); }),
-       "degraded: grid_slam: "},
+       "degraded: grid_slam: scan with 81 beams, none of them valid: continues with the predicted "
+       "pose"},
       {"beam times that fall", scan([](auto& each) { each.time_increment = -1.0F; }),
-       "degraded: grid_slam: "},
-      {"a tilted scanner", nothing, "degraded: grid_slam: ", false,
-       "mounts: {scanner: {x: 2.0, pitch: 0.2}}\n"},
+       "degraded: grid_slam: scan with 81 beams and a time increment of -1.000000 s: expected 0 or "
+       "more, and at most 0.250000 s for all beams; assumes that they were measured at once"},
+      {"a tilted scanner", nothing,
+       "degraded: grid_slam: scan plane tilted by 11.459156 degrees: expected at most 5.000000",
+       false, "mounts: {scanner: {x: 2.0, pitch: 0.2}}\n"},
       {"odometry's stamps of zero", odometry([](auto& each) { each.header.stamp = ros::Time(); }),
        "degraded: grid_slam: stamp 0"},
       {"odometry's one stamp", odometry([](auto& each) { each.header.stamp = toTime(kStart); }),
        "degraded: grid_slam: stamp 1000.000000 s twice"},
       {"odometry that turns by no rotation",
        odometry([](auto& each) { each.pose.pose.orientation.w = 2.0; }),
-       "degraded: grid_slam: ", true, "motion: {odometry_pose: true}\n"},
+       "degraded: grid_slam: pose at 8.700000, 0.000000 with a quaternion of length 2.000000: "
+       "expected finite numbers within 20000 km and length 1",
+       true, "motion: {odometry_pose: true}\n"},
       {"odometry that no vehicle can have", odometry([](auto& each) {
          const bool odd = (each.header.stamp - toTime(kStart)).toNSec() / 60000000 % 2 == 1;
          each.twist.twist.linear.x = odd ? 40.0 : kSpeed;
