@@ -5,6 +5,7 @@
 #include <string>
 
 #include "monitor_counts.h"
+#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -113,6 +114,41 @@ TEST_F(ArrivalCheckTest, StaleMessagesGiveWayToNewerOnes) {
 TEST_F(ArrivalCheckTest, AMissingOrResetClockMakesNothingStale) {
   EXPECT_TRUE(take("/driver", 1, ros::Time()));
   EXPECT_TRUE(take("/driver", 2, kNow + ros::Duration(10.0)));
+}
+
+/// With events as ROS hands them to a stage.
+class ArrivedTest : public ArrivalCheckTest {
+ protected:
+  ArrivedTest() { ros::Time::init(); }
+  ~ArrivedTest() override { ros::Time::init(); }
+
+  /// Takes a scan that has waited this long (s) in the queue of its stage.
+  bool takeAfter(double wait) {
+    const auto scan = boost::make_shared<sensor_msgs::LaserScan>();
+    setSequence(*scan, ++sequence_);
+    const ros::Time now = ros::Time::now();
+    const ros::MessageEvent<const sensor_msgs::LaserScan> event(scan, now - ros::Duration(wait));
+    return check_.passes(arrivedOf(event), now);
+  }
+
+  std::uint32_t sequence_ = 0;
+};
+
+TEST_F(ArrivedTest, LiveAStaleMessageGivesWayToNewerOnes) {
+  ASSERT_FALSE(ros::Time::isSimTime());
+  EXPECT_TRUE(takeAfter(0.4));
+  EXPECT_FALSE(takeAfter(0.6));
+  EXPECT_FALSE(takeAfter(60.0));
+  EXPECT_TRUE(takeAfter(0.0));
+  EXPECT_EQ(dropped("stale_message"), 2U);
+  EXPECT_EQ(dropped("lost_message"), 0U);
+}
+
+TEST_F(ArrivedTest, InSimulatedTimeNoneIsStale) {
+  ros::Time::setNow(kNow);
+  ASSERT_TRUE(ros::Time::isSimTime());
+  EXPECT_TRUE(takeAfter(60.0)) << "as in a bag that is played at a high rate";
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
 TEST(MaxWaitInQueue, MotionAddsUpAndMayWait) {
