@@ -27,9 +27,19 @@ class StereoDriveTest : public testing::Test {
   /// Runs one step of the drive with both sensors; waits for its fused output.
   void step() { step(world_.scan(now_)); }
   void step(const sensor_msgs::LaserScan& scan) {
+    send(scan);
+    finish(scan);
+  }
+
+  /// Sends what a step sends.
+  void send(const sensor_msgs::LaserScan& scan) {
     chain_->sendMotion(now_);
     chain_->sendCloud(world_.cloud(now_));
     chain_->sendScan(scan);
+  }
+
+  /// Waits for the fused output of what was sent.
+  void finish(const sensor_msgs::LaserScan& scan) {
     ASSERT_TRUE(chain_->waitFor([&] { return chain_->isFusedAt(scan.header.stamp); }))
         << now_ << " s: " << chain_->diagnosticMessage(Level::kFusion);
     now_ += kStep;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scanner and stereo camera, each with a tracker, and their tracks fused, on a simulated drive: the
-// output, and what happens if one of them is silent. The tests run through one drive, in this
-// order, with track fusion alone and with fusion on all levels.
+// output, what happens if one of them is silent, and options that change meanwhile. The tests run
+// through one drive, in this order, with track fusion alone and with fusion on all levels.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,6 +16,23 @@ namespace {
 constexpr std::uint32_t kQueue = 1000;
 
 const std::vector<std::string> kBothSensors = {"lidar", "stereo"};
+
+/// A number that a nodelet takes while it runs.
+struct LiveNumber {
+  std::string nodelet;
+  std::string option;
+  double changed = 0.0;
+  double usual = 0.0;  ///< its default
+};
+
+/// One of each nodelet that has any; that of moving_objects leaves no object.
+const std::vector<LiveNumber> kLiveNumbers = {
+    {"moving_objects", "max_size", 0.5, 20.0},
+    {"tracker", "published_existence", 0.6, 0.5},
+    {"stereo_tracker", "published_existence", 0.6, 0.5},
+    {"track_fusion", "published_existence", 0.9, 0.85},
+    {"markers", "line_width", 0.2, 0.12},
+};
 
 /// The track level's output from both sensors.
 class TrackLevel : public StereoChain {
@@ -50,6 +67,24 @@ class TrackLevelTest : public StereoDriveTest<TrackLevel> {
  protected:
   /// Returns the other car in the newest fused tracks; null if it is not there.
   static const TrackMessage* otherCar() { return chain_->otherCarIn(*chain_->tracks.back()); }
+
+  /// Returns the number of the scanner's objects in a further step.
+  std::size_t objectsInStep() {
+    const ros::Time stamp = world_.scan(now_).header.stamp;
+    step();
+    EXPECT_TRUE(chain_->waitFor([&] { return newestObjects() == stamp; }));
+    return chain_->objects.back()->objects.size();
+  }
+
+  /// Changes a number of each nodelet while they process a step.
+  void stepWhileOptionsChange(double LiveNumber::*value) {
+    const auto scan = world_.scan(now_);
+    send(scan);
+    for (const LiveNumber& live : kLiveNumbers) {
+      EXPECT_EQ(askForNumber(live.nodelet, live.option, live.*value), live.*value) << live.nodelet;
+    }
+    ASSERT_NO_FATAL_FAILURE(finish(scan));
+  }
 
   static std::uint32_t id_;  // of the other car's fused track
 };
@@ -118,6 +153,15 @@ TEST_F(TrackLevelTest, ALoopedBag) {
   const TrackMessage* car = otherCar();
   ASSERT_TRUE(car);
   EXPECT_GT(car->id, id_) << "no id is used again";
+}
+
+/// The thread sanitizer watches these requests, too (scripts/test).
+TEST_F(TrackLevelTest, OptionsChangeWhileMessagesAreProcessed) {
+  ASSERT_NO_FATAL_FAILURE(stepWhileOptionsChange(&LiveNumber::changed));
+  EXPECT_EQ(objectsInStep(), 0U) << "all are longer than that";
+  ASSERT_NO_FATAL_FAILURE(stepWhileOptionsChange(&LiveNumber::usual));
+  EXPECT_GT(objectsInStep(), 0U);
+  EXPECT_TRUE(otherCar()) << "the others have kept their state";
 }
 
 }  // namespace
