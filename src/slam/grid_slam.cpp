@@ -96,13 +96,13 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
     tracker_.restartAt(maps_.startInPriorMap(stamp));
   }
   const PoseFilter predicted = tracker_.filter();
-  const Scan scan = is_first ? compensated(measurement.scan) : locate(measurement, result);
+  const PreparedScan scan = is_first ? prepared(measurement) : locate(measurement, result);
   const PoseWithCovariance base_in_map = maps_.inFirstMap(tracker_.pose());
-  write(measurement, scan, base_in_map, result);
+  write(scan, measurement.grid, base_in_map, result);
   if (result.may_be_kidnapped) {
     discardMatch(predicted, result);
   }
-  followDrift(scan, result);
+  followDrift(scan.compensated, result);
   if (result.may_be_kidnapped) {
     leaveIfKidnapped(stamp);
   }
@@ -110,7 +110,7 @@ SlamResult GridSlam::process(const SlamMeasurement& measurement) {
   result.localization = maps_.localization();
   result.searches_prior_map = maps_.isSearchingPriorMap();
   result.kidnapped = maps_.isSearchingKidnapped();
-  tracker_.keepScan(stamp, !scan.rays.empty(), !maps_.isSearching());
+  tracker_.keepScan(stamp, !scan.compensated.rays.empty(), !maps_.isSearching());
   result.maps_begun = maps_.mapsBegun();
   search(stamp);
   if (!maps_.isSearching()) {
@@ -191,17 +191,22 @@ Scan GridSlam::compensated(const Scan& scan) const {
   return compensateMotion(scan, tracker_.twistDuring(scan.stamp, duration));
 }
 
-Scan GridSlam::locate(const SlamMeasurement& measurement, SlamResult& result) {
+PreparedScan GridSlam::prepared(const SlamMeasurement& measurement) const {
+  return prepareScan(measurement, compensated(measurement.scan), options_.grid_ends);
+}
+
+PreparedScan GridSlam::locate(const SlamMeasurement& measurement, SlamResult& result) {
   const PoseFilter predicted = tracker_.filter();
   const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
-  Scan scan = compensated(measurement.scan);
+  PreparedScan scan = prepared(measurement);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
-    const Scan seen = measuredScan(maskedScan(measurement, scan, options_.grid_ends));
-    const MatchResult match = matcher_.match(maps_.map(), endPoints(seen, options_.max_step),
+    const MatchResult match = matcher_.match(maps_.map(), endPoints(scan.own, options_.max_step),
                                              {predicted.pose(), result.odometry_used}, random_);
     tracker_.correct(predicted, match.pose);
     result.match = match.quality;
-    scan = guessed ? compensated(measurement.scan) : scan;
+    if (guessed) {
+      scan = prepared(measurement);
+    }
   }
   return scan;
 }
@@ -217,24 +222,23 @@ void GridSlam::followDrift(const Scan& scan, SlamResult& result) {
   result.drift = drift.covariance();
 }
 
-void GridSlam::write(const SlamMeasurement& measurement, const Scan& scan,
+void GridSlam::write(const PreparedScan& scan, const SensorGrid* grid,
                      const PoseWithCovariance& base_in_map, SlamResult& result) {
-  const GridMaskedScan view = maskedScan(measurement, scan, options_.grid_ends);
-  Scan own = measuredScan(view);
   OccupancyMap& map = maps_.map();
-  std::vector<PointState> states = judgeRays(own, map, base_in_map.pose);
-  result.may_be_kidnapped = mayBeKidnapped(own, states);
+  std::vector<PointState> states = judgeRays(scan.own, map, base_in_map.pose);
+  result.may_be_kidnapped = mayBeKidnapped(scan.own, states);
   if (result.may_be_kidnapped) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
-  } else if (measurement.grid != nullptr) {
-    const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
-    GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map, base_in_map.pose);
+  } else if (grid != nullptr) {
+    const SensorGrid free_cells = withoutFreeEdges(*grid);
+    GridUpdate grid_update = gridUpdateOf(scan.view, states, *grid, map, base_in_map.pose);
     grid_update.grid = &free_cells;
     map.update(grid_update, base_in_map.pose);
   } else {
-    map.update(scan, states, base_in_map.pose);
+    map.update(scan.compensated, states, base_in_map.pose);
   }
-  removeConflictingBeams(scan, view, own, states);
+  Scan own = scan.own;
+  removeConflictingBeams(scan.compensated, scan.view, own, states);
   if (maps_.isSearching()) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
   }

@@ -1,24 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/slam_measurement.h"
 
+#include <utility>
+
 namespace datmo {
 
-GridMaskedScan maskedScan(const SlamMeasurement& measurement, const Scan& compensated,
-                          GridEnds ends) {
-  if (measurement.grid != nullptr) {
-    return maskScanWithGrid(*measurement.grid, compensated, ends);
-  }
-  return {compensated, std::vector<bool>(compensated.rays.size(), true), true, {}, {}};
+namespace {
+
+GridMaskedScan unmasked(const Scan& scan) {
+  GridMaskedScan view;
+  view.scan = scan;
+  view.any_measured = true;
+  return view;
 }
 
 Scan measuredScan(const GridMaskedScan& view) {
   Scan scan = view.scan;
   if (view.any_measured) {
     for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-      scan.rays[i].hit = scan.rays[i].hit && view.measured[i];
+      scan.rays[i].hit = scan.rays[i].hit && view.isMeasured(i);
     }
   }
   return scan;
+}
+
+}  // namespace
+
+PreparedScan prepareScan(const SlamMeasurement& measurement, Scan compensated, GridEnds ends) {
+  GridMaskedScan view = measurement.grid != nullptr
+                            ? maskScanWithGrid(*measurement.grid, compensated, ends)
+                            : unmasked(compensated);
+  Scan own = measuredScan(view);
+  return {std::move(compensated), std::move(view), std::move(own)};
 }
 
 GridUpdate gridUpdateOf(const GridMaskedScan& view, const std::vector<PointState>& states,
@@ -30,7 +43,7 @@ GridUpdate gridUpdateOf(const GridMaskedScan& view, const std::vector<PointState
     if (!ray.hit) {
       continue;
     }
-    if (view.any_measured && !view.measured[i]) {
+    if (view.any_measured && !view.isMeasured(i)) {
       others.push_back(ray.end);
     } else {
       (states[i] == PointState::kMoving ? grid_update.movers : grid_update.surfaces)
@@ -55,7 +68,7 @@ void removeConflictingBeams(const Scan& measured, const GridMaskedScan& view, Sc
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    if (!measured.rays[i].hit || view.measured[i]) {
+    if (!measured.rays[i].hit || view.isMeasured(i)) {
       scan.rays[kept] = scan.rays[i];
       states[kept] = states[i];
       ++kept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "datmo_fusion/common/scan.h"
@@ -21,13 +22,16 @@ struct GridMaskedScan {
   /// its own ends at the first occupied cell along it. Blind beams stay blind, unless the whole
   /// scan is blind.
   Scan scan;
-  /// Per ray of the scan: whether its end was measured by the scanner, not taken from a cell.
+  /// Per ray of the scan: whether its end was measured by the scanner, not taken from a cell;
+  /// empty: all were, as there is no grid.
   std::vector<bool> measured;
   bool any_measured = false;
   /// Centers of the occupied cells in which no beam ends, m, base frame.
   std::vector<Point2> cells;
   /// Ends of beams in free cells, m, base frame.
   std::vector<Point2> refuted;
+
+  bool isMeasured(std::size_t ray) const { return measured.empty() || measured[ray]; }
 };
 
 /// Corrects a scan by a grid, both in the vehicle's frame at the same time. If `scan` has no rays

@@ -153,16 +153,18 @@ class GridSlam {
   /// The scan as seen at its stamp, by the latest odometry, or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
 
-  /// Corrects the predicted pose by the scan; returns the motion-compensated scan.
+  PreparedScan prepared(const SlamMeasurement& measurement) const;
+
+  /// Corrects the predicted pose by the scan; returns the prepared scan.
   ///
   /// Without odometry the velocity comes from the matches. A scan compensated for a wrong yaw rate
   /// is matched at a wrong heading, which makes the next yaw rate wrong in the opposite direction;
   /// with a 360-degree field of view such errors never decay. So the scan is compensated again for
   /// the motion given by its own match.
-  Scan locate(const SlamMeasurement& measurement, SlamResult& result);
+  PreparedScan locate(const SlamMeasurement& measurement, SlamResult& result);
 
-  /// Labels the compensated scan by the map, and then adds it to the map.
-  void write(const SlamMeasurement& measurement, const Scan& scan,
+  /// Labels the scan by the map, and then adds it, or the `grid`, if not null, to the map.
+  void write(const PreparedScan& scan, const SensorGrid* grid,
              const PoseWithCovariance& base_in_map, SlamResult& result);
 
   /// Updates the drift for the current pose, from which the scan was added to the map, if it was.

@@ -18,14 +18,16 @@ struct SlamMeasurement {
   const SensorGrid* grid = nullptr;  ///< null: the scan alone
 };
 
-/// Returns the motion-compensated scan, corrected by the grid, if there is one.
-GridMaskedScan maskedScan(const SlamMeasurement& measurement, const Scan& compensated,
-                          GridEnds ends);
+/// A measurement as it is matched with the map and written to it.
+struct PreparedScan {
+  Scan compensated;     ///< for the vehicle's motion
+  GridMaskedScan view;  ///< corrected by the grid, if there is one
+  /// With only the scanner's own end points, if there are any: those of other sensors are off by
+  /// their depth error, so the pose must not be matched with them, and they hide nothing.
+  Scan own;
+};
 
-/// Returns the scan with only the scanner's own end points, if there are any: those of other
-/// sensors are off by their depth error, so the pose must not be matched with them, and they hide
-/// nothing.
-Scan measuredScan(const GridMaskedScan& view);
+PreparedScan prepareScan(const SlamMeasurement& measurement, Scan compensated, GridEnds ends);
 
 /// Returns the map's input from a grid: beam ends on what does not move, and occupied cells. What
 /// only other sensors have seen is not used for matching scans, and is excluded if it belongs to a
