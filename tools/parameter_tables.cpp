@@ -57,7 +57,7 @@ constexpr const char* kHead =
     "while\n"
     "the nodelet runs (`rosrun dynamic_reconfigure dynparam set /NODELET NAME VALUE`, or with\n"
     "rqt_reconfigure, which Debian 12 does not have). *Expert* ones, below, belong to the method:\n"
-    "each default has a source, which should be read before the value is changed.\n\n";
+    "where a description cites the thesis or a paper, read it before changing the value.\n\n";
 
 constexpr const char* kPublicHead = "# Public parameters\n\n";
 constexpr const char* kExpertHead = "# Expert parameters\n\n";
