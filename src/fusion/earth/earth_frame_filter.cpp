@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/covariance_check.h"
 #include "datmo_fusion/common/cross.h"
 #include "datmo_fusion/common/perpendicular.h"
 #include "datmo_fusion/fusion/earth/consistent_pairs.h"
@@ -14,10 +14,6 @@
 namespace datmo {
 
 namespace {
-
-bool isPositiveDefinite(const Eigen::Matrix3d& matrix) {
-  return Eigen::LLT<Eigen::Matrix3d>(matrix).info() == Eigen::Success;
-}
 
 /// Maximum number of fixes kept for the start; beyond it every second one is dropped.
 constexpr std::size_t kMaxFirstFixes = 400;
@@ -53,7 +49,7 @@ std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane(const Pose2& base
     return std::nullopt;
   }
   const Eigen::Matrix3d covariance = driftedTo(base_in_map);
-  if (!isPositiveDefinite(covariance)) {
+  if (!isCovariance(covariance)) {
     return std::nullopt;  // the vehicle is so far off that no significant digits are left
   }
   return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)), covariance};
@@ -78,7 +74,7 @@ void EarthFrameFilter::restartIfInvalid() {
   }
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   if (!state_.allFinite() || !covariance_.allFinite() ||
-      !isPositiveDefinite(covariance_.topLeftCorner<3, 3>())) {
+      !isCovariance<3>(covariance_.topLeftCorner<3, 3>())) {
     ++counts_.restarts;
     reset();
   }
