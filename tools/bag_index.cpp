@@ -25,7 +25,7 @@ constexpr std::uint64_t kIndexSize = 12;  ///< bytes, of a message's entry in an
 constexpr Length kMaxHeader = 1U << 24U;  ///< bytes; the longest ones hold a message's definition
 constexpr Length kMaxChunk = 1U << 31U;   ///< bytes; rosbag allocates 4 GiB for more
 
-/// Header and place of a record of the file.
+/// Header and position of a record of the file.
 struct Record {
   BagHeader header;
   std::uint64_t data = 0;  ///< byte at which its data begins
@@ -91,13 +91,13 @@ class File {
 };
 
 /// Where a chunk is, and how many index records follow it.
-struct ChunkPlace {
-  std::uint64_t at = 0;
+struct ChunkPosition {
+  std::uint64_t offset = 0;  ///< in the file, bytes
   std::size_t indexes = 0;
 };
 
 /// The chunk that a record describes; nothing if it does not.
-std::optional<ChunkPlace> placeOf(const Record& info, std::uint32_t connections, File& file) {
+std::optional<ChunkPosition> positionOf(const Record& info, std::uint32_t connections, File& file) {
   const auto at = info.header.number<std::uint64_t>("chunk_pos");
   if (!at || !file.holds(info.data, connections * kCountSize)) {
     return {};
@@ -108,17 +108,17 @@ std::optional<ChunkPlace> placeOf(const Record& info, std::uint32_t connections,
     file.read(info.data + i * kCountSize, &number, sizeof(number));
     numbers.insert(number);
   }
-  return ChunkPlace{*at, numbers.size()};
+  return ChunkPosition{*at, numbers.size()};
 }
 
 /// Whether the records of a chunk and its indexes are possible.
-bool isPossible(const ChunkPlace& place, File& file) {
-  const std::optional<Record> chunk = file.record(place.at);
+bool isPossible(const ChunkPosition& position, File& file) {
+  const std::optional<Record> chunk = file.record(position.offset);
   if (!chunk || !file.holds(chunk->data, chunk->data_size) || chunk->count("size") > kMaxChunk) {
     return false;
   }
   std::uint64_t at = chunk->data + chunk->data_size;
-  for (std::size_t i = 0; i < place.indexes; ++i) {
+  for (std::size_t i = 0; i < position.indexes; ++i) {
     const std::optional<Record> index = file.record(at);
     if (!index) {
       return false;
@@ -153,19 +153,20 @@ bool hasPossibleIndex(const std::string& file_name) {
     at = connection->data + connection->data_size;
   }
   const auto chunks = head->count("chunk_count");
-  std::vector<ChunkPlace> places;
+  std::vector<ChunkPosition> chunk_positions;
   for (std::uint32_t i = 0; i < chunks; ++i) {
     const std::optional<Record> info = file.record(at);
     const auto count = info ? info->count("count") : 0;
-    const std::optional<ChunkPlace> place = info ? placeOf(*info, count, file) : std::nullopt;
-    if (!place) {
+    const std::optional<ChunkPosition> position =
+        info ? positionOf(*info, count, file) : std::nullopt;
+    if (!position) {
       return false;
     }
-    places.push_back(*place);
+    chunk_positions.push_back(*position);
     at = info->data + count * kCountSize;
   }
-  for (const ChunkPlace& place : places) {
-    if (!isPossible(place, file)) {
+  for (const ChunkPosition& position : chunk_positions) {
+    if (!isPossible(position, file)) {
       return false;
     }
   }

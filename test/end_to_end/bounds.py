@@ -14,7 +14,7 @@ import yaml
 from scene_figures import HIGHER, REQUIRED
 
 FILE = Path(__file__).with_name("bounds.yaml")
-MOST_TESTED = 2  # seeds of the scenes that the tests run, from 1
+DEFAULT_TESTED = 2  # seeds of a scene that the tests run, from 1
 TESTED = {"intersection": 3, "without_odometry": 3, "low_level_fusion": 1}  # of others
 DIGITS = 3  # significant ones of a bound
 
@@ -42,7 +42,7 @@ def misses_required(scene, figures):
 
 def seeds(scene):
     """Returns the seeds of a scene that the tests run: as many as their time allows."""
-    return range(1, TESTED.get(scene, MOST_TESTED) + 1)
+    return range(1, TESTED.get(scene, DEFAULT_TESTED) + 1)
 
 
 def check(test, scene, seed, figures):

@@ -33,7 +33,7 @@ MIN_RECALL_IN_VIEW = 0.65
 MIN_COMPLETENESS = {"cyclist": 0.95, "vehicle": 0.9}
 MAX_IDS = 2
 
-# Of the way. The scanner alone ends within 0.01: contested beams are missing from the matches here.
+# Share of the distance driven. The scanner alone ends within 0.01: contested beams are missing from the matches here.
 MAX_POSE_ERROR = 0.015
 
 

@@ -128,14 +128,14 @@ class LoadTest : public testing::Test {
     return last - end;
   }
 
-  double mostMemory(double from, double to) const {
-    double most = 0.0;
+  double maxMemory(double from, double to) const {
+    double max = 0.0;
     for (const PacedDrive::Memory& sample : drive_.memory()) {
       if (sample.at >= from && sample.at < to) {
-        most = std::max(most, sample.resident);
+        max = std::max(max, sample.resident);
       }
     }
-    return most;
+    return max;
   }
 
   nlohmann::json stages() const {
@@ -222,7 +222,7 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   }
   const std::vector<double> before = latencies(begin, loaded);
   ASSERT_FALSE(before.empty());
-  EXPECT_LT(mostMemory(loaded, end), mostMemory(0.0, loaded) + kMaxMemoryGrowth);
+  EXPECT_LT(maxMemory(loaded, end), maxMemory(0.0, loaded) + kMaxMemoryGrowth);
   const nlohmann::json figures = {
       {"nominal", summary(before)},
       {"load", summary(latencies(loaded, still))},
@@ -232,7 +232,7 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
       {"objects", load.objects},
       {"recovered_s", recovery(unloaded, quantileOf(before, 0.99))},
       {"memory_mib",
-       {mostMemory(0.0, loaded), mostMemory(loaded, end), drive_.memory().back().resident}},
+       {maxMemory(0.0, loaded), maxMemory(loaded, end), drive_.memory().back().resident}},
       {"nominal_from_to_s", {begin, loaded}},
       {"stages", stages()}};
   write(figures);

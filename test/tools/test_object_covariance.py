@@ -75,7 +75,7 @@ class Tool(unittest.TestCase):
         return ObjectArray(header=bag_messages.header(stamp, "base_link"), objects=items)
 
     def tracks(self, stamp, distance):
-        """Returns all cars, half a meter off; way: distance driven, m."""
+        """Returns all cars, half a meter off; distance: driven, m."""
         tracks = []
         for i in range(10):
             middle = Point(distance + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)

@@ -8,7 +8,8 @@ namespace datmo {
 
 namespace {
 
-bool isSighting(const Object& object) {
+/// Whether an object's extent or velocity was measured, not only its class.
+bool isObservation(const Object& object) {
   const auto& sides = object.side_variance;
   return object.velocity ||
          std::any_of(sides.begin(), sides.end(), [](double side) { return std::isfinite(side); });
@@ -22,7 +23,7 @@ std::set<std::string> sensorsOf(const std::string& source, const ObjectList& lis
     sensors.insert(view.sensor);
   }
   for (const Object& object : list.objects) {
-    if (isSighting(object)) {
+    if (isObservation(object)) {
       sensors.insert(object.sensors.begin(), object.sensors.end());
     }
   }
@@ -30,7 +31,7 @@ std::set<std::string> sensorsOf(const std::string& source, const ObjectList& lis
 }
 
 bool isClassOnly(const Object& object, const std::set<std::string>& sensors_of_others) {
-  return !isSighting(object) && !object.sensors.empty() &&
+  return !isObservation(object) && !object.sensors.empty() &&
          std::all_of(object.sensors.begin(), object.sensors.end(),
                      [&](const auto& sensor) { return sensors_of_others.count(sensor) > 0; });
 }

@@ -59,7 +59,7 @@ def beyond_silent(runs, bounds):
     done = [run for run in runs if run["error"] is None]
     for level in dict.fromkeys(run["level"] for run in done):
         of_level = [run for run in done if run["level"] == level]
-        # Without a pose after the silence, none of the way is known.
+        # Without a pose after the silence, the error counts as infinite.
         shares = [np.inf if run["settled_m"] is None else run["settled_m"] / run["distance_m"] for run in of_level]
         values = {"share_of_distance": max(shares), "lost_ids": sum(run["tracked"] - run["kept"] for run in of_level)}
         found += [f"{level}, scan silent: {name} {_text(values[name])}, expected at most {limit:g}"
