@@ -64,14 +64,6 @@ OptionValues flattenParameters(const XmlRpcValue& tree, const std::string& name)
   return values;
 }
 
-OptionValues readParameters(const ros::NodeHandle& node) {
-  XmlRpcValue tree;
-  if (!node.getParam(node.getNamespace(), tree)) {
-    return {};
-  }
-  return flattenParameters(tree, node.getNamespace());
-}
-
 NodeletParameters::NodeletParameters(const ros::NodeHandle& private_node) {
   const std::string full_name = private_node.getNamespace();
   const std::size_t slash = full_name.rfind('/');

@@ -174,8 +174,7 @@ TEST_F(LowLevelTest, TheRuleChangesWhileItRuns) {
 }
 
 TEST_F(LowLevelTest, TheParameterServerHasTheNodeletsParameters) {
-  EXPECT_NO_THROW(
-      readOptions<GridFusionStageOptions>(readParameters(ros::NodeHandle("/grid_fusion"))));
+  EXPECT_NO_THROW(loadOptions<GridFusionStageOptions>(ros::NodeHandle("/grid_fusion")));
   EXPECT_EQ(ros::param::param<std::string>("/grid_fusion/rule", ""), "priority");
 }
 

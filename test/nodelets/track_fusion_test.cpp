@@ -103,8 +103,7 @@ TEST_F(TrackFusionTest, TheSchemeChangesWhileItRuns) {
 }
 
 TEST_F(TrackFusionTest, TheParameterServerHasTheNodeletsParameters) {
-  EXPECT_NO_THROW(
-      readOptions<TrackFusionStageOptions>(readParameters(ros::NodeHandle("/track_fusion"))));
+  EXPECT_NO_THROW(loadOptions<TrackFusionStageOptions>(ros::NodeHandle("/track_fusion")));
   EXPECT_EQ(ros::param::param<std::string>("/track_fusion/scheme", ""), "confirmed_by_all");
   EXPECT_EQ(askForScheme("union"), "union");
 }

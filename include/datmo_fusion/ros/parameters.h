@@ -14,12 +14,11 @@
 
 namespace datmo {
 
-/// Reads all values of a namespace on the parameter server, keys relative to it.
+/// Returns all values of a tree of the parameter server, keys relative to it; `name` is the tree's
+/// name in messages.
 ///
-/// Throws OptionError for values that no option can hold (lists, dates, binary data).
-OptionValues readParameters(const ros::NodeHandle& node);
-
-/// The same for a tree of values; `name` is the tree's name in messages.
+/// Throws OptionError for values that no option can hold (dates, binary data, lists of anything but
+/// numbers).
 OptionValues flattenParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
 /// The parameters of a nodelet: its private namespace, and the sections beside it that all nodelets
