@@ -8,7 +8,7 @@
 namespace datmo::frozen_sensor_test {
 namespace {
 
-sensor_msgs::LaserScan scanOf(float range) {
+sensor_msgs::LaserScan uniformScan(float range) {
   constexpr std::size_t kBeams = 181;
   sensor_msgs::LaserScan scan;
   scan.range_min = 0.1F;
@@ -17,11 +17,13 @@ sensor_msgs::LaserScan scanOf(float range) {
   return scan;
 }
 
-TEST(MeasuredBytes, AreThoseOfWhatCameBack) { EXPECT_FALSE(measuredBytes(scanOf(20.0F)).empty()); }
+TEST(MeasuredBytes, AreThoseOfWhatCameBack) {
+  EXPECT_FALSE(measuredBytes(uniformScan(20.0F)).empty());
+}
 
 TEST(MeasuredBytes, NothingComesBackFromBeyondTheReach) {
-  EXPECT_TRUE(measuredBytes(scanOf(81.83F)).empty()) << "an empty square is not frozen";
-  EXPECT_TRUE(measuredBytes(scanOf(0.0F)).empty());
+  EXPECT_TRUE(measuredBytes(uniformScan(81.83F)).empty()) << "an empty square is not frozen";
+  EXPECT_TRUE(measuredBytes(uniformScan(0.0F)).empty());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace datmo::scan_extent_test {
 namespace {
 
 /// Ten beams that end this far ahead.
-Scan scanOf(double range, double reach) {
+Scan scanWithReach(double range, double reach) {
   Scan scan = samples::scanTo(std::vector<Point2>(10, {range, 0.0}));
   scan.field.range = reach;
   return scan;
@@ -30,12 +30,12 @@ std::vector<InputError> warningsOf(const Scan& scan, double length, double width
 }
 
 TEST(ScanExtent, AWindowThatFitsIsFine) {
-  EXPECT_TRUE(warningsOf(scanOf(49.0, 50.0), 90.0, 108.0).empty());
-  EXPECT_TRUE(warningsOf(scanOf(8.0, 8.0), 24.0, 24.0).empty());
+  EXPECT_TRUE(warningsOf(scanWithReach(49.0, 50.0), 90.0, 108.0).empty());
+  EXPECT_TRUE(warningsOf(scanWithReach(8.0, 8.0), 24.0, 24.0).empty());
 }
 
 TEST(ScanExtent, EndPointsOutsideOfTheWindowAreReportedOnce) {
-  const auto warnings = warningsOf(scanOf(30.0, 80.0), 24.0, 24.0);
+  const auto warnings = warningsOf(scanWithReach(30.0, 80.0), 24.0, 24.0);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].reason(), "small_window");
   EXPECT_NE(std::string(warnings[0].what()).find("30.0 m"), std::string::npos)
@@ -44,14 +44,14 @@ TEST(ScanExtent, EndPointsOutsideOfTheWindowAreReportedOnce) {
 }
 
 TEST(ScanExtent, AScannerOfShortReachInALargeWindowIsReported) {
-  const auto warnings = warningsOf(scanOf(3.0, 8.0), 90.0, 108.0);
+  const auto warnings = warningsOf(scanWithReach(3.0, 8.0), 90.0, 108.0);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].reason(), "large_window");
   EXPECT_NE(std::string(warnings[0].what()).find("8.0 m"), std::string::npos) << warnings[0].what();
 }
 
 TEST(ScanExtent, WithoutAnyHitTheReachIsJudgedAlone) {
-  Scan scan = scanOf(3.0, 50.0);
+  Scan scan = scanWithReach(3.0, 50.0);
   scan.rays.clear();
   EXPECT_TRUE(warningsOf(scan, 90.0, 108.0).empty());
 }

@@ -36,7 +36,7 @@ class ScanMergeStageTest : public testing::Test {
   }
 
   /// `ahead`: range of the scanner's middle beam, m; the others hit 2 m beside it.
-  static sensor_msgs::LaserScan scanOf(const std::string& source, double seconds, float ahead) {
+  static sensor_msgs::LaserScan scanFrom(const std::string& source, double seconds, float ahead) {
     auto scan = samples::laserScan({2.0F, ahead, 2.0F});
     scan.header.frame_id = source + "_laser";
     scan.header.stamp = ros::Time(kStart + seconds);
@@ -44,7 +44,8 @@ class ScanMergeStageTest : public testing::Test {
   }
 
   void handle(const std::string& source, double seconds, float ahead) {
-    stage_.handleScan(source, scanOf(source, seconds, ahead), Stamp::fromSeconds(kStart + seconds));
+    stage_.handleScan(source, scanFrom(source, seconds, ahead),
+                      Stamp::fromSeconds(kStart + seconds));
   }
 
   void drive(double seconds) { stage_.handleOdometry(samples::odometry(kStart + seconds, kSpeed)); }
@@ -79,7 +80,7 @@ TEST_F(ScanMergeStageTest, TheRearScanIsCompensatedToTheFrontsStamp) {
 TEST_F(ScanMergeStageTest, BeamsOfOneScanAreCompensatedToo) {
   drive(0.0);
   drive(0.1);
-  auto scan = scanOf("front", 0.1, 7.0F);
+  auto scan = scanFrom("front", 0.1, 7.0F);
   scan.time_increment = 0.05F;  // the middle beam is measured 0.5 m further on
   stage_.handleScan("front", scan, Stamp::fromSeconds(kStart + 0.1));
   handle("rear", 0.1, 5.0F);
@@ -124,7 +125,7 @@ TEST_F(ScanMergeStageTest, TheRearScannerLeadsWhileTheFrontOneIsSilent) {
 TEST_F(ScanMergeStageTest, AFrozenScannerIsLeftOut) {
   for (int i = 0; i <= 8; ++i) {
     drive(0.1 * i);
-    auto frozen = scanOf("rear", 0.1 * i, 5.0F);
+    auto frozen = scanFrom("rear", 0.1 * i, 5.0F);
     frozen.ranges.assign(31, 5.0F);  // this many are not equal by chance
     frozen.angle_increment = static_cast<float>(M_PI / 30.0);
     stage_.handleScan("rear", frozen, Stamp::fromSeconds(kStart + 0.1 * i));
@@ -139,8 +140,8 @@ TEST_F(ScanMergeStageTest, ABlindSectorIsNotMeasured) {
   blind.sources["rear"].blind_sectors = {-0.1, 0.1};
   ScanMergeStage stage(blind, buffer_, monitor_);
   stage.handleOdometry(samples::odometry(kStart, kSpeed));
-  stage.handleScan("rear", scanOf("rear", 0.0, 5.0F), Stamp::fromSeconds(kStart));
-  stage.handleScan("front", scanOf("front", 0.0, 7.0F), Stamp::fromSeconds(kStart));
+  stage.handleScan("rear", scanFrom("rear", 0.0, 5.0F), Stamp::fromSeconds(kStart));
+  stage.handleScan("front", scanFrom("front", 0.0, 7.0F), Stamp::fromSeconds(kStart));
   const auto scan = stage.next(Stamp::fromSeconds(kStart));
   ASSERT_TRUE(scan);
   EXPECT_TRUE(std::isnan(scan->ranges[kBehind]));
@@ -161,7 +162,7 @@ TEST_F(ScanMergeStageTest, TheMountIsAtTheFrontScannersHeight) {
 }
 
 TEST_F(ScanMergeStageTest, AScanOfAScannerWithoutAMountIsDropped) {
-  auto scan = scanOf("front", 0.0, 7.0F);
+  auto scan = scanFrom("front", 0.0, 7.0F);
   scan.header.frame_id = "roof_laser";
   stage_.handleScan("front", scan, Stamp::fromSeconds(kStart));
   EXPECT_EQ(samples::drops(monitor_, "missing_transform"), 1U);

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "scan_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/random.h"
 
 namespace datmo::lidar_grid_test {
 namespace {
+
+using samples::scanWithRays;
 
 constexpr Percent kOccupied = 80;
 constexpr Percent kFree = 20;
@@ -34,28 +37,22 @@ Ray rayTo(const Point2& origin, const Point2& end, bool hit = true) {
   return ray;
 }
 
-/// Beams without an opening angle.
-Scan scanOf(const std::vector<Ray>& rays, double beam_spacing = 0.0) {
-  Scan scan;
-  scan.stamp = Stamp::fromSeconds(12.0);
-  scan.field.beam_spacing = beam_spacing;
-  scan.rays = rays;
-  return scan;
-}
-
 std::size_t count(const SensorGrid& grid, Percent percent) {
   return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
 }
 
 TEST(LidarGridTest, AScanWithoutRaysIsUninformative) {
-  const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanOf({}));
-  EXPECT_EQ(grid.stamp(), Stamp::fromSeconds(12.0));
+  Scan scan;
+  scan.stamp = Stamp::fromSeconds(12.0);
+  const SensorGrid grid = LidarGridModel(smallGrid()).grid(scan);
+  EXPECT_EQ(grid.stamp(), scan.stamp);
   EXPECT_EQ(grid.window(), smallGrid().window.window());
   EXPECT_EQ(count(grid, kUnknownPercent), 400U);
 }
 
 TEST(LidarGridTest, OneBeamIsFreeBeforeItsEndOccupiedThereUnknownBehind) {
-  const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5})}));
+  const SensorGrid grid =
+      LidarGridModel(smallGrid()).grid(scanWithRays({rayTo({0.5, 0.5}, {5.5, 0.5})}));
   for (int column = 0; column < 5; ++column) {
     EXPECT_EQ(grid.at({column, 0}), kFree) << column;
   }
@@ -68,20 +65,20 @@ TEST(LidarGridTest, ABeamFreesNothingWithinTheNoiseOfItsEnd) {
   options.beam_end.range_sigma = 0.5;
   options.beam_end.end_margin = 3.0;
   const LidarGridModel model(options);
-  const SensorGrid grid = model.grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5})}));
+  const SensorGrid grid = model.grid(scanWithRays({rayTo({0.5, 0.5}, {5.5, 0.5})}));
   EXPECT_EQ(grid.at({3, 0}), kFree);
   EXPECT_EQ(grid.at({4, 0}), kFree) << "up to 1.5 m before the end, which is its border";
   EXPECT_EQ(grid.at({5, 0}), kOccupied);
-  const SensorGrid nearer = model.grid(scanOf({rayTo({0.5, 0.5}, {5.3, 0.5})}));
+  const SensorGrid nearer = model.grid(scanWithRays({rayTo({0.5, 0.5}, {5.3, 0.5})}));
   EXPECT_EQ(nearer.at({3, 0}), kFree);
   EXPECT_EQ(nearer.at({4, 0}), kUnknownPercent);
   EXPECT_EQ(nearer.at({5, 0}), kOccupied);
   // Nearer than that to the scanner it frees nothing, and without a return all of it.
-  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {1.6, 0.5})})), kFree), 0U);
-  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5}, false)})), kFree), 6U);
+  EXPECT_EQ(count(model.grid(scanWithRays({rayTo({0.5, 0.5}, {1.6, 0.5})})), kFree), 0U);
+  EXPECT_EQ(count(model.grid(scanWithRays({rayTo({0.5, 0.5}, {5.5, 0.5}, false)})), kFree), 6U);
   // Of an end beyond the window only the part of the margin inside it counts.
-  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {10.3, 0.5})})), kFree), 9U);
-  EXPECT_EQ(count(model.grid(scanOf({rayTo({0.5, 0.5}, {30.5, 0.5})})), kFree), 10U);
+  EXPECT_EQ(count(model.grid(scanWithRays({rayTo({0.5, 0.5}, {10.3, 0.5})})), kFree), 9U);
+  EXPECT_EQ(count(model.grid(scanWithRays({rayTo({0.5, 0.5}, {30.5, 0.5})})), kFree), 10U);
 }
 
 TEST(LidarGridTest, BesideItsAxisTheMarginCountsFromTheFlatSurface) {
@@ -90,7 +87,8 @@ TEST(LidarGridTest, BesideItsAxisTheMarginCountsFromTheFlatSurface) {
   options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long: 4.5 m
   options.beam_end.range_sigma = 0.5;
   options.beam_end.end_margin = 3.0;
-  const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.9}, {9.0, 0.9})}));
+  const SensorGrid grid =
+      LidarGridModel(options).grid(scanWithRays({rayTo({0.0, 0.9}, {9.0, 0.9})}));
   EXPECT_EQ(grid.at({2, 1}), kFree);
   EXPECT_EQ(grid.at({3, 1}), kUnknownPercent);
   EXPECT_EQ(grid.at({6, 0}), kFree) << "its axis: up to 7.5 m";
@@ -98,7 +96,7 @@ TEST(LidarGridTest, BesideItsAxisTheMarginCountsFromTheFlatSurface) {
 
 TEST(LidarGridTest, ABeamWithoutReturnIsFreeUpToItsEnd) {
   const SensorGrid grid =
-      LidarGridModel(smallGrid()).grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5}, false)}));
+      LidarGridModel(smallGrid()).grid(scanWithRays({rayTo({0.5, 0.5}, {5.5, 0.5}, false)}));
   EXPECT_EQ(count(grid, kFree), 6U);
   EXPECT_EQ(grid.at({5, 0}), kFree);
   EXPECT_EQ(count(grid, kUnknownPercent), 394U);
@@ -108,7 +106,8 @@ TEST(LidarGridTest, TheProbabilitiesAreThoseOfTheOptions) {
   LidarGridOptions options = smallGrid();
   options.occupied_probability = 0.9;
   options.free_probability = 0.35;
-  const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.5, 0.5}, {5.5, 0.5})}));
+  const SensorGrid grid =
+      LidarGridModel(options).grid(scanWithRays({rayTo({0.5, 0.5}, {5.5, 0.5})}));
   EXPECT_EQ(grid.at({5, 0}), 90);
   EXPECT_EQ(grid.at({2, 0}), 35);
 }
@@ -117,7 +116,8 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;  // at 9 m: 0.9 m to each side of 0.5
   options.min_incidence = kQuarterTurn;
-  const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
+  const SensorGrid grid =
+      LidarGridModel(options).grid(scanWithRays({rayTo({0.0, 0.5}, {9.0, 0.5})}));
   EXPECT_EQ(grid.at({9, 0}), kOccupied);
   EXPECT_EQ(grid.at({8, 1}), kOccupied);   // 9 m at 0.1 rad: (8.955, 1.398)
   EXPECT_EQ(grid.at({8, -1}), kOccupied);  // (8.955, -0.398)
@@ -132,7 +132,7 @@ TEST(LidarGridTest, BesideItsAxisABeamIsFreeUpToAFlatSurface) {
   options.beam_width = 0.2;
   options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
   const LidarGridModel model(options);
-  const SensorGrid hit = model.grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
+  const SensorGrid hit = model.grid(scanWithRays({rayTo({0.0, 0.5}, {9.0, 0.5})}));
   EXPECT_EQ(hit.at({7, 0}), kFree);
   EXPECT_EQ(hit.at({7, 1}), kUnknownPercent);
   EXPECT_EQ(hit.at({8, 1}), kOccupied);
@@ -145,7 +145,7 @@ TEST(LidarGridTest, TheEndOfAWideBeamHasNoGaps) {
   options.beam_width = 0.2;
   for (const double bearing : {0.3, kPi / 4.0, 1.9, -2.6}) {
     const Point2 end = 9.0 * Point2(std::cos(bearing), std::sin(bearing));
-    const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.0}, end)}));
+    const SensorGrid grid = LidarGridModel(options).grid(scanWithRays({rayTo({0.0, 0.0}, end)}));
     int ends_of_the_arc = 0;
     grid.forEach([&](CellIndex cell, Percent percent) {
       if (percent != kOccupied) {
@@ -168,9 +168,10 @@ TEST(LidarGridTest, WithoutAWidthABeamReachesHalfWayToItsNeighbors) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
   const std::vector<Ray> rays = {rayTo({0.0, 0.5}, {9.0, 0.5})};
-  const SensorGrid expected = LidarGridModel(options).grid(scanOf(rays));
+  const SensorGrid expected = LidarGridModel(options).grid(scanWithRays(rays));
   for (const double spacing : {0.2, -0.2}) {
-    EXPECT_EQ(LidarGridModel(smallGrid()).grid(scanOf(rays, spacing)).cells(), expected.cells());
+    EXPECT_EQ(LidarGridModel(smallGrid()).grid(scanWithRays(rays, spacing)).cells(),
+              expected.cells());
   }
 }
 
@@ -178,7 +179,7 @@ TEST(LidarGridTest, AnEndWinsOverABeamThatPassesWhateverTheirOrder) {
   const Ray near = rayTo({0.5, 0.5}, {3.5, 0.5});
   const Ray far = rayTo({0.5, 0.6}, {7.5, 0.6});
   for (const auto& rays : {std::vector<Ray>{near, far}, std::vector<Ray>{far, near}}) {
-    const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanOf(rays));
+    const SensorGrid grid = LidarGridModel(smallGrid()).grid(scanWithRays(rays));
     EXPECT_EQ(grid.at({3, 0}), kOccupied);
     EXPECT_EQ(grid.at({7, 0}), kOccupied);
     EXPECT_EQ(grid.at({5, 0}), kFree);
@@ -188,7 +189,7 @@ TEST(LidarGridTest, AnEndWinsOverABeamThatPassesWhateverTheirOrder) {
 TEST(LidarGridTest, AnEndOutsideOfTheWindowLeavesItFreeUpToItsBorder) {
   for (const double range : {30.0, 1e6}) {
     const SensorGrid grid =
-        LidarGridModel(smallGrid()).grid(scanOf({rayTo({0.5, 0.5}, {0.5 + range, 0.5})}));
+        LidarGridModel(smallGrid()).grid(scanWithRays({rayTo({0.5, 0.5}, {0.5 + range, 0.5})}));
     EXPECT_EQ(count(grid, kFree), 10U) << range;
     EXPECT_EQ(count(grid, kOccupied), 0U) << range;
   }
@@ -196,7 +197,7 @@ TEST(LidarGridTest, AnEndOutsideOfTheWindowLeavesItFreeUpToItsBorder) {
 
 TEST(LidarGridTest, AScannerOutsideTheWindowIsSupported) {
   const SensorGrid grid =
-      LidarGridModel(smallGrid()).grid(scanOf({rayTo({-20.5, 0.5}, {5.5, 0.5})}));
+      LidarGridModel(smallGrid()).grid(scanWithRays({rayTo({-20.5, 0.5}, {5.5, 0.5})}));
   EXPECT_EQ(count(grid, kFree), 15U);
   EXPECT_EQ(grid.at({5, 0}), kOccupied);
 }
@@ -214,7 +215,7 @@ TEST(LidarGridTest, AgreesWithTheThesisAwayFromTheEndsOfTheBeams) {
     rays.push_back(rayTo(Point2::Zero(), Point2(range * std::cos(beam * spacing),
                                                 range * std::sin(beam * spacing))));
   }
-  const SensorGrid grid = LidarGridModel(options).grid(scanOf(rays, spacing));
+  const SensorGrid grid = LidarGridModel(options).grid(scanWithRays(rays, spacing));
   const double margin = 2.0 * options.window.cell_size;
   int compared = 0;
   grid.forEach([&](CellIndex cell, Percent percent) {

@@ -12,7 +12,7 @@ namespace {
 constexpr GridWindow kWindow{1.0, 40, 40, {-20, -20}};
 
 /// A scanner at the base's origin with a beam along each of -45, 0 and 45 degrees.
-Scan scanOf(const std::vector<double>& ranges) {
+Scan scanWithRanges(const std::vector<double>& ranges) {
   Scan scan;
   scan.field.first_bearing = degrees(-45.0);
   scan.field.beam_spacing = degrees(45.0);
@@ -43,8 +43,8 @@ SensorGrid gridWith(const std::vector<CellIndex>& occupied) {
 constexpr double kNothing = INFINITY;
 
 TEST(GridMaskedScanTest, ABeamThatTheGridConfirmsKeepsItsExactEnd) {
-  const GridMaskedScan view =
-      maskScanWithGrid(gridWith({{10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+  const GridMaskedScan view = maskScanWithGrid(
+      gridWith({{10, 0}}), scanWithRanges({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_TRUE(view.scan.rays[1].hit);
   EXPECT_TRUE(view.measured[1]);
   EXPECT_TRUE(view.any_measured);
@@ -53,7 +53,7 @@ TEST(GridMaskedScanTest, ABeamThatTheGridConfirmsKeepsItsExactEnd) {
 
 TEST(GridMaskedScanTest, ABeamThatTheGridRefutesHasNoHit) {
   const GridMaskedScan view =
-      maskScanWithGrid(gridWith({}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+      maskScanWithGrid(gridWith({}), scanWithRanges({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_FALSE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
   EXPECT_TRUE(view.cells.empty());
@@ -64,20 +64,21 @@ TEST(GridMaskedScanTest, ABeamThatTheGridRefutesHasNoHit) {
 TEST(GridMaskedScanTest, UndecidedIsNotConfirmed) {
   SensorGrid grid = gridWith({});
   grid.at({10, 0}) = kUndecidedPercent;
-  EXPECT_TRUE(
-      maskScanWithGrid(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).refuted.empty());
-  EXPECT_FALSE(
-      maskScanWithGrid(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
+  EXPECT_TRUE(maskScanWithGrid(grid, scanWithRanges({kNothing, 10.3, kNothing}), GridEnds::kScan)
+                  .refuted.empty());
+  EXPECT_FALSE(maskScanWithGrid(grid, scanWithRanges({kNothing, 10.3, kNothing}), GridEnds::kScan)
+                   .scan.rays[1]
+                   .hit);
 }
 
 TEST(GridMaskedScanTest, BeyondTheWindowTheBeamIsTrusted) {
-  Scan scan = scanOf({kNothing, 30.0, kNothing});
+  Scan scan = scanWithRanges({kNothing, 30.0, kNothing});
   EXPECT_TRUE(maskScanWithGrid(gridWith({}), scan, GridEnds::kScan).measured[1]);
 }
 
 TEST(GridMaskedScanTest, ABeamWithoutHitEndsAtCellsOfOthers) {
   const GridMaskedScan view = maskScanWithGrid(
-      gridWith({{5, 5}, {8, 8}}), scanOf({kNothing, kNothing, kNothing}), GridEnds::kScan);
+      gridWith({{5, 5}, {8, 8}}), scanWithRanges({kNothing, kNothing, kNothing}), GridEnds::kScan);
   const Ray& ray = view.scan.rays[2];
   EXPECT_TRUE(ray.hit);
   EXPECT_FALSE(view.measured[2]);
@@ -87,15 +88,15 @@ TEST(GridMaskedScanTest, ABeamWithoutHitEndsAtCellsOfOthers) {
 }
 
 TEST(GridMaskedScanTest, OfTheScannersOwnEndAndANearerCellTheEndCounts) {
-  const GridMaskedScan view = maskScanWithGrid(gridWith({{5, 0}, {10, 0}}),
-                                               scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+  const GridMaskedScan view = maskScanWithGrid(
+      gridWith({{5, 0}, {10, 0}}), scanWithRanges({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_DOUBLE_EQ(view.scan.rays[1].range, 10.3);
   ASSERT_EQ(view.cells.size(), 1U);
   EXPECT_EQ(view.cells[0], Point2(5.5, 0.5));
 }
 
 TEST(GridMaskedScanTest, CellsAcrossABeamsWidthAreItsOwn) {
-  Scan scan = scanOf({kNothing, 10.3, kNothing});
+  Scan scan = scanWithRanges({kNothing, 10.3, kNothing});
   scan.field.beam_spacing = degrees(20.0);  // 3.6 m wide at 10.3 m
   const SensorGrid grid = gridWith({{10, -2}, {10, -1}, {10, 0}, {10, 1}, {10, 6}});
   const GridMaskedScan view = maskScanWithGrid(grid, scan, GridEnds::kScan);
@@ -104,15 +105,15 @@ TEST(GridMaskedScanTest, CellsAcrossABeamsWidthAreItsOwn) {
 }
 
 TEST(GridMaskedScanTest, OfCellsAllEndsAreCenters) {
-  const GridMaskedScan view =
-      maskScanWithGrid(gridWith({{10, 0}}), scanOf({kNothing, 10.1, kNothing}), GridEnds::kCells);
+  const GridMaskedScan view = maskScanWithGrid(
+      gridWith({{10, 0}}), scanWithRanges({kNothing, 10.1, kNothing}), GridEnds::kCells);
   EXPECT_TRUE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
   EXPECT_NEAR(view.scan.rays[1].range, 10.5, 1e-9);
 }
 
 TEST(GridMaskedScanTest, ASilentScannersBeamsAreMadeFromTheGrid) {
-  Scan silent = scanOf({});
+  Scan silent = scanWithRanges({});
   const GridMaskedScan view = maskScanWithGrid(gridWith({{10, 0}}), silent, GridEnds::kScan);
   ASSERT_EQ(view.scan.rays.size(), 3U);
   EXPECT_FALSE(view.scan.rays[0].hit);
@@ -121,7 +122,7 @@ TEST(GridMaskedScanTest, ASilentScannersBeamsAreMadeFromTheGrid) {
 }
 
 TEST(GridMaskedScanTest, BlindBeamsStayBlind) {
-  Scan scan = scanOf({kNothing, 10.3, kNothing});
+  Scan scan = scanWithRanges({kNothing, 10.3, kNothing});
   scan.rays.erase(scan.rays.begin());
   EXPECT_EQ(maskScanWithGrid(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
 }

@@ -40,7 +40,7 @@ constexpr int kBeams = 81;
 const Pose2 kBaseInRoom(-4.0, 1.0, 0.4);
 
 /// Each ray is measured from the vehicle's position at the ray's time.
-Scan scanOf(const Sweep& sweep) {
+Scan sweptScan(const Sweep& sweep) {
   Scan scan;
   scan.scanner_in_base = Pose2(3.6, 0.3, 0.1);
   scan.field.first_bearing = degrees(-0.5 * sweep.step * (kBeams - 1));
@@ -74,13 +74,13 @@ double largestDistanceToWalls(const Scan& scan) {
 class MotionCompensation : public testing::TestWithParam<Sweep> {};
 
 TEST_P(MotionCompensation, PutsTheEndsOnTheWalls) {
-  const Scan scan = scanOf(GetParam());
+  const Scan scan = sweptScan(GetParam());
   EXPECT_GT(largestDistanceToWalls(scan), 0.1);
   EXPECT_LT(largestDistanceToWalls(compensateMotion(scan, GetParam().twist)), 1e-9);
 }
 
 TEST_P(MotionCompensation, PutsTheOriginsWhereTheScannerWas) {
-  const Scan scan = scanOf(GetParam());
+  const Scan scan = sweptScan(GetParam());
   const Scan at_once = compensateMotion(scan, GetParam().twist);
   const Pose2 last = arc(GetParam().twist, GetParam().duration) * scan.scanner_in_base;
   EXPECT_EQ(at_once.rays.front().origin, scan.rays.front().origin);
@@ -88,7 +88,7 @@ TEST_P(MotionCompensation, PutsTheOriginsWhereTheScannerWas) {
 }
 
 TEST_P(MotionCompensation, KeepsRaysWhole) {
-  const Scan scan = scanOf(GetParam());
+  const Scan scan = sweptScan(GetParam());
   const Scan at_once = compensateMotion(scan, GetParam().twist);
   ASSERT_EQ(at_once.rays.size(), scan.rays.size());
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -103,7 +103,7 @@ TEST_P(MotionCompensation, KeepsRaysWhole) {
 }
 
 TEST_P(MotionCompensation, TheFieldHasTheCurrentBearings) {
-  const Scan at_once = compensateMotion(scanOf(GetParam()), GetParam().twist);
+  const Scan at_once = compensateMotion(sweptScan(GetParam()), GetParam().twist);
   for (const Ray& ray : at_once.rays) {
     const double expected = at_once.field.first_bearing + at_once.field.beam_spacing * ray.beam;
     EXPECT_NEAR(angleBetween(expected, ray.bearing), 0.0, 1e-9);
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Sweeps, MotionCompensation,
                          [](const auto& sweep) { return std::string(sweep.param.name); });
 
 TEST(MotionCompensationOf, RaysWithoutTimesChangesNothing) {
-  const Scan scan = scanOf({"", 2.0, 0.0, {14.0, 1.0}});
+  const Scan scan = sweptScan({"", 2.0, 0.0, {14.0, 1.0}});
   EXPECT_EQ(sweepDuration(scan), 0.0);
   const Scan same = compensateMotion(scan, {14.0, 1.0});
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -130,7 +130,7 @@ TEST(MotionCompensationOf, RaysWithoutTimesChangesNothing) {
 }
 
 TEST(MotionCompensationOf, AVehicleAtRestChangesNothing) {
-  const Scan scan = scanOf({"", 2.0, 0.1, {}});
+  const Scan scan = sweptScan({"", 2.0, 0.1, {}});
   const Scan same = compensateMotion(scan, {});
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     EXPECT_TRUE(same.rays[i].end.isApprox(scan.rays[i].end, 1e-12));
@@ -143,14 +143,14 @@ TEST(MotionCompensationOf, NoRaysIsInstantaneous) {
 }
 
 TEST(MotionCompensationOf, TheSweepLastsToItsLatestRay) {
-  Scan scan = scanOf({"", 2.0, 0.08, {}});
+  Scan scan = sweptScan({"", 2.0, 0.08, {}});
   EXPECT_DOUBLE_EQ(sweepDuration(scan), 0.08);
   scan.rays.pop_back();
   EXPECT_DOUBLE_EQ(sweepDuration(scan), 0.079);
 }
 
 TEST(ScanAt, CompensationToAnotherTimeEqualsAMeasurementThen) {
-  const Scan scan = scanOf({"", 0.0, 0.0, {}});
+  const Scan scan = sweptScan({"", 0.0, 0.0, {}});
   const Pose2 base(-1.0, 0.5, 0.1);  // the vehicle has driven on
   const Stamp later = scan.stamp + 0.1;
   const Scan moved = scanAt(scan, later, base);

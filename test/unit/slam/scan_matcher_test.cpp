@@ -32,7 +32,7 @@ std::vector<Point2> corridor() {
 }
 
 /// One scan of the points from this pose.
-Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
+Scan scanOfPoints(const std::vector<Point2>& points, const Pose2& pose) {
   std::vector<Point2> ends;
   for (const Point2& point : points) {
     ends.push_back(pose.inverse() * point);
@@ -49,7 +49,7 @@ OccupancyMap emptyMap() {
 
 /// Adds the points, seen from the origin, `times` times from this time on, every 0.1 s.
 void see(OccupancyMap& map, const std::vector<Point2>& points, double from, int times) {
-  Scan scan = scanOf(points, {});
+  Scan scan = scanOfPoints(points, {});
   for (int i = 0; i < times; ++i) {
     scan.stamp = Stamp::fromSeconds(from + 0.1 * i);
     map.update(scan, std::vector<PointState>(points.size(), PointState::kUnknown), {});
@@ -64,7 +64,7 @@ OccupancyMap mapOf(const std::vector<Point2>& points) {
 }
 
 std::vector<EndPoint> seenFrom(const std::vector<Point2>& points, const Pose2& pose) {
-  return endPoints(scanOf(points, pose), 1.0);
+  return endPoints(scanOfPoints(points, pose), 1.0);
 }
 
 Eigen::Matrix3d priorCovariance() {
