@@ -3,6 +3,8 @@
 
 #include "all_levels.h"
 
+#include "datmo_fusion/ros/transform_topics.h"
+
 namespace datmo::campaign {
 
 namespace {
@@ -56,7 +58,7 @@ SensorSet sensorsOf(const std::string& config, const CampaignGraph& graph) {
 
 Publications handleAny(const Publication& message, Stamp now, GraphRunner& runner) {
   const auto transforms = message.as<tf2_msgs::TFMessage>();
-  if (transforms && message.topic == kStaticTransforms) {
+  if (transforms && message.topic == kStaticTransformTopic) {
     runner.handleStaticTransforms(*transforms);
     return {};
   }

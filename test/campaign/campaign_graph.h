@@ -26,9 +26,6 @@ const std::vector<CampaignGraph>& campaignGraphs();
 /// Returns the sensor set's options, with the graph's source of motion. Throws OptionError.
 SensorSet sensorsOf(const std::string& config, const CampaignGraph& graph);
 
-inline constexpr char kTransforms[] = "/tf";
-inline constexpr char kStaticTransforms[] = "/tf_static";
-
 /// Passes a message to the stages, which may also be one of transforms.
 Publications handleAny(const Publication& message, Stamp now, GraphRunner& runner);
 

@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/radar_objects_stage.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo::campaign {
 
@@ -79,8 +80,8 @@ void addImages(int step, std::vector<Publication>& sent) {
 std::vector<Publication> CampaignSensors::at(int step) const {
   const double seconds = kStep * step;
   std::vector<Publication> sent;
-  add(kStaticTransforms, listOf({world_.scannerInBase(), world_.cameraInBase()}), sent);
-  add(kTransforms, listOf({world_.baseInOdom(seconds)}), sent);
+  add(kStaticTransformTopic, listOf({world_.scannerInBase(), world_.cameraInBase()}), sent);
+  add(kTransformTopic, listOf({world_.baseInOdom(seconds)}), sent);
   addMotion(seconds, sent);
   addOthers(seconds, sent);
   if (graph_.switches.stereo == StereoPoints::kClouds) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzzed_graph.h"
 
+#include "datmo_fusion/ros/transform_topics.h"
+
 namespace datmo::fuzz {
 
 namespace {
@@ -8,7 +10,7 @@ namespace {
 FuzzedGraph fuzzed(const campaign::CampaignGraph& graph) {
   FuzzedGraph all{graph,
                   campaign::sensorsOf(DATMO_FUSION_FUZZED_STAGES, graph),
-                  {campaign::kTransforms, campaign::kStaticTransforms}};
+                  {kTransformTopic, kStaticTransformTopic}};
   for (const StageState& stage : GraphRunner(all.sensors, graph.switches).states(Stamp())) {
     all.topics.insert(stage.topics.inputs.begin(), stage.topics.inputs.end());
   }

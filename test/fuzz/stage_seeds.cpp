@@ -13,12 +13,13 @@
 
 #include <sensor_msgs/MultiEchoLaserScan.h>
 
+#include "datmo_fusion/ros/transform_topics.h"
+
 namespace datmo::fuzz {
 
 namespace {
 
 using campaign::CampaignSensors;
-using campaign::kTransforms;
 
 constexpr int kSteps = 8;                // then there are tracks
 constexpr std::size_t kBeamStep = 4;     // every fourth beam is kept
@@ -136,9 +137,9 @@ class SeedDrive {
  private:
   bool isSent(const Publication& message, int step) const {
     static const std::set<std::string> fast{
-        kTransforms,  "scan",        "echoes", "scans/front",
-        "scans/rear", "odometry",    "twist",  "twist_with_covariance",
-        "imu",        "joint_states"};
+        kTransformTopic, "scan",        "echoes", "scans/front",
+        "scans/rear",    "odometry",    "twist",  "twist_with_covariance",
+        "imu",           "joint_states"};
     return graph_.topics.count(message.topic) > 0 &&
            (fast.count(message.topic) > 0 || step % kSlowSteps == 0);
   }

@@ -16,6 +16,7 @@
 
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -23,8 +24,6 @@ namespace {
 
 constexpr char kCloud[] = "cloud";
 constexpr char kScan[] = "scan";
-constexpr char kStaticTransforms[] = "/tf_static";
-constexpr char kTransforms[] = "/tf";
 
 constexpr char kDescription[] =
     "Copies a bag, and replaces each cloud of a 3D lidar on /cloud by a planar scan on /scan, as\n"
@@ -78,7 +77,7 @@ class CloudConversion {
 
   /// All of them before the first cloud, regardless of their position in the bag.
   void takeMounts() {
-    for (const auto& message : rosbag::View(input_, rosbag::TopicQuery(kStaticTransforms))) {
+    for (const auto& message : rosbag::View(input_, rosbag::TopicQuery(kStaticTransformTopic))) {
       transforms_.addStatic(*plain<tf2_msgs::TFMessage>(message));
     }
   }
@@ -86,7 +85,7 @@ class CloudConversion {
   void handle(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
     monitor_.setTime(toStamp(message.getTime()));
-    if (topic == kTransforms) {
+    if (topic == kTransformTopic) {
       transforms_.add(*plain<tf2_msgs::TFMessage>(message));
     }
     if (topic == arguments_.cloud_topic) {
@@ -107,7 +106,7 @@ class CloudConversion {
     if (scan->mount) {
       tf2_msgs::TFMessage mount;
       mount.transforms = {*scan->mount};
-      output_.writeLatched(kStaticTransforms, message.getTime(), mount);
+      output_.writeLatched(kStaticTransformTopic, message.getTime(), mount);
     }
     output_.write(arguments_.scan_topic, std::max(message.getTime(), endOf(*scan->scan)),
                   *scan->scan);

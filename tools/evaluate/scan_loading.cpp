@@ -12,16 +12,16 @@
 
 #include "datmo_fusion/ros/convert/scan_conversion.h"
 #include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo::evaluation {
 
 namespace {
 
 constexpr char kBaseFrame[] = "base_link";
-constexpr char kStaticTransforms[] = "/tf_static";
 
 void readMounts(const rosbag::Bag& bag, tf2::BufferCore& transforms) {
-  rosbag::View view(bag, rosbag::TopicQuery(kStaticTransforms));
+  rosbag::View view(bag, rosbag::TopicQuery(kStaticTransformTopic));
   for (const rosbag::MessageInstance& instance : view) {
     for (const auto& transform : read<tf2_msgs::TFMessage>(instance)->transforms) {
       transforms.setTransform(transform, bag.getFileName(), true);

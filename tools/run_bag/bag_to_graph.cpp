@@ -26,6 +26,7 @@
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/radar_objects_stage.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -62,7 +63,7 @@ void BagToGraph::readSources(const InputTopics& topics) {
 }
 
 void BagToGraph::handleStaticTransforms(const rosbag::Bag& bag) {
-  rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
+  rosbag::View view(bag, rosbag::TopicQuery(kStaticTransformTopic));
   for (const rosbag::MessageInstance& message : view) {
     guarded(graph_.inputs(), message.getTopic(),
             [&] { graph_.handleStaticTransforms(*plain<tf2_msgs::TFMessage>(message)); });
@@ -94,7 +95,7 @@ void BagToGraph::handle(const rosbag::MessageInstance& message) {
 }
 
 void BagToGraph::readMotion(const InputTopics& topics) {
-  readers_["/tf"]["tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
+  readers_[kTransformTopic]["tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
     return graph_.handleTransforms(*plain<tf2_msgs::TFMessage>(message), now);
   };
   const MotionTopics& motion = topics.motion;

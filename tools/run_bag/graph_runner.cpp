@@ -8,13 +8,11 @@
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/guard.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
 namespace {
-
-constexpr char kTransforms[] = "/tf";
-constexpr char kStaticTransforms[] = "/tf_static";
 
 /// The graph up to the last stage, or all of it.
 std::vector<GraphStage> graphUntil(const GraphSwitches& switches, const std::string& last) {
@@ -184,9 +182,9 @@ std::vector<StageState> GraphRunner::states(Stamp now) {
 }
 
 void GraphRunner::publish(const Publication& message) {
-  if (message.topic == kTransforms) {
+  if (message.topic == kTransformTopic) {
     transforms_.add(*message.as<tf2_msgs::TFMessage>());
-  } else if (message.topic == kStaticTransforms) {
+  } else if (message.topic == kStaticTransformTopic) {
     transforms_.addStatic(*message.as<tf2_msgs::TFMessage>());
   }
   published_.push_back(message);

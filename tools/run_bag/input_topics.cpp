@@ -15,6 +15,7 @@
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -203,7 +204,7 @@ std::vector<std::string> MotionTopics::all() const {
 
 std::vector<std::string> InputTopics::all() const {
   std::vector<std::string> topics = truth;
-  topics.insert(topics.end(), {"/tf"});
+  topics.insert(topics.end(), {kTransformTopic});
   const std::vector<std::string> motion_topics = motion.all();
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic :

@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/velocity_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo::simulator {
 
@@ -66,7 +67,7 @@ class Recording {
     if (stereo_) {
       message.transforms.push_back(toMount(scene_.options.stereo, start));
     }
-    bag_.writeLatched("/tf_static", toTime(start), message);
+    bag_.writeLatched(kStaticTransformTopic, toTime(start), message);
   }
 
   void recordContact() {
@@ -112,7 +113,7 @@ class Recording {
     tf2_msgs::TFMessage transform;
     transform.transforms.push_back(toTransform(odometry.pose.pose, stamp, "odom", "base_link"));
     write("/odometry", stamp, toMessage(odometry, stamp));
-    write("/tf", stamp, transform);
+    write(kTransformTopic, stamp, transform);
   }
 
   void recordHostSensors(double time, Stamp stamp) {

@@ -7,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -127,7 +128,7 @@ std::optional<geometry_msgs::TransformStamped> CloudToScanStage::newMount(
 }
 
 void CloudToScanStage::connect(StagePorts& ports) {
-  const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
+  const auto mounts = ports.out<tf2_msgs::TFMessage>(kStaticTransformTopic, true);
   const auto scans = ports.out<sensor_msgs::LaserScan>("scan");
   ports.in<sensor_msgs::PointCloud2>("cloud", [=](const auto& cloud, Stamp /*now*/) {
     const auto output = handleCloud(*cloud);

@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -238,7 +239,7 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
 }
 
 void GridSlamStage::connect(StagePorts& ports) {
-  const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
+  const auto transforms = ports.out<tf2_msgs::TFMessage>(kTransformTopic);
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
   const auto local_pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose/local");
   const auto localization = ports.out<LocalizationState>("localization");

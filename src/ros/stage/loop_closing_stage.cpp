@@ -10,6 +10,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/map_files.h"
 #include "datmo_fusion/ros/stage/map_saving.h"
+#include "datmo_fusion/ros/transform_topics.h"
 
 namespace datmo {
 
@@ -218,7 +219,7 @@ std::string LoopClosingStage::saveMap(const std::string& file) const {
 }
 
 void LoopClosingStage::connect(StagePorts& ports) {
-  const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
+  const auto transforms = ports.out<tf2_msgs::TFMessage>(kTransformTopic);
   trajectories_ = ports.out<nav_msgs::Path>("trajectory/optimized", true);
   maps_ = ports.out<nav_msgs::OccupancyGrid>("map/optimized", true);
   ports.service<datmo_fusion::SaveMap>("save_map", [this](const auto& request) {

@@ -12,6 +12,7 @@
 #include "datmo_fusion/fusion/sync/relative_motion.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/ros/transform_topics.h"
 #include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
@@ -196,7 +197,7 @@ std::optional<geometry_msgs::TransformStamped> ScanMergeStage::takeMount() {
 }
 
 void ScanMergeStage::connect(StagePorts& ports) {
-  mounts_ = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
+  mounts_ = ports.out<tf2_msgs::TFMessage>(kStaticTransformTopic, true);
   scans_ = ports.out<sensor_msgs::LaserScan>("scan");
   connectMotion(ports, options_.motion, *this);
   for (const std::string& source : options_.sourcesInUse()) {

@@ -8,6 +8,7 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/transform_topics.h"
 #include "datmo_fusion/slam/static_scan.h"
 
 namespace datmo {
@@ -109,7 +110,7 @@ tf2_msgs::TFMessageConstPtr StaticPointsStage::newMount(const LabeledScan& scan,
 }
 
 void StaticPointsStage::connect(StagePorts& ports) {
-  const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
+  const auto mounts = ports.out<tf2_msgs::TFMessage>(kStaticTransformTopic, true);
   const auto points = ports.out<sensor_msgs::PointCloud2>("static_points");
   const auto scans = ports.out<sensor_msgs::LaserScan>("static_scan");
   ports.in<LabeledScanMessage>("labeled_scan", [=](const auto& labeled_scan, Stamp /*now*/) {
