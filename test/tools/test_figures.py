@@ -120,7 +120,7 @@ class MapFigures(unittest.TestCase):
 
     def test_every_fifth_parked_vehicle_is_gone(self):
         def row(kinds, **rest):
-            return {"kinds": kinds, "from": 0.0, "to": 18.0, "spacing": 6.0, **rest}  # indices 0 to 3
+            return {"kinds": kinds, "from": 0.0, "to": 18.0, "spacing": 6.0, **rest}  # places 0 to 3
 
         scene = {"speed": 8, "rows": [row(["car"], leave_out=[1]), row(["tree"]), row(["van", "car"])]}
         changed = maps.without_parked(scene)

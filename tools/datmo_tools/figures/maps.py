@@ -122,11 +122,11 @@ def _changes(bench, folder):
 
 def without_parked(scene):
     """Returns a scene (dict, as in its yaml file) without every EVERY-th parked car or van."""
-    parked = [(row, index) for row in scene["rows"] if PARKED & set(row["kinds"])
-              for index in range(int((row["to"] - row["from"]) / row["spacing"]) + 1)
-              if index not in row.get("leave_out", [])]  # fmt: skip
+    parked = [(row, place) for row in scene["rows"] if PARKED & set(row["kinds"])
+              for place in range(int((row["to"] - row["from"]) / row["spacing"]) + 1)
+              if place not in row.get("leave_out", [])]  # fmt: skip
     gone = parked[EVERY - 1 :: EVERY]
     rows = [{**row, "leave_out": [*row.get("leave_out", []),
-                                  *(index for other, index in gone if other is row)]}
+                                  *(place for other, place in gone if other is row)]}
             for row in scene["rows"]]  # fmt: skip
     return {**scene, "rows": rows}
