@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Overload of the nodelets, in real time: three times the sensors' rates, clouds of all pixels and
 // lists of 500 objects; then their process is stopped for long enough to fill each queue.
-// Everything that is not processed is counted, memory is bounded, and all is as before when the
-// load has ended. The speed of this computer decides how much is dropped; no check depends on it.
+// Everything that is not processed is counted, memory is bounded, and when the load has ended, new
+// scans lead to tracks again, without most of those that have waited. The speed of this computer
+// decides how much is dropped and how long that takes, in seconds; no check depends on it.
+//
+// In simulated time, as here, nothing is too old for a stage (arrivedOf()): what waits for too long
+// is lost in full queues. ArrivedTest checks the age of live messages.
 //
 // Parameters: ~seconds of load, ~nominal_seconds before it, ~objects in a list, ~out: a JSON file
 // for the measurements.
@@ -11,6 +15,7 @@
 #include <cstddef>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,7 +33,8 @@ constexpr std::size_t kDeepestQueue = 200;  // messages, that of the odometry
 constexpr double kStandstill = 2.0;         // s, at least
 constexpr double kMaxStandstill = 120.0;    // s, for more than the deepest queue has room for
 
-constexpr double kAfter = 6.0;               // s, with the load gone
+constexpr double kAfter = 6.0;       // s, with the load gone
+constexpr double kMaxOverdue = 0.5;  // 1; of the scans of a standstill, those processed after it
 constexpr double kMaxMemoryGrowth = 1000.0;  // MiB: full queues of clouds and lists, several times
 
 /// A stage and the sent topics that it subscribes to, as its diagnostics call them.
@@ -71,6 +77,17 @@ class LoadTest : public testing::Test {
     return sum;
   }
 
+  /// Stops the process until no queue has room for what is sent meanwhile; returns whether that
+  /// happened.
+  bool stopProcess(const PacedRates& load) {
+    const pid_t process = processOf("/perception");
+    if (process <= 0 || kill(process, SIGSTOP) != 0) {
+      return false;
+    }
+    const bool overflowed = standStill(load);
+    return kill(process, SIGCONT) == 0 && overflowed;
+  }
+
   /// Sends until no queue can have room for all messages, however slow this machine is.
   bool standStill(const PacedRates& load) {
     drive_.run(kStandstill, load);
@@ -101,6 +118,16 @@ class LoadTest : public testing::Test {
     }
     std::sort(found.begin(), found.end());
     return found;
+  }
+
+  /// Returns the number of lists of tracks of scans that were measured between two times.
+  std::size_t listsOfScans(double from, double to) const {
+    const auto& lists = drive_.received();
+    return static_cast<std::size_t>(
+        std::count_if(lists.begin(), lists.end(), [&](const PacedDrive::Received& list) {
+          const double measured = list.at - list.latency;
+          return measured >= from && measured < to;
+        }));
   }
 
   static double quantileOf(const std::vector<double>& sorted, double share) {
@@ -198,17 +225,18 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   const double loaded = drive_.now();
   drive_.run(parameter("~seconds", 3.0), load);
   const double still = drive_.now();
-  const pid_t process = processOf("/perception");
-  ASSERT_GT(process, 0);
-  ASSERT_EQ(kill(process, SIGSTOP), 0);
-  const bool overflowed = standStill(load);
-  ASSERT_EQ(kill(process, SIGCONT), 0);
-  EXPECT_TRUE(overflowed);
+  const std::size_t scans = drive_.sent("scan");
+  ASSERT_TRUE(stopProcess(load));
   const double unloaded = drive_.now();
+  const std::size_t waiting = drive_.sent("scan") - scans;
   drive_.run(kAfter, kNominal);
   const double end = drive_.now();
-  EXPECT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at > end; }))
-      << "no tracks any more";
+  EXPECT_TRUE(drive_.run(120.0, kNominal, [&] {
+    return listsOfScans(end, std::numeric_limits<double>::infinity()) > 0;
+  })) << "no tracks of new scans any more";
+  const std::size_t overdue = listsOfScans(still, unloaded);
+  EXPECT_LT(static_cast<double>(overdue), kMaxOverdue * static_cast<double>(waiting))
+      << "newer scans come first";
 
   // Sends nothing more, so that the diagnostics catch up.
   EXPECT_TRUE(drive_.run(120.0, {}, [this] {
@@ -230,6 +258,8 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
       {"load_s", still - loaded},
       {"still_s", unloaded - still},
       {"objects", load.objects},
+      {"waiting_scans", waiting},
+      {"overdue_lists", overdue},
       {"recovered_s", recovery(unloaded, quantileOf(before, 0.99))},
       {"memory_mib",
        {maxMemory(0.0, loaded), maxMemory(loaded, end), drive_.memory().back().resident}},
