@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "datmo_fusion/ros/checkpoint_file.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::outage_test {
@@ -40,6 +41,16 @@ const std::vector<std::string> kNodelets{
 
 class OutageTest : public testing::Test {
  protected:
+  /// Leaves no checkpoint behind. grid_slam writes one more when it ends; without scans, as after
+  /// this, it writes none.
+  ~OutageTest() override {
+    std::string file;
+    unloadNodelet("grid_slam");
+    if (ros::param::get("/grid_slam/checkpoint/file", file)) {
+      removeCheckpoint(file);
+    }
+  }
+
   /// Returns whether there are tracks of a scan that was measured after a time (s).
   bool hasTracksOf(double time) const {
     const auto& lists = drive_.received();
