@@ -67,6 +67,9 @@ bool Listener::waitFor(const std::function<bool()>& condition, double max_second
 }
 
 void Listener::setClock(const ros::Time& now) {
+  if (!ros::Time::isSimTime()) {
+    return;
+  }
   rosgraph_msgs::Clock clock;
   clock.clock = now;
   clock_.publish(clock);
@@ -152,8 +155,9 @@ double askForNumber(const std::string& nodelet, const std::string& option, doubl
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Chain::Chain()
-    : scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
+Chain::Chain(const World& world)
+    : world_(world),
+      scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
       odometry_(node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
       tf_(node_.advertise<tf2_msgs::TFMessage>("/tf", kQueue)),
       tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {}
@@ -195,7 +199,7 @@ bool Chain::step(double seconds) {
 
 const TrackMessage* Chain::otherCarIn(const TrackArray& list) const {
   constexpr double kNear = 1.5;  // m
-  const Box2 truth = world_.otherCar(list.header.stamp.toSec() - World::kStart);
+  const Box2 truth = world_.otherCar(list.header.stamp.toSec() - world_.start());
   const auto found =
       std::find_if(list.tracks.begin(), list.tracks.end(), [&](const TrackMessage& track) {
         return truth.distanceTo({track.pose.position.x, track.pose.position.y}) < kNear;
@@ -213,8 +217,9 @@ bool Chain::drive(double from, double to) {
   return true;
 }
 
-StereoChain::StereoChain()
-    : cloud_(node_.advertise<sensor_msgs::PointCloud2>("stereo/points2", kQueue)),
+StereoChain::StereoChain(const World& world)
+    : Chain(world),
+      cloud_(node_.advertise<sensor_msgs::PointCloud2>("stereo/points2", kQueue)),
       camera_info_(
           node_.advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info", kQueue, true)) {}
 

@@ -30,8 +30,9 @@ class Listener {
   /// time: far more than a busy machine needs.
   bool waitFor(const std::function<bool()>& condition, double max_seconds = 120.0);
 
-  /// Sets the ROS time of all. If it jumps, waits until the nodelets have it (by their
-  /// diagnostics): a message that overtakes the clock counts as stray and is dropped.
+  /// Sets the ROS time of all, unless that is the computer's. If it jumps, waits until the nodelets
+  /// have it (by their diagnostics): a message that overtakes the clock counts as stray and is
+  /// dropped.
   void setClock(const ros::Time& now);
 
   /// Waits until the three nodelets are connected with this test, and have reported.
@@ -78,7 +79,7 @@ double askForNumber(const std::string& nodelet, const std::string& option, doubl
 /// Sends the nodelets a drive through a World, with the clock.
 class Chain : public Listener {
  public:
-  Chain();
+  explicit Chain(const World& world = World());
 
   /// Waits until the nodelets are subscribed to this test, too.
   bool waitForNodelets();
@@ -89,7 +90,7 @@ class Chain : public Listener {
   /// overtake its odometry, and before the first scan there is no older odometry.
   bool prepareMotion(double seconds);
 
-  void setClock(double seconds) { Listener::setClock(ros::Time(World::kStart + seconds)); }
+  void setClock(double seconds) { Listener::setClock(ros::Time(world_.start() + seconds)); }
 
   /// Sends clock, tf and odometry of a time of the drive.
   void sendMotion(double seconds);
@@ -106,6 +107,12 @@ class Chain : public Listener {
   /// through.
   bool drive(double from, double to);
 
+ protected:
+  const World& world() const { return world_; }
+
+  /// What is sent from now on comes from another one.
+  void enter(const World& world) { world_ = world; }
+
  private:
   ros::NodeHandle node_;
   World world_;
@@ -118,7 +125,7 @@ class Chain : public Listener {
 /// The same with the stereo camera.
 class StereoChain : public Chain {
  public:
-  StereoChain();
+  explicit StereoChain(const World& world = World());
 
   /// Waits until the nodelets are subscribed, and those named here report.
   bool waitForNodelets(const std::vector<std::string>& names);

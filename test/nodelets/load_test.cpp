@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "latency_summary.h"
 #include "paced_drive.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -116,7 +117,6 @@ class LoadTest : public testing::Test {
         found.push_back(list.latency);
       }
     }
-    std::sort(found.begin(), found.end());
     return found;
   }
 
@@ -128,19 +128,6 @@ class LoadTest : public testing::Test {
           const double measured = list.at - list.latency;
           return measured >= from && measured < to;
         }));
-  }
-
-  static double quantileOf(const std::vector<double>& sorted, double share) {
-    return sorted.empty()
-               ? -1.0
-               : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  }
-
-  static nlohmann::json summary(const std::vector<double>& sorted) {
-    return {{"lists", sorted.size()},
-            {"median_s", quantileOf(sorted, 0.5)},
-            {"percentile_99_s", quantileOf(sorted, 0.99)},
-            {"worst_s", quantileOf(sorted, 1.0)}};
   }
 
   /// Returns the time (s) from the end of the load until the tracks' latency is permanently as
@@ -252,15 +239,15 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   ASSERT_FALSE(before.empty());
   EXPECT_LT(maxMemory(loaded, end), maxMemory(0.0, loaded) + kMaxMemoryGrowth);
   const nlohmann::json figures = {
-      {"nominal", summary(before)},
-      {"load", summary(latencies(loaded, still))},
-      {"after", summary(latencies(unloaded, end))},
+      {"nominal", latencySummary(before)},
+      {"load", latencySummary(latencies(loaded, still))},
+      {"after", latencySummary(latencies(unloaded, end))},
       {"load_s", still - loaded},
       {"still_s", unloaded - still},
       {"objects", load.objects},
       {"waiting_scans", waiting},
       {"overdue_lists", overdue},
-      {"recovered_s", recovery(unloaded, quantileOf(before, 0.99))},
+      {"recovered_s", recovery(unloaded, quantile(before, 0.99))},
       {"memory_mib",
        {maxMemory(0.0, loaded), maxMemory(loaded, end), drive_.memory().back().resident}},
       {"nominal_from_to_s", {begin, loaded}},

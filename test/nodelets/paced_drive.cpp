@@ -47,7 +47,7 @@ bool PacedDrive::start(const std::vector<std::string>& names) {
   objects_ = node_.advertise<ObjectArray>("objects/stereo", kPacedQueue);
   tracks_ =
       node_.subscribe<TrackArray>("tracks", kPacedQueue, [this](const TrackArrayConstPtr& list) {
-        const double stamp = list->header.stamp.toSec() - World::kStart;
+        const double stamp = list->header.stamp.toSec() - world().start();
         received_.push_back({now(), now() - stamp, list->tracks.size(), carIn(*list)});
       });
   if (!waitForNodelets(names)) {
@@ -55,11 +55,19 @@ bool PacedDrive::start(const std::vector<std::string>& names) {
   }
   sendCameraInfo();
   mountSensors();
+  begin();
   if (!prepareMotion(0.0)) {
     return false;
   }
-  start_ = ros::SteadyTime::now();
+  begin();  // some time later
   return true;
+}
+
+void PacedDrive::begin() {
+  if (!ros::Time::isSimTime()) {
+    enter(World(World::Length::kEndless, ros::Time::now().toSec()));
+  }
+  start_ = ros::SteadyTime::now();
 }
 
 bool PacedDrive::run(double seconds, const PacedRates& rates, const std::function<bool()>& until) {
@@ -93,13 +101,13 @@ void PacedDrive::sendDue(const PacedRates& rates) {
     sendMotion(now());
   }
   if (isDue("scan", rates.scans)) {
-    sendScan(endless_.scan(now()));
+    sendScan(world().scan(now()));
   }
   if (isDue("stereo/points2", rates.clouds)) {
-    sendCloud(endless_.cloud(now(), rates.pixel_step));
+    sendCloud(world().cloud(now() - rates.cloud_delay, rates.pixel_step));
   }
   if (isDue("objects/stereo", rates.object_lists)) {
-    objects_.publish(rowsOfObjects(rates.objects, Stamp::fromSeconds(World::kStart + now())));
+    objects_.publish(rowsOfObjects(rates.objects, Stamp::fromSeconds(world().start() + now())));
   }
   if (memory_.empty() || now() - memory_.back().at > kMemoryPeriod) {
     sampleMemory();
@@ -118,7 +126,7 @@ void PacedDrive::sampleMemory() {
 /// the vehicle is.
 std::uint32_t PacedDrive::carIn(const TrackArray& list) const {
   constexpr double kNear = 1.5;  // m
-  const double seconds = list.header.stamp.toSec() - World::kStart;
+  const double seconds = list.header.stamp.toSec() - world().start();
   const auto pose = std::find_if(poses.rbegin(), poses.rend(), [&](const auto& each) {
     return each->header.stamp == list.header.stamp;
   });
@@ -126,7 +134,7 @@ std::uint32_t PacedDrive::carIn(const TrackArray& list) const {
     return 0;
   }
   const Point2 in_base =
-      endless_.baseInMap(seconds).inverse() * endless_.otherCar(seconds).center.position();
+      world().baseInMap(seconds).inverse() * world().otherCar(seconds).center.position();
   const Point2 truth = fromMessage((*pose)->pose.pose) * in_base;
   for (const TrackMessage& track : list.tracks) {
     if ((truth - Point2(track.pose.position.x, track.pose.position.y)).norm() < kNear) {

@@ -20,10 +20,12 @@ struct PacedRates {
   int pixel_step = World::kPixelStep;  ///< 1: a point for each pixel
   double object_lists = 0.0;           ///< as of a stereo camera
   int objects = 0;                     ///< in each list
+  double cloud_delay = 0.0;            ///< s, from the exposure until the cloud is sent
 };
 
 /// A drive through an endless World in real time, whether the nodelets keep up or not; records when
-/// which output arrives, and the resources of their process.
+/// which output arrives, and the resources of their process. Without simulated time, stamps are the
+/// computer's time.
 class PacedDrive : public StereoChain {
  public:
   /// A list of tracks: its latency on arrival.
@@ -37,6 +39,8 @@ class PacedDrive : public StereoChain {
     double at = 0.0;        ///< s, since the start
     double resident = 0.0;  ///< MiB
   };
+
+  PacedDrive() : StereoChain(World(World::Length::kEndless)) {}
 
   /// Waits until the nodelets are subscribed, and those named here report; then starts the clock.
   bool start(const std::vector<std::string>& names);
@@ -56,6 +60,7 @@ class PacedDrive : public StereoChain {
   const std::vector<Memory>& memory() const { return memory_; }
 
  private:
+  void begin();
   /// Returns whether a message with this rate is due; counts it.
   bool isDue(const std::string& topic, double rate);
   void sendDue(const PacedRates& rates);
@@ -64,7 +69,6 @@ class PacedDrive : public StereoChain {
   std::uint32_t carIn(const TrackArray& list) const;
 
   ros::NodeHandle node_;
-  World endless_{World::Length::kEndless};
   ros::Publisher objects_;
   ros::Subscriber tracks_;
   ros::SteadyTime start_;

@@ -18,7 +18,7 @@ constexpr double kDriftSpeed = 4.0;     // m/s
 constexpr double kHalfWidth = 12.0;     // m, of the street
 constexpr double kPillarSpacing = 6.0;  // m
 constexpr double kScannerAhead = 3.6;   // m
-constexpr int kBeams = 161;
+constexpr Sweep kSweep{-80.0, 1.0, 161, 0.0};
 constexpr float kMaxRange = 60.0F;  // m
 
 constexpr double kHeightOfThings = 2.0;  // m
@@ -32,8 +32,6 @@ constexpr double kBaseline = 0.3;       // m
 constexpr int kColumns = 512;
 constexpr int kRows = 384;
 
-Stamp stampAt(double seconds) { return Stamp::fromSeconds(World::kStart + seconds); }
-
 /// Returns the distance along the ray to the segment from `a` to `b`; infinite if it is not hit.
 double rangeTo(const Point2& a, const Point2& b, const Pose2& ray) {
   const Point2 from = ray.inverse() * a;
@@ -46,9 +44,9 @@ double rangeTo(const Point2& a, const Point2& b, const Pose2& ray) {
 }
 
 /// Three numbers per point.
-sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double seconds) {
+sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, Stamp stamp) {
   sensor_msgs::PointCloud2 message;
-  message.header.stamp = toTime(stampAt(seconds));
+  message.header.stamp = toTime(stamp);
   message.header.frame_id = "camera";
   message.fields = floatFields({"x", "y", "z"});
   message.point_step = 12;
@@ -91,26 +89,35 @@ std::vector<Box2> World::thingsAt(double seconds) const {
   std::vector<Box2> boxes = length_ == Length::kEndless
                                 ? standingThings(x, x - kAround, x + kAround + kPillarSpacing)
                                 : standingThings(50.0, -60.0, 160.0);
-  boxes.push_back(otherCar(seconds));
+  boxes.push_back(otherCar(seconds));  // the only one that moves
   return boxes;
 }
 
 sensor_msgs::LaserScan World::scan(double seconds) const {
-  const std::vector<Box2> boxes = thingsAt(seconds);
   sensor_msgs::LaserScan message;
   message.header.stamp = toTime(stampAt(seconds));
   message.header.frame_id = "scanner";
-  message.angle_min = static_cast<float>(degrees(-80.0));
-  message.angle_max = static_cast<float>(degrees(80.0));
-  message.angle_increment = static_cast<float>(degrees(1.0));
+  message.angle_min = static_cast<float>(degrees(kSweep.first_bearing));
+  message.angle_max = static_cast<float>(degrees(-kSweep.first_bearing));
+  message.angle_increment = static_cast<float>(degrees(kSweep.beam_spacing));
   message.range_min = 0.5F;
   message.range_max = kMaxRange;
-  const Pose2 scanner = baseInMap(seconds) * Pose2(kScannerAhead, 0.0, 0.0);
-  for (int beam = 0; beam < kBeams; ++beam) {
-    const auto range = static_cast<float>(rangeAlong(scanner, degrees(beam - 80.0), boxes));
-    message.ranges.push_back(range < kMaxRange ? range : std::numeric_limits<float>::infinity());
-  }
+  message.ranges = ranges(seconds, kSweep);
   return message;
+}
+
+std::vector<float> World::ranges(double seconds, const Sweep& sweep) const {
+  std::vector<Box2> boxes = thingsAt(seconds);
+  std::vector<float> found;
+  for (int beam = 0; beam < sweep.beams; ++beam) {
+    const double now = seconds + sweep.beam_time * beam;
+    const double bearing = degrees(sweep.first_bearing + sweep.beam_spacing * beam);
+    const Pose2 scanner = baseInMap(now) * Pose2(kScannerAhead, 0.0, 0.0);
+    boxes.back() = otherCar(now);
+    const auto range = static_cast<float>(rangeAlong(scanner, bearing, boxes));
+    found.push_back(range < kMaxRange ? range : std::numeric_limits<float>::infinity());
+  }
+  return found;
 }
 
 nav_msgs::Odometry World::odometry(double seconds) const {
@@ -182,7 +189,7 @@ sensor_msgs::PointCloud2 World::cloud(double seconds, int pixel_step) const {
       }
     }
   }
-  return cloudOf(numbers, seconds);
+  return cloudOf(numbers, stampAt(seconds));
 }
 
 double World::rangeAlong(const Pose2& scanner, double bearing,

@@ -6,6 +6,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -63,6 +64,8 @@ void FakeServer::accept() {
     throw std::runtime_error("nobody connects to the fake device");
   }
   bePatient(client_);
+  const int on = 1;  // otherwise a measurement may wait until the previous one is acknowledged
+  setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
 bool FakeServer::receiveMore() {

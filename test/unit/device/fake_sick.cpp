@@ -61,8 +61,8 @@ ColaTelegram SickTelegram::in(ColaDialect dialect) const {
   fields.add(1, 2).add(1, 2).add(0xA037B9, 4).add(0, 1).add(state, 1);
   fields.add(counter + 7U, 2).add(counter, 2).add(begun, 4).add(sent, 4);
   fields.add(0, 1).add(0, 1).add(7, 1).add(0, 1).add(0, 2);
-  fields.add(2500, 4).add(360, 4);  // of scans and beams
-  fields.add(0, 2);                 // encoders
+  fields.add(frequency, 4).add(360, 4);  // of scans and beams
+  fields.add(0, 2);                      // encoders
   fields.add(intensities.empty() ? 1 : 2, 2).addChannel("DIST1", factor, first_angle, ranges);
   if (!intensities.empty()) {
     fields.addChannel("RSSI1", 0x3F800000, first_angle, intensities);

@@ -14,9 +14,10 @@ namespace datmo::samples {
 /// Contents of a scan telegram of the fake scanner.
 struct SickTelegram {
   std::uint16_t counter = 1;
-  std::uint32_t begun = 1000000;  ///< us
-  std::uint32_t sent = 1020000;   ///< us
-  std::uint8_t state = 0;         ///< the second half of the device's status
+  std::uint32_t begun = 1000000;   ///< us
+  std::uint32_t sent = 1020000;    ///< us
+  std::uint32_t frequency = 2500;  ///< 0.01 Hz
+  std::uint8_t state = 0;          ///< the second half of the device's status
   std::uint32_t factor = 0x3F800000;
   std::uint32_t first_angle = 0xFFF92230;  ///< -45 deg
   std::vector<std::uint32_t> ranges{1000, 0, 3, 4000};
