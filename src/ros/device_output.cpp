@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/device_output.h"
 
+#include <utility>
 #include <variant>
 
 #include "datmo_fusion/ros/convert/device_conversion.h"
@@ -22,17 +23,17 @@ DeviceOutput::DeviceOutput(ros::NodeHandle& node, const DeviceOptions& options)
   switch (options.device.kind) {
     case DeviceKind::kHokuyo:
     case DeviceKind::kSickLms:
-      output_ = node.advertise<sensor_msgs::LaserScan>("scan", queue);
+      output_ = NumberedPublisher(node.advertise<sensor_msgs::LaserScan>("scan", queue));
       break;
     case DeviceKind::kVelodyne:
-      output_ = node.advertise<sensor_msgs::PointCloud2>("points", queue);
+      output_ = NumberedPublisher(node.advertise<sensor_msgs::PointCloud2>("points", queue));
       break;
     case DeviceKind::kNmea:
-      output_ = node.advertise<sensor_msgs::NavSatFix>("gnss", queue);
-      velocities_ = node.advertise<geometry_msgs::TwistStamped>("twist", queue);
+      output_ = NumberedPublisher(node.advertise<sensor_msgs::NavSatFix>("gnss", queue));
+      velocities_ = NumberedPublisher(node.advertise<geometry_msgs::TwistStamped>("twist", queue));
       break;
     case DeviceKind::kCan:
-      output_ = node.advertise<geometry_msgs::TwistStamped>("twist", queue);
+      output_ = NumberedPublisher(node.advertise<geometry_msgs::TwistStamped>("twist", queue));
       advertiseHostSensors(node, options.device.can);
       break;
   }
@@ -40,19 +41,19 @@ DeviceOutput::DeviceOutput(ros::NodeHandle& node, const DeviceOptions& options)
 
 void DeviceOutput::advertiseHostSensors(ros::NodeHandle& node, const CanOptions& can) {
   if (can.publishesSteering()) {
-    steering_ = node.advertise<sensor_msgs::JointState>("steering", kCanQueue);
+    steering_ = NumberedPublisher(node.advertise<sensor_msgs::JointState>("steering", kCanQueue));
   }
   if (!can.acceleration.empty()) {
-    acceleration_ =
-        node.advertise<geometry_msgs::AccelWithCovarianceStamped>("acceleration", kCanQueue);
+    acceleration_ = NumberedPublisher(
+        node.advertise<geometry_msgs::AccelWithCovarianceStamped>("acceleration", kCanQueue));
   }
 }
 
 std::vector<std::string> DeviceOutput::topics() const {
   std::vector<std::string> topics;
-  for (const ros::Publisher* each : {&output_, &velocities_, &steering_, &acceleration_}) {
-    if (*each) {
-      topics.push_back(each->getTopic());
+  for (const NumberedPublisher* each : {&output_, &velocities_, &steering_, &acceleration_}) {
+    if (std::string topic = each->topic(); !topic.empty()) {
+      topics.push_back(std::move(topic));
     }
   }
   return topics;
@@ -62,20 +63,20 @@ std::uint32_t DeviceOutput::queueSize(DeviceKind kind) {
   return kind == DeviceKind::kCan ? kCanQueue : kQueue;
 }
 
-void DeviceOutput::publish(const DeviceMeasurement& measurement) const {
+void DeviceOutput::publish(const DeviceMeasurement& measurement) {
   std::visit([&](const auto& data) { publish(data, measurement.stamp); }, measurement.data);
 }
 
 template <typename Data>
-void DeviceOutput::publish(const Data& data, Stamp stamp) const {
+void DeviceOutput::publish(const Data& data, Stamp stamp) {
   output_.publish(toMessage(data, stamp, frame_));
 }
 
-void DeviceOutput::publish(const GroundVelocity& velocity, Stamp stamp) const {
+void DeviceOutput::publish(const GroundVelocity& velocity, Stamp stamp) {
   velocities_.publish(toMessage(velocity, stamp, frame_));
 }
 
-void DeviceOutput::publish(const VehicleTwist& twist, Stamp stamp) const {
+void DeviceOutput::publish(const VehicleTwist& twist, Stamp stamp) {
   output_.publish(toMessage(twist, stamp, frame_));
   if (twist.steering) {
     steering_.publish(toSteering(twist.steering->value, twist.steering->stamp));

@@ -76,7 +76,7 @@ class DeviceOutputTest : public testing::Test {
 
 TEST_F(DeviceOutputTest, AScannersScans) {
   for (const DeviceKind kind : {DeviceKind::kHokuyo, DeviceKind::kSickLms}) {
-    const DeviceOutput output = outputOf(kind);
+    DeviceOutput output = outputOf(kind);
     EXPECT_EQ(output.topics(), Topics{"/mast_device/scan"});
     const Kept<sensor_msgs::LaserScan> scans(node_, "scan");
     DeviceScan scan;
@@ -88,8 +88,19 @@ TEST_F(DeviceOutputTest, AScannersScans) {
   }
 }
 
+/// ROS numbers only what goes through a connection.
+TEST_F(DeviceOutputTest, MessagesAreNumberedForNodeletsOfTheSameProcess) {
+  DeviceOutput output = outputOf(DeviceKind::kSickLms);
+  const Kept<sensor_msgs::LaserScan> scans(node_, "scan");
+  for (std::uint32_t number = 1; number <= 3; ++number) {
+    output.publish(measured(DeviceScan()));
+    ASSERT_TRUE(listener_.waitFor([&] { return scans.messages.size() == number; }));
+    EXPECT_EQ(scans.messages.back()->header.seq, number);
+  }
+}
+
 TEST_F(DeviceOutputTest, ALidarsTurns) {
-  const DeviceOutput output = outputOf(DeviceKind::kVelodyne);
+  DeviceOutput output = outputOf(DeviceKind::kVelodyne);
   EXPECT_EQ(output.topics(), Topics{"/mast_device/points"});
   const Kept<sensor_msgs::PointCloud2> clouds(node_, "points");
   output.publish(measured(DeviceCloud{{CloudPoint(), CloudPoint()}}));
@@ -99,7 +110,7 @@ TEST_F(DeviceOutputTest, ALidarsTurns) {
 }
 
 TEST_F(DeviceOutputTest, AReceiversPositionsAndVelocitiesAreOnTheirOwnTopics) {
-  const DeviceOutput output = outputOf(DeviceKind::kNmea);
+  DeviceOutput output = outputOf(DeviceKind::kNmea);
   EXPECT_EQ(output.topics(), (Topics{"/mast_device/gnss", "/mast_device/twist"}));
   const Kept<sensor_msgs::NavSatFix> fixes(node_, "gnss");
   const Kept<geometry_msgs::TwistStamped> velocities(node_, "twist");
@@ -131,7 +142,7 @@ TEST_F(DeviceOutputTest, ABusHasTheTopicsOfItsSignals) {
 TEST_F(DeviceOutputTest, SteeringAndAccelerationOfABusFollowOnlyIfTheyAreNew) {
   options_.device.can.steering = "a signal";
   options_.device.can.acceleration = "another one";
-  const DeviceOutput output = outputOf(DeviceKind::kCan);
+  DeviceOutput output = outputOf(DeviceKind::kCan);
   const Kept<geometry_msgs::TwistStamped> twists(node_, "twist");
   const Kept<sensor_msgs::JointState> angles(node_, "steering");
   const Kept<geometry_msgs::AccelWithCovarianceStamped> accelerations(node_, "acceleration");

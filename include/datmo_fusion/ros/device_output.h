@@ -3,15 +3,40 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <boost/shared_ptr.hpp>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
 #include "datmo_fusion/device/device_data.h"
 #include "datmo_fusion/ros/device_options.h"
+#include "datmo_fusion/ros/stage/arrival_check.h"
 
 namespace datmo {
+
+/// Publishes numbered messages, so that a stage in the same process notices those that its queue
+/// has lost.
+class NumberedPublisher {
+ public:
+  NumberedPublisher() = default;
+  explicit NumberedPublisher(ros::Publisher publisher) : publisher_(std::move(publisher)) {}
+
+  template <typename Message>
+  void publish(const boost::shared_ptr<Message>& message) {
+    setSequence(*message, ++sequence_);
+    publisher_.publish(message);
+  }
+
+  /// Full name; empty if nothing is advertised.
+  std::string topic() const { return publisher_ ? publisher_.getTopic() : ""; }
+
+ private:
+  ros::Publisher publisher_;
+  std::uint32_t sequence_ = 0;
+};
 
 /// Publishes a device's measurements as messages, on the topics of its kind: `scan`, `points`,
 /// `gnss` and `twist`, or `twist` and what else a bus measures of the host.
@@ -23,7 +48,7 @@ class DeviceOutput {
   /// Full names of the topics.
   std::vector<std::string> topics() const;
 
-  void publish(const DeviceMeasurement& measurement) const;
+  void publish(const DeviceMeasurement& measurement);
 
   /// Maximum number of measurements of this kind of device that wait for publication: at least a
   /// tenth of a second for scanners (10 Hz to 100 Hz) and receivers, a second for a bus at 100 Hz.
@@ -34,15 +59,15 @@ class DeviceOutput {
   void advertiseHostSensors(ros::NodeHandle& node, const CanOptions& can);
 
   template <typename Data>
-  void publish(const Data& data, Stamp stamp) const;
-  void publish(const GroundVelocity& velocity, Stamp stamp) const;
-  void publish(const VehicleTwist& twist, Stamp stamp) const;
+  void publish(const Data& data, Stamp stamp);
+  void publish(const GroundVelocity& velocity, Stamp stamp);
+  void publish(const VehicleTwist& twist, Stamp stamp);
 
   std::string frame_;
-  ros::Publisher output_;
-  ros::Publisher velocities_;    ///< only of a satellite receiver
-  ros::Publisher steering_;      ///< only of a bus
-  ros::Publisher acceleration_;  ///< the same
+  NumberedPublisher output_;
+  NumberedPublisher velocities_;    ///< only of a satellite receiver
+  NumberedPublisher steering_;      ///< only of a bus
+  NumberedPublisher acceleration_;  ///< the same
 };
 
 }  // namespace datmo
