@@ -123,11 +123,13 @@ class EarlierSteps(Checkout):
         self.results["steps"]["risk"]["confirmed"] = {"commit": self.commit(), "job": "a"}
         self.assertEqual(self.kept(commit_of(self.folder)), ["risk"])
 
-    def test_others_may_be_sampled_unless_their_figures_are_made_in_another_way(self):
+    def test_a_change_of_code_may_be_sampled_others_not(self):
         self.write(**{TRACKER: "2"})
         self.assertEqual(list(self.earlier(self.commit()).affected), ["slam", "risk", "speed"])
         self.write(**{"tools/datmo_tools/figures/risk.py": "1"})
         self.assertEqual(list(self.earlier(self.commit()).affected), ["slam", "speed"])
+        self.write(**{"tools/datmo_tools/spread.py": "1", "rosbag_fixtures/scenes/yard.yaml": "1"})
+        self.assertEqual(self.earlier(self.commit()), Earlier())
 
     def test_a_change_that_was_taken_back_has_no_effect(self):
         for text in ("2", "1"):

@@ -185,7 +185,8 @@ class Sampled(Steps):
 
     def test_each_job_is_drawn_at_some_commit(self):
         record = self.store.results([self.several])["steps"]["several"]
-        self.assertEqual({sample.drawn(record, f"{i:08x}") for i in range(50)}, {"a", "b", "c"})
+        names = {"a", "b", "c"}
+        self.assertEqual({sample.drawn(record, f"{i:08x}", names) for i in range(50)}, names)
 
     def test_a_job_that_fails_is_no_confirmation(self):
         self.next_run("89abcdef", affected=[self.several])
@@ -203,9 +204,17 @@ class Sampled(Steps):
                 self.runs.clear()
                 self.run_all(step)
                 self.assertEqual(sorted(self.runs), ["a", "b", "c"])
-        for name, records in {"of an older file": {key: value for key, value in record.items() if key != "jobs"},
-                              "a single job": {**record, "jobs": {"a": record["jobs"]["a"]}}}.items():  # fmt: skip
-            self.assertIsNone(sample.drawn(records, "89abcdef"), name)
+        older = {key: value for key, value in record.items() if key != "jobs"}
+        single = {**record, "jobs": {"a": record["jobs"]["a"]}}
+        for of, names in ((older, {"a", "b", "c"}), (single, {"a"}), (record, {"a", "b"})):
+            self.assertIsNone(sample.drawn(of, "89abcdef", names))
+
+    def test_a_run_that_leaves_it_out_does_not_lose_its_record(self):
+        self.next_run("89abcdef", affected=[self.several])
+        self.assertIsNone(self.store.results([self.several]))
+        self.next_run("89abcdef")
+        self.run_all(self.several)
+        self.assertEqual(len(self.runs), 1)
 
     def test_a_step_to_be_repeated_is_not_sampled(self):
         self.next_run("89abcdef", affected=[self.several])

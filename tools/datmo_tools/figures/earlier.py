@@ -8,15 +8,16 @@ from datmo_tools.figures import results_file
 from datmo_tools.figures.commits import CHANGED, changed_files
 from datmo_tools.figures.effects import can_affect
 
-# What also makes the figures from the results of the jobs, which a sample of the jobs does not check.
-FROM_JOBS = "tools/datmo_tools/figures/"
+# Of the files that a sample of the jobs is enough for. Tools in Python also make the figures from the
+# results of the jobs, which a sample does not check, and a scene or a recording concerns some jobs only.
+CODE = (".cpp", ".h")
 
 
 class Earlier(NamedTuple):
     """Records of steps (dict, by name), as in the file of figures."""
 
     unaffected: dict = {}  # whose figures are those of the sources, too
-    affected: dict = {}  # whose jobs a change since may have affected
+    affected: dict = {}  # that a change of C++ code since may have affected
 
 
 def earlier_steps(file, source, commit, steps):
@@ -42,6 +43,6 @@ def earlier_steps(file, source, commit, steps):
             causes = [file for file in files if can_affect(file, name)]
             if not causes:
                 unaffected[name] = record
-            elif not any(file.startswith(FROM_JOBS) for file in causes):
+            elif all(file.endswith(CODE) for file in causes):
                 affected[name] = record
     return Earlier(unaffected, affected)

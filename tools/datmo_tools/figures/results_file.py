@@ -30,8 +30,9 @@ class StepStore:
         """folder (Path): for all commits; unaffected, affected: records of steps, as in Earlier."""
         self.folder, self.commit = folder / commit, commit
         self._earlier = unaffected or {}
-        self._affected = affected or {}
         self._changed = commit.endswith(CHANGED)  # a former run may have had other changes
+        for name, record in (affected or {}).items():  # a run that leaves a step out must not lose its record
+            write_file(self.folder / "affected" / f"{name}.json", json.dumps(record))
         self._added = set()  # names of steps, by this run
 
     def forget(self, step):
@@ -49,19 +50,23 @@ class StepStore:
     def sample_of(self, step, bench):
         """Returns the job (name) whose result tells whether a step that was affected by a change has to
         run; None if it has to anyway."""
-        record = self._affected.get(step.name)
-        is_usable = (record and not step.timed and not self._file(step).is_file()
-                     and record["seeds"] == _seeds(step, bench))  # fmt: skip
-        return sample.drawn(record, self.commit) if is_usable else None
+        record = None if self._changed or self._file(step).is_file() else self._affected(step)
+        is_usable = record and not step.timed and record["seeds"] == _seeds(step, bench)
+        return sample.drawn(record, self.commit, {job.name for job in step.jobs(bench)}) if is_usable else None
 
     def confirm(self, step, job, result):
         """Keeps the step as it was measured before if this job's result is the same. Returns whether
         it is."""
-        record = self._affected[step.name]
+        record = self._affected(step)
         is_same = sample.digest(result) == record["jobs"][job]
         if is_same:
             self._write(step, {**record, "confirmed": {"commit": self.commit, "job": job}})
         return is_same
+
+    def _affected(self, step):
+        """Returns the record of a step that a change may have affected; None without one."""
+        file = self.folder / "affected" / f"{step.name}.json"
+        return read_json(file) if file.is_file() else None
 
     def of_job(self, step, name):
         """Returns what add_job() stored of a job: (result, s); None if it has to run."""
@@ -109,7 +114,7 @@ class StepStore:
             return None
         file = self._file(step)
         record = read_json(file) if file.is_file() else self._earlier.get(step.name)
-        return record if record and _counts_here(step, record) else None
+        return {"confirmed": None, **record} if record and _counts_here(step, record) else None
 
     def _write(self, step, record):
         write_file(self._file(step), json.dumps(record) + "\n")
