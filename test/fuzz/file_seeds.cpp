@@ -25,24 +25,6 @@ std::string contentOf(const fs::path& file) {
   return content.str();
 }
 
-/// A wall, and free cells before it.
-MapEvidence wall() {
-  MapEvidence evidence{0.5, {}};
-  CellHits hits;
-  hits.add({-0.05F, 0.02F}, 50.0F);
-  for (int row = -2; row < 2; ++row) {
-    evidence.cells.push_back({{8, row}, 3.0F, 2.0F, 1, 7, hits});
-    evidence.cells.push_back({{7, row}, -3.0F, 0.0F, 0, 0, {}});
-  }
-  return evidence;
-}
-
-OccupancyMapOptions smallMap() {
-  OccupancyMapOptions options;
-  options.window = {40.0, 40.0, 0.5};
-  return options;
-}
-
 /// The fields in a checkpoint's header.
 std::string checkpointFields(const fs::path& file) {
   Checkpoint checkpoint;
@@ -93,9 +75,9 @@ constexpr char kDatabase[] =
 std::vector<FileSeed> fileSeeds() {
   std::string name = (fs::temp_directory_path() / "fuzz_seeds_XXXXXX").string();
   const fs::path folder = mkdtemp(name.data());
-  const std::string map = mapText(wall());
-  const std::size_t cells = wall().cells.size() * kMapBytesPerCell;
-  writeMap(folder / "map", OccupancyMap::restored(smallMap(), wall()));
+  const std::string map = mapText(wallEvidence());
+  const std::size_t cells = wallEvidence().cells.size() * kMapBytesPerCell;
+  writeMap(folder / "map", OccupancyMap::restored(mapOfFiles(), wallEvidence()));
   writeBag(folder / "drive.bag");
   samples::writeCapture(folder / "frames.pcap", {{1.0, 2368, "data"}});
   const std::vector<FileSeed> seeds{

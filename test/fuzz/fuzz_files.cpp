@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "file_seeds.h"
 #include "fuzz_check.h"
 #include "input_bag.h"
 #include "run_bag/sensor_set.h"
@@ -74,15 +76,9 @@ const ScratchFolder& scratch() {
   return folder;
 }
 
-OccupancyMapOptions smallMap() {
-  OccupancyMapOptions options;
-  options.window = {40.0, 40.0, 0.5};
-  return options;
-}
-
 /// A map that was read can be written, and read again.
 void checkMap(const std::string& file) {
-  const OccupancyMap map = readMap(file, smallMap());
+  const OccupancyMap map = readMap(file, mapOfFiles());
   const MapEvidence evidence = map.evidence();
   require(!evidence.cells.empty(), "a map without cells");
   std::istringstream again(mapText(evidence));
@@ -106,22 +102,20 @@ void checkMapServer(std::string_view bytes) {
   checkMap(scratch().write("map.yaml", bytes.substr(0, image)));
 }
 
-MapEvidence someCells() {
-  CellHits hits;
-  hits.add({0.0F, 0.1F}, 50.0F);
-  return {0.5, {{{8, 0}, 3.0F, 2.0F, 1, 7, hits}, {{4, 0}, -3.0F, 0.0F, 0, 0, {}}}};
-}
-
 /// The fields of a checkpoint's header: the SLAM continues from it, if it is accepted.
 void checkCheckpoint(std::string_view bytes) {
   std::ostringstream text;
   text << "datmo_fusion checkpoint 1\n"
        << bytes.size() << ' ' << checksumOf(std::string(bytes)) << '\n'
-       << bytes << mapText(someCells());
+       << bytes << mapText(wallEvidence());
   const Checkpoint checkpoint =
       readCheckpoint(scratch().write("checkpoint", text.str()), kMaxCells);
+  if (!(checkpoint.slam.pose.stamp.seconds() > 0.0 &&
+        checkpoint.slam.pose.stamp.seconds() < std::numeric_limits<std::uint32_t>::max())) {
+    return;  // of no scan of ROS: the stage finds it too old or too new
+  }
   GridSlamOptions options;
-  options.map = smallMap();
+  options.map = mapOfFiles();
   GridSlam slam(options);
   slam.continueFrom(checkpoint.slam, checkpoint.window.cells);
   Scan scan = Yard().scan(Pose2(), 0.0);

@@ -2,6 +2,7 @@
 // Writes seeds from the samples of the unit tests: fuzz_test_seeds FOLDER (test/fuzz/corpus). The
 // first byte of each but those for stages selects the decoder, as in fuzz_device.cpp,
 // fuzz_files.cpp and fuzz_wire.cpp.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -22,6 +23,7 @@ namespace datmo {
 namespace {
 
 void write(const std::string& name, const std::string& bytes) {
+  std::filesystem::create_directories(std::filesystem::path(name).parent_path());
   std::ofstream stream(name + ".bin", std::ios::binary);
   stream << bytes;
   if (!stream.flush()) {

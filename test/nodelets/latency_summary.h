@@ -9,8 +9,12 @@
 
 namespace datmo {
 
-/// Returns figures of lists of tracks by their latencies, s.
+/// Returns figures of lists of tracks by their latencies, s; those of no list are null.
 inline nlohmann::json latencySummary(const std::vector<double>& latencies) {
+  if (latencies.empty()) {
+    return {
+        {"lists", 0}, {"median_s", nullptr}, {"percentile_99_s", nullptr}, {"worst_s", nullptr}};
+  }
   return {{"lists", latencies.size()},
           {"median_s", quantile(latencies, 0.5)},
           {"percentile_99_s", quantile(latencies, 0.99)},

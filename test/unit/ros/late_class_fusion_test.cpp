@@ -21,7 +21,7 @@ constexpr double kPeriod = 0.1;   // s
 constexpr std::size_t kSteps = 30;
 constexpr double kLateBy = 0.4;         // s, as with mono:=true
 constexpr double kVehicleSpeed = 20.0;  // m/s, of ObjectFusionStageTest::odometry
-constexpr double kPassingAt = 90.0;     // m along the vehicle's way
+constexpr double kPassingAt = 90.0;     // m ahead of the vehicle's start
 constexpr double kPassingTime = 1.5;    // s after the start
 constexpr double kSpeed = 4.0;          // m/s; a class of 0.3 s ago is 1.2 m behind its object
 constexpr double kDistance = 1.5;       // m, between their lines

@@ -7,6 +7,7 @@ from pathlib import Path
 import jinja2
 
 from datmo_tools.experiments.soak import of_stack
+from datmo_tools.text_table import rounded
 
 NAME = "campaign_compared.md.jinja"
 NOT_RUN = "(not run)"
@@ -66,7 +67,8 @@ def _outages(outages):
 
 
 def _load(load):
-    times = [f"{load[key]['median_s']:.2f} s ({load[key]['percentile_99_s']:.2f} s)" for key in ("load", "nominal")]
+    times = [f"{rounded(load[key]['median_s'], 2)} s ({rounded(load[key]['percentile_99_s'], 2)} s)"
+             for key in ("load", "nominal")]  # fmt: skip
     return f"Scan to tracks, median (99 %), at three times the rates: {times[0]} instead of {times[1]}"
 
 

@@ -99,8 +99,8 @@ def _load_lines(load):
         "",
         "| | lists of tracks | median [s] | 99 % [s] | max [s] |",
         "|---|---|---|---|---|",
-        *(f"| {name} | {row['lists']} | {row['median_s']:.3f} | {row['percentile_99_s']:.3f} | {row['worst_s']:.3f} |"
-          for name, row in rows),
+        *(f"| {name} | {row['lists']} | {rounded(row['median_s'], 3)} | {rounded(row['percentile_99_s'], 3)} | "
+          f"{rounded(row['worst_s'], 3)} |" for name, row in rows),
         "",
         f"- {load['recovered_s']:.2f} s after the end of both, latency is again within twice the 99th percentile of before",
         f"- memory of the process: {before:.0f} MiB before, {most:.0f} MiB at most, {after:.0f} MiB at the end",
