@@ -110,7 +110,6 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/object/object_combination.cpp
   fusion/object/object_fuser.cpp
   fusion/object/object_intake.cpp
-  fusion/object/object_names.cpp
   fusion/object/object_sides.cpp
   fusion/object/position_covariance.cpp
   fusion/sync/relative_motion.cpp
@@ -244,6 +243,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/imm_filter.cpp
   tracking/imm_moments.cpp
   tracking/kalman_filter.cpp
+  tracking/late_classes.cpp
   tracking/motion_by_class.cpp
   tracking/motion_likelihood.cpp
   tracking/multiple_hypotheses.cpp

@@ -38,6 +38,13 @@ void EarlyTracker::addScan(const LabeledScan& scan) {
   }
 }
 
+void EarlyTracker::addClasses(const ObjectList& classes) {
+  complete_.addClasses(classes);
+  if (ahead_) {
+    ahead_->addClasses(classes);
+  }
+}
+
 TrackList EarlyTracker::process(const TrackerInput& complete) {
   TrackList tracks =
       complete_.process(complete.objects, complete.base_in_fixed, complete.visibility);

@@ -42,7 +42,8 @@ Tracker::Tracker(const Checked<TrackerOptions>& options, StepClock clock)
       clutter_(options->clutter),
       transition_priors_(options->target.filter.transitions),
       scans_(options->scans),
-      targets_(makeTargets(*options)) {}
+      targets_(makeTargets(*options)),
+      late_classes_(options->gating.gate) {}
 
 void Tracker::setOptions(const Checked<TrackerOptions>& options) { options_ = *options; }
 
@@ -62,6 +63,8 @@ TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed
   targets_->associate(scan, budget);
   removeDuplicates();
   removeLost();
+  late_classes_.note(objects.stamp, targets_->best(), scan);
+  updateClasses();
   confirm();
   learnClutter(scan, seconds);
   counts_.association = targets_->counts();
@@ -74,6 +77,18 @@ TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed
 
 TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed) {
   return process(objects, base_in_fixed, unknown_view_);
+}
+
+void Tracker::addClasses(ObjectList classes) {
+  late_classes_.add(std::move(classes));
+  updateClasses();
+}
+
+void Tracker::updateClasses() {
+  for (const TargetClass& one : late_classes_.take()) {
+    targets_->change(one.number, [&one](Target& target) { target.updateClass(one.probabilities); });
+  }
+  counts_.classes = late_classes_.counts();
 }
 
 Tracker Tracker::ahead() const {
@@ -97,6 +112,7 @@ void Tracker::reset() {
   clutter_.clear();
   transition_priors_ = TransitionPriors(options_.target.filter.transitions);
   scans_.clear();
+  late_classes_.clear();
   paths_.clear();
   stamp_.reset();
   counts_ = TrackerCounts();

@@ -19,10 +19,6 @@ namespace datmo {
 
 namespace {
 
-/// Variance factor of a reported position relative to the scanner's own: in fusion it adds only one
-/// hundredth to the scanner's information.
-constexpr double kBorrowed = 100.0;
-
 constexpr char kSensor[] = "mono";
 
 const std::array<ObjectClass, 3> kThesisClasses = {ObjectClass::kVehicle, ObjectClass::kCyclist,
@@ -70,7 +66,8 @@ std::optional<ImageRegion> rectangleOf(const MountedCamera& camera, const Point2
 }  // namespace
 
 struct MonoClassifier::InView {
-  Object object;
+  std::size_t index;  ///< in the scanner's list
+  const Object& object;
   ImageRegion region;
 };
 
@@ -138,7 +135,7 @@ MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedC
     result = options_.method == MonoMethod::kThesis ? asInThesis(image, camera, seen)
                                                     : byAssociation(image, camera, seen);
   }
-  result.list.stamp = objects.stamp;
+  result.alone.stamp = objects.stamp;
   result.in_view = seen.size();
   return result;
 }
@@ -150,13 +147,14 @@ bool MonoClassifier::isInformative() const {
 std::vector<MonoClassifier::InView> MonoClassifier::inView(const MountedCamera& camera,
                                                            const ObjectList& objects) const {
   std::vector<InView> seen;
-  for (const Object& object : objects.objects) {
+  for (std::size_t i = 0; i < objects.objects.size(); ++i) {
+    const Object& object = objects.objects[i];
     if (!isValid(object)) {
       continue;
     }
     if (const auto region = regionOf(camera, object, options_.default_height, options_.min_size,
                                      options_.region_sigmas)) {
-      seen.push_back({object, *region});
+      seen.push_back({i, object, *region});
     }
   }
   return seen;
@@ -180,7 +178,7 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (matches[i]) {
       is_matched[*matches[i]] = true;
-      addClassified(seen[i].object, detections[*matches[i]], result);
+      addClass(seen[i], detections[*matches[i]], result);
     }
   }
   for (std::size_t i = 0; i < detections.size(); ++i) {
@@ -194,8 +192,7 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
     const ObjectClass most_likely = alone->objectClass();
     if (most_likely != ObjectClass::kUnknown &&
         probabilityOf(most_likely, alone->class_probabilities) >= options_.min_alone) {
-      result.list.objects.push_back(std::move(*alone));
-      ++result.alone;
+      result.alone.objects.push_back(std::move(*alone));
     }
   }
   return result;
@@ -234,27 +231,17 @@ MonoClassification MonoClassifier::asInThesis(const cv::Mat& image, const Mounte
   result.detections = detections.size();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (best[i] != nullptr) {
-      addClassified(seen[i].object, *best[i], result);
+      addClass(seen[i], *best[i], result);
     }
   }
   return result;
 }
 
-void MonoClassifier::addClassified(const Object& object, const ImageDetection& detection,
-                                   MonoClassification& result) const {
-  Object classified;
-  classified.box = object.box;
-  classified.position_covariance = kBorrowed * object.position_covariance;
-  classified.side_variance.fill(kHiddenSide);
-  classified.delay = object.delay;
-  // The sensors that located it: a class is not a second observation of motion.
-  classified.sensors = object.sensors;
-  // So that it is not associated with a moving object where the scanner's is static.
-  classified.dynamic_state = object.dynamic_state;
-  classified.class_probabilities = probabilities(detection);
-  if (classified.objectClass() != ObjectClass::kUnknown) {
-    result.list.objects.push_back(std::move(classified));
-    ++result.classified;
+void MonoClassifier::addClass(const InView& one, const ImageDetection& detection,
+                              MonoClassification& result) const {
+  const ClassProbabilities found = probabilities(detection);
+  if (mostLikelyClass(found) != ObjectClass::kUnknown) {
+    result.classes.push_back({one.index, found});
   }
 }
 

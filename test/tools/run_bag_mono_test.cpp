@@ -26,6 +26,7 @@ TEST_F(MonoRun, EveryImageLeadsToAListThatIsFused) {
   appendLeftImages();
   const std::string table = run();
   EXPECT_EQ(count(arguments_.output, "/objects/mono"), kCloudCount) << table;
+  EXPECT_GT(count(arguments_.output, "/objects/classes"), 0U) << table;
   EXPECT_EQ(count(arguments_.output, "/objects/fused"), kScanCount);
   EXPECT_EQ(count(arguments_.output, "/objects/stereo"), 0U) << "there is no right camera";
   EXPECT_EQ(count(arguments_.output, "/tracks"), kScanCount);

@@ -224,7 +224,6 @@ datmo_fusion_add_core_test(fusion
   fusion/object_combination_test.cpp
   fusion/object_consistency_test.cpp
   fusion/object_fuser_test.cpp
-  fusion/object_names_test.cpp
   fusion/position_covariance_test.cpp
   fusion/source_matcher_test.cpp
   fusion/station_renaming_test.cpp

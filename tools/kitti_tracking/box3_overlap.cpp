@@ -2,69 +2,45 @@
 #include "kitti_tracking/box3_overlap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include <Eigen/Core>
-
-#include "datmo_fusion/common/cross.h"
+// Without it, Boost 1.74 rounds coordinates to a grid, and areas by 1e-7 of themselves.
+#define BOOST_GEOMETRY_NO_ROBUSTNESS
+#include <boost/geometry/algorithms/append.hpp>
+#include <boost/geometry/algorithms/area.hpp>
+#include <boost/geometry/algorithms/correct.hpp>
+#include <boost/geometry/algorithms/intersection.hpp>
+#include <boost/geometry/geometries/multi_polygon.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 
 namespace datmo::kitti {
 
 namespace {
 
-/// Corners of the remaining polygon while a rectangle is clipped by the sides of another. A cut of
-/// a convex polygon adds one corner; if rounding moves corners on the line to the other side, at
-/// most half as many as there are: 4, 6, 9, 13, 19.
-struct Polygon {
-  std::array<Eigen::Vector2d, 19> corners;
-  std::size_t size = 0;
-
-  void add(const Eigen::Vector2d& corner) { corners[size++] = corner; }
-};
+namespace geometry = boost::geometry;
+using GroundPoint = geometry::model::d2::point_xy<double>;  // x, z
+using Polygon = geometry::model::polygon<GroundPoint>;
 
 Eigen::Vector2d groundCenter(const Box3& box) { return {box.x, box.z}; }
 
-/// Corners on the ground in x and z from `origin`, in the rotation from x to z.
+/// Relative to `origin`: rounding is that of the boxes' sizes, wherever they are.
 Polygon footprint(const Box3& box, const Eigen::Vector2d& origin) {
   const Eigen::Vector2d ahead(std::cos(box.rotation_y), -std::sin(box.rotation_y));
   const Eigen::Vector2d half_length = 0.5 * box.length * ahead;
   const Eigen::Vector2d half_width = 0.5 * box.width * Eigen::Vector2d(-ahead.y(), ahead.x());
   const Eigen::Vector2d center = groundCenter(box) - origin;
   Polygon polygon;
-  polygon.add(center + half_length - half_width);
-  polygon.add(center + half_length + half_width);
-  polygon.add(center - half_length + half_width);
-  polygon.add(center - half_length - half_width);
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(center + half_length - half_width),
+                                        Eigen::Vector2d(center + half_length + half_width),
+                                        Eigen::Vector2d(center - half_length + half_width),
+                                        Eigen::Vector2d(center - half_length - half_width)}) {
+    geometry::append(polygon, GroundPoint(corner.x(), corner.y()));
+  }
+  geometry::correct(polygon);
   return polygon;
-}
-
-/// The part of the polygon on the inner side of the line from `from` to `to`; the line counts as
-/// inside (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
-Polygon cut(const Polygon& polygon, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  Polygon rest;
-  for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Eigen::Vector2d& here = polygon.corners[i];
-    const Eigen::Vector2d& next = polygon.corners[(i + 1) % polygon.size];
-    const double here_inside = cross(to - from, here - from);
-    const double next_inside = cross(to - from, next - from);
-    if (here_inside >= 0.0) {
-      rest.add(here);
-    }
-    if ((here_inside > 0.0 && next_inside < 0.0) || (here_inside < 0.0 && next_inside > 0.0)) {
-      rest.add(here + (next - here) * (here_inside / (here_inside - next_inside)));
-    }
-  }
-  return rest;
-}
-
-double area(const Polygon& polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size; ++i) {
-    twice += cross(polygon.corners[i], polygon.corners[(i + 1) % polygon.size]);
-  }
-  return std::max(0.0, 0.5 * twice);
 }
 
 /// Whether circles around the footprints touch.
@@ -82,12 +58,9 @@ double groundIntersection(const Box3& a, const Box3& b) {
     return 0.0;
   }
   const Eigen::Vector2d origin = groundCenter(a);
-  const Polygon knife = footprint(b, origin);
-  Polygon rest = footprint(a, origin);
-  for (std::size_t i = 0; i < knife.size && rest.size > 0; ++i) {
-    rest = cut(rest, knife.corners[i], knife.corners[(i + 1) % knife.size]);
-  }
-  return area(rest);
+  geometry::model::multi_polygon<Polygon> common;
+  geometry::intersection(footprint(a, origin), footprint(b, origin), common);
+  return geometry::area(common);
 }
 
 double overlap3d(const Box3& a, const Box3& b) {

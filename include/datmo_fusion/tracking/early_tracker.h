@@ -47,6 +47,7 @@ class EarlyTracker {
   /// As Tracker's.
   void setOptions(const Checked<TrackerOptions>& options);
   void addScan(const LabeledScan& scan);
+  void addClasses(const ObjectList& classes);
 
   /// Processes a complete list and returns the tracks by all complete lists; early lists only
   /// affect their ids.

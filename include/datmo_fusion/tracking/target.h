@@ -84,6 +84,9 @@ class Target {
   /// exists.
   void miss(double detection_probability, const TargetOptions& options);
 
+  /// Updates its class with that of one of its objects, by a sensor that does not measure size.
+  void updateClass(const ClassProbabilities& reported) { class_.update(reported); }
+
   /// Returns the object as a measurement of this target's position.
   PositionMeasurement measurementOf(const Object& object) const {
     return box_.measurementOf(object);

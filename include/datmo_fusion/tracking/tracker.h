@@ -11,6 +11,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/tracking/association_scan.h"
 #include "datmo_fusion/tracking/clutter_map.h"
+#include "datmo_fusion/tracking/late_classes.h"
 #include "datmo_fusion/tracking/step_budget.h"
 #include "datmo_fusion/tracking/target_set.h"
 #include "datmo_fusion/tracking/track.h"
@@ -26,6 +27,7 @@ namespace datmo {
 struct TrackerCounts {
   ScanIntakeCounts intake;
   AssociationCounts association;
+  LateClassCounts classes;
   std::uint64_t confirmed_tracks = 0;
   std::uint64_t merged_tracks = 0;    ///< removed as duplicates of a confirmed track
   std::uint64_t evicted_targets = 0;  ///< unconfirmed, removed to make room for new objects
@@ -63,6 +65,11 @@ class Tracker {
   /// The same if nothing is known about what the sensors could have seen.
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed);
 
+  /// Adds the classes of a list's objects, which arrive after that list was processed, or before:
+  /// the objects of the scanner's list of that stamp, in the vehicle's frame, with their classes.
+  /// Each counts for the target of its object (LateClasses), at once or with that list.
+  void addClasses(ObjectList classes);
+
   const TrackerCounts& counts() const { return counts_; }
 
   /// Returns a copy that continues from the same state with incomplete lists (EarlyTracker). It
@@ -97,6 +104,8 @@ class Tracker {
   bool isLikelyMoving(const Target& target) const;
   bool isConfirmable(const Target& target) const;
 
+  void updateClasses();
+
   /// Objects of confirmed targets are not clutter.
   void learnClutter(const AssociationScan& scan, double seconds);
   TrackList published(Stamp stamp, const AssociationScan& scan);
@@ -109,6 +118,7 @@ class Tracker {
   TransitionPriors transition_priors_;
   ScanHistory scans_;
   CopiedPtr<TargetSet> targets_;
+  LateClasses late_classes_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;
   std::uint32_t next_id_ = 1;

@@ -46,13 +46,19 @@ struct MonoClassifierOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// The class of one of the scanner's objects.
+struct ClassifiedObject {
+  std::size_t index;  ///< in the given list
+  ClassProbabilities probabilities;
+};
+
 /// Result for one image.
 struct MonoClassification {
-  ObjectList list;  ///< base frame, the exposure's stamp; no views: the search is not exhaustive
+  std::vector<ClassifiedObject> classes;  ///< of the scanner's objects, by ascending index
+  /// From the image alone; base frame, the exposure's stamp; no views: the search is not exhaustive
+  ObjectList alone;
   std::size_t in_view = 0;     ///< scanner objects within the image
   std::size_t detections = 0;  ///< number of the detector's detections
-  std::size_t classified = 0;  ///< scanner objects in the list
-  std::size_t alone = 0;       ///< objects in the list from the image alone
 };
 
 /// Classifies the scanner's objects with an image (thesis 4.2.3).
@@ -63,9 +69,7 @@ struct MonoClassification {
 /// each object (`method: thesis`): the class whose rectangle contains the most certain detection is
 /// chosen, and objects that the scanner does not see are ignored.
 ///
-/// An object in the list is the scanner's, with its sensors, plus class probabilities. Its
-/// position carries almost no information and its sides none: they are the scanner's own and must
-/// not be counted twice. Objects from the image alone have the sensor "mono".
+/// Objects from the image alone have the sensor "mono".
 ///
 /// Not thread safe. Deterministic.
 class MonoClassifier {
@@ -96,8 +100,9 @@ class MonoClassifier {
                                    const std::vector<InView>& seen);
   MonoClassification asInThesis(const cv::Mat& image, const MountedCamera& camera,
                                 const std::vector<InView>& seen);
-  void addClassified(const Object& object, const ImageDetection& detection,
-                     MonoClassification& result) const;
+  /// Adds the class, if the detection indicates one.
+  void addClass(const InView& one, const ImageDetection& detection,
+                MonoClassification& result) const;
   /// Class probabilities of the detected object.
   ClassProbabilities probabilities(const ImageDetection& detection) const;
 

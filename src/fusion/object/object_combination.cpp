@@ -209,24 +209,22 @@ const std::vector<Point2>& surestPoints(const Object& a, const Object& b) {
 /// Prior information from the road counts once, however many sensors see an object there.
 double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
 
-}  // namespace
-
-void combineClass(const Object& a, const Object& b, Object& result) {
-  const std::optional<ClassProbabilities> of_a = classLikelihoods(a.class_probabilities);
-  const std::optional<ClassProbabilities> of_b = classLikelihoods(b.class_probabilities);
+/// If one of them does not indicate a class, those of the other; else Bayes.
+ClassProbabilities combinedClass(const ClassProbabilities& a, const ClassProbabilities& b) {
+  const std::optional<ClassProbabilities> of_a = classLikelihoods(a);
+  const std::optional<ClassProbabilities> of_b = classLikelihoods(b);
   if (of_a && of_b) {
-    result.class_probabilities = jointBelief({*of_a, *of_b});
-  } else if (of_a || of_b) {
-    result.class_probabilities = of_a ? a.class_probabilities : b.class_probabilities;
-  } else {
-    result.class_probabilities = {};
+    return jointBelief({*of_a, *of_b});
   }
+  return of_a ? a : of_b ? b : ClassProbabilities{};
 }
+
+}  // namespace
 
 Object combined(const Object& a, const Object& b) {
   Object result;
   const double share_of_b = combineGeometry(a, b, result);
-  combineClass(a, b, result);
+  result.class_probabilities = combinedClass(a.class_probabilities, b.class_probabilities);
   result.delay = (1.0 - share_of_b) * a.delay + share_of_b * b.delay;
   // A partly visible object looks lower than it is.
   result.height = std::max(a.height, b.height);

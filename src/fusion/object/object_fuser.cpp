@@ -5,14 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "object_intake.h"
-#include "object_names.h"
 
 #include "datmo_fusion/assignment/assignment.h"
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/fusion/object/object_combination.h"
 #include "datmo_fusion/fusion/sync/names_in_use.h"
 
@@ -149,20 +148,6 @@ class ObjectFuser::Fusion {
     return options_.sources.at(sources_[source].source);
   }
 
-  std::set<std::string> sensorsOfOthers(std::size_t source) const {
-    std::set<std::string> sensors;
-    for (const auto& [name, options] : options_.sources) {
-      sensors.insert(name);
-    }
-    for (std::size_t other = 0; other < intakes_.size(); ++other) {
-      sensors.merge(sensorsOf(sources_[other].source, intakes_[other].list));
-    }
-    for (const std::string& own : sensorsOf(sources_[source].source, intakes_[source].list)) {
-      sensors.erase(own);
-    }
-    return sensors;
-  }
-
   /// Merges a source's objects with the result so far.
   void add(std::size_t source) {
     std::vector<Object> known;
@@ -175,27 +160,16 @@ class ObjectFuser::Fusion {
         associate(known, intake.list.objects, intake.sensor, options_.association);
     const ObjectSourceOptions& own = optionsOf(source);
     const double seen_too = std::log(own.detection_probability / own.false_agreement_probability);
-    const std::set<std::string> sensors_of_others = sensorsOfOthers(source);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Object& object = intake.list.objects[i];
-      const bool is_class_only = isClassOnly(object, sensors_of_others);
       if (matches[i] == kUnassigned) {
-        if (is_class_only) {
-          ++result_.counts.unmatched_classes;
-        } else {
-          objects_.push_back({object, std::vector<bool>(sources_.size(), false), 0, {}});
-          note(source, i, objects_.back());
-        }
+        objects_.push_back({object, std::vector<bool>(sources_.size(), false), 0, {}});
+        note(source, i, objects_.back());
         continue;
       }
       FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
       const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
       result_.counts.fused += first_pair ? 1 : 0;
-      if (is_class_only) {
-        fused.seen_by[source] = true;
-        combineClass(fused.object, object, fused.object);
-        continue;
-      }
       fused.object = combined(fused.object, object);
       fused.object.log_odds += std::max(0.0, seen_too);
       note(source, i, fused);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <boost/make_shared.hpp>
 #include <opencv2/core/utility.hpp>
@@ -41,6 +42,19 @@ void giveWay(const MonoClassifierStageOptions& options) {
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
   setpriority(PRIO_PROCESS, thread,
               std::max(getpriority(PRIO_PROCESS, thread), options.detector_nice));
+}
+
+/// Returns the classified objects of a list. Without their points: nobody needs them twice.
+ObjectList withClasses(const ObjectList& listed, const std::vector<ClassifiedObject>& classes) {
+  ObjectList list;
+  list.stamp = listed.stamp;
+  for (const ClassifiedObject& one : classes) {
+    Object object = listed.objects[one.index];
+    object.points.clear();
+    object.class_probabilities = one.probabilities;
+    list.objects.push_back(std::move(object));
+  }
+  return list;
 }
 
 }  // namespace
@@ -107,10 +121,9 @@ void MonoClassifierStage::handleObjects(const ObjectArray& message) {
       throw InputError("wrong_frame", "objects in '" + message.header.frame_id + "': expected '" +
                                           options_.frames.base + "'");
     }
-    ObjectList list = fromMessage(message);
+    const auto list = std::make_shared<const ObjectList>(fromMessage(message));
     runner_.check("objects", message.header.stamp);
-    const Stamp stamp = list.stamp;
-    wait_.addMeasurement(stamp, std::move(list));
+    wait_.addMeasurement(list->stamp, list);
   });
 }
 
@@ -149,33 +162,35 @@ void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
   }
 }
 
-ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
-  ObjectList result;
-  result.stamp = exposure;
-  const ObjectList* list = wait_.nearest(exposure);
-  if (list == nullptr) {
-    return result;
+MonoClassifierStage::Job MonoClassifierStage::jobOf(const sensor_msgs::ImageConstPtr& image) const {
+  const Stamp exposure = toStamp(image->header.stamp);
+  Job job{image, camera_.mounted(*image, options_.frames, transforms_), nullptr, {}, run_};
+  job.objects.stamp = exposure;
+  const Listed* const listed = wait_.nearest(exposure);
+  if (listed == nullptr) {
+    return job;
   }
   const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
   // Pose of the vehicle at the objects' time, in its frame at the exposure.
-  const auto base = baseAt(list->stamp, exposure, motion);
+  const auto base = baseAt((*listed)->stamp, exposure, motion);
   if (!base) {
     monitor_.warned(InputError("no_motion",
                                "no objects used: expected odometry or poses that give the "
                                "vehicle's motion between their stamp and the image's"));
-    return result;
+    return job;
   }
-  const double later = secondsBetween(exposure, list->stamp);
-  for (const Object& object : list->objects) {
+  job.listed = *listed;
+  const double later = secondsBetween(exposure, job.listed->stamp);
+  for (const Object& object : job.listed->objects) {
     Object moved = transformed(*base, object);
     moved.delay += later;
     if (moved.dynamic_state != DynamicState::kStatic) {
       moved.position_covariance +=
           square(options_.object_speed * moved.delay) * Eigen::Matrix2d::Identity();
     }
-    result.objects.push_back(std::move(moved));
+    job.objects.objects.push_back(std::move(moved));
   }
-  return result;
+  return job;
 }
 
 void MonoClassifierStage::startIfReady(Stamp now) {
@@ -183,8 +198,7 @@ void MonoClassifierStage::startIfReady(Stamp now) {
   if (!image) {
     return;
   }
-  if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
-                     objectsAt(toStamp(image->header.stamp)), run_})) {
+  if (worker_.start(jobOf(image))) {
     monitor_.dropped(
         InputError("slow_detector",
                    "a newer image arrived before the detector had started on one: expected a "
@@ -195,6 +209,7 @@ void MonoClassifierStage::startIfReady(Stamp now) {
 MonoClassifierStage::Result MonoClassifierStage::work(MonoClassifier& classifier, const Job& job) {
   const Stopwatch watch;
   Result result;
+  result.listed = job.listed;
   result.run = job.run;
   try {
     const auto pixels = grayOrColor(job.image);
@@ -206,8 +221,8 @@ MonoClassifierStage::Result MonoClassifierStage::work(MonoClassifier& classifier
   return result;
 }
 
-ObjectArrayPtr MonoClassifierStage::next(Stamp now) {
-  return runner_.serve([&]() -> ObjectArrayPtr {
+std::optional<MonoObjects> MonoClassifierStage::next(Stamp now) {
+  return runner_.serve([&]() -> std::optional<MonoObjects> {
     startIfReady(now);
     for (Result& result : worker_.take()) {
       if (result.run == run_) {
@@ -215,7 +230,7 @@ ObjectArrayPtr MonoClassifierStage::next(Stamp now) {
       }
     }
     if (results_.empty()) {
-      return nullptr;
+      return std::nullopt;
     }
     const Result result = std::move(results_.front());
     results_.pop_front();
@@ -224,22 +239,30 @@ ObjectArrayPtr MonoClassifierStage::next(Stamp now) {
 }
 
 /// Throws InputError.
-ObjectArrayPtr MonoClassifierStage::show(const Result& result) {
+MonoObjects MonoClassifierStage::show(const Result& result) {
   if (!result.error.empty()) {
     throw InputError("detector_failed", "the detector refused an image: " + result.error);
   }
   const MonoClassification& found = result.classification;
   monitor_.figure("objects in view", static_cast<double>(found.in_view));
   monitor_.figure("detections", static_cast<double>(found.detections));
-  monitor_.figure("objects classified", static_cast<double>(found.classified));
-  monitor_.figure("objects from the image alone", static_cast<double>(found.alone));
+  monitor_.figure("objects classified", static_cast<double>(found.classes.size()));
+  monitor_.figure("objects from the image alone", static_cast<double>(found.alone.objects.size()));
   monitor_.figure("detector's time [s]", result.seconds);
-  monitor_.processed({found.list.stamp, result.seconds});
-  return boost::make_shared<ObjectArray>(toMessage(found.list, options_.frames.base));
+  monitor_.processed({found.alone.stamp, result.seconds});
+  const std::string& frame = options_.frames.base;
+  MonoObjects messages;
+  if (result.listed) {
+    messages.classes = boost::make_shared<ObjectArray>(
+        toMessage(withClasses(*result.listed, found.classes), frame));
+  }
+  messages.alone = boost::make_shared<ObjectArray>(toMessage(found.alone, frame));
+  return messages;
 }
 
 void MonoClassifierStage::connect(StagePorts& ports) {
-  published_ = ports.out<ObjectArray>("objects/mono");
+  classes_ = ports.out<ObjectArray>("objects/classes");
+  alone_ = ports.out<ObjectArray>("objects/mono");
   connectMotion(ports, options_.motion, *this);
   ports.optionalIn<sensor_msgs::CameraInfo>(
       "camera_info", [this](const auto& info, Stamp /*now*/) { handleCameraInfo(*info); });
@@ -250,9 +273,12 @@ void MonoClassifierStage::connect(StagePorts& ports) {
 }
 
 bool MonoClassifierStage::publishNext(Stamp now) {
-  const ObjectArrayPtr objects = next(now);
-  published_.publish(objects);
-  return objects != nullptr;
+  const std::optional<MonoObjects> objects = next(now);
+  if (objects) {
+    classes_.publish(objects->classes);
+    alone_.publish(objects->alone);
+  }
+  return objects.has_value();
 }
 
 }  // namespace datmo

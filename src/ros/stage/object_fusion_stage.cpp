@@ -193,11 +193,9 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
   }
   bad_objects_ += counts.rejected;
   objects_too_many_ += counts.refused;
-  unmatched_classes_ += counts.unmatched_classes;
   monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
   monitor_.figure("bad objects", static_cast<double>(bad_objects_));
   monitor_.figure("objects beyond max_objects", static_cast<double>(objects_too_many_));
-  monitor_.figure("classes for missing objects", static_cast<double>(unmatched_classes_));
   monitor_.figure("fused without a labeled scan", static_cast<double>(times_without_scan_));
   inputs_.reportUnserved(matcher_);
 }

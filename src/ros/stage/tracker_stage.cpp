@@ -52,6 +52,19 @@ void TrackerStage::handleLabeledScan(const LabeledScanMessage& message) {
   });
 }
 
+void TrackerStage::handleClasses(const ObjectArray& message) {
+  runner_.serve([&] {
+    if (message.header.frame_id != options_.frames.base) {
+      throw InputError("wrong_frame", "classes of objects in '" + message.header.frame_id +
+                                          "': expected '" + options_.frames.base + "'");
+    }
+    runner_.check("classes", message.header.stamp);
+    const TrackerCounts before = tracker_.counts();
+    tracker_.addClasses(fromMessage(message));
+    report(before, tracker_.counts());
+  });
+}
+
 void TrackerStage::enqueue(const Waiting& waiting) {
   runner_.serve([&] {
     runner_.check(waiting.early ? "early_objects" : "objects", waiting.objects->header.stamp);
@@ -132,7 +145,8 @@ TrackArrayPtr TrackerStage::messageOf(const TrackList& list) {
 }
 
 void TrackerStage::report(const TrackerCounts& before, const TrackerCounts& after) {
-  if (after.intake.rejected > before.intake.rejected) {
+  if (after.intake.rejected > before.intake.rejected ||
+      after.classes.rejected > before.classes.rejected) {
     monitor_.warned(InputError("bad_object",
                                "objects with numbers that are not finite or out of range, or a "
                                "covariance that is not positive definite: left out"));
@@ -150,6 +164,7 @@ void TrackerStage::report(const TrackerCounts& before, const TrackerCounts& afte
         "time_budget",
         "a step took longer than time_budget: continued with only the most likely hypothesis"));
   }
+  monitor_.figure("classes without a target", static_cast<double>(after.classes.without_target));
   monitor_.figure("hypotheses cut", static_cast<double>(after.association.cut_hypotheses));
   monitor_.figure("steps beyond the time budget",
                   static_cast<double>(after.association.best_only_steps));
@@ -180,8 +195,10 @@ void TrackerStage::connect(StagePorts& ports) {
   ports.in<ObjectArray>("objects",
                         [this](const auto& objects, Stamp now) { handleObjects(objects, now); });
   if (!options_.scan_view) {
-    return;  // early lists contain a scan's objects
+    return;  // early lists and classes are those of a scan's objects
   }
+  ports.optionalIn<ObjectArray>(
+      "objects/classes", [this](const auto& classes, Stamp /*now*/) { handleClasses(*classes); });
   ports.optionalIn<ObjectArray>("early_objects", [this](const auto& objects, Stamp now) {
     handleEarlyObjects(objects, now);
   });

@@ -40,14 +40,6 @@ inline void hide(Object& object, BoxSide side) {
   object.side_variance[sideIndex(side)] = kHiddenSide;
 }
 
-/// Output of MonoClassifier for a scanner's object: its class, at a position that tells nothing.
-inline Object classOnly(Object of, ObjectClass object_class, double probability) {
-  of.position_covariance *= 100.0;
-  of.side_variance.fill(kHiddenSide);
-  of.class_probabilities = reportedClass(object_class, probability);
-  return of;
-}
-
 inline const Stamp kReference = Stamp::fromSeconds(5.0);
 
 /// A source's list at this time, and the vehicle's pose at that time.

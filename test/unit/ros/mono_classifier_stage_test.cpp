@@ -23,24 +23,47 @@ using mono_classifier_case::objectsAt;
 using samples::drops;
 using samples::warnings;
 
-TEST_F(MonoClassifierStageTest, ClassifiesObjectsAtTheExposuresStamp) {
+TEST_F(MonoClassifierStageTest, ClassifiesTheScannersObjects) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   stage_->handleObjects(objectsAt(kStart));
-  const auto named = look(imageAt(kStart));
-  ASSERT_NE(named, nullptr);
-  EXPECT_EQ(named->header.stamp, ros::Time(kStart));
-  EXPECT_EQ(named->header.frame_id, "base_link");
-  ASSERT_EQ(named->objects.size(), 1U);
-  EXPECT_EQ(named->objects[0].classification, ObjectMessage::CLASS_PEDESTRIAN);
-  EXPECT_NEAR(named->objects[0].pose.position.x, 10.2, 1e-9);
+  const auto found = look(imageAt(kStart));
+  ASSERT_TRUE(found);
+  ASSERT_NE(found->classes, nullptr);
+  EXPECT_EQ(found->classes->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(found->classes->header.frame_id, "base_link");
+  ASSERT_EQ(found->classes->objects.size(), 1U);
+  EXPECT_EQ(found->classes->objects[0].classification, ObjectMessage::CLASS_PEDESTRIAN);
+  EXPECT_EQ(found->classes->objects[0].pose.position.x, 10.2);
+  EXPECT_EQ(found->alone->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(found->alone->header.frame_id, "base_link");
+  EXPECT_TRUE(found->alone->objects.empty());
   EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+/// Driven on between the scan and the exposure: the classes are those of the list as it was.
+TEST_F(MonoClassifierStageTest, ClassesHaveTheStampAndThePositionsOfTheList) {
+  constexpr double kLater = 0.05;  // s
+  mountCamera();
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleOdometry(samples::odometry(kStart - kLater, 10.0));
+  stage_->handleOdometry(samples::odometry(kStart, 10.0));
+  ObjectArray objects = objectsAt(kStart - kLater);
+  objects.objects[0].pose.position.x += 10.0 * kLater;
+  stage_->handleObjects(objects);
+  const auto found = look(imageAt(kStart));
+  ASSERT_TRUE(found);
+  ASSERT_NE(found->classes, nullptr);
+  EXPECT_EQ(found->classes->header.stamp, ros::Time(kStart - kLater));
+  ASSERT_EQ(found->classes->objects.size(), 1U);
+  EXPECT_EQ(found->classes->objects[0].pose.position.x, objects.objects[0].pose.position.x);
+  EXPECT_EQ(found->alone->header.stamp, ros::Time(kStart));
 }
 
 TEST_F(MonoClassifierStageTest, ThereIsAWarningOfADetectorWithoutWeight) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
-  EXPECT_NE(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_TRUE(look(imageAt(kStart), 1.0));
   EXPECT_EQ(warnings(monitor_, "detector_tells_nothing"), 0U);
   MonoClassifierStage by_default(MonoClassifierStageOptions(), transforms_, monitor_);
   by_default.handleCameraInfo(cameraInfo());
@@ -51,27 +74,29 @@ TEST_F(MonoClassifierStageTest, ThereIsAWarningOfADetectorWithoutWeight) {
 TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
-  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  EXPECT_FALSE(look(imageAt(kStart)));
   stage_->handleObjects(objectsAt(kStart));
   const auto named = stage_->next(Stamp::fromSeconds(kStart + 0.01));
-  ASSERT_NE(named, nullptr);
-  EXPECT_NEAR(named->objects.at(0).pose.position.x, 10.2, 1e-9);
+  ASSERT_TRUE(named);
+  ASSERT_NE(named->classes, nullptr);
+  EXPECT_EQ(named->classes->objects.size(), 1U);
 }
 
 TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsUsedAlone) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
-  const auto alone = look(imageAt(kStart), 1.0);
-  ASSERT_NE(alone, nullptr);
-  ASSERT_EQ(alone->objects.size(), 1U);
-  EXPECT_EQ(alone->objects[0].sensors, std::vector<std::string>{"mono"});
+  const auto found = look(imageAt(kStart), 1.0);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->classes, nullptr);
+  ASSERT_EQ(found->alone->objects.size(), 1U);
+  EXPECT_EQ(found->alone->objects[0].sensors, std::vector<std::string>{"mono"});
 }
 
 TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   stage_->handleObjects(objectsAt(kStart - 0.05));
-  EXPECT_NE(look(imageAt(kStart)), nullptr);
+  EXPECT_TRUE(look(imageAt(kStart)));
   EXPECT_EQ(warnings(monitor_, "no_motion"), 1U);
 }
 
@@ -84,9 +109,10 @@ TEST_F(MonoClassifierStageTest, InASeparateThreadTheResultIsTheSame) {
   const auto early = stage_->next(Stamp::fromSeconds(kStart));
   stage_->waitUntilIdle();
   const auto late = early ? early : stage_->next(Stamp::fromSeconds(kStart + 0.3));
-  ASSERT_NE(late, nullptr);
-  EXPECT_EQ(late->header.stamp, ros::Time(kStart));
-  EXPECT_EQ(late->objects.size(), 1U);
+  ASSERT_TRUE(late);
+  ASSERT_NE(late->classes, nullptr);
+  EXPECT_EQ(late->classes->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(late->classes->objects.size(), 1U);
 }
 
 TEST_F(MonoClassifierStageTest, APartialImageIsDroppedAndASaturatedSkyIsNot) {
@@ -97,23 +123,23 @@ TEST_F(MonoClassifierStageTest, APartialImageIsDroppedAndASaturatedSkyIsNot) {
     return image;
   };
   expectDropped(filled(kStart, kCamera.height / 2, kCamera.height, 128), "half_image");
-  EXPECT_NE(look(filled(kStart + 0.2, 0, kCamera.height / 3, 255), 1.0), nullptr);
+  EXPECT_TRUE(look(filled(kStart + 0.2, 0, kCamera.height / 3, 255), 1.0));
 }
 
 TEST_F(MonoClassifierStageTest, OfWaitingImagesTheNewestIsKept) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
-  EXPECT_EQ(look(imageAt(kStart)), nullptr);
-  EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
+  EXPECT_FALSE(look(imageAt(kStart)));
+  EXPECT_FALSE(look(imageAt(kStart + 0.05)));
   EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
-  EXPECT_NE(stage_->next(Stamp::fromSeconds(kStart + 1.0)), nullptr);
+  EXPECT_TRUE(stage_->next(Stamp::fromSeconds(kStart + 1.0)));
 }
 
 TEST_F(MonoClassifierStageTest, WithoutInfoOrMountImagesAreDropped) {
-  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_FALSE(look(imageAt(kStart), 1.0));
   EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
   stage_->handleCameraInfo(cameraInfo());
-  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_FALSE(look(imageAt(kStart), 1.0));
   EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
 }
 
@@ -156,10 +182,10 @@ TEST_F(MonoClassifierStageTest, AFrozenImageIsRefused) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   const auto first = imageAt(kStart);
-  EXPECT_NE(look(first, 1.0), nullptr);
+  EXPECT_TRUE(look(first, 1.0));
   const auto again = boost::make_shared<sensor_msgs::Image>(*first);
   again->header.stamp = ros::Time(kStart + 0.1);
-  EXPECT_EQ(look(again, 1.0), nullptr);
+  EXPECT_FALSE(look(again, 1.0));
   EXPECT_EQ(drops(monitor_, "frozen_image"), 1U);
 }
 
@@ -167,7 +193,7 @@ TEST_F(MonoClassifierStageTest, AnOldImageIsRefused) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   stage_->handleObjects(objectsAt(kStart + 0.7));
-  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_FALSE(look(imageAt(kStart), 1.0));
   EXPECT_EQ(drops(monitor_, "old_image"), 1U);
 }
 
@@ -175,8 +201,8 @@ TEST_F(MonoClassifierStageTest, AClockJumpBackStartsOver) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   stage_->handleObjects(objectsAt(kStart));
-  EXPECT_NE(look(imageAt(kStart)), nullptr);
-  EXPECT_NE(look(imageAt(kStart - 50.0), 1.0), nullptr);
+  EXPECT_TRUE(look(imageAt(kStart)));
+  EXPECT_TRUE(look(imageAt(kStart - 50.0), 1.0));
   EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -26,8 +27,8 @@ using samples::drops;
 class MonoClassifierThread : public mono_classifier_case::MonoClassifierStageTest {
  protected:
   /// Returns the result when the detector has finished.
-  ObjectArrayPtr lookAndWait(const sensor_msgs::ImageConstPtr& image) {
-    const ObjectArrayPtr at_once = look(image, 1.0);
+  std::optional<MonoObjects> lookAndWait(const sensor_msgs::ImageConstPtr& image) {
+    const auto at_once = look(image, 1.0);
     stage_->waitUntilIdle();
     return at_once ? at_once : stage_->next(toStamp(image->header.stamp) + 1.0);
   }
@@ -91,12 +92,12 @@ TEST_F(MonoClassifierThread, ADetectorThatFailsOnceIsCountedAndTheNextImageWorks
                 }));
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
-  EXPECT_EQ(lookAndWait(imageAt(kStart)), nullptr);
+  EXPECT_FALSE(lookAndWait(imageAt(kStart)));
   EXPECT_EQ(drops(monitor_, "detector_failed"), 1U);
   EXPECT_EQ(monitor_.processedCount(), 0U);
-  const ObjectArrayPtr next = lookAndWait(imageAt(kStart + 0.1));
-  ASSERT_NE(next, nullptr);
-  EXPECT_EQ(next->header.stamp, ros::Time(kStart + 0.1));
+  const auto next = lookAndWait(imageAt(kStart + 0.1));
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->alone->header.stamp, ros::Time(kStart + 0.1));
   EXPECT_EQ(drops(monitor_, "detector_failed"), 1U);
 }
 

@@ -169,6 +169,26 @@ TEST_F(TrackerStageTest, TracksOfEarlyAndCompleteObjectsArePublishedOnce) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
+TEST_F(TrackerStageTest, LateClassesNeedNotBeInOrderOfTheObjectsStamps) {
+  poseAt(99.9);
+  poseAt(100.3);
+  for (const double seconds : {100.0, 100.06, 100.12}) {
+    objectsAt(seconds);
+    ASSERT_TRUE(nextAt(seconds));
+  }
+  stage_.handleClasses(*emptyList(100.0));
+  objectsAt(100.18);
+  EXPECT_TRUE(nextAt(100.18));
+  EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(TrackerStageTest, ClassesInAnotherFrameAreDropped) {
+  ObjectArray classes = *emptyList(100.0);
+  classes.header.frame_id = "camera";
+  stage_.handleClasses(classes);
+  EXPECT_EQ(monitor_.drops().at("wrong_frame"), 1U);
+}
+
 TEST_F(TrackerStageTest, AJumpBackForgetsWhichTracksArePublished) {
   poseAt(109.9);
   poseAt(110.1);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes that a camera reports late, of two road users that pass each other closely: each counts
-// for the track of its object, not for the one that is there when it arrives.
+// Classes that arrive later than their objects, as those of a slow detector in images: each counts
+// for the target of its object, wherever that is by then.
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "tracking_scene.h"
@@ -10,30 +13,49 @@
 
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/tracking/early_tracker.h"
+#include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo::late_class_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  // s
 constexpr int kSteps = 30;
-constexpr int kLag = 4;               // scans until the classes of a scan arrive
 constexpr int kPassing = 10;          // scan at which they are beside each other
-constexpr double kSpeed = 4.0;        // m/s; within the lag, each moves on by 1.6 m
+constexpr double kSpeed = 4.0;        // m/s; within 0.4 s, each moves on by 1.6 m
 constexpr double kDistance = 1.5;     // m, between their lines
 constexpr double kProbability = 0.8;  // of the reported class
 
 double cyclistAt(int step) { return kSpeed * kPeriod * (step - kPassing); }
 double carAt(int step) { return -cyclistAt(step); }
 
-TrackerInput inputAt(int step, bool with_classes) {
-  std::vector<Object> objects = {objectAt(cyclistAt(step), 0.0), objectAt(carAt(step), kDistance)};
-  if (with_classes) {
-    objects[0].class_probabilities = reportedClass(ObjectClass::kCyclist, kProbability);
-    objects[1].class_probabilities = reportedClass(ObjectClass::kVehicle, kProbability);
-  }
-  return {{Stamp::fromSeconds(100.0 + kPeriod * step), objects, {}},
-          Pose2(),
-          Visibility(VisibilityOptions())};
+Stamp stampOf(int step) { return Stamp::fromSeconds(100.0 + kPeriod * step); }
+
+/// The vehicle drives and turns: classes are in its frame at their own stamp.
+Pose2 vehicleAt(int step) { return {-20.0 + step, 3.0, 0.02 * step}; }
+
+Object seenFrom(const Pose2& vehicle, const Object& object) {
+  return transformed(vehicle.inverse(), object);
+}
+
+TrackerInput inputAt(int step) {
+  const Pose2 vehicle = vehicleAt(step);
+  const std::vector<Object> objects = {seenFrom(vehicle, objectAt(cyclistAt(step), 0.0)),
+                                       seenFrom(vehicle, objectAt(carAt(step), kDistance))};
+  return {{stampOf(step), objects, {}}, vehicle, Visibility(VisibilityOptions())};
+}
+
+ObjectList classesOf(int step) {
+  ObjectList classes = inputAt(step).objects;
+  classes.objects[0].class_probabilities = reportedClass(ObjectClass::kCyclist, kProbability);
+  classes.objects[1].class_probabilities = reportedClass(ObjectClass::kVehicle, kProbability);
+  return classes;
+}
+
+TrackerOptions optionsWith(TrackerAssociation association) {
+  TrackerOptions options;
+  options.require_motion = false;
+  options.association = association;
+  return options;
 }
 
 /// Returns the class of the track there; none if there is no track.
@@ -47,32 +69,122 @@ std::optional<ObjectClass> classAt(const TrackList& list, double x, double y) {
   return {};
 }
 
-class LateClassTest : public testing::TestWithParam<TrackerAssociation> {};
-
-TEST_P(LateClassTest, EachReachesTheRightOneOfTwoThatPassEachOther) {
-  TrackerOptions options;
-  options.require_motion = false;
-  options.association = GetParam();
-  EarlyTracker tracker(options);
-  int judged = 0;
-  for (int step = 0; step < kSteps; ++step) {
-    const TrackList tracks = tracker.processEarly(inputAt(step, false));
-    // From the complete list of scan 3 on, both are confirmed and their classes known.
-    if (step > 3 + kLag) {
-      EXPECT_EQ(classAt(tracks, cyclistAt(step), 0.0), ObjectClass::kCyclist) << step;
-      EXPECT_EQ(classAt(tracks, carAt(step), kDistance), ObjectClass::kVehicle) << step;
-      ++judged;
-    }
-    if (step >= kLag) {
-      tracker.process(inputAt(step - kLag, true));
-    }
-  }
-  EXPECT_EQ(judged, kSteps - kLag - 4);
+void expectClasses(const TrackList& tracks, int step) {
+  EXPECT_EQ(classAt(tracks, cyclistAt(step), 0.0), ObjectClass::kCyclist) << step;
+  EXPECT_EQ(classAt(tracks, carAt(step), kDistance), ObjectClass::kVehicle) << step;
 }
 
-INSTANTIATE_TEST_SUITE_P(Associations, LateClassTest,
-                         testing::Values(TrackerAssociation::kMultipleHypotheses,
-                                         TrackerAssociation::kGlobalNearestNeighbor));
+/// By association, by the scans until the classes of a scan arrive, and by those until its complete
+/// list does.
+class LateClassTest : public testing::TestWithParam<std::tuple<TrackerAssociation, int, int>> {};
+
+TEST_P(LateClassTest, EachReachesTheRightOneOfTwoThatPassEachOther) {
+  const auto [association, lag, complete_lag] = GetParam();
+  EarlyTracker tracker(optionsWith(association));
+  int judged = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    const TrackList tracks = tracker.processEarly(inputAt(step));
+    // From the complete list of scan 3 on, both are confirmed.
+    if (step > 3 + lag + complete_lag) {
+      expectClasses(tracks, step);
+      ++judged;
+    }
+    if (step >= lag) {
+      tracker.addClasses(classesOf(step - lag));
+    }
+    if (step >= complete_lag) {
+      tracker.process(inputAt(step - complete_lag));
+    }
+  }
+  EXPECT_EQ(judged, kSteps - lag - complete_lag - 4);
+  EXPECT_EQ(tracker.counts().classes.without_target, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lags, LateClassTest,
+    testing::Combine(testing::Values(TrackerAssociation::kMultipleHypotheses,
+                                     TrackerAssociation::kGlobalNearestNeighbor),
+                     testing::Values(1, 2, 3, 4), testing::Values(0, 1, 2)));
+
+class LateClassInputTest : public testing::Test {
+ protected:
+  /// Both objects up to this scan.
+  void follow(int last) {
+    for (; next_ <= last; ++next_) {
+      const TrackerInput input = inputAt(next_);
+      tracks_ = tracker_.process(input.objects, input.base_in_fixed, input.visibility);
+    }
+  }
+
+  LateClassCounts counts() const { return tracker_.counts().classes; }
+
+  Tracker tracker_{optionsWith(TrackerAssociation::kMultipleHypotheses)};
+  TrackList tracks_;
+  int next_ = 0;
+};
+
+TEST_F(LateClassInputTest, ThoseThatComeBeforeTheirObjectsWaitForThem) {
+  follow(3);
+  tracker_.addClasses(classesOf(4));
+  follow(4);
+  expectClasses(tracks_, 4);
+}
+
+TEST_F(LateClassInputTest, ThoseThatAreTooOldAreCounted) {
+  follow(8);
+  tracker_.addClasses(classesOf(1));
+  EXPECT_EQ(counts().without_target, 2U);
+  follow(9);
+  EXPECT_EQ(classAt(tracks_, cyclistAt(9), 0.0), ObjectClass::kUnknown);
+}
+
+TEST_F(LateClassInputTest, ThoseOfUnknownScansOrObjectsAreCounted) {
+  follow(5);
+  ObjectList between = classesOf(4);
+  between.stamp = between.stamp + 0.5 * kPeriod;
+  tracker_.addClasses(between);
+  EXPECT_EQ(counts().without_target, 2U);
+  ObjectList elsewhere = classesOf(4);
+  elsewhere.objects[0].box.center = Pose2(50.0, 50.0, 0.0);
+  tracker_.addClasses(elsewhere);
+  EXPECT_EQ(counts().without_target, 3U);
+  follow(6);
+  EXPECT_EQ(classAt(tracks_, cyclistAt(6), 0.0), ObjectClass::kUnknown);
+  EXPECT_EQ(classAt(tracks_, carAt(6), kDistance), ObjectClass::kVehicle);
+}
+
+TEST_F(LateClassInputTest, OneDetectionOfSeveralPiecesCountsOnce) {
+  follow(5);
+  ObjectList pieces = classesOf(5);
+  Object piece = pieces.objects[0];
+  piece.box.center = Pose2(piece.box.center.x() + 0.1, piece.box.center.y(), 0.0);
+  piece.class_probabilities = reportedClass(ObjectClass::kPedestrian, kProbability);
+  pieces.objects.insert(pieces.objects.begin(), piece);
+  tracker_.addClasses(pieces);
+  follow(6);
+  EXPECT_EQ(classAt(tracks_, cyclistAt(6), 0.0), ObjectClass::kCyclist) << "of the nearest piece";
+}
+
+TEST_F(LateClassInputTest, ThoseOfInvalidObjectsAreLeftOut) {
+  follow(5);
+  ObjectList bad = classesOf(5);
+  bad.objects[0].position_covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  tracker_.addClasses(bad);
+  EXPECT_EQ(counts().rejected, 1U);
+  follow(6);
+  EXPECT_EQ(classAt(tracks_, cyclistAt(6), 0.0), ObjectClass::kUnknown);
+  EXPECT_EQ(classAt(tracks_, carAt(6), kDistance), ObjectClass::kVehicle);
+}
+
+TEST_F(LateClassInputTest, AfterAResetTheyAreForgotten) {
+  follow(5);
+  tracker_.reset();
+  tracker_.addClasses(classesOf(5));
+  next_ = 6;
+  follow(10);
+  EXPECT_EQ(counts().without_target, 2U);
+  EXPECT_EQ(classAt(tracks_, cyclistAt(10), 0.0), ObjectClass::kUnknown);
+}
 
 }  // namespace
 }  // namespace datmo::late_class_test

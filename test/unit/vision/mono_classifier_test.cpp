@@ -43,39 +43,30 @@ MonoClassification classified(const std::vector<ImageDetection>& seen, const Obj
 TEST(MonoClassifier, ClassifiesTheScannersObject) {
   ObjectList objects;
   objects.stamp = Stamp::fromSeconds(5.0);
-  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0), objectAt(-5.0, 0.0, 0.4, 0.4, 0.0)};
-  objects.objects[0].dynamic_state = DynamicState::kMoving;
-  objects.objects[0].sensors = {"lidar"};
+  objects.objects = {objectAt(-5.0, 0.0, 0.4, 0.4, 0.0), objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
   const MonoClassification result = classified({kPerson}, objects);
   EXPECT_EQ(result.in_view, 1U) << "the other is behind";
-  EXPECT_EQ(result.classified, 1U);
-  EXPECT_EQ(result.alone, 0U);
-  ASSERT_EQ(result.list.objects.size(), 1U);
-  const Object& named = result.list.objects[0];
-  EXPECT_EQ(result.list.stamp, objects.stamp);
-  EXPECT_EQ(named.objectClass(), ObjectClass::kPedestrian);
-  EXPECT_NEAR(named.class_probabilities[static_cast<std::size_t>(ObjectClass::kPedestrian)], 0.8,
-              1e-9);
-  EXPECT_EQ(named.sensors, std::vector<std::string>{"lidar"}) << "who saw where it is";
-  EXPECT_EQ(named.dynamic_state, DynamicState::kMoving);
-  EXPECT_NEAR(named.box.center.x(), 10.2, 1e-12);
-  EXPECT_GE(named.position_covariance(0, 0), 50.0 * objects.objects[0].position_covariance(0, 0))
-      << "the scanner's position must not count twice";
+  EXPECT_TRUE(result.alone.objects.empty());
+  EXPECT_EQ(result.alone.stamp, objects.stamp);
+  ASSERT_EQ(result.classes.size(), 1U);
+  EXPECT_EQ(result.classes[0].index, 1U);
+  EXPECT_EQ(mostLikelyClass(result.classes[0].probabilities), ObjectClass::kPedestrian);
+  EXPECT_NEAR(probabilityOf(ObjectClass::kPedestrian, result.classes[0].probabilities), 0.8, 1e-9);
 }
 
 TEST(MonoClassifier, ADetectionWithoutAScannersObjectIsAnObject) {
   const MonoClassification result = classified({kPerson, kCar}, ObjectList());
-  EXPECT_EQ(result.alone, 2U);
-  ASSERT_EQ(result.list.objects.size(), 2U);
-  EXPECT_NEAR(result.list.objects[0].box.center.x(), 10.0, 1.0);
-  EXPECT_EQ(result.list.objects[0].sensors, std::vector<std::string>{"mono"});
-  EXPECT_GT(result.list.objects[1].box.center.y(), 3.0);
+  EXPECT_TRUE(result.classes.empty());
+  ASSERT_EQ(result.alone.objects.size(), 2U);
+  EXPECT_NEAR(result.alone.objects[0].box.center.x(), 10.0, 1.0);
+  EXPECT_EQ(result.alone.objects[0].sensors, std::vector<std::string>{"mono"});
+  EXPECT_GT(result.alone.objects[1].box.center.y(), 3.0);
 }
 
 TEST(MonoClassifier, AnUncertainDetectionAloneIsNoObject) {
   MonoClassifierOptions options = dnnOptions();
   options.min_alone = 0.81;
-  EXPECT_TRUE(classified({kPerson}, ObjectList(), options).list.objects.empty());
+  EXPECT_TRUE(classified({kPerson}, ObjectList(), options).alone.objects.empty());
 }
 
 TEST(MonoClassifier, WithoutCalibrationEveryDetectionHasItsClassAndScore) {
@@ -86,8 +77,8 @@ TEST(MonoClassifier, WithoutCalibrationEveryDetectionHasItsClassAndScore) {
     ImageDetection person = kPerson;
     person.score = score;
     const MonoClassification result = classified({person}, ObjectList(), options);
-    ASSERT_EQ(result.list.objects.size(), 1U) << score;
-    const ClassProbabilities& all = result.list.objects[0].class_probabilities;
+    ASSERT_EQ(result.alone.objects.size(), 1U) << score;
+    const ClassProbabilities& all = result.alone.objects[0].class_probabilities;
     EXPECT_EQ(mostLikelyClass(all), ObjectClass::kPedestrian) << score;
     EXPECT_NEAR(probabilityOf(ObjectClass::kPedestrian, all), score, 1e-5);
   }
@@ -99,8 +90,9 @@ TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheBestDetectionWins) {
   ObjectList objects;
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
   const MonoClassification result = classified({kPerson, kCar}, objects, options);
-  ASSERT_EQ(result.list.objects.size(), 1U) << "what the scanner does not see is not there";
-  EXPECT_EQ(result.list.objects[0].objectClass(), ObjectClass::kPedestrian);
+  EXPECT_TRUE(result.alone.objects.empty()) << "what the scanner does not see is not there";
+  ASSERT_EQ(result.classes.size(), 1U);
+  EXPECT_EQ(mostLikelyClass(result.classes[0].probabilities), ObjectClass::kPedestrian);
 }
 
 TEST(MonoClassifier, AsInTheThesisTheHighestScoreInTheRectanglesOfAnObjectWins) {
@@ -119,10 +111,10 @@ TEST(MonoClassifier, AsInTheThesisTheHighestScoreInTheRectanglesOfAnObjectWins) 
     for (const auto& seen : {std::vector<ImageDetection>{narrower, person, rider},
                              std::vector<ImageDetection>{rider, person, narrower}}) {
       const MonoClassification result = classified(seen, objects, options);
-      ASSERT_EQ(result.list.objects.size(), 1U);
+      ASSERT_EQ(result.classes.size(), 1U);
       const ObjectClass surest = score > rider.score ? person.object_class : rider.object_class;
-      EXPECT_EQ(result.list.objects[0].objectClass(), surest) << score;
-      EXPECT_NEAR(probabilityOf(surest, result.list.objects[0].class_probabilities),
+      EXPECT_EQ(mostLikelyClass(result.classes[0].probabilities), surest) << score;
+      EXPECT_NEAR(probabilityOf(surest, result.classes[0].probabilities),
                   std::max(score, rider.score), 1e-5);
     }
   }
@@ -151,12 +143,14 @@ TEST(MonoClassifier, ADetectorAtChanceLevelIsUninformative) {
   options.dnn_reliability.mistaken = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0};
   ObjectList objects;
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
-  EXPECT_TRUE(classified({kPerson, kCar}, objects, options).list.objects.empty());
+  const MonoClassification result = classified({kPerson, kCar}, objects, options);
+  EXPECT_TRUE(result.classes.empty());
+  EXPECT_TRUE(result.alone.objects.empty());
   const MonoClassifier classifier(options,
                                   std::make_unique<FixedDetector>(std::vector<ImageDetection>()));
   EXPECT_FALSE(classifier.isInformative());
   options.dnn_reliability.right[1] = 0.9;
-  EXPECT_EQ(classified({kPerson}, objects, options).classified, 1U) << "of a high score";
+  EXPECT_EQ(classified({kPerson}, objects, options).classes.size(), 1U) << "of a high score";
 }
 
 TEST(MonoClassifier, OpenCVsPeopleDetectorHasNoWeight) {

@@ -27,7 +27,7 @@ violators: Ayer et al. 1955). Calibrate on other drives than those you evaluate 
 
 PRODUCT = "table"
 
-TOPIC = "/objects/mono"
+TOPICS = ("/objects/classes", "/objects/mono")
 REPORTED = ("pedestrian", "cyclist", "vehicle")
 # In the order of ObjectClass.
 ACTUAL = {"unknown": (NOTHING, "unknown"), "pedestrian": ("pedestrian",), "cyclist": ("cyclist",),
@@ -88,21 +88,24 @@ def as_yaml(detector, reports, bin_size):
                           default_flow_style=None, sort_keys=False)  # fmt: skip
 
 
-def _reports(run, drive, topic, region):
+def _reports(run, drive, topics, region):
     truth = Truth(drive)
-    lists = read_lists(run, [topic]).get(topic)
+    lists = read_lists(run, topics)
     if not lists:
-        raise InputError(f"{run}: nothing on {topic}, expected a bag of run_bag --mono")
-    judged = truth.beside(lists, Asked(region, NONE))
-    return [report for item, score in zip(judged, score_lists(judged))
-            for report in reports_of(item, score, region, truth.path)]  # fmt: skip
+        raise InputError(f"{run}: nothing on {', '.join(topics)}, expected a bag of run_bag --mono")
+    reports = []
+    for of_topic in lists.values():
+        judged = truth.beside(of_topic, Asked(region, NONE))
+        for item, score in zip(judged, score_lists(judged)):
+            reports += reports_of(item, score, region, truth.path)
+    return reports
 
 
 def execute(values):
     """Prints the table and writes it to a file. Raises InputError."""
     region = region_of(values)
     reports = [report for run, drive in zip(values.runs, drives_of(values))
-               for report in _reports(run, drive, values.topic, region)]  # fmt: skip
+               for report in _reports(run, drive, values.topic or TOPICS, region)]  # fmt: skip
     text = as_yaml(values.detector, reports, values.bin_size)
     right = sum(report.is_right for report in reports)
     print(f"{len(reports)} reports, {right} of them right")
@@ -116,7 +119,8 @@ def add_arguments(parser):
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
     add_truths(parser)
     add("--detector", choices=("hog", "dnn"), required=True, help="detector of the runs")
-    add("--topic", default=TOPIC, help="of the objects (default %(default)s)")
+    add("--topic", action="append",
+        help=f"of the objects; may be repeated (default: {', '.join(TOPICS)})")  # fmt: skip
     add("--bin-size", type=command_line.count, default=BIN_SIZE, metavar="N",
         help="reports per point of the curve (default %(default)s)")  # fmt: skip
     add_table(parser, "class_reliability.yaml")

@@ -17,10 +17,11 @@ DESCRIPTION = """\
 Measures the speed of the stack. micro: each hot path by itself, in processor time, and the ratio to
 its lower bound (its limit, measured in the same run). live: the nodelets on a drive that is played
 in real time, with the demonstrator's settings, with heavy ones, and with the demonstrator's stereo
-camera, the recommended level of fusion and the risk of contact: latency from the publication of
-a scan by another process to the arrival of its tracks there, including both transports; processor
-time and memory of the nodelets' process. Each live figure is the median over the runs. All figures
-are written to a JSON file. --compare prints two such files side by side, or one next to a new
+camera, the recommended level of fusion and the risk of contact; with --images, on that drive
+without and with a network that classifies its objects: latency from the publication of a scan by
+another process to the arrival of its tracks there, including both transports; processor time and
+memory of the nodelets' process. Each live figure is the median over the runs. All figures are
+written to a JSON file. --compare prints two such files side by side, or one next to a new
 measurement, and compares the ratios to the limits, which hold on any machine: the exit code is 3 if
 one of them has grown by more than its spread."""
 
@@ -86,7 +87,7 @@ def _measure_live(values, folder):
 
 def _drives(values, folder):
     """Returns the intersection, with the demonstrator, with a heavy scanner, and with the
-    demonstrator's camera."""
+    demonstrator's camera; and the drive with images, if any."""
     fixtures = values.source / "rosbag_fixtures"
     scene = fixtures / "scenes" / "intersection.yaml"
     heavy_bag, stereo_bag = folder / "heavy.bag", folder / "stereo.bag"
@@ -95,11 +96,17 @@ def _drives(values, folder):
     demonstrator = values.source / "config" / "demonstrator.yaml"
     heavy = values.source / "benchmark" / "heavy.yaml"
     play_options = QUICK if values.quick else ""
-    return {
+    drives = {
         "demonstrator": LiveDrive(fixtures / "intersection.bag", demonstrator, play_options),
         "heavy": LiveDrive(heavy_bag, heavy, play_options),
         "stereo camera and risk": LiveDrive(stereo_bag, demonstrator, play_options, ALL_LEVELS),
     }
+    if values.images:
+        bag, network = (file.resolve() for file in values.images)
+        config = values.source / "config" / "kitti.yaml"
+        drives["images, not used"] = LiveDrive(bag, config, play_options)
+        drives["images and network"] = LiveDrive(bag, config, play_options, (f"network:={network}",))
+    return drives
 
 
 def _simulate(values, scene, bag, options):
@@ -123,6 +130,9 @@ def _parser():
         help="OLD NEW: print both side by side instead; OLD: with a new measurement")  # fmt: skip
     add("--runs", type=command_line.count, default=3, metavar="N",
         help="live runs (default %(default)s)")  # fmt: skip
+    add("--images", nargs=2, type=Path, metavar=("DRIVE.bag", "MODEL"),
+        help="a drive of kitti_to_bag --images, and the file of a network: also measures live "
+        "latency without and with it")  # fmt: skip
     add("--quick", action="store_true", help="one short run of everything, as a check")
     add("--source", type=Path, default=Path.cwd(), metavar="DIR", help="sources (default: here)")
     add("--build", type=Path, default=Path("build"), metavar="DIR",

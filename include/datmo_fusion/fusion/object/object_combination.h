@@ -19,8 +19,4 @@ namespace datmo {
 /// the more certain position, since they serve for exact positions. Both must be valid (isValid).
 Object combined(const Object& a, const Object& b);
 
-/// Fuses class probabilities only: if one of them does not indicate a class, those of the other;
-/// else Bayes. `result` may alias `a` or `b`.
-void combineClass(const Object& a, const Object& b, Object& result);
-
 }  // namespace datmo

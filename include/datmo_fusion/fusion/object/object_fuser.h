@@ -56,10 +56,9 @@ struct SourceObjects {
 
 /// Counts of one set of lists.
 struct ObjectFusionCounts {
-  std::size_t rejected = 0;           ///< invalid (isValid)
-  std::size_t refused = 0;            ///< beyond the maximum of one list: the farthest
-  std::size_t fused = 0;              ///< objects that two or more sources see
-  std::size_t unmatched_classes = 0;  ///< classes for another source's object that is not there
+  std::size_t rejected = 0;  ///< invalid (isValid)
+  std::size_t refused = 0;   ///< beyond the maximum of one list: the farthest
+  std::size_t fused = 0;     ///< objects that two or more sources see
 };
 
 /// The fused list of all sources.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -44,12 +45,21 @@ struct MonoClassifierStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Runs MonoClassifier on messages, as one more source of objects. The nodelet runs the detector in
-/// a separate thread on the newest image only; the bag runner processes each image synchronously.
+/// Result of an image.
+struct MonoObjects {
+  /// Objects of the scanner's list nearest to the exposure, as listed and at its stamp, with the
+  /// classes that the image gives them; null if the image was processed alone.
+  ObjectArrayPtr classes;
+  ObjectArrayPtr alone;  ///< from the image alone, at the exposure's stamp
+};
+
+/// Runs MonoClassifier on messages: classes for the tracker, and one more source of objects. The
+/// nodelet runs the detector in a separate thread on the newest image only; the bag runner
+/// processes each image synchronously.
 ///
 /// An image waits for objects of its time (`tolerance`), which are moved to the exposure by the
-/// vehicle's motion; without objects or motion it is processed alone. Results have the exposure's
-/// stamp, however long the detector took.
+/// vehicle's motion; without objects or motion it is processed alone. Results have the stamps of
+/// the objects and of the exposure, however long the detector took.
 ///
 /// Bad input is dropped and reported to the monitor, never thrown: what CameraInput and grayOrColor
 /// reject, `blank_image` (black, white), `half_image` (truncated), `frozen_image` (repeated
@@ -84,9 +94,9 @@ class MonoClassifierStage : public Stage {
   /// `now`: ROS time.
   void handleImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
 
-  /// Returns the next list that is ready, at its exposure's stamp; null if there is none. Call it
-  /// until null, after each input and periodically. `now`: ROS time.
-  ObjectArrayPtr next(Stamp now);
+  /// Returns the next result that is ready; none if there is none. Call it until none, after each
+  /// input and periodically. `now`: ROS time.
+  std::optional<MonoObjects> next(Stamp now);
 
   /// Blocks until the detector is idle; for tests.
   void waitUntilIdle() { worker_.waitUntilIdle(); }
@@ -96,15 +106,19 @@ class MonoClassifierStage : public Stage {
   double maxWait() const override { return options_.max_wait; }
 
  private:
+  using Listed = std::shared_ptr<const ObjectList>;
+
   /// Input of the detector's thread.
   struct Job {
     sensor_msgs::ImageConstPtr image;
     MountedCamera camera;
-    ObjectList objects;     ///< base frame at the exposure, its stamp
+    Listed listed;          ///< the scanner's objects as listed; null: the image is processed alone
+    ObjectList objects;     ///< the same, moved to the base frame at the exposure, its stamp
     std::uint64_t run = 0;  ///< number of the clock's run
   };
   struct Result {
     MonoClassification classification;
+    Listed listed;  ///< of its job
     double seconds = 0.0;
     std::uint64_t run = 0;
     std::string error;  ///< error message; empty: none
@@ -117,9 +131,10 @@ class MonoClassifierStage : public Stage {
 
   void checkAge(const sensor_msgs::Image& image) const;
   void startIfReady(Stamp now);
-  ObjectList objectsAt(Stamp exposure) const;
+  /// Without objects if there is no list at this time, or the motion since then is unknown.
+  Job jobOf(const sensor_msgs::ImageConstPtr& image) const;
   static Result work(MonoClassifier& classifier, const Job& job);
-  ObjectArrayPtr show(const Result& result);
+  MonoObjects show(const Result& result);
   void reset();
 
   MonoClassifierStageOptions options_;
@@ -129,12 +144,13 @@ class MonoClassifierStage : public Stage {
   MotionInput motion_;
   CameraInput camera_;
   ExposureCheck exposure_;
-  ImageWait<ObjectList> wait_;
+  ImageWait<Listed> wait_;
   std::uint64_t run_ = 0;  ///< number of clock restarts
   std::deque<Result> results_;
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier
-  StagePublisher<ObjectArray> published_;
+  StagePublisher<ObjectArray> classes_;
+  StagePublisher<ObjectArray> alone_;
 };
 
 }  // namespace datmo

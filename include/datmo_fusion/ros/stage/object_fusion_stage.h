@@ -104,7 +104,6 @@ class ObjectFusionStage : public Stage {
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;
   std::uint64_t objects_too_many_ = 0;
-  std::uint64_t unmatched_classes_ = 0;
 };
 
 }  // namespace datmo

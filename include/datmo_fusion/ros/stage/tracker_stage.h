@@ -57,6 +57,9 @@ class TrackerStage : public Stage {
     enqueue({message, now, true});
   }
 
+  /// Adds the classes of the scanner's objects at an earlier stamp, or one that is yet to come.
+  void handleClasses(const ObjectArray& message);
+
   /// Returns the tracks at the stamp of the next objects in the queue with a known pose; null if
   /// there are none. Objects that have waited longer than transform_wait are dropped. Call it until
   /// null, after each new input and after new transforms.
