@@ -33,11 +33,11 @@ void LateClasses::add(ObjectList classes) {
 void LateClasses::note(Stamp stamp, const std::vector<BestTarget>& targets,
                        const AssociationScan& scan) {
   KnownScan known;
-  if (!scans_.empty() && secondsBetween(scans_.front().stamp, stamp) > kMaxAge) {
+  while (!scans_.empty() && secondsBetween(scans_.front().stamp, stamp) > kMaxAge) {
     known = std::move(scans_.front());  // whose memory is reused
     scans_.pop_front();
-    known.objects.clear();
   }
+  known.objects.clear();
   known.stamp = stamp;
   known.base_in_fixed = scan.fixed_in_base.inverse();
   for (const BestTarget& best : targets) {
