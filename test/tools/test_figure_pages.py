@@ -113,18 +113,26 @@ class Pages(InFolder):
     def test_a_single_camera_with_and_without_a_network(self):
         scored = {"right": {kind: {"0 to 10 m": [3, 4]} for kind in ("vehicle", "cyclist", "pedestrian")},
                   "reported": 9, "on_nothing": 2, "calibration": [[0.8, 0.7, 9]]}  # fmt: skip
-        run = {"mota": 0.883, "id_switches": 0, "false_movers_per_frame": 0.01, "delay_mean_s": 0.31,
-               "brief": {"objects": 3, "found": 1}, "class_right": {"cyclist": 1.0, "vehicle": 0.99},
-               "tracks": scored}  # fmt: skip
+        run = {"mota": [0.883, 0.87, 0.9], "id_switches": [0, 0, 1], "false_movers_per_frame": [0.01, 0.01, 0.01],
+               "delay_mean_s": [0.31, 0.31, 0.31], "brief": {"objects": [3, 3, 3], "found": [1, 1, 1]},
+               "class_right": {"cyclist": [1.0, 1.0, 1.0], "vehicle": [0.99, 0.99, 0.99]}, "tracks": scored}  # fmt: skip
         grids = {"mono": {"5 to 10 m": {"precision": 0.997, "recall": 0.69}}}
-        without = self.pages(mono={"runs": {"2": {"none": run}}, "grids": grids})["doc/results.md"]
-        self.assertIn("| 2 deg | none | 88.3 | 0 | 0.01 | 1 of 3 | 0.31 | 100.0, 99.0 | 2 of 9 |", without)
+
+        def page(runs):
+            done = results(mono={"runs": runs, "grids": grids})
+            done["steps"]["mono"]["seeds"] = [1, 2]
+            return render.rendered(self.folder, done)["doc/results.md"]
+
+        without = page({"2": {"none": run}})
+        self.assertIn("medians over 2\nseeds", without)
+        self.assertIn("| 2 deg | none | 88.3 (87.0 to 90.0) | 0 (0 to 1) | 0.01 | 1 of 3 | 0.31 | 100.0, 99.0 | 2 of 9 |",
+                      without)  # fmt: skip
         self.assertIn("| `/grids/mono` | 99.7, 69.0 |", without)
         self.assertNotIn("YOLOX", without)
-        runs = {"2": {"none": run, "dnn": {**run, "objects": scored}}}
-        with_network = self.pages(mono={"runs": runs, "grids": grids})["doc/results.md"]
+        with_network = page({"2": {"none": run, "dnn": {**run, "objects": scored, "alone": scored}}})
         self.assertIn("| cyclist | 75 of 4 |", with_network)
-        self.assertIn("Of 9 classified objects 2 are", with_network)
+        self.assertIn("Of 9 classified objects 2 are where the labels have nothing, of 9\nfrom the image alone 2.",
+                      with_network)  # fmt: skip
         self.assertIn("| tracks | 80 | 70 | 9 |", with_network)
 
     def test_wrong_classes_beside_the_scanner_alone(self):

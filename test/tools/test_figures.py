@@ -11,6 +11,7 @@ from pathlib import Path
 from datmo_tools.errors import InputError
 from datmo_tools.figures import cameras, data_sets, maps, mono, recordings, risk
 from datmo_tools.figures.class_figures import class_figures
+from datmo_tools.figures.network import NETWORK
 from datmo_tools.figures.step import Bench, preset
 from datmo_tools.yaml_files import load_yaml
 from folder_case import InFolder
@@ -140,18 +141,30 @@ class MonoFigures(InFolder):
 
     def test_the_network_is_left_out_if_its_file_is_missing(self):
         names, said = self.jobs()
-        self.assertEqual(names, {"grids", "none_1", "none_2", "hog_1", "hog_2"})
-        self.assertRegex(said, "mono: dnn left out, .*yolox_nano.onnx is not there")
-        model = self.folder / mono.MODEL
+        self.assertEqual(names, {"grids", "1_1", "2_1"})
+        self.assertRegex(said, "mono: network left out, .*yolox_nano.onnx is not there")
+        model = self.folder / NETWORK
         model.parent.mkdir(parents=True)
         model.write_text("")
         names, said = self.jobs()
-        self.assertEqual((len(names), said), (7, ""))
+        self.assertEqual((len(names), said), (3, ""))
 
-    def test_runs_are_by_resolution_and_detector(self):
-        found = mono.figures([("dnn", 1, "a"), ("grids", None, "b"), ("none", 1, "c"), ("none", 2, "d")])
-        self.assertEqual(found, {"runs": {"2": {"none": "d"}, "1": {"none": "c", "dnn": "a"}}, "grids": "b"})
-        self.assertEqual([list(run) for run in found["runs"].values()], [["none"], ["none", "dnn"]])
+    def test_runs_are_by_resolution_and_detector_over_the_seeds(self):
+        def run(mota, right):
+            scored = {"right": {"vehicle": {"0 to 10 m": [right, 4]}}, "reported": 4, "on_nothing": 1,
+                      "calibration": [[0.5, 0.25 * right, 4], [0.95, 1.0, 2]]}  # fmt: skip
+            return {"mota": mota, "id_switches": 0, "false_movers_per_frame": 0.0, "delay_mean_s": 0.3,
+                    "brief": {"found": 1, "objects": 3}, "class_right": {"vehicle": 1.0}, "tracks": scored}  # fmt: skip
+
+        found = mono.figures([(1, {"none": run(0.9, 1)}), (None, "grids"), (2, {"none": run(0.8, 2)}),
+                              (2, {"none": run(0.7, 4), "dnn": run(0.6, 4)})])  # fmt: skip
+        self.assertEqual(found["grids"], "grids")
+        self.assertEqual([list(detectors) for detectors in found["runs"].values()], [["none", "dnn"], ["none"]])
+        none = found["runs"]["2"]["none"]
+        self.assertEqual((none["mota"], none["brief"]["found"]), ([0.75, 0.7, 0.8], [1, 1, 1]))
+        self.assertEqual((none["class_right"]["vehicle"], none["class_right"]["cyclist"]), ([1.0, 1.0, 1.0], None))
+        self.assertEqual(none["tracks"], {"right": {"vehicle": {"0 to 10 m": [6, 8]}}, "reported": 8, "on_nothing": 2,
+                                          "calibration": [[0.5, 0.75, 8], [0.95, 1.0, 4]]})  # fmt: skip
 
     def test_classes_by_range(self):
         def row(vehicle, cyclist):

@@ -24,8 +24,8 @@ def _parts(room, *names):
 
 
 _EVALUATE = "tools/datmo_tools/evaluate/main.py"  # lists all subcommands
-_CAMERAS, _MEASUREMENTS, _RECORDINGS, _STEPS = _under(
-    "figures", "cameras.py", "measurements.py", "recordings.py", "steps.py")  # fmt: skip
+_CAMERAS, _MEASUREMENTS, _MONO, _RECORDINGS, _STEPS = _under(
+    "figures", "cameras.py", "measurements.py", "mono.py", "recordings.py", "steps.py")  # fmt: skip
 
 _NOT_RUN = (
     Leaf((), ("README.md", "CHANGELOG.rst", "LICENSE", "doc/", "test/", "migration/", "meshes/",
@@ -37,11 +37,12 @@ _NOT_RUN = (
         "compare_fusion", "data_sets", "demo", "display.sh", "encounters", "fuzz", "gaps",
         "loop_closing", "machines", "meshes", "pole_camera", "prior_map", "risk_demo", "robustness",
         "run_readme", "slam_benchmark", "test", "thread_sanitizer", "tidy"))),
-    # Which steps run, and how figures are stored and look.
+    # Which steps run, and how figures are stored and look. What a step measures is in the files that
+    # its row in steps.py names.
     Leaf((), _under("figures", "commits.py", "earlier.py", "effects.py", "main.py", "pass_of_steps.py",
-                    "render.py", "results_file.py", "sample.py", "fusion_results.", "map_results.",
-                    "mono_results.", "readme_table.", "results.md.jinja", "risk_results.",
-                    "wrong_classes_results."),
+                    "render.py", "results_file.py", "sample.py", "steps.py", "fusion_results.",
+                    "map_results.", "mono_results.", "readme_table.", "results.md.jinja",
+                    "risk_results.", "wrong_classes_results."),
          # Which say "figures", and mean those of a step.
          (*_under("experiments", "compare_fusion.py"), *_under("figures", "cameras.py", "data_sets.py"))),
     Leaf((), tuple(f"tools/datmo_tools/{name}.py" for name in (
@@ -95,7 +96,8 @@ _CAMERA = (
          (*_under("evaluate", "classes.py", "track_classes.py"), *_under("figures", "class_figures.py")),
          # The latter's "classes" are score_run's.
          (_EVALUATE, *_under("experiments", "fusion_comparison.py"))),
-    Leaf(("mono",), _under("figures", "mono.py"), (_STEPS,)),
+    Leaf(("mono", "speed"), _under("figures", "network.py"), (_MEASUREMENTS, _MONO)),
+    Leaf(("mono",), (_MONO,), (_STEPS,)),
     Leaf(("wrong_classes",), _under("figures", "wrong_classes.py"), (_STEPS,)),
     Leaf(("fusion",), _under("experiments", "camera_view.py", "compare_fusion.py", "fusion_comparison.py",
                              "fusion_plot.py"), (_CAMERAS,)),

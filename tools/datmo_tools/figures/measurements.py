@@ -8,7 +8,7 @@ from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run, speed_report
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
 from datmo_tools.experiments.fusion_drives import ODOMETRY_ERRORS
-from datmo_tools.figures.mono import MODEL
+from datmo_tools.figures.network import network_of
 from datmo_tools.figures.recordings import DRIVE_0005
 from datmo_tools.figures.step import Job, read_json
 
@@ -65,15 +65,13 @@ def speed_jobs(bench):
 
 
 def _images(bench, folder):
-    """Returns the words for speed_benchmark with a drive with images and a network; none where one
-    of them is not there, which it says."""
-    network = bench.data.parent / MODEL
-    missing = [str(path) for path in (bench.data / DRIVE_0005, network) if not path.exists()]
-    if missing:
-        print(f"speed: live with a network left out, {missing[0]} is not there")
+    """Returns the words for speed_benchmark with a drive with images and a network; none without them."""
+    network = network_of(bench, "speed")
+    drive = bench.data / DRIVE_0005
+    if network is None or not drive.exists():
         return ()
     recorded = folder / "images.bag"
-    bench.call("kitti_to_bag", bench.data / DRIVE_0005, recorded, "--images", *ODOMETRY_ERRORS)
+    bench.call("kitti_to_bag", drive, recorded, "--images", *ODOMETRY_ERRORS)
     return "--images", recorded, network
 
 

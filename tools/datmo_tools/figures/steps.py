@@ -26,7 +26,7 @@ STEPS = (
     Step("maps", "maps of low-level and map-level fusion, changes since a map was made",
          "evaluate maps, evaluate changes", maps.jobs, maps.figures, seeded=True),
     Step("mono", "a single camera: classes, tracks and grids", "run_bag --mono, evaluate classes",
-         mono.jobs, mono.figures, (recordings.DRIVE_0005,)),
+         mono.jobs, mono.figures, (recordings.DRIVE_0005,), seeded=True),
     Step("wrong_classes", "wrong classes of a camera: classes of tracks, lost tracks",
          "simulate, run_bag --object-fusion, evaluate classes", wrong_classes.jobs,
          wrong_classes.figures, seeded=True),
