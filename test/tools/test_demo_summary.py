@@ -25,6 +25,25 @@ class Quantile(unittest.TestCase):
         self.assertEqual(demo_summary.quantile([], 0.5), 0.0)
 
 
+class Pictures(unittest.TestCase):
+    @staticmethod
+    def of(*arguments):
+        return demo_summary.Pictures(demo_summary.parse_arguments(["--picture", "p.png", *arguments]))
+
+    def test_a_picture_is_taken_once_when_it_is_due(self):
+        pictures = self.of("--picture-at", "10")
+        self.assertEqual([pictures.due(at) for at in (9.9, 10.1, 10.2)], [None, "p.png", None])
+        self.assertIsNone(pictures.at_end())
+
+    def test_of_a_shorter_drive_it_is_taken_at_the_end(self):
+        pictures = self.of("--picture-at", "10", "--frames", "f", "--frames-to", "10")
+        self.assertEqual(pictures.due(0.6), "f/001.png")
+        self.assertEqual(pictures.at_end(), "p.png")
+
+    def test_none_is_asked_for(self):
+        self.assertIsNone(demo_summary.Pictures(demo_summary.parse_arguments([])).at_end())
+
+
 class DriveSummary(unittest.TestCase):
     def setUp(self):
         self.summary = demo_summary.DriveSummary()
