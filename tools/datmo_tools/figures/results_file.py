@@ -88,7 +88,6 @@ class StepStore:
             "command": step.command,
             "seeds": _seeds(step, bench),
             "commit": self.commit,
-            "confirmed": None,  # at which later commit, and by which job
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
             "machine": machine(),
             "job_seconds": round(sum(seconds for _, seconds in jobs.values())),
@@ -114,7 +113,9 @@ class StepStore:
             return None
         file = self._file(step)
         record = read_json(file) if file.is_file() else self._earlier.get(step.name)
-        return {"confirmed": None, **record} if record and _counts_here(step, record) else None
+        if not record or not _counts_here(step, record):
+            return None
+        return {"confirmed": None, **record}  # at which later commit, and by which job
 
     def _write(self, step, record):
         write_file(self._file(step), json.dumps(record) + "\n")
@@ -164,5 +165,4 @@ def read(file):
     for record in results["steps"].values():
         for key in ("commit", "machine"):  # in older files the same for all steps
             record.setdefault(key, results[key])
-        record.setdefault("confirmed", None)
     return results
