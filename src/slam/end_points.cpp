@@ -50,6 +50,7 @@ std::optional<Point2> stepAlongSurface(const End* previous, const End& end, cons
 
 std::vector<End> endsOf(const Scan& scan) {
   std::vector<End> ends;
+  ends.reserve(scan.rays.size());
   for (const Ray& ray : scan.rays) {
     if (ray.hit) {
       ends.push_back({ray.end, ray.range, stepAcross(ray, scan.field.beam_spacing)});

@@ -54,6 +54,7 @@ LabeledScan labelScan(const Scan& scan, const std::vector<PointState>& states,
                       const PoseWithCovariance& base_in_map) {
   LabeledScan result{scan.stamp, base_in_map,      scan.scanner_in_base,
                      scan.field, blindBeams(scan), {}};
+  result.points.reserve(scan.rays.size());
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const Ray& ray = scan.rays[i];
     if (ray.hit) {

@@ -99,16 +99,16 @@ class AlternativeFinder {
   }
 
   void addParts(std::size_t index, std::vector<Alternative>& result) {
-    const Object object = scan_.observations[index].object;
     std::vector<ExpectedTarget> covered;
     for (const ExpectedTarget& target : confirmed_) {
-      if (mayCover(object, target.box, options_)) {
+      if (mayCover(scan_.observations[index].object, target.box, options_)) {
         covered.push_back(target);
       }
     }
     if (covered.size() != 2 || options_.merge_probability == 0.0) {
       return;
     }
+    const Object object = scan_.observations[index].object;  // observe() moves the list
     std::array<std::vector<Point2>, 2> points;
     for (const Point2& point : object.points) {
       points[covered[1].box.distanceTo(point) < covered[0].box.distanceTo(point) ? 1 : 0].push_back(
@@ -145,7 +145,7 @@ class AlternativeFinder {
   AssociationScan& scan_;
   const AssociationOptions& association_;
   const SplitMergeOptions& options_;
-  const Interpretation objects_;
+  const Interpretation& objects_;
   std::vector<ExpectedTarget> confirmed_;
 };
 
@@ -221,6 +221,9 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
   const Interpretation objects = interpretations.front();
   const std::vector<Alternative> alternatives =
       AlternativeFinder(cluster, scan, association, options, objects).alternatives();
+  if (alternatives.empty()) {
+    return;
+  }
   Interpretation all = objects;
   std::vector<std::size_t> replaced_objects;
   std::size_t used = 0;

@@ -66,10 +66,6 @@ datmo_fusion_add_core_test(tracking
   tracking/wrong_classes_test.cpp
 )
 
-# A separate program: it counts all allocations in the process.
-datmo_fusion_add_core_test(tracking_memory
-  tracking/steady_memory_test.cpp
-)
 # The wide_clone files include sources of tracking in a namespace of their own.
 set_source_files_properties(tracking/wide_clone_avx2.cpp tracking/wide_clone_default.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/src/tracking)
@@ -286,3 +282,11 @@ datmo_fusion_add_core_test(device
   device/velodyne_packets.cpp
 )
 target_include_directories(unit_device PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
+# A separate program: it counts all allocations in the process.
+datmo_fusion_add_core_test(memory
+  allocation_count.cpp
+  slam/steady_memory_test.cpp
+  tracking/steady_memory_test.cpp
+)
+target_include_directories(unit_memory PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -1,46 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often the association of already tracked targets allocates memory. Counts every operator new
-// of this program; Eigen's allocations for dynamically sized matrices are not seen.
+// How often a step of the tracker, and its association alone, allocate memory when all objects have
+// tracks.
 
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <vector>
 
+#include "allocation_count.h"
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/tracking/multiple_hypotheses.h"
 #include "datmo_fusion/tracking/nearest_neighbor.h"
 
-namespace datmo::steady_memory_test {
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-}  // namespace datmo::steady_memory_test
-
-// Not inlined, as the compiler would report a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++datmo::steady_memory_test::allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
-
-namespace datmo::steady_memory_test {
+namespace datmo::tracking_memory_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  // s
 constexpr double kSpeed = 8.0;   // m/s
-constexpr int kTargets = 40;
+constexpr int kTargets = 50;
 constexpr int kWarmUp = 40;  // scans
 constexpr int kScans = 20;
 
@@ -64,13 +41,13 @@ Counts countsOf(TargetSet& targets) {
   Counts counts{};
   for (int i = 0; i < kWarmUp + kScans; ++i) {
     AssociationScan scan = source.scan(cyclists(i));
-    const std::size_t before = allocations;
+    const std::size_t before = allocationCount();
     targets.predict(kPeriod, scan);
-    const std::size_t predicted = allocations;
+    const std::size_t predicted = allocationCount();
     targets.associate(scan, StepBudget());
     if (i >= kWarmUp) {
       counts.predict += static_cast<double>(predicted - before) / (kTargets * kScans);
-      counts.associate += static_cast<double>(allocations - predicted) / (kTargets * kScans);
+      counts.associate += static_cast<double>(allocationCount() - predicted) / (kTargets * kScans);
     } else {
       for (const BestTarget& best : targets.best()) {
         targets.change(best.target->number(),
@@ -82,20 +59,20 @@ Counts countsOf(TargetSet& targets) {
   return counts;
 }
 
-TEST(SteadyMemory, IsCounted) {
-  const std::size_t before = allocations;
+TEST(TrackingMemory, IsCounted) {
+  const std::size_t before = allocationCount();
   const std::vector<int> some(100);
-  EXPECT_EQ(allocations, before + 1) << some.size();
+  EXPECT_EQ(allocationCount(), before + 1) << some.size();
 }
 
-TEST(SteadyMemory, NearestNeighborPredictsWithoutAndAssociatesWithLittle) {
+TEST(TrackingMemory, NearestNeighborPredictsWithoutAndAssociatesWithLittle) {
   NearestNeighborTargets targets{TargetOptions(), AssociationOptions()};
   const Counts counts = countsOf(targets);
   EXPECT_EQ(counts.predict, 0.0);
   EXPECT_LT(counts.associate, 3.0) << "a group of target and object, and its assignment";
 }
 
-TEST(SteadyMemory, MultipleHypothesesPredictWithoutAndAssociateWithLittle) {
+TEST(TrackingMemory, MultipleHypothesesPredictWithoutAndAssociateWithLittle) {
   MultipleHypotheses targets{TargetOptions(), AssociationOptions(), HypothesisOptions(),
                              SplitMergeOptions()};
   const Counts counts = countsOf(targets);
@@ -103,5 +80,34 @@ TEST(SteadyMemory, MultipleHypothesesPredictWithoutAndAssociateWithLittle) {
   EXPECT_LT(counts.associate, 25.0) << "the hypotheses of a cluster, and their ranking";
 }
 
+/// The same of whole steps.
+double countOf(TrackerAssociation association) {
+  TrackerOptions options;
+  options.association = association;
+  Tracker tracker{options};
+  std::size_t count = 0;
+  for (int i = 0; i < kWarmUp + kScans; ++i) {
+    const ObjectList objects{Stamp::fromSeconds(100.0 + kPeriod * i), cyclists(i), {}};
+    const std::size_t before = allocationCount();
+    const std::size_t tracks = tracker.process(objects, Pose2()).tracks.size();
+    if (i >= kWarmUp) {
+      count += allocationCount() - before;
+      EXPECT_EQ(tracks, std::size_t{kTargets});
+    }
+  }
+  return static_cast<double>(count) / (kTargets * kScans);
+}
+
+TEST(TrackingMemory, AStepWithNearestNeighbors) {
+  EXPECT_LT(countOf(TrackerAssociation::kGlobalNearestNeighbor), 9.0)
+      << "7.7: a copy of the object, its group and assignment, and the published track with its "
+         "path";
+}
+
+TEST(TrackingMemory, AStepWithMultipleHypotheses) {
+  EXPECT_LT(countOf(TrackerAssociation::kMultipleHypotheses), 31.0)
+      << "26.6: the same, and the hypotheses of a cluster with their ranking";
+}
+
 }  // namespace
-}  // namespace datmo::steady_memory_test
+}  // namespace datmo::tracking_memory_test
