@@ -3,40 +3,15 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <boost/shared_ptr.hpp>
-
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 
 #include "datmo_fusion/device/device_data.h"
 #include "datmo_fusion/ros/device_options.h"
-#include "datmo_fusion/ros/stage/arrival_check.h"
+#include "datmo_fusion/ros/stage/numbered_publisher.h"
 
 namespace datmo {
-
-/// Publishes numbered messages, so that a stage in the same process notices those that its queue
-/// has lost.
-class NumberedPublisher {
- public:
-  NumberedPublisher() = default;
-  explicit NumberedPublisher(ros::Publisher publisher) : publisher_(std::move(publisher)) {}
-
-  template <typename Message>
-  void publish(const boost::shared_ptr<Message>& message) {
-    setSequence(*message, ++sequence_);
-    publisher_.publish(message);
-  }
-
-  /// Full name; empty if nothing is advertised.
-  std::string topic() const { return publisher_ ? publisher_.getTopic() : ""; }
-
- private:
-  ros::Publisher publisher_;
-  std::uint32_t sequence_ = 0;
-};
 
 /// Publishes a device's measurements as messages, on the topics of its kind: `scan`, `points`,
 /// `gnss` and `twist`, or `twist` and what else a bus measures of the host.

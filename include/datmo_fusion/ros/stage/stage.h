@@ -19,6 +19,7 @@
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/arrival_check.h"
 #include "datmo_fusion/ros/stage/guard.h"
+#include "datmo_fusion/ros/stage/numbered_publisher.h"
 #include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/queue_length.h"
 #include "datmo_fusion/ros/stage/stage_health.h"
@@ -128,11 +129,10 @@ class StagePorts {
   StagePublisher<Message> out(const std::string& topic, bool latched = false) {
     const auto advertise = [topic, latched](ros::NodeHandle& node) -> StageOutput::Publish {
       const std::uint32_t queue = latched ? 1 : queueLength<Message>();
-      return [publisher = node.advertise<Message>(topic, queue, latched),
-              sequence = std::make_shared<std::uint32_t>(0)](const AnyMessage& any) {
-        const auto message = boost::const_pointer_cast<Message>(typed<Message>(any));
-        setSequence(*message, ++*sequence);
-        publisher.publish(message);
+      const auto publisher =
+          std::make_shared<NumberedPublisher>(node.advertise<Message>(topic, queue, latched));
+      return [publisher](const AnyMessage& any) {
+        publisher->publish(boost::const_pointer_cast<Message>(typed<Message>(any)));
       };
     };
     const auto content = [](const AnyMessage& any) { return contentOf(*typed<Message>(any)); };
