@@ -7,6 +7,7 @@
 
 #include "datmo_fusion/common/physical_bounds.h"
 #include "datmo_fusion/ros/stage/output_check.h"
+#include "datmo_fusion/ros/stage/stamp_range.h"
 
 namespace datmo {
 
@@ -27,7 +28,7 @@ bool isSound(const std::vector<OdometrySample>& samples) {
       samples.begin(), samples.end(),
       [](const OdometrySample& a, const OdometrySample& b) { return a.stamp < b.stamp; });
   return ascend && std::all_of(samples.begin(), samples.end(), [](const OdometrySample& sample) {
-           return isPlausible(sample.twist) &&
+           return isInStampRange(sample.stamp) && isPlausible(sample.twist) &&
                   isWithin(sample.base_in_odom.value_or(Pose2()).position(), kMaxCoordinate);
          });
 }
@@ -41,9 +42,10 @@ bool isSound(const PoseFilter::Estimate& estimate) {
 }  // namespace
 
 bool isSound(const SlamState& slam) {
-  return slam.pose.scan_interval > 0.0 && slam.pose.scan_interval <= kMaxScanInterval &&
-         isSound(slam.pose.estimate) && isSound(slam.pose.odometry) && isSound(slam.map.drift) &&
-         isSound(slam.map.frame) && slam.map.maps_begun >= 0;
+  return isInStampRange(slam.pose.stamp) && slam.pose.scan_interval > 0.0 &&
+         slam.pose.scan_interval <= kMaxScanInterval && isSound(slam.pose.estimate) &&
+         isSound(slam.pose.odometry) && isSound(slam.map.drift) && isSound(slam.map.frame) &&
+         slam.map.maps_begun >= 0;
 }
 
 }  // namespace datmo

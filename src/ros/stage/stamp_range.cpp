@@ -15,12 +15,14 @@ constexpr double kEnd = 4102444800.0;
 
 }  // namespace
 
+bool isInStampRange(Stamp stamp) { return stamp.nanoseconds >= 0 && stamp.seconds() < kEnd; }
+
 void checkStampRange(const ros::Time& time) {
   checkStampRange(Stamp::fromSeconds(static_cast<double>(time.sec)));
 }
 
 void checkStampRange(Stamp stamp) {
-  if (stamp.nanoseconds < 0 || stamp.seconds() >= kEnd) {
+  if (!isInStampRange(stamp)) {
     throw InputError(
         "stamp_out_of_range",
         "stamp " + std::to_string(std::llround(stamp.seconds())) +

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The file of a checkpoint: what is written and read, damaged files, and files of others.
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -83,7 +85,7 @@ TEST_F(CheckpointTest, ADamagedFileIsOneWarningAndANewMap) {
 TEST_F(CheckpointTest, AStateThatNoVehicleCanHaveIsOneWarningAndANewMap) {
   driveAndUnload();
   const Checkpoint sound = readCheckpoint(file(), kMaxCells);
-  std::vector<Checkpoint> wrong(6, sound);
+  std::vector<Checkpoint> wrong(8, sound);
   wrong[0].slam.pose.scan_interval = 0.0;
   wrong[1].slam.pose.estimate.pose = Pose2(1e12, 0.0, 0.0);
   wrong[2].slam.pose.estimate.covariance(0, 0) = -1.0;
@@ -92,6 +94,9 @@ TEST_F(CheckpointTest, AStateThatNoVehicleCanHaveIsOneWarningAndANewMap) {
                                  sound.slam.pose.odometry.front()};
   wrong[4].slam.pose.odometry.front().stamp = wrong[4].slam.pose.odometry.back().stamp + 1.0;
   wrong[5].slam.map.frame(0, 1) = 1.0;
+  // No ROS time; from here to any scan is more than an integer of nanoseconds holds.
+  wrong[6].slam.pose.stamp = {std::numeric_limits<std::int64_t>::min()};
+  wrong[7].slam.pose.odometry.front().stamp = {std::numeric_limits<std::int64_t>::min()};
   for (const Checkpoint& checkpoint : wrong) {
     removeCheckpoint(file());
     writeCheckpoint(file(), checkpoint);
