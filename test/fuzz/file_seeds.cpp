@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_seeds.h"
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "device/capture_sample.h"
+#include "scratch_folder.h"
 
 #include <rosbag/bag.h>
 #include <sensor_msgs/LaserScan.h>
@@ -17,16 +17,14 @@
 namespace datmo::fuzz {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string contentOf(const fs::path& file) {
+std::string contentOf(const std::string& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();
   return content.str();
 }
 
 /// The fields in a checkpoint's header.
-std::string checkpointFields(const fs::path& file) {
+std::string checkpointFields(const std::string& file) {
   Checkpoint checkpoint;
   checkpoint.run = "run 1";
   checkpoint.options = {{"map/cell_size", "0.5"}};
@@ -46,7 +44,7 @@ std::string checkpointFields(const fs::path& file) {
   return fields;
 }
 
-void writeBag(const fs::path& file) {
+void writeBag(const std::string& file) {
   sensor_msgs::LaserScan scan;
   scan.header.frame_id = "scanner";
   scan.angle_min = static_cast<float>(degrees(-80.0));
@@ -73,25 +71,21 @@ constexpr char kDatabase[] =
 }  // namespace
 
 std::vector<FileSeed> fileSeeds() {
-  std::string name = (fs::temp_directory_path() / "fuzz_seeds_XXXXXX").string();
-  const fs::path folder = mkdtemp(name.data());
+  const ScratchFolder folder;
   const std::string map = mapText(wallEvidence());
   const std::size_t cells = wallEvidence().cells.size() * kMapBytesPerCell;
-  writeMap(folder / "map", OccupancyMap::restored(mapOfFiles(), wallEvidence()));
-  writeBag(folder / "drive.bag");
-  samples::writeCapture(folder / "frames.pcap", {{1.0, 2368, "data"}});
-  const std::vector<FileSeed> seeds{
-      {"map", 0, map},
-      {"cells", 1, map.substr(map.size() - cells)},
-      {"map_server", 2, contentOf(folder / "map.yaml") + contentOf(folder / "map.pgm")},
-      {"checkpoint", 3, checkpointFields(folder / "checkpoint")},
-      {"configuration", 4, kConfiguration},
-      {"can_database", 5, kDatabase},
-      {"capture", 6, contentOf(folder / "frames.pcap")},
-      {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
-      {"bag", 7, contentOf(folder / "drive.bag")}};
-  fs::remove_all(folder);
-  return seeds;
+  writeMap(folder.file("map"), OccupancyMap::restored(mapOfFiles(), wallEvidence()));
+  writeBag(folder.file("drive.bag"));
+  samples::writeCapture(folder.file("frames.pcap"), {{1.0, 2368, "data"}});
+  return {{"map", 0, map},
+          {"cells", 1, map.substr(map.size() - cells)},
+          {"map_server", 2, contentOf(folder.file("map.yaml")) + contentOf(folder.file("map.pgm"))},
+          {"checkpoint", 3, checkpointFields(folder.file("checkpoint"))},
+          {"configuration", 4, kConfiguration},
+          {"can_database", 5, kDatabase},
+          {"capture", 6, contentOf(folder.file("frames.pcap"))},
+          {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
+          {"bag", 7, contentOf(folder.file("drive.bag"))}};
 }
 
 }  // namespace datmo::fuzz

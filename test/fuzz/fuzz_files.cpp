@@ -6,9 +6,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -18,8 +15,8 @@
 #include "fuzz_check.h"
 #include "input_bag.h"
 #include "run_bag/sensor_set.h"
+#include "scratch_folder.h"
 #include "slam/yard.h"
-#include <unistd.h>
 
 #include <rosbag/view.h>
 #include <sensor_msgs/LaserScan.h>
@@ -36,40 +33,8 @@
 namespace datmo::fuzz {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxCells = 100'000;  ///< of a checkpoint
 constexpr double kScanInterval = 0.1;       // s, between a checkpoint and the first scan after it
-
-/// A folder of this process in memory, if there is one: a file is written for each input.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_(base() / ("datmo_fusion_fuzz_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  /// Writes a file and returns its name.
-  std::string write(const std::string& name, std::string_view bytes) const {
-    const std::string file = (path_ / name).string();
-    std::ofstream(file, std::ios::binary)
-        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return file;
-  }
-
- private:
-  static fs::path base() {
-    const fs::path in_memory = "/dev/shm";
-    return fs::is_directory(in_memory) ? in_memory : fs::temp_directory_path();
-  }
-
-  fs::path path_;
-};
 
 const ScratchFolder& scratch() {
   static const ScratchFolder folder;
@@ -110,10 +75,6 @@ void checkCheckpoint(std::string_view bytes) {
        << bytes << mapText(wallEvidence());
   const Checkpoint checkpoint =
       readCheckpoint(scratch().write("checkpoint", text.str()), kMaxCells);
-  if (!(checkpoint.slam.pose.stamp.seconds() > 0.0 &&
-        checkpoint.slam.pose.stamp.seconds() < std::numeric_limits<std::uint32_t>::max())) {
-    return;  // of no scan of ROS: the stage finds it too old or too new
-  }
   GridSlamOptions options;
   options.map = mapOfFiles();
   GridSlam slam(options);
