@@ -181,7 +181,7 @@ TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnRequest) {
   StereoImages exact(semiGlobal(), monitor);
   EXPECT_FALSE(take(exact, kStart, "mono8", late));
   StereoImagesOptions options = semiGlobal();
-  options.approximate_sync = true;
+  options.sync.approximate_sync = true;
   StereoImages approximate(options, monitor);
   EXPECT_TRUE(take(approximate, kStart, "mono8", late));
 }

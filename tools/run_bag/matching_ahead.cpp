@@ -24,7 +24,7 @@ MatchingAhead::MatchingAhead(const std::string& bag, const StereoTopics& topics,
                              const StereoImagesOptions& options, std::size_t threads)
     : options_(options),
       max_ahead_(threads + 1),  // one more, so that no thread waits for the reader
-      reader_(bag, topics, options.pairTolerance()),
+      reader_(bag, topics, options.sync.pairTolerance()),
       matcher_(options),
       matching_(threads),
       reading_([this] { read(); }) {}

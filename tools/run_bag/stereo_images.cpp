@@ -9,7 +9,7 @@ namespace datmo {
 StereoImages::StereoImages(const StereoImagesOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
-      pairs_(options.pairTolerance()),
+      pairs_(options.sync.pairTolerance()),
       runner_(monitor, StreamOptions(), "forgets all images", [this] { pairs_.clear(); }),
       matcher_(options),
       match_([this](const StereoPair& pair) { return matcher_.cloudOf(pair); }) {}

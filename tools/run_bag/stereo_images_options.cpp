@@ -44,13 +44,7 @@ void visitSemiGlobal(OptionVisitor& visitor, StereoImagesOptions& options) {
 void StereoImagesOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"rectified", "", "the images are rectified, as stated by their source"},
                  rectified);
-  visitor.toggle({"approximate_sync", "", "the stamps of left and right image may differ"},
-                 approximate_sync);
-  visitor.number(
-      {"pair_tolerance", "s",
-       "maximum difference of the stamps with approximate_sync (only in run_bag; the nodelet "
-       "has no limit)"},
-      pair_tolerance, {0.0, 0.1});
+  sync.visit(visitor);
   visitor.integer({"stereo_algorithm", "1",
                    "0: block matching, 1: semi-global block matching (Hirschmueller 2008)"},
                   stereo_algorithm, {0, 1});

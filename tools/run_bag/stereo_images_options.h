@@ -2,6 +2,7 @@
 #pragma once
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 namespace datmo {
 
@@ -10,10 +11,9 @@ namespace datmo {
 /// yaml section serves both.
 struct StereoImagesOptions {
   bool rectified = true;  ///< false: the images are rectified by their calibration
-  bool approximate_sync = false;
-  double pair_tolerance = 0.01;  ///< s
-  int stereo_algorithm = 0;      ///< 0: block matching, 1: semi-global block matching
-  int prefilter_size = 9;        ///< px
+  StereoSyncOptions sync;
+  int stereo_algorithm = 0;  ///< 0: block matching, 1: semi-global block matching
+  int prefilter_size = 9;    ///< px
   int prefilter_cap = 31;
   int correlation_window_size = 15;  ///< px
   int min_disparity = 0;             ///< px
@@ -26,9 +26,6 @@ struct StereoImagesOptions {
   double small_change_price = 200.0;  ///< P1
   double large_change_price = 400.0;  ///< P2
   int left_right_difference = 0;      ///< disp12MaxDiff, px
-
-  /// s; maximum difference of the stamps of left and right image.
-  double pairTolerance() const { return approximate_sync ? pair_tolerance : 0.0; }
 
   void visit(OptionVisitor& visitor);
 };

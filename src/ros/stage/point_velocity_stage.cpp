@@ -40,11 +40,7 @@ void PointVelocityStageOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"rectified", "",
                   "the images are rectified already; false: rectify them by their calibration"},
                  rectified);
-  visitor.toggle(
-      {"approximate_sync", "", "stamps of left and right images may differ by pair_tolerance"},
-      approximate_sync);
-  visitor.number({"pair_tolerance", "s", "maximum difference of the stamps with approximate_sync"},
-                 pair_tolerance, {0.0, 1.0});
+  sync.visit(visitor);
   constexpr Bounds kPixels{0.01, 5.0};
   visitor.number(
       {"flow_sigma", "px",
@@ -77,7 +73,7 @@ PointVelocityStage::PointVelocityStage(const Checked<PointVelocityStageOptions>&
       monitor_(monitor),
       runner_(monitor, options->input, "forgets the last images", [this] { reset(); }),
       motion_(options->motion, options->frames, runner_),
-      pairs_(options->approximate_sync ? options->pair_tolerance : 0.0),
+      pairs_(options->sync.pairTolerance()),
       matcher_(options->features) {}
 
 void PointVelocityStage::reset() {

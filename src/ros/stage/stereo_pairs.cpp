@@ -15,6 +15,17 @@ constexpr std::size_t kMaxQueue = 5;
 
 }  // namespace
 
+void StereoSyncOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle(
+      {"approximate_sync", "", "stamps of left and right images may differ by pair_tolerance"},
+      approximate_sync);
+  visitor.number(
+      {"pair_tolerance", "s",
+       "maximum difference of the stamps with approximate_sync; stereo_image_proc itself "
+       "has no limit"},
+      pair_tolerance, {0.0, 0.1});
+}
+
 std::optional<StereoPair> StereoPairs::handleImage(StereoSide side,
                                                    const sensor_msgs::ImageConstPtr& image) {
   CameraFrame* const frame = frameAt(side, toStamp(image->header.stamp));

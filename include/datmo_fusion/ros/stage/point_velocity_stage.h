@@ -32,9 +32,8 @@ struct PointVelocityStageOptions {
   StreamOptions input;
   QuadMatcherOptions features;
   CameraMotionOptions camera_motion;
+  StereoSyncOptions sync;
   bool rectified = true;
-  bool approximate_sync = false;
-  double pair_tolerance = 0.01;   ///< s
   double flow_sigma = 0.15;       ///< px
   double disparity_sigma = 0.15;  ///< px
   double turn_sigma = 0.05;       ///< rad/s

@@ -8,6 +8,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
@@ -27,6 +28,17 @@ struct CameraFrame {
 struct StereoPair {
   CameraFrame left;
   CameraFrame right;
+};
+
+/// Which images of two cameras belong together; parameters of stereo_image_proc, under its names.
+struct StereoSyncOptions {
+  bool approximate_sync = false;
+  double pair_tolerance = 0.01;  ///< s
+
+  /// s; maximum difference of the stamps of left and right image.
+  double pairTolerance() const { return approximate_sync ? pair_tolerance : 0.0; }
+
+  void visit(OptionVisitor& visitor);
 };
 
 /// Pairs the messages of two cameras: each image with the calibration of its stamp, and left and
