@@ -6,15 +6,13 @@
 // decides how much is dropped and how long that takes, in seconds; no check depends on it.
 //
 // In simulated time, as here, nothing is too old for a stage (arrivedOf()): what waits for too long
-// is lost in full queues. ArrivedTest checks the age of live messages.
+// is lost in full queues. live_devices.test checks the age of live messages.
 //
 // Parameters: ~seconds of load, ~nominal_seconds before it, ~objects in a list, ~out: a JSON file
 // for the measurements.
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
-#include <fstream>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <string>
@@ -179,38 +177,21 @@ class LoadTest : public testing::Test {
     return {{"tracks", lists}, {"memory_mib", memory}};
   }
 
-  /// Prints to the console and, with the whole drive, to the file that the parameter `out` names.
-  void write(nlohmann::json figures) const {
-    std::cout << figures.dump(1) << "\n";
-    const auto out = parameter<std::string>("~out", "");
-    if (!out.empty()) {
-      figures["samples"] = samples();
-      std::ofstream(out) << figures.dump() << "\n";
-    }
-  }
-
-  /// Returns this test's parameter, or the default.
-  template <typename Value>
-  static Value parameter(const std::string& name, Value value) {
-    ros::param::get(name, value);
-    return value;
-  }
-
   PacedDrive drive_;
 };
 
 TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
   PacedRates load = kLoad;
-  load.objects = parameter("~objects", load.objects);
+  load.objects = ros::param::param("~objects", load.objects);
   ASSERT_TRUE(drive_.start({"stereo_grid", "grid_fusion", "tracker", "stereo_tracker",
                             "track_fusion", "road_border", "risk"}));
   ASSERT_TRUE(drive_.run(120.0, kNominal, [this] { return !drive_.received().empty(); }));
 
   const double begin = drive_.now();
-  drive_.run(parameter("~nominal_seconds", 3.0), kNominal);
+  drive_.run(ros::param::param("~nominal_seconds", 3.0), kNominal);
   ASSERT_TRUE(drive_.run(120.0, kNominal, [&] { return drive_.received().back().at >= begin; }));
   const double loaded = drive_.now();
-  drive_.run(parameter("~seconds", 3.0), load);
+  drive_.run(ros::param::param("~seconds", 3.0), load);
   const double still = drive_.now();
   const std::size_t scans = drive_.sent("scan");
   ASSERT_TRUE(stopProcess(load));
@@ -252,7 +233,7 @@ TEST_F(LoadTest, NoLossIsSilentAndAllRecoversAfterTheLoad) {
        {maxMemory(0.0, loaded), maxMemory(loaded, end), drive_.memory().back().resident}},
       {"nominal_from_to_s", {begin, loaded}},
       {"stages", stages()}};
-  write(figures);
+  writeFigures(figures, "samples", samples());
 }
 
 }  // namespace
