@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/wide.h"
 #include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
@@ -30,16 +31,26 @@ void ImageDensity::reset(const StereoCamera& camera) {
   rows_ = std::ceil(2.0F * kMaxTangent * per_tangent_);
   tile_columns_ = static_cast<int>(columns_) / kTileSize + 1;
   in_column_.assign(static_cast<std::size_t>(columns_), 0);
-  in_row_.assign(static_cast<std::size_t>(rows_), 0);
-  tiles_.assign(rowMajorSize(tile_columns_, static_cast<int>(rows_) / kTileSize + 1), 0);
+  in_row_.assign(static_cast<std::size_t>(rows_) * kLanes, 0);
+  tiles_.assign(rowMajorSize(tile_columns_, static_cast<int>(rows_) / kTileSize + 1) * kLanes, 0);
 }
 
 void ImageDensity::add(const Tangents& right, const Tangents& up, const Flags& is_seen,
                        std::size_t count) {
-  Flags is_inside;
-  std::array<int, ViewedPoints::kMax> columns;
-  std::array<int, ViewedPoints::kMax> rows;
-  std::array<int, ViewedPoints::kMax> tiles;
+  Cells cells;
+  locate(right, up, is_seen, count, cells);
+  // Without branches, because holes are unpredictable: a hole adds 0.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t lane = i % kLanes;
+    in_column_[static_cast<std::size_t>(cells.column[i])] += cells.is_inside[i];
+    in_row_[static_cast<std::size_t>(cells.row[i]) * kLanes + lane] += cells.is_inside[i];
+    tiles_[static_cast<std::size_t>(cells.tile[i]) * kLanes + lane] += cells.is_inside[i];
+  }
+}
+
+DATMO_FUSION_WIDE
+void ImageDensity::locate(const Tangents& right, const Tangents& up, const Flags& is_seen,
+                          std::size_t count, Cells& cells) const {
   const float left = left_;
   const float per_tangent = per_tangent_;
   const float end_column = columns_;
@@ -50,46 +61,33 @@ void ImageDensity::add(const Tangents& right, const Tangents& up, const Flags& i
     const float row = (kMaxTangent - up[i]) * per_tangent;
     const int inside =
         (column >= 0.0F) & (column < end_column) & (row >= 0.0F) & (row < end_row) & is_seen[i];
-    is_inside[i] = inside;
-    columns[i] = static_cast<int>(inside != 0 ? column : 0.0F);
-    rows[i] = static_cast<int>(inside != 0 ? row : 0.0F);
-    tiles[i] = (rows[i] >> kTileBits) * tile_columns + (columns[i] >> kTileBits);
+    cells.is_inside[i] = inside;
+    cells.column[i] = static_cast<int>(inside != 0 ? column : 0.0F);
+    cells.row[i] = static_cast<int>(inside != 0 ? row : 0.0F);
+    cells.tile[i] = (cells.row[i] >> kTileBits) * tile_columns + (cells.column[i] >> kTileBits);
   }
-  // Neighbors are mostly in one row and tile: counted one by one, each would wait for the previous.
-  int row = 0;
-  int tile = 0;
-  int run = 0;
-  const auto endRun = [&] {
-    in_row_[static_cast<std::size_t>(row)] += run;
-    tiles_[static_cast<std::size_t>(tile)] += run;
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    if (is_inside[i] == 0) {
-      continue;
-    }
-    ++in_column_[static_cast<std::size_t>(columns[i])];
-    if (rows[i] != row || tiles[i] != tile) {
-      endRun();
-      row = rows[i];
-      tile = tiles[i];
-      run = 0;
-    }
-    ++run;
+}
+
+std::vector<int> ImageDensity::summed(const std::vector<int>& lanes) {
+  std::vector<int> sums(lanes.size() / kLanes, 0);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    sums[i / kLanes] += lanes[i];
   }
-  endRun();
+  return sums;
 }
 
 double ImageDensity::pixelsPerPoint() const {
   const double tile = static_cast<double>(kTileSize) * cell_pixels_;
-  return std::max(1.0, datmo::pixelsPerPoint(tiles_, tile * tile));
+  return std::max(1.0, datmo::pixelsPerPoint(summed(tiles_), tile * tile));
 }
 
 double ImageDensity::maxTangent() const {
-  const auto fullest = std::max_element(in_row_.begin(), in_row_.end());
-  const auto first = std::find_if(in_row_.begin(), in_row_.end(), [&](int count) {
+  const std::vector<int> in_row = summed(in_row_);
+  const auto fullest = std::max_element(in_row.begin(), in_row.end());
+  const auto first = std::find_if(in_row.begin(), in_row.end(), [&](int count) {
     return count > 0 && count >= kMinRowShare * *fullest;
   });
-  const auto row = static_cast<float>(first - in_row_.begin());
+  const auto row = static_cast<float>(first - in_row.begin());
   return static_cast<double>(kMaxTangent - row / per_tangent_);
 }
 

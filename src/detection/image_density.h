@@ -40,6 +40,23 @@ class ImageDensity {
   static constexpr int kTileSize = 1 << kTileBits;  ///< cells
   static constexpr float kMaxTangent = 1.0F;        ///< above and below the horizon
 
+  /// Neighboring points are mostly in one row and tile. Counted in one number each would wait for
+  /// the previous one, so there are several.
+  static constexpr std::size_t kLanes = 4;
+
+  /// Where points that are processed together are in the image; 0 for those outside.
+  struct Cells {
+    Flags is_inside;
+    Flags column;
+    Flags row;
+    Flags tile;
+  };
+  void locate(const Tangents& right, const Tangents& up, const Flags& is_seen, std::size_t count,
+              Cells& cells) const;
+
+  /// Returns the sums over the lanes of each count.
+  static std::vector<int> summed(const std::vector<int>& lanes);
+
   // Cells are pixels, except in extremely large images.
   float left_ = 0.0F;         ///< tangent of the image's left border
   float per_tangent_ = 0.0F;  ///< cells
@@ -48,8 +65,8 @@ class ImageDensity {
   float rows_ = 0.0F;
   int tile_columns_ = 0;
   std::vector<int> in_column_;
-  std::vector<int> in_row_;
-  std::vector<int> tiles_;  ///< row by row
+  std::vector<int> in_row_;  ///< lanes of each row
+  std::vector<int> tiles_;   ///< row by row, lanes of each tile
 };
 
 }  // namespace datmo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -37,7 +38,6 @@ struct Sample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< base frame, m
   double depth = 0.0;                                  ///< m ahead of the camera
   double variance = 0.0;                               ///< m^2, of the height
-  std::size_t cell = 0;                                ///< in which it votes
 };
 
 /// The points in a square meter that are close to the last plane.
@@ -46,10 +46,13 @@ struct Vote {
   double variance_sum = 0.0;
   int count = 0;
 
-  void add(const Sample& sample) {
-    position_sum += sample.position;
-    variance_sum += sample.variance;
-    ++count;
+  /// `is_near`: whether the sample, which is finite, counts. Without a branch, because walls and
+  /// objects make it unpredictable.
+  void add(const Sample& sample, bool is_near) {
+    const auto weight = static_cast<double>(is_near);
+    position_sum += weight * sample.position;
+    variance_sum += weight * sample.variance;
+    count += static_cast<int>(is_near);
   }
 };
 
@@ -87,26 +90,29 @@ class RoadSamples {
         cells_(
             rowMajorSize(columns_, static_cast<int>(std::ceil(options.max_distance / kVoteSize)))) {
     const StereoView view(cloud, RoadPlane());
-    const std::size_t stride = cloud.points.count / kMaxSamples + 1;
-    samples_.reserve(kMaxSamples);
-    for (std::size_t begin = 0; begin + stride <= cloud.points.count; begin += stride) {
-      add(cloud.points[begin + offset(begin / stride, stride)], view, cloud.camera_in_base);
+    std::vector<Sample> samples;
+    std::vector<std::size_t> cells;  // in which each of them votes
+    samples.reserve(kMaxSamples);
+    cells.reserve(kMaxSamples);
+    for (const Eigen::Vector3f& point : pointsOf(cloud.points)) {
+      add(point, view, cloud.camera_in_base, samples, cells);
     }
+    sortByCell(samples, cells);
   }
 
   /// Fits a plane to the samples close to a given one.
   PlaneFit fitNear(const RoadPlane& plane, const Round& round) const {
     const double reach = round.reach * options_.max_distance;
     const double tolerance = round.tolerances * options_.tolerance;
-    std::vector<Vote> votes(cells_);
-    for (const Sample& sample : samples_) {
-      const double height = plane.heightOf(sample.position);
-      if (sample.depth < reach && height * height < tolerance * tolerance + 4.0 * sample.variance) {
-        votes[sample.cell].add(sample);
-      }
-    }
     PlaneFit fit;
-    for (const Vote& vote : votes) {
+    for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
+      Vote vote;
+      for (std::size_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
+        const Sample& sample = samples_[i];
+        const double height = plane.heightOf(sample.position);
+        const bool is_level = height * height < tolerance * tolerance + 4.0 * sample.variance;
+        vote.add(sample, is_level & (sample.depth < reach));
+      }
       if (vote.count >= kMinSamples) {
         fit.add(vote.position_sum / vote.count,
                 options_.tolerance * options_.tolerance + vote.variance_sum / vote.count);
@@ -116,8 +122,35 @@ class RoadSamples {
   }
 
  private:
+  /// Points spread over the cloud, which is larger than a cache: read before any of them is used,
+  /// because the processor can then wait for many at a time.
+  static std::vector<Eigen::Vector3f> pointsOf(const PointsView& cloud) {
+    const std::size_t stride = cloud.count / kMaxSamples + 1;
+    std::vector<Eigen::Vector3f> points;
+    points.reserve(kMaxSamples);
+    for (std::size_t begin = 0; begin + stride <= cloud.count; begin += stride) {
+      points.push_back(cloud[begin + offset(begin / stride, stride)]);
+    }
+    return points;
+  }
+
+  /// Keeps the order within each cell.
+  void sortByCell(const std::vector<Sample>& samples, const std::vector<std::size_t>& cells) {
+    begin_.assign(cells_ + 1, 0);
+    for (const std::size_t cell : cells) {
+      ++begin_[cell + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    samples_.resize(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples_[next[cells[i]]++] = samples[i];
+    }
+  }
+
   void add(const Eigen::Vector3f& point, const StereoView& view,
-           const Eigen::Isometry3d& camera_in_base) {
+           const Eigen::Isometry3d& camera_in_base, std::vector<Sample>& samples,
+           std::vector<std::size_t>& cells) const {
     const ViewedPoint seen = view(point);
     const double depth = seen.forward;
     const double column = (seen.right + options_.half_width) / kVoteSize;
@@ -128,8 +161,8 @@ class RoadSamples {
       // A line of sight drops by the camera's height over the distance to the road, so a depth that
       // is off by its standard deviation raises or lowers the point.
       const double sigma = camera_height_ * camera_.depthSigma(depth) / depth;
-      samples_.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma,
-                          rowMajorIndex(static_cast<int>(column), row, columns_)});
+      samples.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma});
+      cells.push_back(rowMajorIndex(static_cast<int>(column), row, columns_));
     }
   }
 
@@ -147,7 +180,8 @@ class RoadSamples {
   double camera_height_;  ///< m
   int columns_;
   std::size_t cells_;
-  std::vector<Sample> samples_;
+  std::vector<Sample> samples_;     ///< cell by cell, nearest row first
+  std::vector<std::size_t> begin_;  ///< index of each cell's first sample; one more than cells
 };
 
 }  // namespace
