@@ -2,7 +2,10 @@
 #include "stereo_surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "datmo_fusion/common/wide.h"
 
 namespace datmo {
 
@@ -47,6 +50,8 @@ constexpr int kMaxHole = 2;
 
 constexpr std::int32_t kNoSurface = -1;
 
+bool isInLayer(float height) { return height <= static_cast<float>(kLayerTop); }
+
 }  // namespace
 
 void StereoSurfaces::find(const StereoCloud& cloud, const StereoView& view,
@@ -61,43 +66,62 @@ void StereoSurfaces::addPoints(const StereoCloud& cloud, const StereoView& view,
                                const StereoSurfaceOptions& options, double farthest) {
   density_.reset(cloud.camera);
   points_ = 0;
+  const Bounds bounds = boundsOf(cloud.camera, view, options, farthest);
   upright_.clear();
-  const auto nearest = static_cast<float>(options.min_depth);
-  const auto max_depth = static_cast<float>(farthest);
-  const auto min = static_cast<float>(options.min_height);
-  const auto highest = static_cast<float>(options.max_height);
-  const float camera_height = view.cameraHeight();
-  // A depth error of the noise lifts a point of the road by this much of height / depth.
-  const InverseDepthMargin road_margin(cloud.camera.noise, kRoadSigmas);
-  ViewedPoints viewed;
-  ImageDensity::Tangents right;
-  ImageDensity::Tangents up;
-  ImageDensity::Flags is_seen;
-  ImageDensity::Flags stands;
+  ImagePoints points;
+  std::array<Upright, ViewedPoints::kMax> standing;
   for (std::size_t begin = 0; begin < cloud.points.count; begin += ViewedPoints::kMax) {
     const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
-    view.view(cloud.points, begin, count, viewed);
-    int seen = 0;
-    // Without branches, because which points are seen is unpredictable.
+    view.view(cloud.points, begin, count, points.viewed);
+    points_ += static_cast<std::size_t>(locate(bounds, count, points));
+    density_.add(points.right, points.up, points.is_seen, count);
+    std::ptrdiff_t found = 0;
+    // Which points stand is unpredictable: without branches, the others are overwritten.
     for (std::size_t i = 0; i < count; ++i) {
-      const float forward = viewed.forward[i];
-      const float height = viewed.height[i];
-      const float inverse = viewed.inverse[i];
-      right[i] = viewed.right[i] * inverse;
-      up[i] = (height - camera_height) * inverse;
-      is_seen[i] = (forward > nearest) & (forward < kMaxDepth);
-      stands[i] = is_seen[i] & (height >= min) & (height < highest) & (forward < max_depth) &
-                  (height * inverse > road_margin.at(inverse) * camera_height);
-      seen += is_seen[i];
+      standing[static_cast<std::size_t>(found)] = {points.right[i], points.viewed.forward[i],
+                                                   points.viewed.height[i], 0};
+      found += points.stands[i];
     }
-    points_ += static_cast<std::size_t>(seen);
-    density_.add(right, up, is_seen, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (stands[i] != 0) {
-        upright_.push_back({right[i], viewed.forward[i], viewed.height[i]});
-      }
-    }
+    upright_.insert(upright_.end(), standing.begin(), standing.begin() + found);
   }
+}
+
+StereoSurfaces::Bounds StereoSurfaces::boundsOf(const StereoCamera& camera, const StereoView& view,
+                                                const StereoSurfaceOptions& options,
+                                                double farthest) {
+  Bounds bounds;
+  bounds.nearest = static_cast<float>(options.min_depth);
+  bounds.farthest = static_cast<float>(farthest);
+  bounds.lowest = static_cast<float>(options.min_height);
+  bounds.highest = static_cast<float>(options.max_height);
+  bounds.left = static_cast<float>(camera.left_tangent);
+  bounds.right = static_cast<float>(camera.right_tangent);
+  bounds.camera_height = view.cameraHeight();
+  bounds.road_margin = InverseDepthMargin(camera.noise, kRoadSigmas);
+  return bounds;
+}
+
+DATMO_FUSION_WIDE
+int StereoSurfaces::locate(const Bounds& bounds, std::size_t count, ImagePoints& points) {
+  int seen = 0;
+  // Without branches, because which points are seen is unpredictable.
+  for (std::size_t i = 0; i < count; ++i) {
+    const float forward = points.viewed.forward[i];
+    const float height = points.viewed.height[i];
+    const float inverse = points.viewed.inverse[i];
+    const float right = points.viewed.right[i] * inverse;
+    const int is_seen = (forward > bounds.nearest) & (forward < kMaxDepth);
+    points.right[i] = right;
+    points.up[i] = (height - bounds.camera_height) * inverse;
+    points.is_seen[i] = is_seen;
+    // A depth error of the noise lifts a point of the road by this much of height / depth.
+    points.stands[i] = is_seen & (height >= bounds.lowest) & (height < bounds.highest) &
+                       (forward < bounds.farthest) & (right >= bounds.left) &
+                       (right <= bounds.right) &
+                       (height * inverse > bounds.road_margin.at(inverse) * bounds.camera_height);
+    seen += is_seen;
+  }
+  return seen;
 }
 
 void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceOptions& options,
@@ -113,15 +137,10 @@ void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceO
   depth_bins_ = DepthBins(camera, farthest, std::max(options.finest_depth, farthest / kMaxBins));
   bins_ = static_cast<std::size_t>(depth_bins_.size());
   counts_.assign(static_cast<std::size_t>(columns_.count) * bins_, 0);
-  const auto top = static_cast<float>(kLayerTop);
-  const auto border = [&](const Upright& point) {
-    return !(point.right >= left_ && point.right <= static_cast<float>(camera.right_tangent));
-  };
-  upright_.erase(std::remove_if(upright_.begin(), upright_.end(), border), upright_.end());
-  for (const Upright& point : upright_) {
-    if (point.height <= top) {
-      ++counts_[slot(columnOf(point.right), depth_bins_.at(point.depth))];
-    }
+  for (Upright& point : upright_) {
+    point.slot =
+        static_cast<std::uint32_t>(slot(columnOf(point.right), depth_bins_.at(point.depth)));
+    counts_[point.slot] = static_cast<std::uint16_t>(counts_[point.slot] + isInLayer(point.height));
   }
 }
 
@@ -227,16 +246,14 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   const std::size_t slices = slicesUpTo(options.max_height);
   inverse_sums_.assign(count, 0.0);
   slices_.assign(count * slices, 0);
-  const auto top = static_cast<float>(kLayerTop);
   for (const Upright& point : upright_) {
-    const std::int32_t index =
-        surface_at_[slot(columnOf(point.right), depth_bins_.at(point.depth))];
+    const std::int32_t index = surface_at_[point.slot];
     if (index == kNoSurface) {
       continue;
     }
     const auto surface = static_cast<std::size_t>(index);
     ++slices_[surface * slices + static_cast<std::size_t>(point.height / kSlice)];
-    if (point.height <= top) {
+    if (isInLayer(point.height)) {
       inverse_sums_[surface] += static_cast<double>(1.0F / point.depth);
       columns_.surfaces[surface].points += 1.0F;
     }

@@ -59,12 +59,36 @@ class StereoSurfaces {
   std::size_t points() const { return points_; }
 
  private:
-  /// A point above the road.
+  /// A point above the road, in the image.
   struct Upright {
-    float right;   ///< tangent
-    float depth;   ///< m
-    float height;  ///< m above the road
+    float right;         ///< tangent
+    float depth;         ///< m
+    float height;        ///< m above the road
+    std::uint32_t slot;  ///< of its column and bin
   };
+
+  /// What a point is compared with, in single precision like the points.
+  struct Bounds {
+    float nearest, farthest;         ///< m, depth
+    float lowest, highest;           ///< m above the road
+    float left, right;               ///< tangents of the image's borders
+    float camera_height;             ///< m above the road
+    InverseDepthMargin road_margin;  ///< times the camera's height: of height / depth
+  };
+  static Bounds boundsOf(const StereoCamera& camera, const StereoView& view,
+                         const StereoSurfaceOptions& options, double farthest);
+
+  /// Several points in the image.
+  struct ImagePoints {
+    ViewedPoints viewed;
+    ImageDensity::Tangents right;  ///< to the right
+    ImageDensity::Tangents up;     ///< above the horizon
+    ImageDensity::Flags is_seen;   ///< 1: valid
+    ImageDensity::Flags stands;    ///< 1: seen in the image, above the road
+  };
+
+  /// Locates `count` viewed points in the image. Returns how many are seen.
+  static int locate(const Bounds& bounds, std::size_t count, ImagePoints& points);
 
   /// A mode of the counts in a column.
   struct Mode {

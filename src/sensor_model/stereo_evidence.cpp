@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/wide.h"
 #include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/sensor_model/point_density.h"
 
@@ -91,6 +92,7 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
   scales.columns = static_cast<float>(columns_);
   scales.tiles_per_tangent = static_cast<float>(columns_per_tangent_ / (1 << tile_shift_));
   scales.tile_rows = static_cast<float>(tile_rows_);
+  scales.farthest = bins_.farthest();
   scales.camera_height = view.cameraHeight();
   scales.above_layer = view.cameraHeight() - static_cast<float>(limits.layer_bottom);
   scales.road_margin = InverseDepthMargin(cloud.camera.noise, limits.road_sigmas);
@@ -102,78 +104,90 @@ void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
                                const EvidenceLimits& limits) {
   line_step_ = cloud.points.count / kEnoughLines + 1;
   const Scales scales = scalesOf(cloud, view, limits);
-  const PointsView points = cloud.points;
-  for (std::size_t begin = 0; begin < points.count; begin += kRun) {
-    const std::size_t end = std::min(begin + kRun, points.count);
+  ColumnPoints points;
+  for (std::size_t begin = 0; begin < cloud.points.count; begin += kRun) {
+    const std::size_t end = std::min(begin + kRun, cloud.points.count);
     std::size_t next_line = begin + begin / kRun % line_step_;
     for (std::size_t first = begin; first < end; first += ViewedPoints::kMax) {
       const std::size_t count = std::min(ViewedPoints::kMax, end - first);
-      ViewedPoints viewed;
-      view.view(points, first, count, viewed);
-      for (std::size_t i = 0; i < count; ++i) {
-        ColumnPoint point;
-        if (locate(viewed[i], viewed.inverse[i], scales, point)) {
-          addObstacle(point, scales);
-          if (first + i >= next_line) {
-            addLine(point, scales);
-            next_line = first + i + line_step_;
-          }
+      view.view(cloud.points, first, count, points.viewed);
+      points_ += static_cast<std::size_t>(locate(scales, count, points));
+      addObstacles(points, count);
+      while (next_line < first + count) {
+        const bool is_used = points.is_used[next_line - first] != 0;
+        if (is_used) {
+          addLine(points, next_line - first, scales);
         }
+        next_line += is_used ? line_step_ : 1;
       }
     }
   }
 }
 
-inline bool StereoEvidence::locate(const ViewedPoint& point, float inverse, const Scales& scales,
-                                   ColumnPoint& located) {
-  if (!(point.forward > scales.nearest && point.forward < kMaxDepth)) {
-    return false;
+DATMO_FUSION_WIDE
+int StereoEvidence::locate(const Scales& scales, std::size_t count, ColumnPoints& points) {
+  const ViewedPoints& viewed = points.viewed;
+  int valid = 0;
+  // Without branches, because holes are unpredictable.
+  for (std::size_t i = 0; i < count; ++i) {
+    const float forward = viewed.forward[i];
+    const float height = viewed.height[i];
+    const float inverse = viewed.inverse[i];
+    const int is_valid = (forward > scales.nearest) & (forward < kMaxDepth);
+    const float column = (viewed.right[i] * inverse - scales.left) * scales.columns_per_tangent;
+    const int is_used =
+        is_valid & (height <= scales.highest) & (column >= 0.0F) & (column < scales.columns);
+    // On the line of sight to the point, the road is at the inverse depth
+    // inverse * (1 - height / camera_height).
+    const int on_road =
+        height * inverse <= scales.road_margin.at(inverse) * scales.camera_height ? 1 : 0;
+    valid += is_valid;
+    points.column[i] = static_cast<int>(is_used != 0 ? column : 0.0F);
+    points.is_used[i] = is_used;
+    points.on_road[i] = on_road;
+    points.is_obstacle[i] = is_used & (on_road ^ 1) & (height >= scales.layer_bottom) &
+                            (height <= scales.layer_top) & (forward >= 0.0F) &
+                            (forward < scales.farthest);
   }
-  ++points_;
-  if (point.height > scales.highest) {
-    return false;
-  }
-  const float column = (point.right * inverse - scales.left) * scales.columns_per_tangent;
-  if (!(column >= 0.0F && column < scales.columns)) {
-    return false;
-  }
-  located.forward = point.forward;
-  located.inverse = inverse;
-  located.height = point.height;
-  located.column = static_cast<int>(column);
-  // On the line of sight to the point, the road is at the inverse depth
-  // inverse * (1 - height / camera_height).
-  located.on_road = point.height * inverse <= scales.road_margin.at(inverse) * scales.camera_height;
-  return true;
+  return valid;
 }
 
-inline void StereoEvidence::addObstacle(const ColumnPoint& point, const Scales& scales) {
-  if (!point.on_road && point.height >= scales.layer_bottom && point.height <= scales.layer_top &&
-      bins_.contains(point.forward)) {
-    obstacles_.add(bins_.at(point.forward), point.column, 1);
-    ++in_layer_;
+void StereoEvidence::addObstacles(const ColumnPoints& points, std::size_t count) {
+  std::array<std::size_t, ViewedPoints::kMax> obstacles;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    obstacles[found] = i;
+    found += static_cast<std::size_t>(points.is_obstacle[i]);
   }
+  for (std::size_t i = 0; i < found; ++i) {
+    const std::size_t index = obstacles[i];
+    obstacles_.add(bins_.at(points.viewed.forward[index]), points.column[index], 1);
+  }
+  in_layer_ += found;
 }
 
-inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scales) {
+void StereoEvidence::addLine(const ColumnPoints& points, std::size_t index, const Scales& scales) {
+  const float forward = points.viewed.forward[index];
+  const float inverse = points.viewed.inverse[index];
+  const int column = points.column[index];
   // Drop of the line over the distance to the point, m.
-  const float fall = scales.camera_height - point.height;
-  const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
+  const float fall = scales.camera_height - points.viewed.height[index];
+  const float row = 0.5F * scales.tile_rows + fall * inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {
-    ++tiles_[rowMajorIndex(point.column >> tile_shift_, static_cast<int>(row), tile_columns_)];
+    ++tiles_[rowMajorIndex(column >> tile_shift_, static_cast<int>(row), tile_columns_)];
   }
   // The interval in which the line is below the layer and unobstructed.
-  const float per_fall = point.forward / fall;
+  const float per_fall = forward / fall;
   const float at_bottom = per_fall * scales.above_layer;
-  const float stop = point.on_road
+  const float stop = points.on_road[index] != 0
                          ? per_fall * scales.camera_height
-                         : 1.0F / (point.inverse + scales.obstacle_margin.at(point.inverse));
+                         : 1.0F / (inverse + scales.obstacle_margin.at(inverse));
   const bool falls = fall >= 0.0F;  // a horizontal one falls infinitely far away
   const float begin = falls ? std::max(0.0F, at_bottom) : 0.0F;
   const float end = falls ? stop : std::min(stop, at_bottom);
   if (begin < end) {
-    lines_.add(bins_.before(begin), point.column, 1);
-    lines_.add(bins_.before(end), point.column, -1);
+    lines_.add(bins_.before(begin), column, 1);
+    lines_.add(bins_.before(end), column, -1);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -62,6 +63,7 @@ class StereoEvidence {
     float highest;                             ///< m above the road, of informative points
     float left, columns_per_tangent, columns;  ///< of the columns
     float tiles_per_tangent, tile_rows;        ///< of the tiles
+    float farthest;                            ///< m, of obstacles
     float camera_height;                       ///< m above the road
     float above_layer;                         ///< m, of the camera above the layer's bottom
     InverseDepthMargin road_margin;            ///< times the camera's height: of height / depth
@@ -70,18 +72,21 @@ class StereoEvidence {
   Scales scalesOf(const StereoCloud& cloud, const StereoView& view,
                   const EvidenceLimits& limits) const;
 
-  /// A point in one of the columns.
-  struct ColumnPoint {
-    float forward, inverse;  ///< m, 1/m: depth
-    float height;            ///< m above the road
-    int column;
-    bool on_road;
+  /// Several points with the columns that they are in.
+  struct ColumnPoints {
+    using Flags = std::array<int, ViewedPoints::kMax>;
+
+    ViewedPoints viewed;
+    Flags column;       ///< 0 for a point that is in none
+    Flags is_used;      ///< 1: valid, in a column, and informative
+    Flags on_road;      ///< 1: on the road
+    Flags is_obstacle;  ///< 1: used, and an obstacle in the layer
   };
 
-  /// Whether a point is valid, in a column, and informative. `inverse`: of its depth, 1/m.
-  bool locate(const ViewedPoint& point, float inverse, const Scales& scales, ColumnPoint& located);
-  void addObstacle(const ColumnPoint& point, const Scales& scales);
-  void addLine(const ColumnPoint& point, const Scales& scales);
+  /// Finds the columns of `count` viewed points. Returns how many points are valid.
+  static int locate(const Scales& scales, std::size_t count, ColumnPoints& points);
+  void addObstacles(const ColumnPoints& points, std::size_t count);
+  void addLine(const ColumnPoints& points, std::size_t index, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);
   void addPoints(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
   /// Image pixels per point whose line is counted.

@@ -19,6 +19,9 @@ class DepthBins {
 
   int size() const { return static_cast<int>(middles_.size()); }
 
+  /// Returns where the last bin ends, m.
+  float farthest() const { return farthest_; }
+
   /// Returns the middle of a bin, m.
   float middle(int bin) const { return middles_[static_cast<std::size_t>(bin)]; }
 
