@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/sensor_model/stereo_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "datmo_fusion/common/wide.h"
 
 namespace datmo {
 
@@ -27,6 +30,18 @@ void checkCamera(const StereoCamera& camera) {
     throw std::invalid_argument(
         "stereo camera: expected a focal length above 0, a baseline of 0 or more, a depth noise "
         "above 0, and a right border of the image to the right of the left one");
+  }
+}
+
+/// bytes
+constexpr std::size_t kCacheLine = 64;
+
+/// Begins to read the points that are viewed next: a cloud is larger than a cache, and its page
+/// borders stop the processor from reading ahead.
+void fetch(const PointsView& points, std::size_t begin) {
+  const std::size_t end = std::min(begin + ViewedPoints::kMax, points.count) * points.step;
+  for (std::size_t at = begin * points.step; at < end; at += kCacheLine) {
+    __builtin_prefetch(points.data + at);
   }
 }
 
@@ -55,11 +70,13 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   camera_height_ = static_cast<float>(height);
 }
 
+DATMO_FUSION_WIDE
 void StereoView::view(const PointsView& points, std::size_t begin, std::size_t count,
                       ViewedPoints& viewed) const {
   std::array<float, ViewedPoints::kMax> x;
   std::array<float, ViewedPoints::kMax> y;
   std::array<float, ViewedPoints::kMax> z;
+  fetch(points, begin + count);
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f point = points[begin + i];
     x[i] = point.x();
