@@ -55,6 +55,7 @@ void readStereo(benchmark::State& state) {
 }
 BENCHMARK(readStereo)->Name("limit/stereoGrid/columns")->Unit(benchmark::kMillisecond);
 BENCHMARK(readStereo)->Name("limit/stereoObjects")->Unit(benchmark::kMillisecond);
+BENCHMARK(readStereo)->Name("limit/stereoStages")->Unit(benchmark::kMillisecond);
 
 void readLidar(benchmark::State& state) {
   const LidarCloud cloud = cloudOfStreet();

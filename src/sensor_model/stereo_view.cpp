@@ -78,10 +78,18 @@ void StereoView::view(const PointsView& points, std::size_t begin, std::size_t c
   std::array<float, ViewedPoints::kMax> z;
   fetch(points, begin + count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f point = points[begin + i];
+    const Eigen::Vector3f point = points.stored(begin + i);
     x[i] = point.x();
     y[i] = point.y();
     z[i] = point.z();
+  }
+  if (points.inverse_shift != 0.0F) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float shrinkage = points.shrinkage(z[i]);
+      x[i] /= shrinkage;
+      y[i] /= shrinkage;
+      z[i] /= shrinkage;
+    }
   }
   const Eigen::Matrix3f& m = from_optical_;
   const float height = camera_height_;

@@ -152,20 +152,6 @@ void CloudPoints::transform(const Eigen::Isometry3d& cloud_in_frame) {
   replace(std::move(moved));
 }
 
-void CloudPoints::shiftInverseDepths(double shift) {
-  const auto inverse = static_cast<float>(shift);
-  std::vector<std::uint8_t> shifted(view_.count * kPackedStep);
-  for (std::size_t i = 0; i < view_.count; ++i) {
-    Eigen::Vector3f point = view_[i];
-    const float stretched = 1.0F + inverse * point.z();
-    // In this order NaN stays NaN.
-    point = stretched > 0.0F ? Eigen::Vector3f(point / stretched)
-                             : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-    std::memcpy(shifted.data() + i * kPackedStep, point.data(), kPackedStep);
-  }
-  replace(std::move(shifted));
-}
-
 void CloudPoints::keepDepths(double min_depth, double max_depth) {
   const double limit = max_depth > 0.0 ? max_depth : std::numeric_limits<double>::max();
   std::vector<std::uint8_t> kept(view_.count * kPackedStep);

@@ -230,6 +230,11 @@ TEST(CloudPoints, ABiasOfDisparitiesIsRemovedAlongLinesOfSight) {
   EXPECT_NEAR(points.view()[0].y() / points.view()[0].z(), -0.1, 1e-6);
   EXPECT_NEAR(points.view()[1].z(), 100.0, 1e-3);
   EXPECT_FALSE(points.view()[2].allFinite()) << "beyond the horizon";
+  EXPECT_EQ(points.view().data, message.data.data()) << "without a copy";
+  const Eigen::Vector3f corrected = points.view()[0];
+  points.keepDepths(11.0, 12.0);
+  ASSERT_EQ(points.view().count, 1U);
+  EXPECT_EQ(points.view()[0], corrected) << "once, when the points are copied";
 }
 
 }  // namespace

@@ -51,8 +51,12 @@ TEST(StereoView, PointsTogetherAreAsOneByOneToTheBit) {
       EXPECT_TRUE(sameBits(viewed.inverse[i], 1.0F / one.forward)) << begin + i;
     }
   };
-  check(0, ViewedPoints::kMax);
-  check(ViewedPoints::kMax, points.count - ViewedPoints::kMax);
+  for (const float shift : {0.0F, 0.02F, -0.2F}) {
+    SCOPED_TRACE(shift);
+    points.inverse_shift = shift;
+    check(0, ViewedPoints::kMax);
+    check(ViewedPoints::kMax, points.count - ViewedPoints::kMax);
+  }
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ class CloudPoints {
   void transform(const Eigen::Isometry3d& cloud_in_frame);
 
   /// Adds `shift` (1/m) to the inverse of each z, along its line of sight, to correct a disparity
-  /// bias. Points without a depth afterward become non-finite.
-  void shiftInverseDepths(double shift);
+  /// bias. Points without a depth afterward become non-finite. The points are not copied.
+  void shiftInverseDepths(double shift) { view_.inverse_shift += static_cast<float>(shift); }
 
   /// Removes the points whose z (m) is outside `min_depth` to `max_depth`, 0: no upper bound; the
   /// others are copied. Throws InputError (`no_valid_point`) if none remains.
