@@ -18,8 +18,8 @@ ROBUSTNESS_SEEDS = 5
 # Only the benchmarks of stages.
 HOT_PATHS = (
     "slamStep", "gridUpdate", "detection", "trackerStep", "immPredictAndUpdate", "rankedAssignments",
-    "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "objectFusion", "trackFusion",
-    "fusion", "assessRisks",
+    "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "stereoStages", "objectFusion",
+    "trackFusion", "fusion", "assessRisks",
 )  # fmt: skip
 
 LIVE = ("scans", "unanswered", "latency_ms", "cpu_share", "memory_peak_mib", "memory_growth_mib")
