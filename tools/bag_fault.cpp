@@ -95,8 +95,12 @@ std::string contentFault(const std::string& file) {
   if (head.empty()) {
     return "is empty (0 bytes), expected a bag";
   }
-  if (startsWith(head, kBagMagic)) {
+  if (startsWith(head, kBagVersion)) {
     return "";
+  }
+  if (startsWith(head, kBagMagic)) {
+    return "is not of bag format 2.0, expected '#ROSBAG V2.0' as its first line, which rosbag "
+           "writes since 2010";
   }
   for (const std::string_view magic : kRos2Magics) {
     if (startsWith(head, magic)) {

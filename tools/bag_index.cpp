@@ -10,13 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "bag_fault.h"
 #include "bag_header.h"
 
 namespace datmo {
 
 namespace {
-
-const std::string kVersion = "#ROSBAG V2.0\n";
 
 using Length = std::uint32_t;
 
@@ -41,11 +40,6 @@ class File {
  public:
   explicit File(const std::string& name)
       : stream_(name, std::ios::binary), size_(std::filesystem::file_size(name)) {}
-
-  bool hasVersion() {
-    std::string version(kVersion.size(), '\0');
-    return read(0, version.data(), version.size()) && version == kVersion;
-  }
 
   /// The header whose length is at a byte; nothing if it is not whole, or ends after the file.
   std::optional<BagHeader> header(std::uint64_t at) {
@@ -132,10 +126,7 @@ bool isPossible(const ChunkPosition& position, File& file) {
 
 bool hasPossibleIndex(const std::string& file_name) {
   File file(file_name);
-  if (!file.hasVersion()) {
-    return true;
-  }
-  const std::optional<Record> head = file.record(kVersion.size());
+  const std::optional<Record> head = file.record(kBagVersion.size());
   if (!head) {
     return false;
   }

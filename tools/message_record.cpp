@@ -46,8 +46,7 @@ template struct Exposed<Source, &rosbag::MessageInstance::bag_>;
 template struct Exposed<Decompression, &rosbag::Bag::decompressChunk>;
 template struct Exposed<Chunk, &rosbag::Bag::current_buffer_>;
 
-constexpr std::uint32_t kMajorVersion = 2;  ///< of the format; version 1 has no chunks
-constexpr std::uint8_t kMessageOp = 2;      ///< in the header of a message's record
+constexpr std::uint8_t kMessageOp = 2;  ///< in the header of a message's record
 
 using Length = std::uint32_t;
 
@@ -78,9 +77,6 @@ bool isMessage(const std::uint8_t* bytes, std::uint64_t size, std::uint64_t at) 
 void checkRecord(const rosbag::MessageInstance& message) {
   const rosbag::IndexEntry& entry = message.*member(Entry());
   const rosbag::Bag& bag = *(message.*member(Source()));
-  if (bag.getMajorVersion() != kMajorVersion) {
-    return;
-  }
   std::string fault;
   try {
     (bag.*member(Decompression()))(entry.chunk_pos);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <sstream>
 
 #include "bag_fault.h"
 #include "output_bag.h"
@@ -118,6 +119,20 @@ TEST_F(InputBag, FilesThatAreNoBags) {
   expectRefused("is compressed, expected a bag; 'unzip " + file_.string() + "' unpacks it");
   writeBag(rosbag::compression::Uncompressed, 0);
   expectRefused("holds no message");
+}
+
+TEST_F(InputBag, OtherFormatsAreRefusedBeforeTheirLengthsAreBelieved) {
+  writeBag();
+  std::ifstream stream(file_, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  std::ostringstream rest;
+  rest << stream.rdbuf();
+  // rosbag takes all but the first two for 2.0, too.
+  for (const char* version : {"V1.2\n", "V3.0\n", "V2.00\n", "V1.100\n", " V2.0\n", "V2.0"}) {
+    writeBytes(std::string("#ROSBAG ") + version + rest.str());
+    expectRefused("is not of bag format 2.0, expected '#ROSBAG V2.0' as its first line");
+  }
 }
 
 TEST_F(InputBag, RecordingsOfRos2) {

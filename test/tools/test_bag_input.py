@@ -63,6 +63,12 @@ class Unreadable(BagInput):
         self.bag.write_text("not a bag")
         self.assert_refused("is not a bag, expected a file that begins with #ROSBAG")
 
+    def test_other_format(self):
+        """rosbag takes the third for 2.0."""
+        for version in ("V1.2", "V3.0", "V2.00", "V2.0"):
+            self.bag.write_text(f"#ROSBAG {version}")
+            self.assert_refused("is not of bag format 2.0, expected '#ROSBAG V2.0' as its first line")
+
     def test_empty(self):
         self.bag.write_bytes(b"")
         self.assert_refused("is empty (0 bytes)")

@@ -16,6 +16,7 @@ import rosbag
 from datmo_tools.errors import InputError
 
 BAG_MAGIC = b"#ROSBAG"
+BAG_VERSION = b"#ROSBAG V2.0\n"  # the only format that is read
 ROS2_MAGICS = (b"SQLite format 3\0", b"\x89MCAP0\r\n")
 ROS2_SUFFIXES = (".db3", ".mcap")
 # The first bytes of compressed files, and the command that unpacks them.
@@ -122,8 +123,13 @@ def _fault_of_content(path):
         head = stream.read(max(map(len, ROS2_MAGICS)))
     if not head:
         return "is empty (0 bytes), expected a bag"
-    if head.startswith(BAG_MAGIC):
+    if head.startswith(BAG_VERSION):
         return None
+    if head.startswith(BAG_MAGIC):
+        return (
+            "is not of bag format 2.0, expected '#ROSBAG V2.0' as its first line, which rosbag writes"
+            " since 2010"
+        )
     if head.startswith(ROS2_MAGICS):
         return _ros2_fault(path)
     for magic, command in PACKED.items():

@@ -21,7 +21,10 @@ const std::vector<std::string> kLiveNodes = {
     "rear_device", "satellite_receiver", "vehicle_bus",    "v2x_wire",   "stack"};
 
 /// All possible stages.
-std::vector<GraphStage> wholeGraph() { return stageGraph(allSwitches()); }
+const std::vector<GraphStage>& wholeGraph() {
+  static const std::vector<GraphStage> graph = stageGraph(allSwitches());
+  return graph;
+}
 
 /// The type of the stage to which a section belongs; empty if it belongs to none.
 std::string typeOf(const std::string& section) {
