@@ -28,7 +28,8 @@ std::optional<std::string_view> nextField(std::string_view& rest) {
 
 bool BagHeader::hasWholeFields() const {
   for (std::string_view rest = bytes_; !rest.empty();) {
-    if (!nextField(rest)) {
+    const std::optional<std::string_view> field = nextField(rest);
+    if (!field || field->find('=') == std::string_view::npos) {
       return false;
     }
   }

@@ -18,8 +18,9 @@ class BagHeader {
 
   std::size_t size() const { return bytes_.size(); }
 
-  /// Whether its last field ends where it ends. rosbag does not check this, and reads a field up to
-  /// 1 MB past its memory.
+  /// Whether each field has a name, and the last one ends where it ends. rosbag does not check the
+  /// latter, and reads a field up to 1 MB past its memory; without a name, it prints an error of
+  /// its own before ours.
   bool hasWholeFields() const;
 
   /// A number; nothing if it is missing.

@@ -38,6 +38,11 @@ TEST(BagHeader, EveryCutIsFound) {
   }
 }
 
+TEST(BagHeader, AFieldWithoutANameIsFound) {
+  EXPECT_FALSE(BagHeader(field("op=\x02") + field("count")).hasWholeFields());
+  EXPECT_FALSE(BagHeader(field("")).hasWholeFields());
+}
+
 TEST(BagHeader, NoLengthLeavesIt) {
   for (int bit = 0; bit < 8; ++bit) {
     for (std::size_t byte = 0; byte < 4; ++byte) {
