@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_seeds.h"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "device/capture_sample.h"
 #include "scratch_folder.h"
@@ -16,6 +18,8 @@
 
 namespace datmo::fuzz {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string contentOf(const std::string& file) {
   std::ostringstream content;
@@ -44,7 +48,7 @@ std::string checkpointFields(const std::string& file) {
   return fields;
 }
 
-void writeBag(const std::string& file) {
+void writeBag(const std::string& file, rosbag::CompressionType compression) {
   sensor_msgs::LaserScan scan;
   scan.header.frame_id = "scanner";
   scan.angle_min = static_cast<float>(degrees(-80.0));
@@ -53,14 +57,23 @@ void writeBag(const std::string& file) {
   scan.range_max = 50.0F;
   scan.ranges.assign(5, 10.0F);
   rosbag::Bag bag(file, rosbag::bagmode::Write);
+  bag.setCompression(compression);
   for (const double time : {1.0, 1.1}) {
     scan.header.stamp = ros::Time(time);
     bag.write("/scan", scan.header.stamp, scan);
   }
 }
 
-constexpr char kConfiguration[] =
-    "scanner:\n  max_range: 50.0\ngrid_slam:\n  map: {cell_size: 0.5}\n  seed: 2\n";
+/// Those of the package.
+std::vector<FileSeed> configurations() {
+  std::vector<FileSeed> seeds;
+  for (const fs::directory_entry& entry : fs::directory_iterator(DATMO_FUSION_CONFIG)) {
+    if (entry.path().extension() == ".yaml") {
+      seeds.push_back({"configuration_" + entry.path().stem().string(), 4, contentOf(entry.path().string())});
+    }
+  }
+  return seeds;
+}
 
 constexpr char kDatabase[] =
     "VERSION \"\"\n\nBO_ 416 Motion: 8 Gateway\n"
@@ -75,17 +88,25 @@ std::vector<FileSeed> fileSeeds() {
   const std::string map = mapText(wallEvidence());
   const std::size_t cells = wallEvidence().cells.size() * kMapBytesPerCell;
   writeMap(folder.file("map"), OccupancyMap::restored(mapOfFiles(), wallEvidence()));
-  writeBag(folder.file("drive.bag"));
+  writeBag(folder.file("drive.bag"), rosbag::compression::Uncompressed);
+  writeBag(folder.file("bz2.bag"), rosbag::compression::BZ2);
+  writeBag(folder.file("lz4.bag"), rosbag::compression::LZ4);
   samples::writeCapture(folder.file("frames.pcap"), {{1.0, 2368, "data"}});
-  return {{"map", 0, map},
-          {"cells", 1, map.substr(map.size() - cells)},
-          {"map_server", 2, contentOf(folder.file("map.yaml")) + contentOf(folder.file("map.pgm"))},
-          {"checkpoint", 3, checkpointFields(folder.file("checkpoint"))},
-          {"configuration", 4, kConfiguration},
-          {"can_database", 5, kDatabase},
-          {"capture", 6, contentOf(folder.file("frames.pcap"))},
-          {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
-          {"bag", 7, contentOf(folder.file("drive.bag"))}};
+  std::vector<FileSeed> seeds{
+      {"map", 0, map},
+      {"cells", 1, map.substr(map.size() - cells)},
+      {"map_server", 2, contentOf(folder.file("map.yaml")) + contentOf(folder.file("map.pgm"))},
+      {"checkpoint", 3, checkpointFields(folder.file("checkpoint"))},
+      {"can_database", 5, kDatabase},
+      {"capture", 6, contentOf(folder.file("frames.pcap"))},
+      {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
+      {"bag", 7, contentOf(folder.file("drive.bag"))},
+      {"bag_bz2", 7, contentOf(folder.file("bz2.bag"))},
+      {"bag_lz4", 7, contentOf(folder.file("lz4.bag"))}};
+  for (FileSeed& seed : configurations()) {
+    seeds.push_back(std::move(seed));
+  }
+  return seeds;
 }
 
 }  // namespace datmo::fuzz

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -113,20 +114,24 @@ void checkCan(std::string_view bytes) {
   }
 }
 
-constexpr std::array<Decoder, 8> kDecoders{
-    checkNmea,
-    [](std::string_view bytes) { checkSick(bytes, ColaDialect::kText); },
-    [](std::string_view bytes) { checkSick(bytes, ColaDialect::kBinary); },
-    [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kText); },
-    [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kBinary); },
-    checkScip,
-    checkVelodyne,
-    checkCan};
+std::array<InputKind, 8> kinds{
+    {{"nmea", checkNmea},
+     {"cola_text", [](std::string_view bytes) { checkSick(bytes, ColaDialect::kText); }},
+     {"cola_binary", [](std::string_view bytes) { checkSick(bytes, ColaDialect::kBinary); }},
+     {"scan_text", [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kText); }},
+     {"scan_binary", [](std::string_view bytes) { checkSickScan(bytes, ColaDialect::kBinary); }},
+     {"scip", checkScip},
+     {"velodyne", checkVelodyne},
+     {"can", checkCan}}};
 
 }  // namespace
 }  // namespace datmo::fuzz
 
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  return std::atexit([] { datmo::fuzz::printCounts(datmo::fuzz::kinds); });
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return datmo::fuzz::decodeSelected<datmo::DeviceError, datmo::OptionError>(datmo::fuzz::kDecoders,
+  return datmo::fuzz::decodeSelected<datmo::DeviceError, datmo::OptionError>(datmo::fuzz::kinds,
                                                                              data, size);
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -124,6 +125,9 @@ void readScans(const rosbag::Bag& bag) {
   }
 }
 
+/// A bag that is refused.
+struct BagError {};
+
 /// As run_bag, which refuses a file, or the rest of it, for any error of rosbag.
 void checkBag(std::string_view bytes) {
   try {
@@ -131,23 +135,28 @@ void checkBag(std::string_view bytes) {
     openInput(scratch().write("drive.bag", bytes), bag);
     readScans(bag);
   } catch (const std::runtime_error&) {
+    throw BagError();
   }
 }
 
-constexpr std::array<Decoder, 8> kDecoders{
-    [](std::string_view bytes) { checkMap(scratch().write("map", bytes)); },
-    checkCells,
-    checkMapServer,
-    checkCheckpoint,
-    checkConfiguration,
-    checkDatabase,
-    checkCapture,
-    checkBag};
+std::array<InputKind, 8> kinds{
+    {{"map", [](std::string_view bytes) { checkMap(scratch().write("map", bytes)); }},
+     {"cells", checkCells},
+     {"map_server", checkMapServer},
+     {"checkpoint", checkCheckpoint},
+     {"configuration", checkConfiguration},
+     {"can_database", checkDatabase},
+     {"capture", checkCapture},
+     {"bag", checkBag}}};
 
 }  // namespace
 }  // namespace datmo::fuzz
 
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  return std::atexit([] { datmo::fuzz::printCounts(datmo::fuzz::kinds); });
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return datmo::fuzz::decodeSelected<datmo::MapFileError, datmo::OptionError, datmo::DeviceError>(
-      datmo::fuzz::kDecoders, data, size);
+  return datmo::fuzz::decodeSelected<datmo::MapFileError, datmo::OptionError, datmo::DeviceError,
+                                     datmo::fuzz::BagError>(datmo::fuzz::kinds, data, size);
 }

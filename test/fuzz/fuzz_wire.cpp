@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -42,16 +43,20 @@ void checkRoundTrip(std::string_view bytes, const Decode& decode) {
   require(encode(decode(encoded)) == encoded, "an encoded message");
 }
 
-constexpr std::array<Decoder, 5> kDecoders{
-    [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k221); },
-    [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k211); },
-    [](std::string_view bytes) { checkRoundTrip(bytes, decodeCam); },
-    [](std::string_view bytes) { checkRoundTrip(bytes, decodeSpatem); },
-    [](std::string_view bytes) { checkRoundTrip(bytes, decodeMapem); }};
+std::array<InputKind, 5> kinds{
+    {{"station", [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k221); }},
+     {"station_older", [](std::string_view bytes) { checkStation(bytes, ItsDictionary::k211); }},
+     {"cam", [](std::string_view bytes) { checkRoundTrip(bytes, decodeCam); }},
+     {"spatem", [](std::string_view bytes) { checkRoundTrip(bytes, decodeSpatem); }},
+     {"mapem", [](std::string_view bytes) { checkRoundTrip(bytes, decodeMapem); }}}};
 
 }  // namespace
 }  // namespace datmo::fuzz
 
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  return std::atexit([] { datmo::fuzz::printCounts(datmo::fuzz::kinds); });
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return datmo::fuzz::decodeSelected<datmo::WireError>(datmo::fuzz::kDecoders, data, size);
+  return datmo::fuzz::decodeSelected<datmo::WireError>(datmo::fuzz::kinds, data, size);
 }
