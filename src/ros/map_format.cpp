@@ -21,6 +21,10 @@ constexpr std::size_t kBytesPerWord = 4;
 constexpr std::size_t kBitsPerByte = 8;
 constexpr std::uint32_t kByteMask = 0xFF;
 
+/// Maximum number of cells: 2 km x 2 km with cells of 0.2 m, without an unknown one. They take
+/// about as much memory as large computers have.
+constexpr std::size_t kMaxCells = 100'000'000;
+
 /// Maximum number of scans that a cell counts: years.
 constexpr int kMaxCount = 1'000'000'000;
 
@@ -118,6 +122,14 @@ bool isSound(const CellEvidence& known) {
          known.hits.sum.allFinite() && known.hits.squares.allFinite();
 }
 
+/// Returns the number of bytes from here to the end.
+std::size_t bytesLeft(std::istream& in) {
+  const auto here = in.tellg();
+  const auto end = in.seekg(0, std::ios::end).tellg();
+  in.seekg(here);
+  return in ? static_cast<std::size_t>(end - here) : 0;
+}
+
 /// The file's header before the cells.
 struct MapHeader {
   double cell_size = 0.0;
@@ -144,6 +156,28 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
   return header;
 }
 
+/// Reads the bytes of the cells.
+std::string readCells(std::istream& in, const MapHeader& header, const std::string& file) {
+  const std::size_t size = bytesLeft(in);
+  if (size % kMapBytesPerCell != 0 || size / kMapBytesPerCell != header.cells) {
+    throw MapFileError(file + ": is truncated or modified: " + std::to_string(size) +
+                       " bytes of cells, expected " + std::to_string(kMapBytesPerCell) +
+                       " for each of " + std::to_string(header.cells));
+  }
+  if (header.cells > kMaxCells) {
+    throw MapFileError(file + ": " + std::to_string(header.cells) + " cells, expected at most " +
+                       std::to_string(kMaxCells));
+  }
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (checksumOf(bytes) != header.checksum) {
+    throw MapFileError(file + ": was modified: its checksum is " +
+                       std::to_string(checksumOf(bytes)) + ", expected " +
+                       std::to_string(header.checksum));
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::uint32_t checksumOf(const std::string& bytes) {
@@ -164,19 +198,7 @@ std::string mapText(const MapEvidence& evidence) {
 
 MapEvidence readMapText(std::istream& in, const std::string& file) {
   const MapHeader header = readMapHeader(in, file);
-  std::ostringstream rest;
-  rest << in.rdbuf();
-  const std::string bytes = rest.str();
-  if (bytes.size() % kMapBytesPerCell != 0 || bytes.size() / kMapBytesPerCell != header.cells) {
-    throw MapFileError(file + ": is truncated or modified: " + std::to_string(bytes.size()) +
-                       " bytes of cells, expected " + std::to_string(kMapBytesPerCell) +
-                       " for each of " + std::to_string(header.cells));
-  }
-  if (checksumOf(bytes) != header.checksum) {
-    throw MapFileError(file + ": was modified: its checksum is " +
-                       std::to_string(checksumOf(bytes)) + ", expected " +
-                       std::to_string(header.checksum));
-  }
+  const std::string bytes = readCells(in, header, file);
   MapEvidence evidence{header.cell_size, {}};
   evidence.cells.reserve(header.cells);
   WordReader words(bytes);

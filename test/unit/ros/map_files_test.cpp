@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/map_files.h"
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -146,6 +147,14 @@ TEST_F(MapFilesTest, ACutOrChangedFileIsRefused) {
   expectIn("its checksum is", refusal("changed.map"));
   write("more.map", whole + "x");
   expectIn("is truncated or modified", refusal("more.map"));
+}
+
+TEST_F(MapFilesTest, AMapOfTooManyCellsIsRefusedBeforeItTakesMemory) {
+  const std::string header = "datmo_fusion map 1\ncell_size 0.5\ncells 200000000\ncrc32 0\n";
+  write("huge.map", header);
+  expectIn("0 bytes of cells, expected 48 for each of 200000000", refusal("huge.map"));
+  std::filesystem::resize_file(file("huge.map"), header.size() + std::uintmax_t{200'000'000} * 48U);
+  expectIn("200000000 cells, expected at most 100000000", refusal("huge.map"));
 }
 
 TEST_F(MapFilesTest, AnotherResolutionIsRefused) {
