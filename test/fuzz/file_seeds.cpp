@@ -81,6 +81,9 @@ constexpr char kDatabase[] =
     " SG_ Gear m1 : 0|4@0- (1,-2) [0|0] \"\" Vector__XXX\n"
     "SIG_VALTYPE_ 416 Gear : 1;\n";
 
+/// rosbag takes it for format 2.0, and a header of 2 GiB.
+constexpr char kOtherBag[] = "#ROSBAG V2.00\n\xFF\xFF\xFF\x7F";
+
 }  // namespace
 
 std::vector<FileSeed> fileSeeds() {
@@ -102,7 +105,8 @@ std::vector<FileSeed> fileSeeds() {
       {"frame", 6, samples::ethernetFrame({1.0, 2368, "data"})},
       {"bag", 7, contentOf(folder.file("drive.bag"))},
       {"bag_bz2", 7, contentOf(folder.file("bz2.bag"))},
-      {"bag_lz4", 7, contentOf(folder.file("lz4.bag"))}};
+      {"bag_lz4", 7, contentOf(folder.file("lz4.bag"))},
+      {"bag_format", 7, kOtherBag}};
   for (FileSeed& seed : configurations()) {
     seeds.push_back(std::move(seed));
   }
