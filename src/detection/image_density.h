@@ -22,7 +22,7 @@ class ImageDensity {
   using Tangents = std::array<float, ViewedPoints::kMax>;
   using Flags = std::array<int, ViewedPoints::kMax>;
 
-  /// Counts those of `count` points that are seen (flag not 0), at these tangents: to the right,
+  /// Counts those of `count` points that are seen (flag 1), at these tangents: to the right,
   /// and above the horizon.
   void add(const Tangents& right, const Tangents& up, const Flags& is_seen, std::size_t count);
 

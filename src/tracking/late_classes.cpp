@@ -11,13 +11,6 @@
 
 namespace datmo {
 
-namespace {
-
-/// s; a class that is older says little about what is to be decided now.
-constexpr double kMaxAge = 0.5;
-
-}  // namespace
-
 void LateClasses::add(ObjectList classes) {
   const auto valid = std::remove_if(classes.objects.begin(), classes.objects.end(),
                                     [](const Object& object) { return !isValid(object); });
@@ -33,22 +26,23 @@ void LateClasses::add(ObjectList classes) {
 void LateClasses::note(Stamp stamp, const std::vector<BestTarget>& targets,
                        const AssociationScan& scan) {
   KnownScan known;
-  while (!scans_.empty() && secondsBetween(scans_.front().stamp, stamp) > kMaxAge) {
+  while (scans_.size() >= kMaxWaitingSamples ||
+         (!scans_.empty() && secondsBetween(scans_.front().stamp, stamp) > kMaxAge)) {
     known = std::move(scans_.front());  // whose memory is reused
     scans_.pop_front();
   }
-  known.objects.clear();
   known.stamp = stamp;
   known.base_in_fixed = scan.fixed_in_base.inverse();
+  known.objects.clear();
+  for (std::size_t i = 0; i < scan.objects; ++i) {
+    const Object& object = scan.observations[i].object;
+    known.objects.push_back({object.box.center.position(), object.position_covariance, 0});
+  }
   for (const BestTarget& best : targets) {
-    const std::size_t index = best.target->measurementIndex();
-    if (index == kUnseen) {
-      continue;
-    }
-    for (const std::size_t source : scan.observations[index].sources) {
-      const Object& object = scan.observations[source].object;
-      known.objects.push_back(
-          {object.box.center.position(), object.position_covariance, best.target->number()});
+    if (best.target->measurementIndex() != kUnseen) {
+      for (const std::size_t source : scan.observations[best.target->measurementIndex()].sources) {
+        known.objects[source].target = best.target->number();
+      }
     }
   }
   scans_.push_back(std::move(known));
@@ -56,17 +50,23 @@ void LateClasses::note(Stamp stamp, const std::vector<BestTarget>& targets,
 
 std::vector<TargetClass> LateClasses::take() {
   std::vector<TargetClass> matched;
-  while (!waiting_.empty() && !scans_.empty() && waiting_.front().stamp <= scans_.back().stamp) {
-    const ObjectList& classes = waiting_.front();
-    const auto scan = std::find_if(scans_.begin(), scans_.end(), [&classes](const KnownScan& one) {
-      return one.stamp == classes.stamp;
+  if (scans_.empty()) {
+    return matched;
+  }
+  for (auto classes = waiting_.begin(); classes != waiting_.end();) {
+    if (classes->stamp > scans_.back().stamp) {
+      ++classes;
+      continue;
+    }
+    const auto scan = std::find_if(scans_.begin(), scans_.end(), [&](const KnownScan& one) {
+      return one.stamp == classes->stamp;
     });
     if (scan != scans_.end()) {
-      match(classes, *scan, matched);
+      match(*classes, *scan, matched);
     } else {
-      counts_.without_target += classes.objects.size();
+      counts_.without_target += classes->objects.size();
     }
-    waiting_.pop_front();
+    classes = waiting_.erase(classes);
   }
   return matched;
 }
@@ -91,7 +91,9 @@ void LateClasses::match(const ObjectList& classes, const KnownScan& scan,
         nearest = &known;
       }
     }
-    if (nearest == nullptr) {
+    // Not that of a neighbor: the class is that of the nearest object, whether it has a target or
+    // not.
+    if (nearest == nullptr || nearest->target == 0) {
       ++counts_.without_target;
       continue;
     }

@@ -69,7 +69,8 @@ std::vector<FileSeed> configurations() {
   std::vector<FileSeed> seeds;
   for (const fs::directory_entry& entry : fs::directory_iterator(DATMO_FUSION_CONFIG)) {
     if (entry.path().extension() == ".yaml") {
-      seeds.push_back({"configuration_" + entry.path().stem().string(), 4, contentOf(entry.path().string())});
+      seeds.push_back(
+          {"configuration_" + entry.path().stem().string(), 4, contentOf(entry.path().string())});
     }
   }
   return seeds;

@@ -5,6 +5,8 @@
 #include <deque>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/common/stamp.h"
@@ -22,17 +24,20 @@ struct TargetClass {
 /// Counts since construction or clear().
 struct LateClassCounts {
   std::uint64_t rejected = 0;        ///< see isValid()
-  std::uint64_t without_target = 0;  ///< their objects belong to no target, or are too old
+  std::uint64_t without_target = 0;  ///< their objects belonged to no target, or are too old
 };
 
 /// Gives classes that arrive late, as those of a slow detector in images, to the targets to which
 /// their objects belonged at the time of the detection. Where these targets are by now does not
 /// matter: two that have passed each other in the meantime are not confused.
 ///
-/// Which object belongs to which target is remembered for half a second, by the most likely
-/// hypothesis of that time.
+/// Which object belongs to which target is remembered for `kMaxAge`, by the most likely hypothesis
+/// of that time.
 class LateClasses {
  public:
+  /// s; an older class says little about what is to be decided now.
+  static constexpr double kMaxAge = 0.5;
+
   /// `gate`: squared Mahalanobis distance within which an object that was fused with those of other
   /// sensors is still the same one.
   explicit LateClasses(double gate) : gate_(gate) {}
@@ -56,7 +61,7 @@ class LateClasses {
   struct KnownObject {
     Point2 position;             ///< m, fixed frame
     Eigen::Matrix2d covariance;  ///< m^2
-    std::uint64_t target;        ///< its number
+    std::uint64_t target;        ///< its number; 0: none
   };
   struct KnownScan {
     Stamp stamp;
@@ -67,7 +72,7 @@ class LateClasses {
   void match(const ObjectList& classes, const KnownScan& scan, std::vector<TargetClass>& matched);
 
   double gate_;
-  std::deque<KnownScan> scans_;     ///< by rising stamp
+  std::deque<KnownScan> scans_;     ///< by rising stamp; bounded
   std::deque<ObjectList> waiting_;  ///< by arrival
   LateClassCounts counts_;
 };

@@ -2,7 +2,7 @@
 #include "datmo_fusion/ros/convert/cloud_conversion.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 #include <string>

@@ -17,7 +17,6 @@
 #include "datmo_fusion/ros/convert/image_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
-#include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
 
@@ -44,7 +43,7 @@ void giveWay(const MonoClassifierStageOptions& options) {
               std::max(getpriority(PRIO_PROCESS, thread), options.detector_nice));
 }
 
-/// Returns the classified objects of a list. Without their points: nobody needs them twice.
+/// Returns the classified objects of a list, without points: they are matched by position.
 ObjectList withClasses(const ObjectList& listed, const std::vector<ClassifiedObject>& classes) {
   ObjectList list;
   list.stamp = listed.stamp;
@@ -108,6 +107,7 @@ void MonoClassifierStage::reset() {
   wait_.clear();
   exposure_.reset();
   results_.clear();
+  classified_.reset();
   ++run_;  // invalidates what the detector is still processing
 }
 
@@ -252,7 +252,8 @@ MonoObjects MonoClassifierStage::show(const Result& result) {
   monitor_.processed({found.alone.stamp, result.seconds});
   const std::string& frame = options_.frames.base;
   MonoObjects messages;
-  if (result.listed) {
+  if (result.listed && (!classified_ || *classified_ < result.listed->stamp)) {
+    classified_ = result.listed->stamp;
     messages.classes = boost::make_shared<ObjectArray>(
         toMessage(withClasses(*result.listed, found.classes), frame));
   }

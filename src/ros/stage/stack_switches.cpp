@@ -25,9 +25,10 @@ const std::vector<NamedSwitch>& stackSwitches() {
        "finds objects in a radar's detections (radar) and fuses them with the scanner's\n"
        "before tracker, and writes /objects/radar and /objects/fused"},
       {"mono", &StackSwitches::mono,
-       "classifies the scanner's objects by images of the left camera before tracker, and\n"
-       "writes /objects/mono and /objects/fused; with --low-level-fusion they also\n"
-       "identify the road by its colors, and --write-grids writes /grids/mono"},
+       "classifies the scanner's objects by images of the left camera, fuses with them what\n"
+       "only these show, and writes /objects/classes, /objects/mono and /objects/fused; with\n"
+       "--low-level-fusion they also identify the road by its colors, and --write-grids\n"
+       "writes /grids/mono"},
       {"static_points", &StackSwitches::static_points,
        "writes stationary points: /static_points and /static_scan"},
       {"loop_closing", &StackSwitches::loop_closing,

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/fusion/object/object_fuser.h"
 

@@ -60,6 +60,20 @@ TEST_F(MonoClassifierStageTest, ClassesHaveTheStampAndThePositionsOfTheList) {
   EXPECT_EQ(found->alone->header.stamp, ros::Time(kStart));
 }
 
+TEST_F(MonoClassifierStageTest, OfSeveralImagesTheFirstClassifiesAList) {
+  mountCamera();
+  stage_->handleCameraInfo(cameraInfo());
+  stage_->handleOdometry(samples::odometry(kStart, 0.0));
+  stage_->handleOdometry(samples::odometry(kStart + 0.1, 0.0));
+  stage_->handleObjects(objectsAt(kStart));
+  const auto first = look(imageAt(kStart));
+  const auto second = look(imageAt(kStart + 0.03));
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(first->classes, nullptr);
+  EXPECT_EQ(second->classes, nullptr);
+  EXPECT_TRUE(second->alone->objects.empty());
+}
+
 TEST_F(MonoClassifierStageTest, ThereIsAWarningOfADetectorWithoutWeight) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
@@ -96,7 +110,9 @@ TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
   mountCamera();
   stage_->handleCameraInfo(cameraInfo());
   stage_->handleObjects(objectsAt(kStart - 0.05));
-  EXPECT_TRUE(look(imageAt(kStart)));
+  const auto alone = look(imageAt(kStart));
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->classes, nullptr);
   EXPECT_EQ(warnings(monitor_, "no_motion"), 1U);
 }
 

@@ -8,6 +8,7 @@
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::tracker_stage_test {
@@ -180,6 +181,31 @@ TEST_F(TrackerStageTest, LateClassesNeedNotBeInOrderOfTheObjectsStamps) {
   objectsAt(100.18);
   EXPECT_TRUE(nextAt(100.18));
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(TrackerStageTest, AClassReachesTheTrackOfItsObject) {
+  TrackerStageOptions options;
+  options.tracker.require_motion = false;
+  TrackerStage stage(options, buffer_, monitor_);
+  poseAt(99.9);
+  poseAt(102.0);
+  ObjectList list;
+  list.objects = {Object()};
+  list.objects[0].box = {Pose2(10.0, 0.0, 0.0), 1.0, 1.0};
+  list.objects[0].position_covariance *= 0.01;
+  TrackArrayPtr tracks;
+  for (double seconds = 100.0; seconds < 101.0; seconds += 0.1) {
+    list.stamp = Stamp::fromSeconds(seconds);
+    list.objects[0].class_probabilities = {};
+    stage.handleObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
+    tracks = stage.next(list.stamp);
+    list.objects[0].class_probabilities = reportedClass(ObjectClass::kPedestrian, 0.9);
+    stage.handleClasses(toMessage(list, "base_link"));
+  }
+  ASSERT_TRUE(tracks);
+  ASSERT_EQ(tracks->tracks.size(), 1U);
+  EXPECT_EQ(tracks->tracks[0].classification, ObjectMessage::CLASS_PEDESTRIAN);
+  EXPECT_GT(tracks->tracks[0].class_probability, 0.95);
 }
 
 TEST_F(TrackerStageTest, ClassesInAnotherFrameAreDropped) {

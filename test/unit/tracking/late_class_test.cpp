@@ -179,6 +179,28 @@ TEST_F(LateClassInputTest, ThoseOfUnknownScansOrObjectsAreCounted) {
   EXPECT_GT(carGain(), 0.0);
 }
 
+/// Something that stands beside the cyclist, within the gate of his position.
+TEST_F(LateClassInputTest, ThatOfAnObjectWithoutTargetIsNotItsNeighbors) {
+  const auto standingAt = [](int step) {
+    Object object = seenFrom(vehicleAt(step), objectAt(cyclistAt(step) + 0.3, 0.3));
+    object.dynamic_state = DynamicState::kStatic;
+    return object;
+  };
+  for (; next_ < 7; ++next_) {
+    if (next_ == 6) {
+      ObjectList classes{stampOf(5), {standingAt(5)}, {}};
+      classes.objects[0].class_probabilities = reportedClass(ObjectClass::kVehicle, kProbability);
+      tracker_.addClasses(classes);
+    }
+    TrackerInput input = inputAt(next_);
+    input.objects.objects.push_back(standingAt(next_));
+    tracks_ = tracker_.process(input.objects, input.base_in_fixed, input.visibility);
+    untold_tracks_ = untold_.process(input.objects, input.base_in_fixed, input.visibility);
+  }
+  EXPECT_EQ(counts().without_target, 1U);
+  EXPECT_EQ(cyclistGain(), 0.0);
+}
+
 TEST_F(LateClassInputTest, OneDetectionOfSeveralPiecesCountsOnce) {
   follow(5);
   ObjectList pieces = classesOf(5);

@@ -48,7 +48,8 @@ struct MonoClassifierStageOptions {
 /// Result of an image.
 struct MonoObjects {
   /// Objects of the scanner's list nearest to the exposure, as listed and at its stamp, with the
-  /// classes that the image gives them; null if the image was processed alone.
+  /// classes that the image gives them; null if the image was processed alone, or an earlier one
+  /// has classified this list: images of the same moment err alike.
   ObjectArrayPtr classes;
   ObjectArrayPtr alone;  ///< from the image alone, at the exposure's stamp
 };
@@ -147,6 +148,7 @@ class MonoClassifierStage : public Stage {
   ImageWait<Listed> wait_;
   std::uint64_t run_ = 0;  ///< number of clock restarts
   std::deque<Result> results_;
+  std::optional<Stamp> classified_;  ///< of the last list with classes
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier
   StagePublisher<ObjectArray> classes_;

@@ -10,7 +10,7 @@ namespace datmo {
 /// Returns whether a stamp is from 1970 to 2099.
 bool isInStampRange(Stamp stamp);
 
-/// Throws InputError (`stamp_out_of_range`) for a stamp after the year 2100, which is unset or
+/// Throws InputError (`stamp_out_of_range`) for a stamp of 2100 or later, which is unset or
 /// corrupt. ros::Time ends in 2106 and throws std::runtime_error if a sum exceeds that.
 void checkStampRange(const ros::Time& time);
 
