@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/convert/image_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
 
