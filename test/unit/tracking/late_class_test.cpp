@@ -179,10 +179,13 @@ TEST_F(LateClassInputTest, ThoseOfUnknownScansOrObjectsAreCounted) {
   EXPECT_GT(carGain(), 0.0);
 }
 
-/// Something that stands beside the cyclist, within the gate of his position.
+/// Something that stands beside the cyclist, within the gate of his position. Without combinations
+/// of objects, it is no part of him.
 TEST_F(LateClassInputTest, ThatOfAnObjectWithoutTargetIsNotItsNeighbors) {
+  tracker_ = Tracker(optionsWith(TrackerAssociation::kGlobalNearestNeighbor));
+  untold_ = Tracker(optionsWith(TrackerAssociation::kGlobalNearestNeighbor));
   const auto standingAt = [](int step) {
-    Object object = seenFrom(vehicleAt(step), objectAt(cyclistAt(step) + 0.3, 0.3));
+    Object object = seenFrom(vehicleAt(step), objectAt(cyclistAt(step) + 0.2, 0.2));
     object.dynamic_state = DynamicState::kStatic;
     return object;
   };

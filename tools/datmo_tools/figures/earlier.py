@@ -8,16 +8,17 @@ from datmo_tools.figures import results_file
 from datmo_tools.figures.commits import CHANGED, changed_files
 from datmo_tools.figures.effects import can_affect
 
-# Of the files that a sample of the jobs is enough for. Tools in Python also make the figures from the
-# results of the jobs, which a sample does not check, and a scene or a recording concerns some jobs only.
-CODE = (".cpp", ".h")
+# Ends of the files that a sample of the jobs is enough for: C++ code, how it is built, and the reader
+# of bags, which all jobs use. Other tools in Python also make the figures from the results of the jobs,
+# which a sample does not check, and a scene or a recording concerns some jobs only.
+SAMPLED = (".cpp", ".h", ".cmake", "CMakeLists.txt", "tools/datmo_tools/bag_input.py")
 
 
 class Earlier(NamedTuple):
     """Records of steps (dict, by name), as in the file of figures."""
 
     unaffected: dict = {}  # whose figures are those of the sources, too
-    affected: dict = {}  # that a change of C++ code since may have affected
+    affected: dict = {}  # that a change since may have affected of which a sample is enough
 
 
 def earlier_steps(file, source, commit, steps):
@@ -43,6 +44,6 @@ def earlier_steps(file, source, commit, steps):
             causes = [file for file in files if can_affect(file, name)]
             if not causes:
                 unaffected[name] = record
-            elif all(file.endswith(CODE) for file in causes):
+            elif all(file.endswith(SAMPLED) for file in causes):
                 affected[name] = record
     return Earlier(unaffected, affected)

@@ -20,9 +20,9 @@ DESCRIPTION = """\
 Measures the figures of README's table of results and of doc/results.md, writes them to
 doc/results.json, and renders both from it. A step that is done at this commit is not repeated, so
 an interrupted run resumes, and neither is one in doc/results.json that was measured at an earlier
-commit if no change since can affect its figures (figures/effects.py), or if only C++ code can and
-one of its jobs, drawn at random, has the same result as then. With uncommitted changes every step runs, and only the
-figures of this run are written. Steps that have to run and whose data is missing below
+commit if no change since can affect its figures (figures/effects.py), or if only C++ code, its CMake
+files or the reader of bags can, and one of its jobs, drawn at random, has the same result as then.
+With uncommitted changes every step runs, and only the figures of this run are written. Steps that have to run and whose data is missing below
 ../shared/data are left out and named. A step that fails is reported, and the others continue; the
 exit code is then 1."""
 
