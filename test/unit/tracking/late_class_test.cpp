@@ -124,10 +124,13 @@ class LateClassInputTest : public testing::Test {
   /// Both objects up to this scan.
   void follow(int last) {
     for (; next_ <= last; ++next_) {
-      const TrackerInput input = inputAt(next_);
-      tracks_ = tracker_.process(input.objects, input.base_in_fixed, input.visibility);
-      untold_tracks_ = untold_.process(input.objects, input.base_in_fixed, input.visibility);
+      process(inputAt(next_));
     }
+  }
+
+  void process(const TrackerInput& input) {
+    tracks_ = tracker_.process(input.objects, input.base_in_fixed, input.visibility);
+    untold_tracks_ = untold_.process(input.objects, input.base_in_fixed, input.visibility);
   }
 
   /// By how much the classes that were told raise that probability of the object there.
@@ -197,8 +200,7 @@ TEST_F(LateClassInputTest, ThatOfAnObjectWithoutTargetIsNotItsNeighbors) {
     }
     TrackerInput input = inputAt(next_);
     input.objects.objects.push_back(standingAt(next_));
-    tracks_ = tracker_.process(input.objects, input.base_in_fixed, input.visibility);
-    untold_tracks_ = untold_.process(input.objects, input.base_in_fixed, input.visibility);
+    process(input);
   }
   EXPECT_EQ(counts().without_target, 1U);
   EXPECT_EQ(cyclistGain(), 0.0);
